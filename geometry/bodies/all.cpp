@@ -1,0 +1,14 @@
+// The list of body types that scene files can name: one line each; the declaration stands in the type's own file.
+#include "geometry/describe.h"
+
+#define LEKALO_BODY_TYPES(X) X(box_type)
+
+namespace lekalo::geometry {
+
+#define DECLARE(type) TypeDeclaration type();
+LEKALO_BODY_TYPES(DECLARE)
+
+#define CALL(type) type(),
+std::vector<TypeDeclaration> body_types() { return {LEKALO_BODY_TYPES(CALL)}; }
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,104 @@
+// What every curve is: a smooth map from a parameter interval to space (Golovanov 2016, 2.1).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/numerics/interval.h"
+#include "geometry/vectors.h"
+
+namespace lekalo::geometry {
+
+inline constexpr int kMaxCurveOrder = 6;
+
+// Point and derivatives r, r', r'', ... at one parameter; d[0..order] are set.
+struct CurveJet {
+  int order = 0;
+  std::array<Vec3, kMaxCurveOrder + 1> d{};
+  const Vec3& point() const { return d[0]; }
+  const Vec3& derivative(int k) const { return d[k]; }
+};
+
+// Boxes that contain r, r', r'' for every parameter of an interval; d[0..order] are set.
+struct CurveEnclosure {
+  std::array<Box3, 3> d{};
+};
+
+// Monotone map between the parameter of a rational piece and the curve's own parameter. Both run from lo to hi; they
+// differ where a transcendental parametrisation has an exact rational form.
+//   affine      t = s
+//   half_angle  tan((t - m)/2)  = tan(d/4) (2q - 1), q = (s - lo)/(hi - lo), m the middle, d = hi - lo: conic arcs
+//   hyperbolic  tanh((t - m)/2) = tanh(d/4) (2q - 1): hyperbolas                 (Golovanov 2016, 2.5)
+struct ParameterMap {
+  enum class Kind { affine, half_angle, hyperbolic };
+  Kind kind = Kind::affine;
+  double lo = 0;
+  double hi = 1;
+
+  double natural(double s) const;
+  double rational(double t) const;
+  double derivative(double s) const;  // dt/ds
+};
+
+// A smooth part of a curve. Where `points` is not empty it is exactly the rational Bezier curve with these homogeneous
+// control points over the map's interval; `domain` is the part in the curve's own parameter.
+struct CurvePiece {
+  Interval domain;
+  ParameterMap map;
+  std::vector<Vec4> points;  // degree + 1
+  bool is_rational() const { return !points.empty(); }
+  int degree() const { return static_cast<int>(points.size()) - 1; }
+};
+
+// An exact NURBS form: knots are in the curve's own parameter at every distinct knot; between knots `maps` (one per
+// non-empty span, in order) tell the two parameters apart.
+struct NurbsCurveForm {
+  int degree = 1;
+  std::vector<double> knots;
+  std::vector<Vec4> points;  // homogeneous; knots.size() - degree - 1
+  std::vector<ParameterMap> maps;
+};
+
+// A parametric curve r(t). Immutable; safe to use from many threads.
+// Outside the domain a periodic curve wraps, an analytic one continues, any other continues along its end tangent
+// (Golovanov 2016, 2.15).
+class Curve {
+ public:
+  virtual ~Curve() = default;
+
+  virtual Interval domain() const = 0;
+  // Smallest p > 0 with r(t + p) = r(t); 0 where the curve is not periodic.
+  virtual double period() const { return 0; }
+  // True when the end points coincide (a periodic curve over less than its period is not closed).
+  virtual bool is_closed() const;
+
+  // Point and derivatives up to `order` (0..kMaxCurveOrder) in closed form or by jets, never by differences.
+  // At a break in smoothness the derivatives are those from the right (from the left at the domain's end).
+  virtual CurveJet evaluate(double t, int order) const = 0;
+  virtual void evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const;
+
+  // Certified enclosure of the point and derivatives up to `order` (0..2) over an interval inside the domain.
+  virtual CurveEnclosure enclose(const Interval& t, int order) const = 0;
+
+  // The smooth pieces in order of the parameter, covering the domain without gaps.
+  virtual std::vector<CurvePiece> pieces() const;
+  virtual std::optional<NurbsCurveForm> as_nurbs() const { return std::nullopt; }
+
+  Vec3 point(double t) const { return evaluate(t, 0).d[0]; }
+};
+
+using CurvePtr = std::shared_ptr<const Curve>;
+
+// A box around the whole curve from its enclosures or control points (exact to the convex hull, not to the curve).
+Box3 bounds(const Curve& curve);
+
+// A curve in a parameter plane: a curve whose third coordinate is zero. (u, v) = (x, y).
+using Curve2Ptr = CurvePtr;
+
+// Splits a NURBS form into its rational Bezier pieces (knot insertion, Golovanov 2016, 2.11).
+std::vector<CurvePiece> bezier_pieces(const NurbsCurveForm& form, const Interval& domain);
+
+}  // namespace lekalo::geometry

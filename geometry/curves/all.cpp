@@ -1,0 +1,20 @@
+// The list of curve types that scene files can name: one line each; the declaration stands in the type's own file.
+#include "geometry/describe.h"
+
+#define LEKALO_CURVE_TYPES(X) \
+  X(segment_type)             \
+  X(polyline_type)            \
+  X(circle_type)              \
+  X(ellipse_type)             \
+  X(bezier_curve_type)        \
+  X(nurbs_curve_type)
+
+namespace lekalo::geometry {
+
+#define DECLARE(type) TypeDeclaration type();
+LEKALO_CURVE_TYPES(DECLARE)
+
+#define CALL(type) type(),
+std::vector<TypeDeclaration> curve_types() { return {LEKALO_CURVE_TYPES(CALL)}; }
+
+}  // namespace lekalo::geometry

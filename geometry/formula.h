@@ -1,0 +1,124 @@
+// Curves and surfaces given by a formula that is written once over a number type: the same lines of code give points
+// (double), derivatives (jets) and certified enclosures (jets of intervals).
+#pragma once
+
+#include "geometry/curve.h"
+#include "geometry/numerics/jet.h"
+#include "geometry/numerics/triple.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+namespace detail {
+
+template <int N, class Formula>
+void curve_jet(const Formula& formula, double t, CurveJet& result) {
+  const auto r = formula(Jet<double, N>::variable(t));
+  for (int k = 0; k <= N; ++k) result.d[k] = {r.x.derivative(k), r.y.derivative(k), r.z.derivative(k)};
+}
+
+template <int N, class Formula>
+void surface_jet(const Formula& formula, double u, double v, SurfaceJet& result) {
+  const auto r = formula(Jet2<double, N>::u_variable(u), Jet2<double, N>::v_variable(v));
+  for (int n = 0; n <= N; ++n)
+    for (int j = 0; j <= n; ++j)
+      result.d(n - j, j) = {r.x.derivative(n - j, j), r.y.derivative(n - j, j), r.z.derivative(n - j, j)};
+}
+
+inline Box3 box_of(const Interval& x, const Interval& y, const Interval& z) {
+  return {{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}};
+}
+
+template <int N, class Formula>
+void surface_enclosure(const Formula& formula, const Rectangle& box, SurfaceEnclosure& result) {
+  const auto r = formula(Jet2<Interval, N>::u_variable(box.u), Jet2<Interval, N>::v_variable(box.v));
+  for (int n = 0; n <= N; ++n)
+    for (int j = 0; j <= n; ++j)
+      result.values[SurfaceJet::index(n - j, j)] =
+          box_of(r.x.derivative(n - j, j), r.y.derivative(n - j, j), r.z.derivative(n - j, j));
+}
+
+template <int N, class Formula>
+void curve_enclosure(const Formula& formula, const Interval& t, CurveEnclosure& result) {
+  const auto r = formula(Jet<Interval, N>::variable(t));
+  for (int k = 0; k <= N; ++k) result.d[k] = box_of(r.x.derivative(k), r.y.derivative(k), r.z.derivative(k));
+}
+
+}  // namespace detail
+
+// formula: any number type T -> Triple<T>.
+template <class Formula>
+CurveJet evaluate_curve_formula(const Formula& formula, double t, int order) {
+  CurveJet result;
+  result.order = order;
+  switch (order) {
+    case 0: {
+      const Triple<double> r = formula(t);
+      result.d[0] = {r.x, r.y, r.z};
+      break;
+    }
+    case 1:
+      detail::curve_jet<1>(formula, t, result);
+      break;
+    case 2:
+      detail::curve_jet<2>(formula, t, result);
+      break;
+    case 3:
+      detail::curve_jet<3>(formula, t, result);
+      break;
+    default:
+      detail::curve_jet<kMaxCurveOrder>(formula, t, result);
+      break;
+  }
+  return result;
+}
+
+template <class Formula>
+CurveEnclosure enclose_curve_formula(const Formula& formula, const Interval& t, int order) {
+  CurveEnclosure result;
+  if (order == 0) {
+    const Triple<Interval> r = formula(t);
+    result.d[0] = detail::box_of(r.x, r.y, r.z);
+  } else {
+    detail::curve_enclosure<2>(formula, t, result);
+  }
+  return result;
+}
+
+// formula: (T u, T v) -> Triple<T>.
+template <class Formula>
+SurfaceJet evaluate_surface_formula(const Formula& formula, double u, double v, int order) {
+  SurfaceJet result;
+  result.order = order;
+  switch (order) {
+    case 0: {
+      const Triple<double> r = formula(u, v);
+      result.values[0] = {r.x, r.y, r.z};
+      break;
+    }
+    case 1:
+      detail::surface_jet<1>(formula, u, v, result);
+      break;
+    case 2:
+      detail::surface_jet<2>(formula, u, v, result);
+      break;
+    default:
+      detail::surface_jet<kMaxSurfaceOrder>(formula, u, v, result);
+      break;
+  }
+  return result;
+}
+
+template <class Formula>
+SurfaceEnclosure enclose_surface_formula(const Formula& formula, const Rectangle& box, int order) {
+  SurfaceEnclosure result;
+  if (order == 0) {
+    const Triple<Interval> r = formula(box.u, box.v);
+    result.values[0] = detail::box_of(r.x, r.y, r.z);
+  } else {
+    detail::surface_enclosure<2>(formula, box, result);
+  }
+  return result;
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,34 @@
+// Triangle meshes: shared points, per-corner normals and parameters (Golovanov 2016, 8.6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "geometry/vectors.h"
+
+namespace lekalo::geometry {
+
+// Triangles index points, and synchronously normals and parameters where those arrays are not empty. Across a crease
+// two normals stand for one point, so normals have their own indices.
+class Mesh {
+ public:
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;     // unit
+  std::vector<Vec2> parameters;  // (u, v) of the surface a vertex lies on, or texture coordinates
+  struct Triangle {
+    std::array<int32_t, 3> point;
+    std::array<int32_t, 3> normal{-1, -1, -1};
+    std::array<int32_t, 3> parameter{-1, -1, -1};
+    int32_t face = 0;  // face of the body, or group of the file, that it belongs to
+  };
+  std::vector<Triangle> triangles;
+};
+
+using MeshPtr = std::shared_ptr<const Mesh>;
+
+Box3 bounds(const Mesh& mesh);
+
+}  // namespace lekalo::geometry

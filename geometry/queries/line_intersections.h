@@ -1,0 +1,64 @@
+// The certified double-precision solver line against surfaces and bodies: all hits.
+//
+// A surface becomes a list of pieces with boxes. A surface with a line formula is one piece; the others are rational
+// Bezier patches, cut until each is nearly planar, and solved by subdivision of the two plane equations of the line in
+// Bernstein form: a rectangle of parameters is discarded only if its convex hull excludes the line, accepted only if an
+// interval Newton test proves a single root in it, and split otherwise. Measures, ray queries, inside/outside tests,
+// drawings and rendering all use this solver; rendering only puts its own hierarchy over the pieces' boxes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/body.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// A hit of a line with a set of surfaces or a body.
+struct SurfaceHit {
+  double t = 0;
+  double u = 0;
+  double v = 0;
+  int face = 0;  // of a body; 0 for a surface
+  int piece = 0;
+};
+
+class TrimRegion;
+
+// A surface prepared for lines. Pieces are independent of each other; hits of a line on a border shared by two pieces
+// may be reported by both (merge_hits removes the second).
+class LineTarget {
+ public:
+  virtual ~LineTarget() = default;
+  virtual int piece_count() const = 0;
+  virtual Box3 piece_bounds(int piece) const = 0;
+  // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
+  virtual void piece_hits(int piece, const Line& line, const Interval& t, LineHits& hits) const = 0;
+  virtual const Surface& surface() const = 0;
+  virtual size_t memory() const = 0;  // bytes
+};
+
+// Unbounded surfaces give one piece with an unbounded box. `trim` may be null.
+std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim = nullptr);
+
+// All hits of a line with a surface or body, sorted by t, one for each crossing: a small hierarchy over the pieces.
+class LineIntersector {
+ public:
+  explicit LineIntersector(SurfacePtr surface);
+  explicit LineIntersector(const Body& body);
+  ~LineIntersector();
+  LineIntersector(LineIntersector&&) noexcept;
+  LineIntersector& operator=(LineIntersector&&) noexcept;
+
+  std::vector<SurfaceHit> all_hits(const Line& line, const Interval& t = {-kInfinity, kInfinity}) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Line targets of a body's faces, trims included, in the order of its faces.
+std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body);
+
+}  // namespace lekalo::geometry

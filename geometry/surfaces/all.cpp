@@ -1,0 +1,16 @@
+// The list of surface types that scene files can name: one line each; the declaration stands in the type's own file.
+#include "geometry/describe.h"
+
+#define LEKALO_SURFACE_TYPES(X) \
+  X(plane_type)                 \
+  X(sphere_type)
+
+namespace lekalo::geometry {
+
+#define DECLARE(type) TypeDeclaration type();
+LEKALO_SURFACE_TYPES(DECLARE)
+
+#define CALL(type) type(),
+std::vector<TypeDeclaration> surface_types() { return {LEKALO_SURFACE_TYPES(CALL)}; }
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,34 @@
+// From picture points to rays and back.
+#pragma once
+
+#include <memory>
+
+#include "geometry/vectors.h"
+#include "render/trace/ray.h"
+
+namespace lekalo::render {
+
+// Where a point of space falls in the picture.
+struct PicturePoint {
+  double x = 0;              // pixels from the left edge
+  double y = 0;              // pixels from the top edge
+  double depth = 0;          // distance along the view direction (parallel) or from the eye (perspective): the Z layer
+  bool visible_side = true;  // false for points behind the eye
+};
+
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  // Ray through the picture point (x, y) in pixels from the upper left corner of the full picture.
+  virtual Ray ray(double x, double y) const = 0;
+  virtual PicturePoint project(const Vec3& point) const = 0;
+  // Width of one pixel at the given place, in scene units.
+  virtual double pixel_size(const Vec3& point) const = 0;
+  virtual bool is_parallel() const = 0;
+  virtual Vec3 view_direction() const = 0;  // unit, from the viewer into the scene
+  virtual int width() const = 0;            // pixels of the full picture
+  virtual int height() const = 0;
+};
+using CameraPtr = std::shared_ptr<const Camera>;
+
+}  // namespace lekalo::render

@@ -1,0 +1,34 @@
+// From a camera ray to the light that it brings.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/samplers/sampler.h"
+#include "render/spectrum.h"
+#include "render/trace/ray.h"
+
+namespace lekalo::render {
+
+class World;
+
+// What one camera ray brings to the film. Data values are those of the first hit.
+struct RaySample {
+  Spectrum radiance;
+  float alpha = 1;  // 0 where nothing was hit
+  bool hit = false;
+  SurfacePoint point;  // valid when hit
+  double depth = 0;    // distance along the ray
+  Spectrum albedo;
+  Spectrum direct;   // light of sources on the first hit, without reflections and refractions
+  uint64_t key = 0;  // identifies the tree of objects, shadows and texture cells behind this sample
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  virtual RaySample trace(const World& world, const Ray& ray, SampleStream& random) const = 0;
+};
+using IntegratorPtr = std::shared_ptr<const Integrator>;
+
+}  // namespace lekalo::render

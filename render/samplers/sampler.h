@@ -1,0 +1,33 @@
+// Sample positions inside pixels and random numbers for a path, reproducible for any order of evaluation.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "render/spectrum.h"
+
+namespace lekalo::render {
+
+// Random numbers of one sample of one pixel: a function of (pixel, sample, dimension) and nothing else.
+class SampleStream {
+ public:
+  SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed);
+  double next();  // uniform in [0, 1)
+  Vec2 next_pair();
+
+ private:
+  uint64_t key_;
+  uint32_t dimension_ = 0;
+};
+
+class Sampler {
+ public:
+  virtual ~Sampler() = default;
+  virtual int samples_per_pixel() const = 0;
+  // Position of a sample in its pixel, in [0, 1)^2; sample counts of 1 give the centre (0.5, 0.5).
+  virtual Vec2 pixel_position(uint32_t x, uint32_t y, int sample) const = 0;
+  virtual SampleStream stream(uint32_t x, uint32_t y, int sample) const = 0;
+};
+using SamplerPtr = std::shared_ptr<const Sampler>;
+
+}  // namespace lekalo::render

@@ -1,0 +1,100 @@
+// A scene as it is meant: named geometry in double precision, materials, objects, lights, camera. Immutable once built;
+// made from a scene file by scene/build, or by a C++ program directly.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/body.h"
+#include "geometry/curve.h"
+#include "geometry/mesh.h"
+#include "geometry/surface.h"
+#include "render/cameras/camera.h"
+#include "render/integrators/integrator.h"
+#include "render/lights/light.h"
+#include "render/materials/material.h"
+#include "render/samplers/sampler.h"
+
+namespace lekalo::render {
+
+struct Group;
+using GroupPtr = std::shared_ptr<const Group>;
+
+// Anything that can be named in `geometry` or shown by an object. A set of patches is a vector of surfaces.
+using SurfaceSet = std::vector<geometry::SurfacePtr>;
+using Entity = std::variant<Vec3, geometry::CurvePtr, geometry::SurfacePtr, SurfaceSet, geometry::BodyPtr,
+                            geometry::MeshPtr, GroupPtr>;
+
+enum class Representation { direct, mesh };
+
+// Keeps what lies on the side of the plane against its normal: dot(p - through, normal) <= 0.
+struct ClipPlane {
+  Vec3 through{0};
+  Vec3 normal{0, 0, 1};
+  bool cap = false;  // close the cut of a body with a plane face of the same material
+};
+
+struct Object {
+  std::string name;
+  Entity shape;
+  geometry::Affine transform;
+  MaterialPtr material;       // front, where the normal looks at the viewer
+  MaterialPtr back_material;  // null: the same
+  Representation representation = Representation::direct;
+  double sag = 0;  // of the mesh in scene units; 0: sag_pixels
+  double sag_pixels = 0.25;
+  bool flat_shading = false;  // mesh facets show their own normals
+  uint32_t visible_to = kVisibleToAll;
+  std::vector<ClipPlane> clips;
+};
+
+// Objects placed together as one; a group may hold groups. Instances share the compiled group.
+struct Group {
+  std::vector<Object> objects;
+};
+
+struct Film {
+  int width = 960;
+  int height = 720;
+  int samples = 16;
+  std::string filter = "box";  // box, gaussian, mitchell
+  double filter_radius = 0;    // pixels; 0: the filter's own
+  uint32_t seed = 0;
+  struct Crop {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels, half open; x1 == 0: the full picture
+  } crop;
+};
+
+struct OutputFile {
+  std::string path;
+  std::string kind;     // exr, png, pdf, svg
+  double exposure = 0;  // stops, for png
+  bool filmic = false;
+  std::map<std::string, std::string> options;
+};
+
+struct Model {
+  std::map<std::string, Entity> geometry;
+  std::map<std::string, MaterialPtr> materials;
+  std::vector<Object> objects;
+  std::vector<LightPtr> lights;
+  Spectrum background{1.0f, 1.0f, 1.0f};
+  CameraPtr camera;
+  Film film;
+  IntegratorPtr integrator;
+  std::vector<OutputFile> outputs;
+  std::string title;
+  std::string unit;
+  std::map<std::string, double> parameters;  // as evaluated
+  std::string source;                        // file name as given, for metadata
+};
+
+// Box of everything that the objects show; unbounded shapes are left out.
+geometry::Box3 bounds(const Model& model);
+geometry::Box3 bounds(const Entity& entity);
+
+}  // namespace lekalo::render

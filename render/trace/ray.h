@@ -1,0 +1,53 @@
+// Rays and hits in double precision.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/vectors.h"
+#include "render/spectrum.h"
+
+namespace lekalo::render {
+
+// Which rays see an object (`visible_to` of scene files).
+enum class RayKind : uint32_t { camera = 1, shadow = 2, reflection = 4 };  // reflection: also refracted rays
+inline constexpr uint32_t kVisibleToAll = 7;
+
+struct Ray {
+  Vec3 origin{0};
+  Vec3 direction{0, 0, 1};  // unit length, so that t is a distance
+  double t_min = 0;
+  double t_max = geometry::kInfinity;
+  RayKind kind = RayKind::camera;
+  Vec3 at(double t) const { return origin + t * direction; }
+};
+
+// What a ray meets. `instance` numbers the copy of the object that was hit, in the World's order of compilation.
+struct Hit {
+  double t = 0;
+  double u = 0;  // natural parameters of the surface; of a mesh the interpolated ones
+  double v = 0;
+  int32_t instance = -1;
+  int32_t face = 0;
+  int32_t piece = 0;
+  // A triangle's barycentric weights of its second and third vertex; unused by direct hits.
+  double b = 0;
+  double c = 0;
+};
+
+// The differential geometry and identity of a hit, in world space.
+struct SurfacePoint {
+  Vec3 position{0};
+  Vec3 geometric_normal{0, 0, 1};  // outward (or r_u x r_v) unit normal of what was really hit: a facet for meshes
+  Vec3 normal{0, 0, 1};            // unit shading normal on the same side
+  Vec3 du{0};
+  Vec3 dv{0};
+  double u = 0;
+  double v = 0;
+  double error = 0;       // bound on the distance of `position` from the surface that was hit
+  double pixel_size = 0;  // width of a pixel at this distance in scene units; 0 where not known
+  int32_t instance = -1;
+  int32_t object = 0;  // index in the Model's objects
+  int32_t face = 0;
+};
+
+}  // namespace lekalo::render

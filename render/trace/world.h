@@ -1,0 +1,58 @@
+// A Model made ready for rays: shapes in a hierarchy over Embree, materials and lights by index.
+//
+// Embree proposes, double decides: Embree's float boxes only find candidate pieces; every hit is computed and compared
+// in double. The world is centred on the scene, rays are advanced in double to its bounding sphere before they are
+// rounded, and boxes are inflated so that no candidate is lost (docs/internals/rays.md).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/scene/model.h"
+#include "render/trace/ray.h"
+
+namespace lekalo::render {
+
+struct WorldStatistics {
+  size_t pieces = 0;
+  size_t triangles = 0;
+  size_t instances = 0;
+  size_t bytes = 0;
+  double build_seconds = 0;
+};
+
+class World {
+ public:
+  // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera.
+  explicit World(std::shared_ptr<const Model> model, int threads = 0);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece).
+  bool nearest(const Ray& ray, Hit& hit) const;
+  // True if anything that shadow rays see lies between t_min and t_max.
+  bool occluded(const Ray& ray) const;
+  // All hits in order of t, one for each crossing.
+  std::vector<Hit> all_hits(const Ray& ray) const;
+
+  // Position, normals and derivatives at a hit; `ray` is the one that found it.
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+  // Origin of a ray that leaves the point on the side of `direction`, clear of the point's error bound.
+  Vec3 leave(const SurfacePoint& point, const Vec3& direction) const;
+
+  const Material& material(const SurfacePoint& point, bool front) const;
+  const Model& model() const { return *model_; }
+  const std::vector<LightPtr>& lights() const { return model_->lights; }
+  WorldStatistics statistics() const;
+  // Centre and radius of the bounding sphere of all bounded shapes.
+  Vec3 center() const;
+  double radius() const;
+
+ private:
+  struct Compiled;
+  std::shared_ptr<const Model> model_;
+  std::unique_ptr<Compiled> compiled_;
+};
+
+}  // namespace lekalo::render
