@@ -211,10 +211,7 @@ void search(Search& s, const PatchView& patch, const CellModel& m, double x0, do
   // The parent's points may stand in the same vector that has just moved: take its place anew.
   PatchView parent = patch;
   if (used > 0) parent.points = room.data() + used - n;
-  const bool along_x =
-      hx >= kSmallestCell &&
-      (hy < kSmallestCell || m.variation_x * hy >= m.variation_y * hx || !(m.variation_x < kInfinity) || hx > 4 * hy) &&
-      !(hy > 4 * hx);
+  const bool along_x = halve_across_x(m, hx, hy);
   if (along_x)
     halve_u(parent, room.data() + used + n, room.data() + used);
   else
