@@ -87,17 +87,18 @@ apt_get() {
 # Says why apt failed, from its log, in words that name the remedy.
 explain_apt_failure() {
   local log=$1
+  local no_network='Temporary failure resolving|Could not resolve|Could not connect|Cannot initiate the connection|Network is unreachable|Connection (timed out|refused|failed)|Failed to fetch|Unable to connect'
   if grep -qE 'No space left on device|enough free space' "$log"; then
     fail "the disk is full: packages could not be unpacked ($(free_megabytes /usr) MB free under /usr)." \
       "Free some space (about 1500 MB is enough) and start the same command again."
   elif grep -qE 'Could not get lock|Unable to acquire the dpkg' "$log"; then
     fail "another program is installing packages and has not finished within five minutes." \
       "Wait for it (or end it) and start the same command again."
-  elif grep -qE 'Temporary failure resolving|Could not resolve|Could not connect|Cannot initiate the connection|Network is unreachable|Connection (timed out|refused|failed)|Failed to fetch|Unable to connect' "$log"; then
+  elif grep -qE "$no_network" "$log"; then
     fail "no network: Debian's package server cannot be reached." \
       "Connect the machine (behind a proxy: set http_proxy, and https_proxy), or install these packages by other means:" \
       "$(missing_packages "${sections[@]}" | tr '\n' ' ')" \
-      "apt said: $(grep -m 1 -E '^(E|W|Err)[: ]' "$log")"
+      "apt said: $(grep -m 1 -E "$no_network" "$log")"
   elif grep -qE 'dpkg was interrupted' "$log"; then
     fail "an earlier installation on this machine was interrupted." "Run: dpkg --configure -a (as root), then the same command again."
   elif grep -qE 'Unable to locate package|has no installation candidate' "$log"; then
@@ -139,7 +140,7 @@ install_packages() {
   free=$(free_megabytes /usr)
   (( free > need )) || fail "the disk is full: the packages need about $need MB under /usr, $free MB are free." \
     "Free some space and start the same command again."
-  say "with what they need: $plan packages, $fetch MB to fetch"
+  say "packages with what they need: $plan; to fetch: $fetch MB"
   apt_get install --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null || explain_apt_failure "$log"
 }
 

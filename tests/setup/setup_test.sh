@@ -142,7 +142,7 @@ stand_in apt-get "
     *install*) touch $scratch/tree/installed ;;
   esac"
 in_setup 'ensure_packages product test; ensure_packages product test'
-expect 'what is missing is installed' $? 0 'installing missing packages: g++ cmake' 'libgtest-dev' '2 packages, 9 MB to fetch'
+expect 'what is missing is installed' $? 0 'installing missing packages: g++ cmake' 'libgtest-dev' 'what they need: 2; to fetch: 9 MB'
 calls=$(wc -l <"$scratch/apt.out")
 [[ $calls == 4 ]]
 expect '... once' $? 0
