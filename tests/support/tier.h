@@ -20,7 +20,8 @@ inline int tier_count(int full, int least = 1) {
   return is_full_tier() ? full : std::min(full, std::max(least, full / 100));
 }
 
-// Reports a figure of the running test to the verification report. `key` names quantity and unit in words without spaces
+// Reports a figure of the running test to the verification report. `key` names quantity and unit in words without
+// spaces
 // ("missing_hits", "largest_error_ulp") and is unique within the test. Figures must not depend on time or machine.
 inline void report_figure(std::string_view key, double value) {
   std::printf("VERIFY %.*s %.10g\n", static_cast<int>(key.size()), key.data(), value);
