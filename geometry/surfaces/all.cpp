@@ -6,6 +6,7 @@
   X(sphere_surface_type)         \
   X(cylinder_surface_type)       \
   X(cone_surface_type)           \
+  X(torus_surface_type)          \
   X(ellipsoid_type)              \
   X(hyperboloid_one_sheet_type)  \
   X(hyperboloid_two_sheets_type) \
