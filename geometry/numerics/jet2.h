@@ -1,0 +1,168 @@
+// Jet2: a Taylor polynomial in two variables, truncated after total degree N; the partial derivatives of a surface's
+// formula. Coefficients stand by degree, then by the power of v: 1, u, v, u^2, uv, v^2, ...
+//
+//   coefficient(i, j) = d^(i+j) f / du^i dv^j / (i! j!),   i + j <= N
+//
+// An elementary function F of a jet a is composed: F(a) = sum F^(k)(a00)/k! (a - a00)^k, exact since a - a00 has no
+// constant term; the series of F comes from Jet<S, N> (Griewank, Walther 2008, 13.3). Everything said in jet.h holds
+// here.
+#pragma once
+
+#include "geometry/numerics/jet.h"
+
+namespace lekalo::geometry {
+
+template <class S, int N>
+struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
+  using Base = JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>;
+  using Base::c;
+  static constexpr int kOrder = N;
+
+  constexpr Jet2() = default;
+  template <JetScalar<S> A>
+  constexpr Jet2(const A& constant) {  // implicit: numbers mix freely with jets in formulas
+    c[0] = S(constant);
+  }
+
+  static constexpr Jet2 u_variable(const S& value) { return identity(value, 1, 0); }
+  static constexpr Jet2 v_variable(const S& value) { return identity(value, 0, 1); }
+
+  static constexpr int index(int i, int j) { return (i + j) * (i + j + 1) / 2 + j; }
+
+  // The partial derivative i times by u and j times by v, i + j <= N.
+  constexpr S derivative(int i, int j) const {
+    double factorials = 1;
+    for (int k = 2; k <= i; ++k) factorials *= k;
+    for (int k = 2; k <= j; ++k) factorials *= k;
+    return c[index(i, j)] * S(factorials);
+  }
+
+  static constexpr Jet2 product(const Jet2& a, const Jet2& b) {
+    Jet2 r;
+    for (int degree = 0; degree <= N; ++degree) {
+      for (int j = 0; j <= degree; ++j) r.c[index(degree - j, j)] = convolution(a, b, degree - j, j, 0);
+    }
+    return r;
+  }
+  static constexpr Jet2 quotient(const Jet2& a, const Jet2& b) {
+    Jet2 r;
+    for (int degree = 0; degree <= N; ++degree) {
+      for (int j = 0; j <= degree; ++j) {
+        const int i = degree - j, at = index(i, j);
+        r.c[at] = degree == 0 ? a.c[0] / b.c[0] : (a.c[at] - convolution(b, r, i, j, 1)) / b.c[0];
+      }
+    }
+    return r;
+  }
+
+  // The function with the Taylor coefficients `series` about a.value(), of a.
+  static constexpr Jet2 compose(const Jet<S, N>& series, const Jet2& a) {
+    Jet2 r(series.c[N]);
+    if (a.is_constant()) return Jet2(series.c[0]);
+    for (int k = N - 1; k >= 0; --k) {
+      // Later steps multiply by a - a00 another k times: only the degrees up to N - k can still matter.
+      Jet2 next(series.c[k]);
+      for (int degree = 1; degree <= N - k; ++degree) {
+        for (int j = 0; j <= degree; ++j) next.c[index(degree - j, j)] = convolution(a, r, degree - j, j, 1);
+      }
+      r = next;
+    }
+    return r;
+  }
+
+  friend Jet2 atan2(const Jet2& y, const Jet2& x) {  // as for Jet
+    using std::atan2;
+    const S angle = atan2(y.value(), x.value());
+    if (y.is_constant() && x.is_constant()) return Jet2(angle);
+    Jet2 across = x.value() * y - y.value() * x;
+    across.c[0] = S(0);
+    Jet2 r = atan(across / (x.value() * x + y.value() * y));
+    r.c[0] = angle;
+    return r;
+  }
+  friend Jet2 hypot(const Jet2& x, const Jet2& y) {
+    using std::hypot;
+    Jet2 r = sqrt(sqr(x) + sqr(y));
+    r.c[0] = hypot(x.value(), y.value());
+    return r;
+  }
+  friend Jet2 pow(const Jet2& base, const Jet2& exponent) {
+    if (exponent.is_constant())
+      return compose(pow(Jet<S, N>::variable(base.value()), Jet<S, N>(exponent.value())), base);
+    return exp(exponent * log(base));
+  }
+  template <class A>
+  requires std::is_arithmetic_v<A>
+  friend Jet2 pow(const Jet2& base, A exponent) {
+    return compose(pow(Jet<S, N>::variable(base.value()), exponent), base);
+  }
+
+ private:
+  static constexpr Jet2 identity(const S& value, int du, int dv) {
+    Jet2 r;
+    r.c[0] = value;
+    if constexpr (N >= 1) {
+      r.c[1] = S(du);
+      r.c[2] = S(dv);
+    }
+    return r;
+  }
+  // Coefficient (i, j) of a b, where the terms of a below degree `first` (0 or 1) are taken as zero.
+  static constexpr S convolution(const Jet2& a, const Jet2& b, int i, int j, int first) {
+    S sum(0);
+    for (int k = 0; k <= i; ++k) {
+      for (int l = k == 0 ? first : 0; l <= j; ++l) sum += a.c[index(k, l)] * b.c[index(i - k, j - l)];
+    }
+    return sum;
+  }
+};
+
+// Equal factors are squared, not multiplied: tighter over intervals.
+template <class S, int N>
+constexpr Jet2<S, N> sqr(const Jet2<S, N>& a) {
+  using J = Jet2<S, N>;
+  J r;
+  for (int degree = 0; degree <= N; ++degree) {
+    for (int j = 0; j <= degree; ++j) {
+      const int i = degree - j;
+      S sum(0);
+      // Every pair (k, l), (i - k, j - l) of different terms once: those with 2 (k, l) < (i, j) in lexicographic order.
+      for (int k = 0; 2 * k <= i; ++k) {
+        for (int l = 0; l <= j && (2 * k < i || 2 * l < j); ++l) {
+          sum += a.c[J::index(k, l)] * a.c[J::index(i - k, j - l)];
+        }
+      }
+      sum = S(2) * sum;
+      r.c[J::index(i, j)] = i % 2 == 0 && j % 2 == 0 ? sum + sqr(a.c[J::index(i / 2, j / 2)]) : sum;
+    }
+  }
+  return r;
+}
+
+#define LEKALO_COMPOSED_FUNCTION(function)                                   \
+  template <class S, int N>                                                  \
+  Jet2<S, N> function(const Jet2<S, N>& a) {                                 \
+    return Jet2<S, N>::compose(function(Jet<S, N>::variable(a.value())), a); \
+  }
+
+LEKALO_COMPOSED_FUNCTION(sqrt)
+LEKALO_COMPOSED_FUNCTION(cbrt)
+LEKALO_COMPOSED_FUNCTION(exp)
+LEKALO_COMPOSED_FUNCTION(log)
+LEKALO_COMPOSED_FUNCTION(log10)
+LEKALO_COMPOSED_FUNCTION(sin)
+LEKALO_COMPOSED_FUNCTION(cos)
+LEKALO_COMPOSED_FUNCTION(tan)
+LEKALO_COMPOSED_FUNCTION(asin)
+LEKALO_COMPOSED_FUNCTION(acos)
+LEKALO_COMPOSED_FUNCTION(atan)
+LEKALO_COMPOSED_FUNCTION(sinh)
+LEKALO_COMPOSED_FUNCTION(cosh)
+LEKALO_COMPOSED_FUNCTION(tanh)
+LEKALO_COMPOSED_FUNCTION(asinh)
+LEKALO_COMPOSED_FUNCTION(acosh)
+LEKALO_COMPOSED_FUNCTION(atanh)
+
+#undef LEKALO_COMPOSED_FUNCTION
+
+}  // namespace lekalo::geometry
