@@ -32,19 +32,32 @@ struct CurveEnclosure {
 //   affine      t = s
 //   half_angle  tan((t - m)/2)  = tan(d/4) (2q - 1), q = (s - lo)/(hi - lo), m the middle, d = hi - lo: conic arcs
 //   hyperbolic  tanh((t - m)/2) = tanh(d/4) (2q - 1): hyperbolas                 (Golovanov 2016, 2.5)
+//
+// A Bezier piece may be cut from the middle of the map's interval: it then covers q in [from, to] only, and its own
+// parameter x in [0, 1] is q = from + x (to - from). An affine map is never cut so; it gets a smaller interval.
 struct ParameterMap {
   enum class Kind { affine, half_angle, hyperbolic };
   Kind kind = Kind::affine;
   double lo = 0;
   double hi = 1;
+  double from = 0;
+  double to = 1;
 
-  double natural(double s) const;
-  double rational(double t) const;
+  double natural(double s) const;     // t
+  double rational(double t) const;    // s
   double derivative(double s) const;  // dt/ds
+
+  // The same for the Bezier piece's parameter x in [0, 1].
+  double natural_of_bezier(double x) const;
+  double bezier(double t) const;
+  double derivative_of_bezier(double x) const;  // dt/dx
+
+  // The map of the piece cut to the natural parameters [t0, t1].
+  ParameterMap cut(double t0, double t1) const;
 };
 
 // A smooth part of a curve. Where `points` is not empty it is exactly the rational Bezier curve with these homogeneous
-// control points over the map's interval; `domain` is the part in the curve's own parameter.
+// control points, x = map.bezier(t) being its parameter; `domain` is the part in the curve's own parameter.
 struct CurvePiece {
   Interval domain;
   ParameterMap map;
@@ -54,12 +67,14 @@ struct CurvePiece {
 };
 
 // An exact NURBS form: knots are in the curve's own parameter at every distinct knot; between knots `maps` (one per
-// non-empty span, in order) tell the two parameters apart.
+// non-empty span of the form's domain, in order; none at all where every span is affine) tell the two parameters apart.
+// The form covers at least the curve's domain.
 struct NurbsCurveForm {
   int degree = 1;
   std::vector<double> knots;
   std::vector<Vec4> points;  // homogeneous; knots.size() - degree - 1
   std::vector<ParameterMap> maps;
+  Interval domain() const { return {knots[degree], knots[knots.size() - 1 - degree]}; }
 };
 
 // A parametric curve r(t). Immutable; safe to use from many threads.
@@ -72,7 +87,8 @@ class Curve {
   virtual Interval domain() const = 0;
   // Smallest p > 0 with r(t + p) = r(t); 0 where the curve is not periodic.
   virtual double period() const { return 0; }
-  // True when the end points coincide (a periodic curve over less than its period is not closed).
+  // True when the end points coincide to 1e-9 of the curve's box (a periodic curve over less than its period is not
+  // closed).
   virtual bool is_closed() const;
 
   // Point and derivatives up to `order` (0..kMaxCurveOrder) in closed form or by jets, never by differences.
@@ -95,10 +111,16 @@ using CurvePtr = std::shared_ptr<const Curve>;
 // A box around the whole curve from its enclosures or control points (exact to the convex hull, not to the curve).
 Box3 bounds(const Curve& curve);
 
+// Box of the convex hull of homogeneous control points, a few rounding errors wider; false unless all weights are
+// positive (then the hull bounds nothing).
+bool control_point_box(std::span<const Vec4> points, Box3& box);
+
 // A curve in a parameter plane: a curve whose third coordinate is zero. (u, v) = (x, y).
 using Curve2Ptr = CurvePtr;
 
-// Splits a NURBS form into its rational Bezier pieces (knot insertion, Golovanov 2016, 2.11).
+// Splits the part of a NURBS form over `domain` (inside the form's domain) into its rational Bezier pieces, one for
+// each non-empty span, cut where the domain ends inside a span (knot insertion, Golovanov 2016, 2.11). Neighbours share
+// their end points bit for bit. Clamped or not, any multiplicity; a knot of multiplicity degree + 1 is a break.
 std::vector<CurvePiece> bezier_pieces(const NurbsCurveForm& form, const Interval& domain);
 
 }  // namespace lekalo::geometry

@@ -59,7 +59,8 @@ struct SurfacePiece {
   bool is_rational() const { return !points.empty(); }
 };
 
-// An exact NURBS form with maps to the natural parameters, one for each non-empty knot span in each direction.
+// An exact NURBS form with maps to the natural parameters, one for each non-empty knot span of the form's domain in
+// each direction, or none at all where a direction is affine throughout. The form covers at least the surface's domain.
 struct NurbsSurfaceForm {
   int degree_u = 1;
   int degree_v = 1;
@@ -70,6 +71,9 @@ struct NurbsSurfaceForm {
   std::vector<ParameterMap> maps_v;
   int count_u() const { return static_cast<int>(knots_u.size()) - degree_u - 1; }
   int count_v() const { return static_cast<int>(knots_v.size()) - degree_v - 1; }
+  Rectangle domain() const {
+    return {{knots_u[degree_u], knots_u[count_u()]}, {knots_v[degree_v], knots_v[count_v()]}};
+  }
 };
 
 // Which edges of the domain shrink to a point (poles, apexes, collapsed Bezier edges).
@@ -164,6 +168,7 @@ Box3 bounds(const Surface& surface, const SurfacePiece& piece);
 // Does not look at reversed().
 Vec3 parametric_normal(const Surface& surface, double u, double v, const SurfaceJet& jet);
 
+// Splits the part of a NURBS form over `domain` into rational Bezier patches, u outer, v inner; as for curves.
 std::vector<SurfacePiece> bezier_pieces(const NurbsSurfaceForm& form, const Rectangle& domain);
 
 }  // namespace lekalo::geometry
