@@ -4,10 +4,17 @@
 
 #include "geometry/curve.h"
 #include "geometry/numerics/jet.h"
+#include "geometry/numerics/jet2.h"
 #include "geometry/numerics/triple.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
+
+inline Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline Box3 box_of(const Triple<Interval>& r) { return {{r.x.lo, r.y.lo, r.z.lo}, {r.x.hi, r.y.hi, r.z.hi}}; }
+inline Triple<Interval> triple(const Box3& b) {
+  return {Interval(b.lo.x, b.hi.x), Interval(b.lo.y, b.hi.y), Interval(b.lo.z, b.hi.z)};
+}
 
 namespace detail {
 

@@ -12,7 +12,7 @@ template <class T>
 struct Triple {
   T x{}, y{}, z{};
 
-  constexpr bool operator==(const Triple&) const = default;
+  bool operator==(const Triple&) const = default;  // constexpr where T allows it
   template <class U>
   constexpr Triple& operator+=(const Triple<U>& b) {
     return *this = *this + b;

@@ -7,6 +7,7 @@
 // drawings and rendering all use this solver; rendering only puts its own hierarchy over the pieces' boxes.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -57,6 +58,12 @@ class LineIntersector {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+// Sorts hits of one surface or closed body by t and removes those that are one crossing reported by two neighbours:
+// nearer than kSameHit of the object's size (more where the line is shallow) and crossing in the same direction.
+// `normal` gives the outward normal at a hit.
+void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
+                const std::function<Vec3(const SurfaceHit&)>& normal);
 
 // Line targets of a body's faces, trims included, in the order of its faces.
 std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body);

@@ -24,7 +24,7 @@ struct WorldStatistics {
 class World {
  public:
   // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera.
-  explicit World(std::shared_ptr<const Model> model, int threads = 0);
+  explicit World(std::shared_ptr<const Model> model);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

@@ -1,0 +1,348 @@
+#include "geometry/queries/line_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Contraction factor up to which Newton's iteration is sure to converge: with |J^-1| r = q the derivative matrices of
+// two places of the cell differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
+constexpr double kContraction = 0.25;
+
+// A cell with |variation| at most this share of its smaller extent is flat.
+constexpr double kFlat = 0.12;
+
+// Undecided cells along one line and piece after which the search gives up: only lines that run inside the surface
+// (tangent along a curve) get there.
+constexpr int kMostCells = 20000;
+
+double largest_distance(const Box3& box, const Vec3& from) {
+  const Vec3 d = glm::max(glm::abs(box.lo - from), glm::abs(box.hi - from));
+  const double length = glm::length(d);
+  return std::isfinite(length) ? length : kInfinity;
+}
+
+// Rational Bezier cells: control points, halved by de Casteljau.
+struct PatchCells {
+  PatchView patch;
+
+  PatchPoint at(double x, double y) const {
+    PatchPoint p = evaluate(patch, 0.5 * (x + 1), 0.5 * (y + 1));
+    p.ds *= 0.5;
+    p.dt *= 0.5;
+    return p;
+  }
+  CellModel model() const { return model_of(patch); }
+
+  // The line misses the convex hull: all control points on one side of one of its two planes.
+  bool excluded(const LineBasis& line) const {
+    const int n = patch.count();
+    bool above1 = true, below1 = true, above2 = true, below2 = true;
+    const double slack = 1e-15;
+    for (int k = 0; k < n; ++k) {
+      const Vec4& p = patch.points[k];
+      if (!(p.w > 0)) return false;
+      const Vec3 r = Vec3(p) - p.w * line.line.origin;
+      const double a = glm::dot(line.n1, r), b = glm::dot(line.n2, r);
+      const double e = slack * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
+      above1 = above1 && a > e;
+      below1 = below1 && a < -e;
+      above2 = above2 && b > e;
+      below2 = below2 && b < -e;
+      if (!(above1 || below1 || above2 || below2)) return false;
+    }
+    return above1 || below1 || above2 || below2;
+  }
+};
+
+// Cells of any surface: rectangles of its parameters.
+struct SurfaceCells {
+  const Surface* surface;
+  Rectangle box;
+
+  PatchPoint at(double x, double y) const {
+    const double hu = 0.5 * box.u.width(), hv = 0.5 * box.v.width();
+    const SurfaceJet jet = surface->evaluate(box.u.middle() + hu * x, box.v.middle() + hv * y, 1);
+    return {jet.point(), hu * jet.du(), hv * jet.dv()};
+  }
+  CellModel model() const { return model_of(*surface, box); }
+  bool excluded(const LineBasis& line) const {
+    const Box3 hull = surface->enclose(box, 0).values[0];
+    const Vec3 r = hull.center() - line.line.origin;
+    const Vec3 half = 0.5 * hull.size();
+    const double e = 1e-15 * glm::length(r);
+    return std::abs(glm::dot(line.n1, r)) > glm::dot(glm::abs(line.n1), half) + e ||
+           std::abs(glm::dot(line.n2, r)) > glm::dot(glm::abs(line.n2), half) + e;
+  }
+};
+
+enum class Verdict { none, one, unsure };
+
+template <class Cells>
+Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, CellHit& hit) {
+  const Vec3 r = m.point - line.line.origin;
+  double a = glm::dot(line.n1, m.dx), b = glm::dot(line.n1, m.dy);
+  double c = glm::dot(line.n2, m.dx), d = glm::dot(line.n2, m.dy);
+  const double f = glm::dot(line.n1, r), g = glm::dot(line.n2, r);
+  const double variation = m.variation_x + m.variation_y;
+  double determinant = a * d - b * c;
+  if (determinant == 0 || !(variation < kInfinity)) return Verdict::unsure;
+  const double inverse = 1 / determinant;
+  const double x0 = -(d * f - b * g) * inverse, y0 = -(a * g - c * f) * inverse;
+  // Row norms of the inverse times the variation: how far a root may lie from the linear guess.
+  const double ex = std::sqrt(d * d + b * b) * std::abs(inverse) * variation;
+  const double ey = std::sqrt(a * a + c * c) * std::abs(inverse) * variation;
+  const double reach = 1 + kBorderSlack;
+  if (std::abs(x0) > reach + ex || std::abs(y0) > reach + ey) return Verdict::none;
+  if (!(ex <= kContraction && ey <= kContraction)) return Verdict::unsure;
+
+  double x = std::clamp(x0, -1.0, 1.0), y = std::clamp(y0, -1.0, 1.0);
+  bool settled = false;
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    const PatchPoint p = cells.at(x, y);
+    const Vec3 q = p.point - line.line.origin;
+    a = glm::dot(line.n1, p.ds), b = glm::dot(line.n1, p.dt);
+    c = glm::dot(line.n2, p.ds), d = glm::dot(line.n2, p.dt);
+    const double f1 = glm::dot(line.n1, q), g1 = glm::dot(line.n2, q);
+    determinant = a * d - b * c;
+    if (determinant == 0) return Verdict::unsure;
+    const double sx = -(d * f1 - b * g1) / determinant, sy = -(a * g1 - c * f1) / determinant;
+    const double nx = std::clamp(x + sx, -1.0, 1.0), ny = std::clamp(y + sy, -1.0, 1.0);
+    // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
+    // end: a step that ends farther outside means none.
+    constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction)) + kBorderSlack;
+    if (std::max(std::abs(x + sx), std::abs(y + sy)) > farthest) return Verdict::none;
+    const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
+    if (moved < 1e-7) {
+      // The remaining error is of the order of the square of the step. What the projection cut off must be rounding.
+      if (std::max(std::abs(x + sx - nx), std::abs(y + sy - ny)) > kBorderSlack) {
+        if (settled) return Verdict::none;
+        settled = true;
+      } else {
+        hit.x = nx;
+        hit.y = ny;
+        const Vec3 end = q + (nx - x) * p.ds + (ny - y) * p.dt;
+        hit.t = glm::dot(end, line.line.direction) * line.inverse_length2;
+        return Verdict::one;
+      }
+    }
+    x = nx;
+    y = ny;
+  }
+  return Verdict::unsure;
+}
+
+// At a pole one derivative, or the cross product, vanishes faster than the cell.
+bool is_singular(const CellModel& m, double whole_x, double whole_y) {
+  const double lx = glm::length(m.dx), ly = glm::length(m.dy);
+  return lx <= 1e-6 * whole_x || ly <= 1e-6 * whole_y || glm::length(glm::cross(m.dx, m.dy)) <= 1e-6 * lx * ly;
+}
+
+// How far the cell reaches along x and y, at most.
+Vec2 extent(const CellModel& m) { return {glm::length(m.dx) + m.variation_x, glm::length(m.dy) + m.variation_y}; }
+
+// Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
+// simpler by being made narrower, that is the side towards the pole.
+bool halve_across_x(const CellModel& m, double hx, double hy) {
+  const Vec2 e = extent(m);
+  if (!(e.x + e.y < kInfinity)) return hx >= hy;
+  return e.x >= e.y;
+}
+
+// Workspace for halving, kept by the thread so that tracing does not allocate once it is warm.
+struct Workspace {
+  std::vector<Vec4> points;
+};
+Workspace& workspace() {
+  thread_local Workspace w;
+  return w;
+}
+
+struct Search {
+  const LineBasis& line;
+  CellHits& hits;
+  Vec2 whole;  // extent of the whole piece
+  int cells = 0;
+
+  // A neighbour in the same piece may have found the same root on the common border.
+  void add(const CellHit& hit) {
+    for (int i = 0; i < hits.count; ++i)
+      if (std::abs(hits.hits[i].x - hit.x) <= 4 * kBorderSlack && std::abs(hits.hits[i].y - hit.y) <= 4 * kBorderSlack)
+        return;
+    hits.add(hit);
+  }
+  // The undecided remains of a singular point: cells around it differ in the parameter that does not matter.
+  void add_singular(const CellHit& hit) {
+    const double near = 1e-9 * (whole.x + whole.y) * std::sqrt(line.inverse_length2);
+    for (int i = 0; i < hits.count; ++i)
+      if (std::abs(hits.hits[i].t - hit.t) <= near) return;
+    hits.add(hit);
+  }
+  bool is_smallest(const CellModel& m, double hx, double hy) const {
+    const Vec2 e = extent(m);
+    return e.x + e.y < kSmallestCell * (whole.x + whole.y) || std::max(hx, hy) < kSmallestCell;
+  }
+};
+
+void search(Search& s, const PatchView& patch, const CellModel& m, double x0, double y0, double hx, double hy,
+            int used) {
+  if (++s.cells > kMostCells) return;
+  const PatchCells cells{patch};
+  CellHit hit;
+  const Verdict verdict = decide(cells, m, s.line, hit);
+  if (verdict == Verdict::none) return;
+  if (verdict == Verdict::one) {
+    s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
+    return;
+  }
+  if (cells.excluded(s.line)) return;
+  if (s.is_smallest(m, hx, hy)) {
+    if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
+      s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
+    return;
+  }
+  const int n = patch.count();
+  std::vector<Vec4>& room = workspace().points;
+  if (room.size() < static_cast<size_t>(used + 2 * n)) room.resize(std::max<size_t>(used + 2 * n, 2 * room.size()));
+  // The parent's points may stand in the same vector that has just moved: take its place anew.
+  PatchView parent = patch;
+  if (used > 0) parent.points = room.data() + used - n;
+  const bool along_x = halve_across_x(m, hx, hy);
+  if (along_x)
+    halve_u(parent, room.data() + used + n, room.data() + used);
+  else
+    halve_v(parent, room.data() + used + n, room.data() + used);
+  for (int child = 0; child < 2; ++child) {
+    // The child worked on stands last; the second half waits below it.
+    const int at = child == 0 ? used + n : used;
+    PatchView half{workspace().points.data() + at, patch.degree_u, patch.degree_v};
+    const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
+    const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
+    search(s, half, model_of(half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, at + n);
+  }
+}
+
+void search(Search& s, const Surface& surface, const Rectangle& box, const CellModel& m, double x0, double y0,
+            double hx, double hy) {
+  if (++s.cells > kMostCells) return;
+  const SurfaceCells cells{&surface, box};
+  CellHit hit;
+  const Verdict verdict = decide(cells, m, s.line, hit);
+  if (verdict == Verdict::none) return;
+  if (verdict == Verdict::one) {
+    s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
+    return;
+  }
+  if (cells.excluded(s.line)) return;
+  if (s.is_smallest(m, hx, hy)) {
+    if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
+      s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
+    return;
+  }
+  const bool along_x = halve_across_x(m, hx, hy);
+  for (int child = 0; child < 2; ++child) {
+    Rectangle half = box;
+    if (along_x)
+      (child == 0 ? half.u.hi : half.u.lo) = box.u.middle();
+    else
+      (child == 0 ? half.v.hi : half.v.lo) = box.v.middle();
+    const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
+    const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
+    search(s, surface, half, model_of(surface, half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy);
+  }
+}
+
+}  // namespace
+
+LineBasis::LineBasis(const Line& l) : line(l) {
+  const double length2 = glm::dot(l.direction, l.direction);
+  inverse_length2 = 1 / length2;
+  const Vec3 d = l.direction / std::sqrt(length2);
+  // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
+  const double sign = std::copysign(1.0, d.z);
+  const double a = -1 / (sign + d.z), b = d.x * d.y * a;
+  n1 = {1 + sign * d.x * d.x * a, sign * b, -sign * d.x};
+  n2 = {b, sign + d.y * d.y * a, -d.y};
+}
+
+CellModel model_of(const PatchView& patch) {
+  CellModel m;
+  const PatchPoint center = evaluate(patch, 0.5, 0.5);
+  m.point = center.point;
+  m.dx = 0.5 * center.ds;
+  m.dy = 0.5 * center.dt;
+  // With X~ = X - w S0 the derivative is S_x = (X~_x - S~ w_x) / w, S~ = S - S0 = X~ / w. All in Bernstein form: the
+  // derivative of X~ raised to the patch's own degree, less w dx, has coefficients K; then
+  //   |S_x - dx| <= max|K| / min w + max|S~| max|w_x| / min w.
+  double least_weight = kInfinity, reach = 0, kx = 0, ky = 0, wx = 0, wy = 0;
+  const int p = patch.degree_u, q = patch.degree_v;
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) {
+      const Vec4& c = patch.at(i, j);
+      least_weight = std::min(least_weight, c.w);
+      if (!(c.w > 0)) {
+        m.variation_x = m.variation_y = kInfinity;
+        return m;
+      }
+      const Vec3 here = Vec3(c) - c.w * m.point;
+      reach = std::max(reach, glm::dot(here, here) / (c.w * c.w));
+      const auto raised = [&](int k, int n, const Vec4& before, const Vec4& after, const Vec3& mean, double& largest,
+                              double& largest_w) {
+        // Coefficient k of the derivative raised by one degree, times 1/2 for x = 2 s - 1.
+        const Vec4 d = 0.5 * (static_cast<double>(k) * (c - before) + static_cast<double>(n - k) * (after - c));
+        const Vec3 difference = Vec3(d) - d.w * m.point - c.w * mean;
+        largest = std::max(largest, glm::dot(difference, difference));
+        largest_w = std::max(largest_w, std::abs(d.w));
+      };
+      raised(i, p, i > 0 ? patch.at(i - 1, j) : c, i < p ? patch.at(i + 1, j) : c, m.dx, kx, wx);
+      raised(j, q, j > 0 ? patch.at(i, j - 1) : c, j < q ? patch.at(i, j + 1) : c, m.dy, ky, wy);
+    }
+  reach = std::sqrt(reach);
+  m.variation_x = (std::sqrt(kx) + reach * wx) / least_weight;
+  m.variation_y = (std::sqrt(ky) + reach * wy) / least_weight;
+  return m;
+}
+
+CellModel model_of(const Surface& surface, const Rectangle& box) {
+  CellModel m;
+  const double hu = 0.5 * box.u.width(), hv = 0.5 * box.v.width();
+  const SurfaceJet jet = surface.evaluate(box.u.middle(), box.v.middle(), 1);
+  m.point = jet.point();
+  m.dx = hu * jet.du();
+  m.dy = hv * jet.dv();
+  const SurfaceEnclosure hull = surface.enclose(box, 1);
+  m.variation_x = hu * largest_distance(hull.d(1, 0), jet.du());
+  m.variation_y = hv * largest_distance(hull.d(0, 1), jet.dv());
+  return m;
+}
+
+bool is_flat(const CellModel& m) {
+  const double normal = glm::length(glm::cross(m.dx, m.dy));
+  const double longer = std::max(glm::length(m.dx), glm::length(m.dy));
+  return (m.variation_x + m.variation_y) * longer <= kFlat * normal;
+}
+
+void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits) {
+  // Most cells are decided at once; the search's bookkeeping starts only if not.
+  CellHit hit;
+  const Verdict verdict = decide(PatchCells{patch}, model, line, hit);
+  if (verdict == Verdict::none) return;
+  if (verdict == Verdict::one) {
+    hits.add(hit);
+    return;
+  }
+  Search s{line, hits, extent(model)};
+  search(s, patch, model, 0, 0, 1, 1, 0);
+}
+
+void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
+               CellHits& hits) {
+  Search s{line, hits, extent(model)};
+  search(s, surface, box, model, 0, 0, 1, 1);
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,75 @@
+// The certified solver of a line against one smooth piece of a surface.
+//
+// A cell is a rectangle of a piece's local parameters, mapped to x, y in [-1, 1]. With S the surface over the cell, S0,
+// Sx, Sy its value and derivatives at the centre, and a bound r on how far the derivatives stray from Sx, Sy anywhere
+// in the cell, the two plane equations of the line, f(x, y) = (n1, n2) . (S(x, y) - o), obey
+//
+//   f(x, y) = f0 + (J + E)(x, y),  |E_k| <= r:
+//
+//   - a root can only lie within  -J^-1 f0 +- |J^-1| r: if that misses the cell there is none (mean value theorem);
+//   - if |J^-1| r <= 1/4 there is at most one, and Newton's iteration projected to the cell converges to it, or to a
+//     point of the border with f != 0, and then there is none (contraction);
+//   - otherwise the cell is halved. Cells of parts of surfaces that a hull test excludes are dropped first.
+//
+// A cell smaller than kSmallestCell that is still undecided is a singular point of the surface (a pole), reported once,
+// or a tangency of the line, reported not at all: a tangent line has two hits or none.
+#pragma once
+
+#include <vector>
+
+#include "geometry/queries/bezier_patch.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// First-order model of a cell.
+struct CellModel {
+  Vec3 point{0};
+  Vec3 dx{0};
+  Vec3 dy{0};
+  double variation_x = 0;  // bound on |S_x - dx| over the cell
+  double variation_y = 0;
+};
+
+// The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. Variations are infinite where a
+// weight is not positive.
+CellModel model_of(const PatchView& patch);
+
+// The two unit vectors across a line, computed once for a line.
+struct LineBasis {
+  Line line;
+  Vec3 n1{0};
+  Vec3 n2{0};
+  double inverse_length2 = 1;  // 1 / |direction|^2
+  explicit LineBasis(const Line& line);
+};
+
+// A root in local coordinates x, y in [-1, 1] of the cell that was asked.
+struct CellHit {
+  double t = 0;
+  double x = 0;
+  double y = 0;
+};
+
+// Roots found in one cell; at most a few, fixed room, the rest is counted.
+struct CellHits {
+  static constexpr int kRoom = 32;
+  CellHit hits[kRoom];
+  int count = 0;
+  void add(const CellHit& hit) {
+    if (count < kRoom) hits[count++] = hit;
+  }
+};
+
+// All meetings of the line with a rational Bezier patch; `model` is model_of(patch), kept by the caller.
+void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits);
+
+// The same for a rectangle of any surface, from evaluate and enclose.
+CellModel model_of(const Surface& surface, const Rectangle& box);
+void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
+               CellHits& hits);
+
+// True when the model is flat enough that lines not grazing the cell are decided without halving.
+bool is_flat(const CellModel& model);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,358 @@
+#include "geometry/queries/line_intersections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries/box_tree.h"
+#include "geometry/queries/line_cells.h"
+#include "geometry/queries/trim.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Cells of one piece when the target is built; what is not flat by then is halved along the line that asks.
+constexpr int kMostCellsPerPiece = 1024;
+constexpr int kDeepestCut = 12;
+
+// Keeps hits in the interval and inside the trims.
+class Acceptance {
+ public:
+  explicit Acceptance(std::shared_ptr<const TrimRegion> trim) : trim_(std::move(trim)) {
+    if (trim_) slack_ = kTrimSlack * std::max(trim_->u_range().width(), trim_->v_range().width());
+  }
+  bool keeps(const LineHit& hit, const Interval& t) const {
+    if (!(hit.t >= t.lo && hit.t <= t.hi)) return false;
+    return !trim_ || trim_->contains(hit.u, hit.v, slack_);
+  }
+  const TrimRegion* trim() const { return trim_.get(); }
+
+ private:
+  std::shared_ptr<const TrimRegion> trim_;
+  double slack_ = 0;
+};
+
+// A surface with a closed form: one piece.
+class FormulaTarget final : public LineTarget {
+ public:
+  FormulaTarget(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim)
+      : surface_(std::move(surface)), acceptance_(std::move(trim)), box_(geometry::bounds(*surface_)) {
+    if (const TrimRegion* region = acceptance_.trim(); region && !box_.bounded())
+      box_ = surface_->enclose({region->u_range(), region->v_range()}, 0).values[0];
+  }
+  int piece_count() const override { return 1; }
+  Box3 piece_bounds(int) const override { return box_; }
+  void piece_hits(int, const Line& line, const Interval& t, LineHits& hits) const override {
+    if (!acceptance_.trim()) {
+      surface_->line_hits(line, t, hits);
+      return;
+    }
+    LineHits all;
+    surface_->line_hits(line, t, all);
+    for (int i = 0; i < all.size(); ++i)
+      if (acceptance_.keeps(all[i], t)) hits.add(all[i]);
+  }
+  const Surface& surface() const override { return *surface_; }
+  size_t memory() const override { return sizeof *this; }
+
+ private:
+  SurfacePtr surface_;
+  Acceptance acceptance_;
+  Box3 box_;
+};
+
+// Rational Bezier pieces, cut into flat cells.
+class PatchTarget final : public LineTarget {
+ public:
+  PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim)
+      : surface_(std::move(surface)), acceptance_(std::move(trim)) {
+    for (SurfacePiece& piece : pieces) {
+      Patch patch;
+      patch.map_u = piece.map_u;
+      patch.map_v = piece.map_v;
+      patch.domain = piece.domain;
+      patch.s = {piece.map_u.rational(piece.domain.u.lo), piece.map_u.rational(piece.domain.u.hi)};
+      patch.t = {piece.map_v.rational(piece.domain.v.lo), piece.map_v.rational(piece.domain.v.hi)};
+      patch.degree_u = piece.degree_u;
+      patch.degree_v = piece.degree_v;
+      const int index = static_cast<int>(patches_.size());
+      patches_.push_back(patch);
+      // Coordinates relative to the piece's own centre: halving and evaluation then round at the piece's size, not at
+      // its distance from the origin.
+      Box3 box;
+      for (const Vec4& p : piece.points)
+        if (p.w > 0) box.include(Vec3(p) / p.w);
+      const Vec3 center = box.empty() ? Vec3(0) : box.center();
+      for (Vec4& p : piece.points) p = Vec4(Vec3(p) - p.w * center, p.w);
+      int budget = kMostCellsPerPiece;
+      cut(std::move(piece.points), index, center, 0, 0, 1, 1, 0, budget);
+    }
+    cells_.shrink_to_fit();
+    points_.shrink_to_fit();
+  }
+
+  int piece_count() const override { return static_cast<int>(cells_.size()); }
+
+  Box3 piece_bounds(int i) const override {
+    const Cell& cell = cells_[i];
+    Box3 box;
+    double size = 0;
+    const PatchView view = view_of(cell);
+    for (int k = 0; k < view.count(); ++k) {
+      const Vec4& p = view.points[k];
+      if (!(p.w > 0)) return bounds(*surface_);
+      box.include(Vec3(p) / p.w + cell.center);
+      size = std::max({size, std::abs(p.x / p.w), std::abs(p.y / p.w), std::abs(p.z / p.w)});
+    }
+    return box.inflated(1e-15 * (size + glm::length(cell.center)));
+  }
+
+  void piece_hits(int i, const Line& line, const Interval& t, LineHits& hits) const override {
+    const Cell& cell = cells_[i];
+    // The line's foot near the cell, so that what follows rounds at the cell's size.
+    const double length2 = glm::dot(line.direction, line.direction);
+    const double foot = glm::dot(cell.center - line.origin, line.direction) / length2;
+    const LineBasis basis({line.at(foot) - cell.center, line.direction});
+    CellHits found;
+    intersect(view_of(cell), cell.model, basis, found);
+    const Patch& patch = patches_[cell.patch];
+    for (int k = 0; k < found.count; ++k) {
+      LineHit hit;
+      hit.t = foot + found.hits[k].t;
+      const double x = cell.x + cell.hx * found.hits[k].x, y = cell.y + cell.hy * found.hits[k].y;
+      hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
+      hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
+      if (acceptance_.keeps(hit, t)) hits.add(hit);
+    }
+  }
+  const Surface& surface() const override { return *surface_; }
+  size_t memory() const override {
+    return sizeof *this + cells_.size() * sizeof(Cell) + points_.size() * sizeof(Vec4) +
+           patches_.size() * sizeof(Patch);
+  }
+
+ private:
+  struct Patch {
+    ParameterMap map_u, map_v;
+    Rectangle domain;  // natural
+    Interval s, t;     // rational parameters of the piece
+    int degree_u, degree_v;
+  };
+  struct Cell {
+    CellModel model;  // relative to the centre
+    Vec3 center;
+    double x, y, hx, hy;  // place in the piece's square [-1, 1]^2
+    int patch;
+    uint32_t first_point;
+  };
+
+  PatchView view_of(const Cell& cell) const {
+    return {points_.data() + cell.first_point, patches_[cell.patch].degree_u, patches_[cell.patch].degree_v};
+  }
+
+  void cut(std::vector<Vec4> points, int patch, const Vec3& center, double x, double y, double hx, double hy, int depth,
+           int& budget) {
+    const PatchView view{points.data(), patches_[patch].degree_u, patches_[patch].degree_v};
+    const CellModel model = model_of(view);
+    if (is_flat(model) || depth >= kDeepestCut || budget <= 1) {
+      cells_.push_back({model, center, x, y, hx, hy, patch, static_cast<uint32_t>(points_.size())});
+      points_.insert(points_.end(), points.begin(), points.end());
+      return;
+    }
+    --budget;
+    std::vector<Vec4> first(points.size()), second(points.size());
+    const bool along_x = turns_more_along_x(view);
+    if (along_x)
+      halve_u(view, first.data(), second.data());
+    else
+      halve_v(view, first.data(), second.data());
+    cut(std::move(first), patch, center, along_x ? x - 0.5 * hx : x, along_x ? y : y - 0.5 * hy,
+        along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, depth + 1, budget);
+    cut(std::move(second), patch, center, along_x ? x + 0.5 * hx : x, along_x ? y : y + 0.5 * hy,
+        along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, depth + 1, budget);
+  }
+
+  // Which second difference of the control net is larger, relative to the sides.
+  static bool turns_more_along_x(const PatchView& view) {
+    double bend_u = 0, bend_v = 0;
+    const auto point = [&](int i, int j) { return Vec3(view.at(i, j)) / view.at(i, j).w; };
+    const int p = view.degree_u, q = view.degree_v;
+    for (int i = 0; i <= p; ++i)
+      for (int j = 0; j <= q; ++j) {
+        if (i > 0 && i < p)
+          bend_u = std::max(bend_u, p * (p - 1) * glm::length(point(i - 1, j) - 2.0 * point(i, j) + point(i + 1, j)));
+        if (j > 0 && j < q)
+          bend_v = std::max(bend_v, q * (q - 1) * glm::length(point(i, j - 1) - 2.0 * point(i, j) + point(i, j + 1)));
+      }
+    if (bend_u == bend_v) {
+      return glm::length(point(p, 0) - point(0, 0)) >= glm::length(point(0, q) - point(0, 0));
+    }
+    return bend_u > bend_v;
+  }
+
+  SurfacePtr surface_;
+  Acceptance acceptance_;
+  std::vector<Patch> patches_;
+  std::vector<Cell> cells_;
+  std::vector<Vec4> points_;
+};
+
+// Any other surface: rectangles certified by its own enclosures.
+class EnclosureTarget final : public LineTarget {
+ public:
+  EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim)
+      : surface_(std::move(surface)), acceptance_(std::move(trim)) {
+    for (const SurfacePiece& piece : pieces) {
+      int budget = kMostCellsPerPiece;
+      cut(piece.domain, 0, budget);
+    }
+  }
+  int piece_count() const override { return static_cast<int>(cells_.size()); }
+  Box3 piece_bounds(int i) const override { return surface_->enclose(cells_[i].box, 0).values[0]; }
+  void piece_hits(int i, const Line& line, const Interval& t, LineHits& hits) const override {
+    const Cell& cell = cells_[i];
+    const double length2 = glm::dot(line.direction, line.direction);
+    const double foot = glm::dot(cell.model.point - line.origin, line.direction) / length2;
+    const LineBasis basis({line.at(foot), line.direction});
+    CellHits found;
+    intersect(*surface_, cell.box, cell.model, basis, found);
+    for (int k = 0; k < found.count; ++k) {
+      LineHit hit;
+      hit.t = foot + found.hits[k].t;
+      hit.u = cell.box.u.clamp(cell.box.u.middle() + 0.5 * cell.box.u.width() * found.hits[k].x);
+      hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found.hits[k].y);
+      if (acceptance_.keeps(hit, t)) hits.add(hit);
+    }
+  }
+  const Surface& surface() const override { return *surface_; }
+  size_t memory() const override { return sizeof *this + cells_.size() * sizeof(Cell); }
+
+ private:
+  struct Cell {
+    CellModel model;
+    Rectangle box;
+  };
+  void cut(const Rectangle& box, int depth, int& budget) {
+    const CellModel model = model_of(*surface_, box);
+    if (is_flat(model) || depth >= kDeepestCut || budget <= 1) {
+      cells_.push_back({model, box});
+      return;
+    }
+    --budget;
+    Rectangle first = box, second = box;
+    if (model.variation_x + glm::length(model.dx) >= model.variation_y + glm::length(model.dy))
+      first.u.hi = second.u.lo = box.u.middle();
+    else
+      first.v.hi = second.v.lo = box.v.middle();
+    cut(first, depth + 1, budget);
+    cut(second, depth + 1, budget);
+  }
+
+  SurfacePtr surface_;
+  Acceptance acceptance_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace
+
+std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim) {
+  if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
+  std::vector<SurfacePiece> pieces = surface->pieces();
+  const bool rational =
+      std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
+  if (rational) return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim));
+  return std::make_unique<EnclosureTarget>(std::move(surface), pieces, std::move(trim));
+}
+
+std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body) {
+  std::vector<std::unique_ptr<LineTarget>> targets;
+  for (int face = 0; face < static_cast<int>(body.faces.size()); ++face)
+    targets.push_back(make_line_target(body.faces[face].surface, trim_of(body, face)));
+  return targets;
+}
+
+void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
+                const std::function<Vec3(const SurfaceHit&)>& normal) {
+  std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
+    if (a.t != b.t) return a.t < b.t;
+    return a.face != b.face ? a.face < b.face : a.piece < b.piece;
+  });
+  const double length = glm::length(line.direction);
+  std::vector<SurfaceHit> kept;
+  std::vector<double> slopes;
+  for (const SurfaceHit& hit : hits) {
+    const double slope = glm::dot(normal(hit), line.direction) / length;
+    bool again = false;
+    for (size_t k = kept.size(); k-- > 0;) {
+      const double apart = (hit.t - kept[k].t) * length;
+      const double steepness = std::max(std::min(std::abs(slope), std::abs(slopes[k])), 1e-4);
+      const double near = kSameHit * size / steepness + 4e-16 * std::abs(hit.t) * length;
+      if (apart > 1e4 * kSameHit * size + 4e-16 * std::abs(hit.t) * length) break;
+      if (apart <= near && (slope > 0) == (slopes[k] > 0)) again = true;
+    }
+    if (again) continue;
+    kept.push_back(hit);
+    slopes.push_back(slope);
+  }
+  hits = std::move(kept);
+}
+
+struct LineIntersector::Parts {
+  std::vector<std::unique_ptr<LineTarget>> targets;
+  std::vector<double> signs;  // of each face's outward normal against the surface's
+  struct Piece {
+    int target, piece;
+  };
+  std::vector<Piece> pieces;
+  BoxTree tree;
+  double size = 1;
+
+  void finish() {
+    std::vector<Box3> boxes;
+    Box3 all;
+    for (int target = 0; target < static_cast<int>(targets.size()); ++target)
+      for (int piece = 0; piece < targets[target]->piece_count(); ++piece) {
+        pieces.push_back({target, piece});
+        boxes.push_back(targets[target]->piece_bounds(piece));
+        if (boxes.back().bounded()) all.include(boxes.back());
+      }
+    if (!all.empty()) size = all.diameter();
+    tree = BoxTree(boxes);
+  }
+};
+
+LineIntersector::LineIntersector(SurfacePtr surface) : parts_(std::make_unique<Parts>()) {
+  parts_->signs.push_back(1);
+  parts_->targets.push_back(make_line_target(std::move(surface)));
+  parts_->finish();
+}
+
+LineIntersector::LineIntersector(const Body& body) : parts_(std::make_unique<Parts>()) {
+  for (const Face& face : body.faces) parts_->signs.push_back(face.forward ? 1 : -1);
+  parts_->targets = make_line_targets(body);
+  parts_->finish();
+}
+
+LineIntersector::~LineIntersector() = default;
+LineIntersector::LineIntersector(LineIntersector&&) noexcept = default;
+LineIntersector& LineIntersector::operator=(LineIntersector&&) noexcept = default;
+
+std::vector<SurfaceHit> LineIntersector::all_hits(const Line& line, const Interval& t) const {
+  std::vector<SurfaceHit> result;
+  LineHits hits;
+  parts_->tree.along(line, t, [&](int index) {
+    const Parts::Piece& piece = parts_->pieces[index];
+    hits.clear();
+    parts_->targets[piece.target]->piece_hits(piece.piece, line, t, hits);
+    for (int i = 0; i < hits.size(); ++i)
+      result.push_back({hits[i].t, hits[i].u, hits[i].v, piece.target, piece.piece});
+  });
+  merge_hits(result, line, parts_->size, [&](const SurfaceHit& hit) {
+    const Surface& surface = parts_->targets[hit.face]->surface();
+    return parts_->signs[hit.face] * surface.normal(hit.u, hit.v);
+  });
+  return result;
+}
+
+}  // namespace lekalo::geometry

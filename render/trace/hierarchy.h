@@ -1,0 +1,83 @@
+// Pieces, triangles, shapes and instances in a bounding-volume hierarchy. Every Embree call of the program is in
+// hierarchy.cpp; see docs/internals/rays.md for what the floats may and may not decide.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/queries/line_intersections.h"
+#include "render/trace/ray.h"
+#include "render/trace/shape.h"
+
+namespace lekalo::render {
+
+using geometry::Affine;
+using geometry::Box3;
+
+// Half-spaces dot(p - through, normal) <= 0 that a leaf is cut to.
+struct HalfSpace {
+  Vec3 through;
+  Vec3 normal;
+};
+
+// One thing in a hierarchy: surfaces or a body (line targets, one for each face), a mesh, or a shape.
+struct Leaf {
+  std::vector<std::unique_ptr<geometry::LineTarget>> targets;
+  std::vector<double> signs;  // of each target's outward normal
+  geometry::MeshPtr mesh;
+  bool flat = false;
+  std::unique_ptr<Shape> shape;
+  std::vector<HalfSpace> clips;
+  uint32_t visible_to = kVisibleToAll;
+  int object = 0;
+  double size = 0;  // diameter of its box; set by Hierarchy::add, 1 for unbounded leaves
+};
+
+class Hierarchy {
+ public:
+  Hierarchy();
+  ~Hierarchy();
+  Hierarchy(const Hierarchy&) = delete;
+  Hierarchy& operator=(const Hierarchy&) = delete;
+
+  // Leaves and instances are numbered in the order in which they are added; an instance takes as many numbers as its
+  // child has leaves.
+  void add(Leaf leaf);
+  void add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object);
+  // Builds; nothing may be added afterwards.
+  void commit();
+
+  bool nearest(const Ray& ray, Hit& hit) const;
+  bool occluded(const Ray& ray) const;
+  // In order of t, one for each crossing of each leaf.
+  std::vector<Hit> all_hits(const Ray& ray) const;
+
+  // The leaf that a hit belongs to, the map from its space to this hierarchy's, and the number of the object that the
+  // outermost instance or leaf was added for.
+  struct Place {
+    const Leaf* leaf = nullptr;
+    Affine to_world;
+    bool moved = false;  // to_world is not the identity
+    int object = 0;
+    double error = 0;  // bound on the distance between what Embree saw and what is meant, in this space
+  };
+  Place place(int instance) const;
+
+  int leaf_count() const;
+  Box3 bounds() const;  // of the bounded leaves
+  Vec3 center() const;
+  double radius() const;
+  size_t piece_count() const;
+  size_t triangle_count() const;
+  size_t memory() const;
+
+  struct Parts;
+  struct Query;
+  void run(Query& query) const;  // one query in this hierarchy's space; used by the callbacks of hierarchy.cpp
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lekalo::render

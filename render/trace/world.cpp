@@ -1,0 +1,308 @@
+#include "render/trace/world.h"
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include "geometry/queries/line_intersections.h"
+#include "geometry/tessellation/tessellate.h"
+#include "render/trace/clipped_body.h"
+#include "render/trace/hierarchy.h"
+
+namespace lekalo::render {
+
+using geometry::Affine;
+using geometry::BodyPtr;
+using geometry::MeshPtr;
+using geometry::SurfacePtr;
+
+namespace {
+
+// Rounding of a hit's position in double, relative to the coordinates that went into it.
+constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
+
+// What one leaf is made from; equal keys share a compiled child.
+using ShareKey = std::tuple<const void*, int, double, double, bool>;
+
+const void* identity(const Entity& entity) {
+  return std::visit(
+      [](const auto& value) -> const void* {
+        using T = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<T, Vec3>)
+          return nullptr;
+        else if constexpr (std::is_same_v<T, SurfaceSet>)
+          return value.empty() ? nullptr : value.front().get();
+        else
+          return value.get();
+      },
+      entity);
+}
+
+ShareKey key_of(const Object& object) {
+  return {identity(object.shape), static_cast<int>(object.representation), object.sag, object.sag_pixels,
+          object.flat_shading};
+}
+
+bool is_drawn_only(const Entity& entity) {
+  return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
+}
+
+}  // namespace
+
+struct World::Compiled {
+  Hierarchy top;
+  std::vector<const Object*> objects;  // by the number that hits carry
+  WorldStatistics statistics;
+  std::map<ShareKey, int> uses;
+  std::map<ShareKey, std::shared_ptr<Hierarchy>> shared;
+  std::map<const Group*, std::shared_ptr<Hierarchy>> groups;
+  CameraPtr camera;
+
+  void count_uses(const std::vector<Object>& list) {
+    for (const Object& object : list) {
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
+        if (uses[{group->get(), -1, 0, 0, false}]++ == 0) count_uses((*group)->objects);
+      } else {
+        ++uses[key_of(object)];
+      }
+    }
+  }
+
+  // Sag of a mesh at a place of its own space, for the map that shows it largest among those given.
+  geometry::TessellationTolerance tolerance_of(const Object& object, const Affine& to_world) const {
+    geometry::TessellationTolerance tolerance;
+    const geometry::Mat3& a = to_world.linear;
+    const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2]), 1e-300});
+    if (object.sag > 0) {
+      tolerance.sag = object.sag / scale;
+    } else if (camera) {
+      const double pixels = object.sag_pixels;
+      tolerance.sag_at = [camera = camera, to_world, pixels, scale](const Vec3& p) {
+        return pixels * camera->pixel_size(to_world.point(p)) / scale;
+      };
+    } else {
+      tolerance.sag = 1e-3 * bounds(object.shape).diameter();
+    }
+    return tolerance;
+  }
+
+  Leaf compile(const Object& object, int number, const Affine& to_world) const {
+    Leaf leaf;
+    leaf.object = number;
+    leaf.visible_to = object.visible_to;
+    leaf.flat = object.flat_shading;
+    const Affine to_leaf = to_world.inverse();
+    bool capped = false;
+    for (const ClipPlane& clip : object.clips) {
+      // A plane's normal maps with the transpose of the map from the leaf to the world.
+      leaf.clips.push_back({to_leaf.point(clip.through), glm::transpose(to_world.linear) * clip.normal});
+      capped = capped || clip.cap;
+    }
+    const bool as_mesh = object.representation == Representation::mesh;
+    std::visit(
+        [&](const auto& shape) {
+          using T = std::decay_t<decltype(shape)>;
+          if constexpr (std::is_same_v<T, SurfacePtr> || std::is_same_v<T, SurfaceSet>) {
+            SurfaceSet set;
+            if constexpr (std::is_same_v<T, SurfacePtr>)
+              set.push_back(shape);
+            else
+              set = shape;
+            if (as_mesh && set.front()->bounded()) {
+              leaf.mesh = std::make_shared<geometry::Mesh>(merged_mesh(set, tolerance_of(object, to_world)));
+              return;
+            }
+            for (const SurfacePtr& surface : set) {
+              leaf.targets.push_back(geometry::make_line_target(surface));
+              leaf.signs.push_back(1);
+            }
+          } else if constexpr (std::is_same_v<T, BodyPtr>) {
+            if (as_mesh) {
+              leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(*shape, tolerance_of(object, to_world)));
+            } else if (capped) {
+              std::vector<HalfSpace> planes = std::move(leaf.clips);
+              leaf.clips.clear();
+              leaf.shape = std::make_unique<ClippedBody>(shape, std::move(planes));
+            } else {
+              leaf.targets = geometry::make_line_targets(*shape);
+              for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
+            }
+          } else if constexpr (std::is_same_v<T, MeshPtr>) {
+            leaf.mesh = shape;
+          } else {
+            throw std::logic_error("points, curves and groups are not leaves");
+          }
+        },
+        object.shape);
+    return leaf;
+  }
+
+  static geometry::Mesh merged_mesh(const SurfaceSet& set, const geometry::TessellationTolerance& tolerance) {
+    geometry::Mesh all;
+    for (size_t face = 0; face < set.size(); ++face) {
+      const geometry::Mesh part = tessellate(*set[face], tolerance);
+      const auto shift = [](std::array<int32_t, 3>& index, size_t by) {
+        for (int32_t& i : index)
+          if (i >= 0) i += static_cast<int32_t>(by);
+      };
+      for (geometry::Mesh::Triangle triangle : part.triangles) {
+        shift(triangle.point, all.points.size());
+        shift(triangle.normal, all.normals.size());
+        shift(triangle.parameter, all.parameters.size());
+        triangle.face = static_cast<int32_t>(face);
+        all.triangles.push_back(triangle);
+      }
+      all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+      all.normals.insert(all.normals.end(), part.normals.begin(), part.normals.end());
+      all.parameters.insert(all.parameters.end(), part.parameters.begin(), part.parameters.end());
+    }
+    return all;
+  }
+
+  // Adds a list of objects to a hierarchy whose space maps to the world by `to_world` (of its first use). `number` is
+  // the object number that all of them carry, or -1 to number each.
+  void add(Hierarchy& into, const std::vector<Object>& list, const Affine& to_world) {
+    for (const Object& object : list) {
+      const int number = static_cast<int>(objects.size());
+      objects.push_back(&object);
+      if (is_drawn_only(object.shape)) continue;
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
+        auto& child = groups[group->get()];
+        if (!child) {
+          child = std::make_shared<Hierarchy>();
+          add(*child, (*group)->objects, to_world * object.transform);
+          child->commit();
+        }
+        into.add_instance(child, object.transform, number);
+        ++statistics.instances;
+        continue;
+      }
+      const bool plain = object.clips.empty() && object.visible_to == kVisibleToAll;
+      const ShareKey key = key_of(object);
+      const bool share = plain && uses[key] > 1;
+      if (!share && object.transform.is_identity()) {
+        into.add(compile(object, number, to_world));
+        continue;
+      }
+      std::shared_ptr<Hierarchy> child = share ? shared[key] : nullptr;
+      if (!child) {
+        child = std::make_shared<Hierarchy>();
+        child->add(compile(object, number, to_world * object.transform));
+        child->commit();
+        if (share) shared[key] = child;
+      }
+      into.add_instance(child, object.transform, number);
+      ++statistics.instances;
+    }
+  }
+};
+
+World::World(std::shared_ptr<const Model> model) : model_(std::move(model)), compiled_(std::make_unique<Compiled>()) {
+  const auto begin = std::chrono::steady_clock::now();
+  Compiled& c = *compiled_;
+  c.camera = model_->camera;
+  c.count_uses(model_->objects);
+  c.add(c.top, model_->objects, Affine());
+  c.top.commit();
+  c.statistics.pieces = c.top.piece_count();
+  c.statistics.triangles = c.top.triangle_count();
+  c.statistics.bytes = c.top.memory();
+  for (const auto& [key, child] : c.shared) c.statistics.bytes += child->memory();
+  c.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+World::~World() = default;
+
+bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
+bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
+std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
+WorldStatistics World::statistics() const { return compiled_->statistics; }
+Vec3 World::center() const { return compiled_->top.center(); }
+double World::radius() const { return compiled_->top.radius(); }
+
+SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
+  const Hierarchy::Place place = compiled_->top.place(hit.instance);
+  const Leaf& leaf = *place.leaf;
+  SurfacePoint point;
+  point.u = hit.u;
+  point.v = hit.v;
+  point.instance = hit.instance;
+  point.object = place.object;
+  point.face = hit.face;
+  Vec3 geometric, shading;
+  if (leaf.mesh) {
+    const geometry::Mesh& mesh = *leaf.mesh;
+    const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
+    const Vec3 p[3] = {mesh.points[triangle.point[0]], mesh.points[triangle.point[1]], mesh.points[triangle.point[2]]};
+    const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
+    point.position = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
+    geometric = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+    shading = geometric;
+    point.smooth_position = point.position;
+    if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
+      const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
+                         mesh.normals[triangle.normal[2]]};
+      const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
+      if (glm::dot(shading, geometric) < 0) geometric = -geometric;
+      // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
+      // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
+      for (int k = 0; k < 3; ++k) {
+        const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
+        point.smooth_position -= w[k] * above * n[k];
+      }
+    }
+    // Texture directions of the facet, where it has parameters.
+    if (!mesh.parameters.empty() && triangle.parameter[0] >= 0) {
+      const geometry::Vec2 q0 = mesh.parameters[triangle.parameter[0]];
+      const geometry::Vec2 a = mesh.parameters[triangle.parameter[1]] - q0;
+      const geometry::Vec2 b = mesh.parameters[triangle.parameter[2]] - q0;
+      const double det = a.x * b.y - a.y * b.x;
+      if (det != 0) {
+        point.du = (b.y * (p[1] - p[0]) - a.y * (p[2] - p[0])) / det;
+        point.dv = (a.x * (p[2] - p[0]) - b.x * (p[1] - p[0])) / det;
+      }
+    }
+  } else {
+    const geometry::Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
+    const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
+    const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
+    point.position = jet.point();
+    point.smooth_position = point.position;
+    point.du = jet.du();
+    point.dv = jet.dv();
+    geometric = sign * surface.normal(hit.u, hit.v);
+    shading = geometric;
+  }
+  if (place.moved) {
+    const auto map_normal = [&](const Vec3& n) { return glm::normalize(place.to_world.normal(n)); };
+    point.position = place.to_world.point(point.position);
+    point.smooth_position = place.to_world.point(point.smooth_position);
+    point.du = place.to_world.direction(point.du);
+    point.dv = place.to_world.direction(point.dv);
+    geometric = map_normal(geometric);
+    shading = map_normal(shading);
+  }
+  point.geometric_normal = geometric;
+  point.normal = shading;
+  const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
+  point.error = place.error + kPositionError * (size.x + size.y + size.z);
+  if (compiled_->camera) point.pixel_size = compiled_->camera->pixel_size(point.position);
+  return point;
+}
+
+Vec3 World::leave(const SurfacePoint& point, const Vec3& direction) const {
+  const bool outward = glm::dot(direction, point.geometric_normal) >= 0;
+  const Vec3 side = outward ? point.geometric_normal : -point.geometric_normal;
+  return (outward ? point.smooth_position : point.position) + 4 * point.error * side;
+}
+
+const Material& World::material(const SurfacePoint& point, bool front) const {
+  const Object& object = *compiled_->objects[point.object];
+  const MaterialPtr& back = object.back_material;
+  return *(front || !back ? object.material : back);
+}
+
+}  // namespace lekalo::render
