@@ -51,6 +51,24 @@ Box3 bounds(const Mesh& mesh) {
   return box;
 }
 
+bool is_closed(const Mesh& mesh) {
+  // Per side: how often it runs up (from the smaller index) and down.
+  struct Uses {
+    int up = 0, down = 0;
+  };
+  std::unordered_map<uint64_t, Uses> sides;
+  sides.reserve(2 * mesh.triangles.size());
+  for (const Mesh::Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = t.point[k], b = t.point[(k + 1) % 3];
+      Uses& uses = sides[(static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b)];
+      ++(a < b ? uses.up : uses.down);
+    }
+  }
+  return std::all_of(sides.begin(), sides.end(),
+                     [](const auto& side) { return side.second.up == 1 && side.second.down == 1; });
+}
+
 void set_flat_normals(Mesh& mesh) {
   mesh.normals.clear();
   mesh.normals.reserve(mesh.triangles.size());

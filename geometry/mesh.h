@@ -32,6 +32,10 @@ using MeshPtr = std::shared_ptr<const Mesh>;
 // Of the points that triangles use.
 Box3 bounds(const Mesh& mesh);
 
+// Every side of a triangle is a side of exactly one other triangle, in the opposite direction: no cracks, no free
+// borders, consistent orientation.
+bool is_closed(const Mesh& mesh);
+
 // Every triangle its own plane's normal.
 void set_flat_normals(Mesh& mesh);
 
