@@ -96,7 +96,8 @@ class Curve {
   virtual CurveJet evaluate(double t, int order) const = 0;
   virtual void evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const;
 
-  // Certified enclosure of the point and derivatives up to `order` (0..2) over an interval inside the domain.
+  // Certified enclosure of the point and derivatives up to `order` (0..2) over an interval inside the domain. At a
+  // break in smoothness that is the interval's upper end the derivatives from the left count.
   virtual CurveEnclosure enclose(const Interval& t, int order) const = 0;
 
   // The smooth pieces in order of the parameter, covering the domain without gaps.

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -29,6 +28,21 @@ class Mesh {
 
 using MeshPtr = std::shared_ptr<const Mesh>;
 
+// Of the points that triangles use.
 Box3 bounds(const Mesh& mesh);
+
+// Every side of a triangle is a side of exactly one other triangle, in the opposite direction: no cracks, no free
+// borders, consistent orientation.
+bool is_closed(const Mesh& mesh);
+
+// Every triangle its own plane's normal.
+void set_flat_normals(Mesh& mesh);
+
+// Normals of corners as the mean of the meeting triangles' normals weighted by their angles (Thuerrner, Wuethrich 1998).
+// Triangles that meet in a side at more than the crease angle (radians) do not share normals along it; pi: all do.
+void set_smooth_normals(Mesh& mesh, double crease_angle = kPi);
+
+// The mesh under an affine map; a negative determinant turns the triangles round so that outside stays outside.
+Mesh transformed(const Mesh& mesh, const Affine& map);
 
 }  // namespace lekalo::geometry

@@ -1,7 +1,15 @@
 // The list of body types that scene files can name: one line each; the declaration stands in the type's own file.
 #include "geometry/describe.h"
 
-#define LEKALO_BODY_TYPES(X) X(box_type)
+#define LEKALO_BODY_TYPES(X) \
+  X(box_type)                \
+  X(ball_type)               \
+  X(cylinder_body_type)      \
+  X(cone_body_type)          \
+  X(torus_body_type)         \
+  X(wedge_type)              \
+  X(prism_type)              \
+  X(pyramid_type)
 
 namespace lekalo::geometry {
 

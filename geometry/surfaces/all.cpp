@@ -1,9 +1,17 @@
 // The list of surface types that scene files can name: one line each; the declaration stands in the type's own file.
 #include "geometry/describe.h"
 
-#define LEKALO_SURFACE_TYPES(X) \
-  X(plane_type)                 \
-  X(sphere_type)
+#define LEKALO_SURFACE_TYPES(X)  \
+  X(plane_type)                  \
+  X(sphere_surface_type)         \
+  X(cylinder_surface_type)       \
+  X(cone_surface_type)           \
+  X(torus_surface_type)          \
+  X(ellipsoid_type)              \
+  X(hyperboloid_one_sheet_type)  \
+  X(hyperboloid_two_sheets_type) \
+  X(elliptic_paraboloid_type)    \
+  X(hyperbolic_paraboloid_type)
 
 namespace lekalo::geometry {
 

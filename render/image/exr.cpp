@@ -123,6 +123,17 @@ Image read_checked(const std::filesystem::path& path) {
     throw ImageError(path, "claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
                      "the file is damaged, or too large for this program");
   }
+  std::int64_t pixel_bytes = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    pixel_bytes += channel.channel().type == Imf::HALF ? 2 : 4;
+  }
+  // The other methods may pack an even picture tighter than deflate.
+  const bool deflate = header.compression() <= Imf::ZIP_COMPRESSION;
+  if (deflate && static_cast<double>(width * height * pixel_bytes) >
+                     kLargestDeflateRatio * static_cast<double>(std::filesystem::file_size(path))) {
+    throw ImageError(path, "is too short for its " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+                     "the file is damaged or incomplete");
+  }
   Image image = make_image(static_cast<int>(width), static_cast<int>(height));
   image.x = data.min.x - display.min.x;
   image.y = data.min.y - display.min.y;

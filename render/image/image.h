@@ -44,6 +44,10 @@ struct Image {
 // No picture that is read may have more pixels than this (a damaged header must not ask for all memory).
 inline constexpr std::int64_t kMaximumPixels = std::int64_t{1} << 28;
 
+// Deflate (RFC 1951), the packing of PNG and most OpenEXR files, makes at most 1032 bytes of one. A file whose header
+// promises more is damaged.
+inline constexpr double kLargestDeflateRatio = 1032;
+
 // A black picture without channels. Requires width, height >= 1.
 Image make_image(int width, int height);
 

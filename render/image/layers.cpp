@@ -1,7 +1,11 @@
 #include "render/image/layers.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -72,24 +76,27 @@ Layer select_layer(const Image& image, const std::string& name, const std::files
       layer.kind = known.kind;
     }
   }
-  layer.image = image;
-  std::erase_if(layer.image.channels, [&](const Channel& channel) {
-    if (color) return !is_color_channel(channel.name);
-    return channel.name != channels && !channel.name.starts_with(channels + ".");
-  });
+  layer.image = make_image(image.width, image.height);
   std::vector<Channel>& found = layer.image.channels;
+  std::copy_if(image.channels.begin(), image.channels.end(), std::back_inserter(found), [&](const Channel& channel) {
+    if (color) return is_color_channel(channel.name);
+    return channel.name == channels || channel.name.starts_with(channels + ".");
+  });
   if (found.empty() || (color && !has_color(layer.image))) {
     throw ImageError(file, "has no layer '" + (color ? "color" : name) + "'", "it has: " + layer_names(image));
   }
   std::sort(found.begin(), found.end(), [](const Channel& a, const Channel& b) { return order(a) < order(b); });
   if (!color) {
-    Image colors = layer.image;
-    for (Channel& channel : colors.channels) channel.name = component_of(channel.name);
-    if (has_color(colors)) {
+    std::vector<std::string> names;
+    for (Channel& channel : found) {
+      names.push_back(channel.name);
+      channel.name = component_of(channel.name);
+    }
+    if (has_color(layer.image)) {
       layer.kind = LayerKind::color;
-      layer.image = std::move(colors);
-    } else if (layer.kind == LayerKind::color) {
-      layer.kind = LayerKind::measure;
+    } else {
+      if (layer.kind == LayerKind::color) layer.kind = LayerKind::measure;
+      for (std::size_t c = 0; c < names.size(); ++c) found[c].name = names[c];
     }
   }
   return layer;
@@ -135,7 +142,9 @@ Image display_values(const Layer& layer, const ValueRange& range) {
   for (std::size_t c = 0; c < 3; ++c) {
     Channel& channel = add_channel(result, std::string(1, "RGB"[c]));
     if (c >= sources.size()) continue;
-    for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] = shown(value_at(*sources[c], i));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channel.values.size()), [&](const auto& pixels) {
+      for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) channel.values[i] = shown(value_at(*sources[c], i));
+    });
   }
   return result;
 }

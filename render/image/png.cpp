@@ -104,6 +104,12 @@ Image read_png(const std::filesystem::path& path, SampleEncoding encoding) {
                      "the file is damaged, or too large for this program");
   }
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+  // Palettes and low bit depths are expanded by at most 32 (1 bit to RGBA).
+  if (static_cast<double>(row_bytes) * height >
+      32 * kLargestDeflateRatio * static_cast<double>(std::filesystem::file_size(path))) {
+    throw ImageError(path, "is too short for its " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+                     kDamaged);
+  }
   reader.bytes.resize(row_bytes * height);
   for (std::size_t y = 0; y < height; ++y) reader.rows.push_back(reader.bytes.data() + y * row_bytes);
   if (!read_rows(reader)) throw ImageError(path, "cannot read: " + reader.message, kDamaged);

@@ -105,7 +105,7 @@ inline void check_normals(const Surface& surface, const Rectangle& range) {
   };
   for (int i = 0; i <= 16; ++i) {
     const double u = d.u.lo + d.u.width() * i / 16, v = d.v.lo + d.v.width() * i / 16;
-    const double du = 1e-4 * d.u.width(), dv = 1e-4 * d.v.width();
+    const double du = 1e-6 * d.u.width(), dv = 1e-6 * d.v.width();
     if (edges.v_min) compare({u, d.v.lo}, {u, d.v.lo + dv});
     if (edges.v_max) compare({u, d.v.hi}, {u, d.v.hi - dv});
     if (edges.u_min) compare({d.u.lo, v}, {d.u.lo + du, v});

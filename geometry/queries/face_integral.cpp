@@ -1,0 +1,116 @@
+// Integrals over trimmed faces without a triangulation.
+//
+// By Green's theorem, with the domain on the left of its loops,
+//
+//   integral over the domain of f du dv = sum over the loops of  integral G(u(t), v(t)) v'(t) dt,
+//   G(u, v) = integral from u_0 to u of f(s, v) ds,
+//
+// so that the trimming curves enter exactly. Both integrals are adaptive; sides of constant v cost nothing.
+#include "geometry/queries/face_integral.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/tessellation/grid_lines.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+std::vector<double> with_ends(const Interval& range, const std::vector<double>& between) {
+  std::vector<double> breaks{range.lo};
+  for (double t : between)
+    if (t > breaks.back() && t < range.hi) breaks.push_back(t);
+  breaks.push_back(range.hi);
+  return breaks;
+}
+
+// The region's box, from points along its loops and a little more.
+Rectangle loops_box(const Body& body, int face) {
+  Box3 box;
+  for (int loop : body.faces[face].loops)
+    for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.coedges[coedge].image));
+  return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}};
+}
+
+}  // namespace
+
+Integral integrate_over(const Surface& surface, const Rectangle& box, const SurfaceIntegrand& f, int count,
+                        const IntegrationGoal& goal) {
+  return integrate([&](double u, double v, std::span<double> values) { f(surface.evaluate(u, v, 1), values); }, count,
+                   with_ends(box.u, joints(surface, box, true)), with_ends(box.v, joints(surface, box, false)), goal);
+}
+
+Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, int count,
+                        const IntegrationGoal& goal) {
+  const Face& the_face = body.faces[face];
+  const Surface& surface = *the_face.surface;
+  if (!the_face.trimmed) return integrate_over(surface, surface.domain(), f, count, goal);
+
+  const Rectangle box = loops_box(body, face);
+  const std::vector<double> joints_u = joints(surface, box, true), joints_v = joints(surface, box, false);
+  const double start = box.u.middle();
+  IntegrationGoal inner_goal = goal;
+  inner_goal.relative = std::max(1e-14, 0.1 * goal.relative);
+  Integral total;
+  total.value.assign(count, 0);
+  total.error.assign(count, 0);
+  total.converged = true;
+  for (int loop : the_face.loops) {
+    for (int index : body.loops[loop].coedges) {
+      const Coedge& coedge = body.coedges[index];
+      const Curve& image = *coedge.image;
+      double inner_share = 0;  // largest error of an inner integral relative to its size
+      const auto along = [&](double t, std::span<double> values) {
+        const CurveJet at = image.evaluate(t, 1);
+        const double u = at.d[0].x, v = at.d[0].y, speed = at.d[1].y;
+        std::fill(values.begin(), values.end(), 0.0);
+        if (speed == 0 || u == start) return;
+        const Interval range{std::min(u, start), std::max(u, start)};
+        const Integral inner = integrate(
+            [&](double s, std::span<double> inside) { f(surface.evaluate(s, v, 1), inside); }, count,
+            with_ends(range, joints_u), inner_goal);
+        const double factor = u > start ? speed : -speed;
+        for (int k = 0; k < count; ++k) {
+          values[k] = factor * inner.value[k];
+          if (inner.value[k] != 0)
+            inner_share = std::max(inner_share, std::min(1.0, inner.error[k] / std::abs(inner.value[k])));
+        }
+      };
+      std::vector<double> breaks;
+      for (const CurvePiece& piece : image.pieces()) breaks.push_back(piece.domain.lo);
+      // Where the image crosses a joint of the surface in v, found to a part of its length: quadrature does the rest.
+      const Interval domain = image.domain();
+      for (double joint : joints_v) {
+        double before = image.point(domain.lo).y - joint;
+        for (int k = 1; k <= 16; ++k) {
+          const double t = domain.lo + domain.width() * k / 16, after = image.point(t).y - joint;
+          if (before * after < 0) {
+            double a = t - domain.width() / 16, b = t;
+            for (int step = 0; step < 60; ++step) {
+              const double middle = 0.5 * (a + b);
+              ((image.point(middle).y - joint) * before > 0 ? a : b) = middle;
+            }
+            breaks.push_back(0.5 * (a + b));
+          }
+          before = after;
+        }
+      }
+      std::sort(breaks.begin(), breaks.end());
+      const Integral part = integrate(along, count, with_ends(domain, breaks), goal);
+      const double sign = coedge.forward ? 1 : -1;
+      for (int k = 0; k < count; ++k) {
+        total.value[k] += sign * part.value[k];
+        total.error[k] += part.error[k] + inner_share * std::abs(part.value[k]);
+      }
+      total.evaluations += part.evaluations;
+      total.converged = total.converged && part.converged;
+    }
+  }
+  // Loops of a face that looks against its surface run the other way round.
+  if (the_face.forward != (surface.normal_sign() > 0))
+    for (double& value : total.value) value = -value;
+  return total;
+}
+
+}  // namespace lekalo::geometry

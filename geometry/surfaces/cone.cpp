@@ -1,0 +1,103 @@
+// Circular cone and cylinder (Golovanov 2016, 3.2): x^2 + y^2 = rho^2, rho = r + z tan(gamma).
+//
+// In the coordinates (x, y, rho) along a line the cone is x^2 + y^2 - rho^2 = 0 whatever its half-angle, and the line
+// is still a line. A line steeper than the generatrices meets each nappe once, any other meets one nappe twice or
+// never: that decides the nappe of a hit, so that at the apex, where both roots are equal, each nappe gets its own.
+#include "geometry/surfaces/cone.h"
+
+#include "geometry/curves/conic_forms.h"
+#include "geometry/surfaces/parameter_range.h"
+
+namespace lekalo::geometry {
+
+ConeSurface::ConeSurface(const Frame& frame, double radius, double top_radius, double height, const Rectangle& domain)
+    : MeridianFormula(frame, 1, 1, domain), radius_(radius), widening_(top_radius - radius), height_(height) {
+  if (radius == 0 && widening_ == 0) throw std::invalid_argument("a cone needs a radius or a half-angle");
+  if (!(height != 0)) throw std::invalid_argument("the height of a cone must not be zero");
+  check_domain(domain, {});
+}
+
+NurbsCurveForm ConeSurface::meridian_form() const {
+  return parabola_form(domain_.v, {radius_, 0, 0}, {widening_, height_, 0});
+}
+
+// Where on the axis figures matter most: the apex if the domain reaches it.
+Vec3 ConeSurface::nearest_axis_point() const {
+  const double v = domain_.v.clamp(widening_ == 0 ? 0.0 : -radius_ / widening_);
+  return frame_.point({0, 0, height_ * v});
+}
+
+void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
+  const MovedLine moved = moved_near(line, nearest_axis_point(), frame_);
+  const bool cylinder = widening_ == 0;
+  const double slope = widening_ / height_, scale = cylinder ? std::abs(radius_) : 1.0;
+  const Vec3 o(moved.origin.x / scale, moved.origin.y / scale, cylinder ? 0.0 : radius_ + slope * moved.origin.z);
+  const Vec3 d(moved.direction.x / scale, moved.direction.y / scale, slope * moved.direction.z);
+  const Quadric quadric = cylinder ? Quadric{{1, 1, 0}, 0, -1} : Quadric{{1, 1, -1}, 0, 0};
+  const QuadricHits found = quadric_hits(quadric, o, d);
+  const auto add = [&](int i, double nappe) {
+    // Is there anything of this nappe in the domain?
+    const double lo = radius_ + widening_ * domain_.v.lo, hi = radius_ + widening_ * domain_.v.hi;
+    if (!cylinder && !(std::max(nappe * lo, nappe * hi) > 0)) return;
+    const Vec3& p = found.point[i];
+    add_hit(hits, t, moved.start + found.s[i], std::atan2(nappe * p.y, nappe * p.x), moved.at(found.s[i]).z / height_);
+  };
+  if (cylinder) {
+    for (int i = 0; i < found.count; ++i) add(i, radius_ < 0 ? -1 : 1);
+  } else if (found.count == 2 && found.square < 0) {
+    add(0, d.z > 0 ? -1 : 1);
+    add(1, d.z > 0 ? 1 : -1);
+  } else {
+    const double rho = found.count == 2 ? found.point[0].z + found.point[1].z : found.point[0].z;
+    for (int i = 0; i < found.count; ++i) add(i, rho < 0 ? -1 : 1);
+  }
+}
+
+TypeDeclaration cone_surface_type() {
+  return declare(Category::surface, "cone_surface",
+                 "Lateral surface of a circular cone or frustum; the normal points outward. Without a height it is "
+                 "unbounded and has both nappes.")
+      .field("frame", frame(), "placement: the center of the base circle, the axis z, x at the angle 0", "{}")
+      .field("radius", length().non_negative(), "radius of the base circle (v = 0)")
+      .optional("height", length().positive(), "distance of the top circle (v = 1) from the base, along the axis")
+      .optional("top_radius", length().non_negative(),
+                "radius of the top circle; 0, the apex, unless half_angle is given")
+      .optional("half_angle", angle().between(-89.9999, 89.9999),
+                "angle between generatrix and axis, positive where the cone widens upward; in place of top_radius")
+      .optional("domain", rectangle(),
+                "part of the surface: u the angle in radians, v from 0 at the base to 1 at the height (of an unbounded "
+                "cone the length along the axis); { u: [0, 2*pi], v: [0, 1] } by default")
+      .built_by([](const Fields& f) {
+        const double radius = f.number("radius");
+        if (f.has("top_radius") && f.has("half_angle"))
+          throw FieldError("half_angle", "a cone has a top_radius or a half_angle, not both");
+        const bool bounded = f.has("height");
+        if (!bounded && !f.has("half_angle"))
+          throw FieldError("height", "a cone without a height is unbounded and needs a half_angle", "give a height");
+        const double height = bounded ? f.number("height") : 1.0;
+        double top = f.has("top_radius") ? f.number("top_radius") : 0.0;
+        if (f.has("half_angle")) top = radius + height * std::tan(f.number("half_angle"));
+        if (radius == 0 && top == 0) throw FieldError("radius", "the cone has no width: both radii are zero");
+        const Rectangle natural = bounded ? ConeSurface::kFull : CylinderSurface::kUnbounded;
+        return ConeSurface(f.frame(), radius, top, height, read_domain(f, natural, {}));
+      });
+}
+
+TypeDeclaration cylinder_surface_type() {
+  return declare(Category::surface, "cylinder_surface",
+                 "Lateral surface of a circular cylinder; the normal points outward. Without a height it is unbounded.")
+      .field("frame", frame(), "placement: the center of the base circle, the axis z, x at the angle 0", "{}")
+      .field("radius", length().positive(), "radius")
+      .optional("height", length().positive(), "length along the axis")
+      .optional("domain", rectangle(),
+                "part of the surface: u the angle in radians, v from 0 at the base to 1 at the height (of an unbounded "
+                "cylinder the length along the axis); { u: [0, 2*pi], v: [0, 1] } by default")
+      .built_by([](const Fields& f) {
+        const bool bounded = f.has("height");
+        const Rectangle natural = bounded ? ConeSurface::kFull : CylinderSurface::kUnbounded;
+        return CylinderSurface(f.frame(), f.number("radius"), bounded ? f.number("height") : 1.0,
+                               read_domain(f, natural, {}));
+      });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,37 @@
+// A line seen from a surface's frame without loss of figures.
+//
+// Formulas for hits lose as many digits as the line's origin is farther away than the surface is large. So the line
+// starts anew at its point nearest to the surface (Haines, Gunther, Akenine-Moller, "Precision Improvements for
+// Ray/Sphere Intersection", Ray Tracing Gems 2019). The new origin o + t d is formed with one rounding only (fused
+// multiply-add): the moved line then deviates from the given one by an ulp of the coordinates near the surface, not of
+// those of the distant origin.
+#pragma once
+
+#include <cmath>
+
+#include "geometry/vectors.h"
+
+namespace lekalo::geometry {
+
+// The line about its point nearest to `center`: point(t) = moved.origin + (t - start) moved.direction.
+struct MovedLine {
+  double start = 0;
+  Vec3 origin{0};
+  Vec3 direction{0};
+  Vec3 at(double s) const { return origin + s * direction; }
+};
+
+inline MovedLine moved_near(const Line& line, const Vec3& center) {
+  const Vec3& o = line.origin;
+  const Vec3& d = line.direction;
+  const double t = glm::dot(center - o, d) / glm::dot(d, d);
+  return {t, {std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z)}, d};
+}
+
+// The same in the coordinates of the frame; `center` is in world coordinates.
+inline MovedLine moved_near(const Line& line, const Vec3& center, const Frame& frame) {
+  const MovedLine moved = moved_near(line, center);
+  return {moved.start, frame.to_local_point(moved.origin), frame.to_local_direction(moved.direction)};
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,128 @@
+// r(u, v) = o + a rho(v) cos u x + b rho(v) sin u y + z(v) z: the derivative i times by u, j times by v is
+//
+//   a rho^(j) cos(u + i pi/2) x + b rho^(j) sin(u + i pi/2) y   (+ z^(j) z where i = 0).
+//
+// Its NURBS form is the tensor product of the circle's form in u and the meridian's in v (Golovanov 2016, 3.7; NURBS
+// Book 8.5).
+#include "geometry/surfaces/meridian_surface.h"
+
+#include <cmath>
+
+#include "geometry/curves/conic_forms.h"
+#include "geometry/surfaces/parameter_range.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Calls result(i, j, r_ij) for all i + j <= order; the origin is left out. T is double or Interval.
+template <class T, class Result>
+void partial_derivatives(const Frame& frame, double a, double b, const T& u, const MeridianJet<T>& meridian, int order,
+                         Result result) {
+  using std::cos;
+  using std::sin;
+  T c = cos(u), s = sin(u);
+  for (int i = 0; i <= order; ++i) {
+    const Triple<T> across = (a * c) * triple(frame.x) + (b * s) * triple(frame.y);
+    for (int j = 0; i + j <= order; ++j) {
+      Triple<T> r = meridian.rho[j] * across;
+      if (i == 0) r = r + meridian.z[j] * triple(frame.z);
+      result(i, j, r);
+    }
+    const T turned = -s;
+    s = c;
+    c = turned;
+  }
+}
+
+}  // namespace
+
+SurfaceJet MeridianSurface::evaluate(double u, double v, int order) const {
+  SurfaceJet jet;
+  jet.order = order;
+  partial_derivatives(frame_, a_, b_, u, meridian(v, order), order, [&](int i, int j, const Triple<double>& r) {
+    jet.d(i, j) = {r.x, r.y, r.z};
+  });
+  jet.values[0] += frame_.origin;
+  return jet;
+}
+
+SurfaceEnclosure MeridianSurface::enclose(const Rectangle& box, int order) const {
+  SurfaceEnclosure result;
+  partial_derivatives(frame_, a_, b_, box.u, meridian(box.v, order), order,
+                      [&](int i, int j, const Triple<Interval>& r) {
+                        result.values[SurfaceJet::index(i, j)] = box_of(i + j == 0 ? r + triple(frame_.origin) : r);
+                      });
+  return result;
+}
+
+Vec3 MeridianSurface::normal(double u, double v) const {
+  const MeridianJet<double> m = meridian(v, 1);
+  double side = m.rho[0];
+  // On the axis the side is that of the domain's inside.
+  const double reach = std::abs(m.rho[1]) + std::abs(m.z[1]);
+  if (std::abs(side) <= 1e-14 * reach) {
+    const double step = bounded() ? 1e-3 * domain_.v.width() : 1e-3;
+    side = meridian(domain_.v.middle() < v ? v - step : v + step, 0).rho[0];
+  }
+  const Vec3 local(b_ * m.z[1] * std::cos(u), a_ * m.z[1] * std::sin(u), -a_ * b_ * m.rho[1]);
+  return (side < 0 ? -normal_sign() : normal_sign()) * glm::normalize(frame_.direction(local));
+}
+
+bool MeridianSurface::is_pole(double v) const {
+  if (!(std::abs(v) < kInfinity)) return false;
+  const MeridianJet<double> m = meridian(v, 1);
+  const double width = bounded() ? domain_.v.width() : 1.0;
+  return std::abs(m.rho[0]) <= 1e-14 * (width * (std::abs(m.rho[1]) + std::abs(m.z[1])));
+}
+
+DegenerateEdges MeridianSurface::degenerate_edges() const {
+  return {false, false, is_pole(domain_.v.lo), is_pole(domain_.v.hi)};
+}
+
+std::optional<NurbsSurfaceForm> MeridianSurface::as_nurbs() const {
+  if (!bounded()) return std::nullopt;
+  const NurbsCurveForm circle = circle_form(domain_.u);
+  NurbsCurveForm profile = meridian_form();
+  // The meridian meets the axis exactly where it should, so that poles are exactly one point.
+  const DegenerateEdges poles = degenerate_edges();
+  if (poles.v_min) profile.points.front().x = 0;
+  if (poles.v_max) profile.points.back().x = 0;
+
+  NurbsSurfaceForm form;
+  form.degree_u = circle.degree;
+  form.degree_v = profile.degree;
+  form.knots_u = circle.knots;
+  form.knots_v = profile.knots;
+  form.maps_u = circle.maps;
+  form.maps_v = profile.maps;
+  for (const Vec4& c : circle.points) {
+    for (const Vec4& m : profile.points) {
+      const double weight = c.w * m.w;
+      const Vec3 local(a_ * m.x * c.x, b_ * m.x * c.y, m.y * c.w);
+      form.points.push_back({weight * frame_.origin + frame_.direction(local), weight});
+    }
+  }
+  return form;
+}
+
+void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line,
+                                       const Interval& range, LineHits& hits,
+                                       std::optional<double> (*parameter)(const Vec3&)) const {
+  const MovedLine moved = moved_near(line, frame_.origin, frame_);
+  const QuadricHits found = quadric_hits(quadric, moved.origin / scale, moved.direction / scale);
+  for (int i = 0; i < found.count; ++i) {
+    const Vec3& p = found.point[i];
+    if (const auto v = parameter(p)) add_hit(hits, range, moved.start + found.s[i], std::atan2(p.y, p.x), *v);
+  }
+}
+
+void MeridianSurface::add_hit(LineHits& hits, const Interval& range, double t, double u, double v) const {
+  if (!range.contains(t)) return;
+  const auto in_v = within(domain_.v, v);
+  if (!in_v) return;
+  const auto in_u = angle_within(domain_.u, u);
+  if (in_u) hits.add({t, *in_u, *in_v});
+}
+
+}  // namespace lekalo::geometry

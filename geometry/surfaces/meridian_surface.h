@@ -1,0 +1,111 @@
+// What the surfaces with circular or elliptical parallels share: all of Golovanov 2016, 3.2, but the plane and the
+// hyperbolic paraboloid.
+#pragma once
+
+#include "geometry/formula.h"
+#include "geometry/surface.h"
+#include "geometry/surfaces/local_line.h"
+#include "geometry/surfaces/quadric_line.h"
+
+namespace lekalo::geometry {
+
+// A point of a meridian: distance from the axis (signed) and height along it.
+template <class T>
+struct MeridianPoint {
+  T rho, z;
+};
+
+// Its derivatives by v: rho[k], z[k] for k = 0..order.
+template <class T>
+struct MeridianJet {
+  std::array<T, kMaxSurfaceOrder + 1> rho{}, z{};
+};
+
+// The meridian (rho(v), z(v)) turned about the axis z of a frame, the parallels stretched by a and b:
+//
+//   r(u, v) = o + a rho(v) cos u x + b rho(v) sin u y + z(v) z,   u in radians.
+//
+// r_u x r_v = rho (b z' cos u, a z' sin u, -a b rho'): away from the axis where rho > 0 and z' > 0. Where rho = 0
+// (pole, apex) the normal is the limit from inside the domain.
+class MeridianSurface : public Surface {
+ public:
+  const Frame& frame() const { return frame_; }
+
+  Rectangle domain() const override { return domain_; }
+  Periods periods() const override { return {kTwoPi, 0}; }
+  SurfaceJet evaluate(double u, double v, int order) const override;
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  Vec3 normal(double u, double v) const override;
+  std::optional<NurbsSurfaceForm> as_nurbs() const override;
+  DegenerateEdges degenerate_edges() const override;
+  bool bounded() const override { return domain_.v.lo > -kInfinity && domain_.v.hi < kInfinity; }
+  bool has_line_formula() const override { return true; }
+
+ protected:
+  MeridianSurface(const Frame& frame, double a, double b, const Rectangle& domain)
+      : frame_(frame), a_(a), b_(b), domain_(domain) {}
+
+  virtual MeridianJet<double> meridian(double v, int order) const = 0;
+  virtual MeridianJet<Interval> meridian(const Interval& v, int order) const = 0;
+  // (rho, z) as x and y, over domain().v, which is bounded.
+  virtual NurbsCurveForm meridian_form() const = 0;
+
+  // Adds the hit at angle u (of atan2) and v if t and both parameters lie in their ranges.
+  void add_hit(LineHits& hits, const Interval& range, double t, double u, double v) const;
+
+  // Adds the hits of a line with the quadric, whose coordinates are those of the frame divided by `scale`.
+  // `parameter` is v of a scaled point on it, or nothing where the point belongs to another sheet.
+  void add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line, const Interval& range,
+                        LineHits& hits, std::optional<double> (*parameter)(const Vec3&)) const;
+
+  Frame frame_;
+  double a_, b_;  // stretch of the parallels along x and y
+  Rectangle domain_;
+
+ private:
+  bool is_pole(double v) const;
+};
+
+// Supplies the meridian and its derivatives from a formula over any number type,
+//   template <class T> MeridianPoint<T> meridian_at(const T& v) const;   a public member of Shape.
+template <class Shape>
+class MeridianFormula : public MeridianSurface {
+ protected:
+  using MeridianSurface::MeridianSurface;
+
+  MeridianJet<double> meridian(double v, int order) const override {
+    MeridianJet<double> jet;
+    switch (order) {
+      case 0: {
+        const auto p = shape().meridian_at(v);
+        jet.rho[0] = p.rho;
+        jet.z[0] = p.z;
+        return jet;
+      }
+      case 1:
+        return derivatives<1>(v);
+      case 2:
+        return derivatives<2>(v);
+      default:
+        return derivatives<kMaxSurfaceOrder>(v);
+    }
+  }
+  MeridianJet<Interval> meridian(const Interval& v, int order) const override {
+    return order == 0 ? derivatives<0>(v) : derivatives<2>(v);
+  }
+
+ private:
+  const Shape& shape() const { return static_cast<const Shape&>(*this); }
+  template <int N, class T>
+  MeridianJet<T> derivatives(const T& v) const {
+    const auto p = shape().meridian_at(Jet<T, N>::variable(v));
+    MeridianJet<T> jet;
+    for (int k = 0; k <= N; ++k) {
+      jet.rho[k] = p.rho.derivative(k);
+      jet.z[k] = p.z.derivative(k);
+    }
+    return jet;
+  }
+};
+
+}  // namespace lekalo::geometry

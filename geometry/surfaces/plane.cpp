@@ -1,0 +1,91 @@
+// Plane and rectangle. A line o + t d hits it at t = (p - o).z / d.z, formed again from the line's point near the hit
+// so that a distant origin costs no figures; u and v are the coordinates of that point.
+#include "geometry/surfaces/plane.h"
+
+#include "geometry/describe.h"
+#include "geometry/formula.h"
+#include "geometry/surfaces/local_line.h"
+#include "geometry/surfaces/parameter_range.h"
+
+namespace lekalo::geometry {
+
+namespace {
+const DomainRules kRules{{Interval::entire(), Interval::entire()}, false, false};
+}
+
+Plane::Plane(const Frame& frame, const Rectangle& domain) : frame_(frame), domain_(domain) {
+  check_domain(domain, kRules);
+}
+
+bool Plane::bounded() const {
+  return domain_.u.lo > -kInfinity && domain_.u.hi < kInfinity && domain_.v.lo > -kInfinity && domain_.v.hi < kInfinity;
+}
+
+SurfaceJet Plane::evaluate(double u, double v, int order) const {
+  SurfaceJet jet;
+  jet.order = order;
+  jet.d(0, 0) = frame_.origin + (u * frame_.x + v * frame_.y);
+  if (order >= 1) {
+    jet.d(1, 0) = frame_.x;
+    jet.d(0, 1) = frame_.y;
+  }
+  return jet;
+}
+
+SurfaceEnclosure Plane::enclose(const Rectangle& box, int order) const {
+  return enclose_surface_formula(
+      [this](const auto& u, const auto& v) {
+        return triple(frame_.origin) + (u * triple(frame_.x) + v * triple(frame_.y));
+      },
+      box, order);
+}
+
+std::optional<NurbsSurfaceForm> Plane::as_nurbs() const {
+  if (!bounded()) return std::nullopt;
+  NurbsSurfaceForm form;
+  form.knots_u = {domain_.u.lo, domain_.u.lo, domain_.u.hi, domain_.u.hi};
+  form.knots_v = {domain_.v.lo, domain_.v.lo, domain_.v.hi, domain_.v.hi};
+  for (const double u : {domain_.u.lo, domain_.u.hi})
+    for (const double v : {domain_.v.lo, domain_.v.hi}) form.points.push_back({point(u, v), 1});
+  return form;
+}
+
+void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
+  const double speed = glm::dot(line.direction, frame_.z);
+  if (std::abs(speed) <= 4 * std::numeric_limits<double>::epsilon() * glm::length(line.direction)) return;
+  // Anew from the point nearest to the rough hit.
+  const double rough = glm::dot(frame_.origin - line.origin, frame_.z) / speed;
+  const MovedLine moved = moved_near(line, line.at(rough), frame_);
+  const double s = -moved.origin.z / moved.direction.z;
+  const double t = moved.start + s;
+  if (!range.contains(t)) return;
+  const Vec3 p = moved.at(s);
+  const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y);
+  if (u && v) hits.add({t, *u, *v});
+}
+
+TypeDeclaration plane_type() {
+  return declare(
+             Category::surface, "plane",
+             "Plane, or a rectangle in it; u and v are lengths along x and y of its frame, the normal is z. Without "
+             "a size or domain it is unbounded.")
+      .field("frame", frame(), "placement: z is the normal", "{}")
+      .optional("origin", point(), "origin of the frame, the center of the rectangle; in place of the frame's")
+      .optional("size", numbers().count(2, 2).positive(),
+                "width along x and height along y of a rectangle about origin")
+      .optional("domain", rectangle(), "part of the plane, in place of size: ranges of u and v in scene units")
+      .built_by([](const Fields& f) {
+        Frame frame = f.frame();
+        if (f.has("origin")) frame.origin = f.vec3("origin");
+        Rectangle domain = read_domain(f, Plane::kUnbounded, kRules);
+        if (f.has("size")) {
+          if (f.has("domain")) throw FieldError("size", "a plane has a size or a domain, not both");
+          const std::vector<double>& size = f.numbers("size");
+          if (!(size[0] > 0 && size[1] > 0)) throw FieldError("size", "width and height must be positive");
+          domain = {{-0.5 * size[0], 0.5 * size[0]}, {-0.5 * size[1], 0.5 * size[1]}};
+        }
+        return Plane(frame, domain);
+      });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// r(u, v) = o + u x + v y in a frame (o; x, y, z): lengths along x and y; the normal is z.
+class Plane final : public Surface {
+ public:
+  static constexpr Rectangle kUnbounded{{-kInfinity, kInfinity}, {-kInfinity, kInfinity}};
+
+  explicit Plane(const Frame& frame, const Rectangle& domain = kUnbounded);
+  const Frame& frame() const { return frame_; }
+
+  Rectangle domain() const override { return domain_; }
+  SurfaceJet evaluate(double u, double v, int order) const override;
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  Vec3 normal(double, double) const override { return normal_sign() * frame_.z; }
+  std::optional<NurbsSurfaceForm> as_nurbs() const override;
+  bool bounded() const override;
+  bool has_line_formula() const override { return true; }
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+
+ private:
+  Frame frame_;
+  Rectangle domain_;
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,74 @@
+// F(o + s d) = A s^2 + 2 B s + C without cancellation:
+//   - where A is not small, o moves to s = -B/A first, so that B is only rounding and the discriminant is -A C;
+//   - the discriminant B^2 - A C is formed with fused multiply-adds (Kahan), exact to two ulps of its own terms;
+//   - q = -(B + sign(B) sqrt(B^2 - A C)), the roots are q/A and C/q (Haines et al. 2019);
+//   - one Newton step on F at each root takes away what is left.
+#include "geometry/surfaces/quadric_line.h"
+
+#include <cmath>
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// b^2 - a c (Kahan; Jeannerod, Louvet, Muller 2013).
+double discriminant(double a, double b, double c) {
+  const double ac = a * c;
+  const double error = std::fma(-a, c, ac);
+  return std::fma(b, b, -ac) + error;
+}
+
+}  // namespace
+
+QuadricHits quadric_hits(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
+  QuadricHits hits;
+  Vec3 o = origin;
+  const Vec3& d = direction;
+  const double dd = glm::dot(d, d);
+  double a = quadric.square(d);
+  if (std::abs(a) <= 4 * kEpsilon * dd) a = 0;
+  double b = quadric.half_slope(o, d), start = 0;
+  if (std::abs(a) > 0.25 * dd) {
+    start = -b / a;
+    o += start * d;
+    b = quadric.half_slope(o, d);
+  }
+  const double c = quadric.value(o);
+  const double size = glm::length(o) + std::abs(quadric.constant) + std::abs(quadric.linear_z);
+  if (a == 0 && std::abs(b) <= 4 * kEpsilon * std::sqrt(dd) * size) return hits;
+
+  hits.square = a;
+  if (a == 0) {
+    hits.count = 1;
+    hits.s[0] = -0.5 * c / b;
+  } else {
+    double root = discriminant(a, b, c);
+    if (!(root > 0)) {
+      // A line inside a cone's opening crosses both nappes, through the apex as well; rounding must not lose that.
+      const bool cone = quadric.squares.z < 0 && quadric.constant == 0 && quadric.linear_z == 0;
+      if (!(cone && a < 0)) return hits;
+      root = 0;
+    }
+    const double q = -(b + std::copysign(std::sqrt(root), b));
+    hits.count = 2;
+    hits.s = {q / a, q == 0 ? 0.0 : c / q};
+    if (hits.s[0] > hits.s[1]) std::swap(hits.s[0], hits.s[1]);
+  }
+  for (int i = 0; i < hits.count; ++i) {
+    double& s = hits.s[i];
+    Vec3 p = o + s * d;
+    const double slope = quadric.half_slope(p, d);
+    const double step = -0.5 * quadric.value(p) / slope;
+    if (std::abs(step) <= 1e-6 * std::abs(s)) {
+      s += step;
+      p = o + s * d;
+    }
+    hits.point[i] = p;
+    s += start;
+  }
+  return hits;
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,42 @@
+// Sphere by longitude and latitude (Golovanov 2016, 3.2): x^2 + y^2 + z^2 = R^2, N = R^2 cos v (outward unit vector).
+#include "geometry/surfaces/sphere.h"
+
+#include "geometry/curves/conic_forms.h"
+#include "geometry/surfaces/parameter_range.h"
+
+namespace lekalo::geometry {
+
+namespace {
+const DomainRules kRules{{Interval::entire(), SphereSurface::kFull.v}, true, true};
+}
+
+SphereSurface::SphereSurface(const Frame& frame, double radius, const Rectangle& domain)
+    : MeridianFormula(frame, 1, 1, domain), radius_(radius) {
+  if (!(radius > 0)) throw std::invalid_argument("the radius of a sphere must be positive");
+  check_domain(domain, kRules);
+}
+
+NurbsCurveForm SphereSurface::meridian_form() const {
+  NurbsCurveForm form = circle_form(domain_.v);
+  for (Vec4& p : form.points) p = {radius_ * p.x, radius_ * p.y, 0, p.w};
+  return form;
+}
+
+void SphereSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
+  add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(radius_), line, t, hits,
+                   [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
+}
+
+TypeDeclaration sphere_surface_type() {
+  return declare(Category::surface, "sphere_surface",
+                 "Sphere, or a part of it between meridians and parallels; the normal points outward.")
+      .field("frame", frame(), "placement: the center, the axis z through the poles, x at longitude 0", "{}")
+      .field("radius", length().positive(), "radius")
+      .field("domain", rectangle(), "part of the sphere: u longitude, v latitude, in radians (90 deg is accepted)",
+             "{ u: [0, 2*pi], v: [-pi/2, pi/2] }")
+      .built_by([](const Fields& f) {
+        return SphereSurface(f.frame(), f.number("radius"), read_domain(f, SphereSurface::kFull, kRules));
+      });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "geometry/surfaces/meridian_surface.h"
+
+namespace lekalo::geometry {
+
+// r(u, v) = o + R (cos v cos u x + cos v sin u y + sin v z); u the longitude, v the latitude, radians.
+// The normal points outward; poles at v = -pi/2, pi/2.
+class SphereSurface final : public MeridianFormula<SphereSurface> {
+ public:
+  static constexpr Rectangle kFull{{0, kTwoPi}, {-0.5 * kPi, 0.5 * kPi}};
+
+  // Radius > 0, domain within a turn and [-pi/2, pi/2]; throws std::invalid_argument.
+  SphereSurface(const Frame& frame, double radius, const Rectangle& domain = kFull);
+  double radius() const { return radius_; }
+
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+
+  template <class T>
+  MeridianPoint<T> meridian_at(const T& v) const {
+    using std::cos;
+    using std::sin;
+    return {radius_ * cos(v), radius_ * sin(v)};
+  }
+
+ private:
+  NurbsCurveForm meridian_form() const override;
+  double radius_;
+};
+
+}  // namespace lekalo::geometry
