@@ -6,11 +6,14 @@
   X(sphere_surface_type)         \
   X(cylinder_surface_type)       \
   X(cone_surface_type)           \
+  X(torus_surface_type)          \
   X(ellipsoid_type)              \
   X(hyperboloid_one_sheet_type)  \
   X(hyperboloid_two_sheets_type) \
   X(elliptic_paraboloid_type)    \
-  X(hyperbolic_paraboloid_type)
+  X(hyperbolic_paraboloid_type)  \
+  X(extrusion_surface_type)      \
+  X(revolution_surface_type)
 
 namespace lekalo::geometry {
 

@@ -61,7 +61,10 @@ Vec3 MeridianSurface::normal(double u, double v) const {
   double side = m.rho[0];
   // On the axis the side is that of the domain's inside.
   const double reach = std::abs(m.rho[1]) + std::abs(m.z[1]);
-  if (std::abs(side) <= 1e-14 * reach) side = domain_.v.middle() >= v ? m.rho[1] : -m.rho[1];
+  if (std::abs(side) <= 1e-14 * reach) {
+    const double step = bounded() ? 1e-3 * domain_.v.width() : 1e-3;
+    side = meridian(domain_.v.middle() < v ? v - step : v + step, 0).rho[0];
+  }
   const Vec3 local(b_ * m.z[1] * std::cos(u), a_ * m.z[1] * std::sin(u), -a_ * b_ * m.rho[1]);
   return (side < 0 ? -normal_sign() : normal_sign()) * glm::normalize(frame_.direction(local));
 }

@@ -1,0 +1,151 @@
+// Torus (Golovanov 2016, 3.2): (sqrt(x^2 + y^2) - R)^2 + z^2 = r^2, N = rho r (cos u cos v, sin u cos v, sin v).
+//
+// Hits of a line: with g = x^2 + y^2 + z^2 + R^2 - r^2, F = g^2 - 4 R^2 (x^2 + y^2) is a quartic in t whose zeros with
+// g >= 0 belong to the ring, horn or apple, those with g <= 0 to the lemon. Where the two sheets meet, at the tips, the
+// sign of g is only rounding; but where g = 0 on the line, F <= 0: so each stretch before the first and after the
+// second zero of g has an odd number of apple hits, the stretch between an even number of lemon hits, and a hit that
+// rounding hides at a tip is put back at the end of its stretch.
+#include "geometry/surfaces/torus.h"
+
+#include "geometry/curves/conic_forms.h"
+#include "geometry/numerics/polynomial.h"
+#include "geometry/surfaces/parameter_range.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+DomainRules rules(double major, double minor) {
+  DomainRules result;
+  result.v_is_angle = true;
+  if (major < minor) result.limits.v = TorusSurface::full_domain(major, minor).v;
+  return result;
+}
+
+// At most four crossings in a stretch, increasing; a line that touches does not count.
+struct Crossings {
+  int count = 0;
+  std::array<double, 5> s{};
+  void add(double x) { s[count++] = x; }
+};
+
+Crossings crossings(const std::array<double, 5>& quartic, const Interval& stretch) {
+  Crossings result;
+  for (const auto& root : quartic_roots(quartic, stretch))
+    if (!root.tangent) result.add(root.x);
+  return result;
+}
+
+double value(const std::array<double, 5>& c, double s) {
+  return (((c[4] * s + c[3]) * s + c[2]) * s + c[1]) * s + c[0];
+}
+
+}  // namespace
+
+Rectangle TorusSurface::full_domain(double major, double minor) {
+  if (major >= minor) return {{0, kTwoPi}, {-kPi, kPi}};
+  const double v = kPi - std::acos(std::max(-1.0, major / minor));
+  return {{0, kTwoPi}, {-v, v}};
+}
+
+TorusSurface::TorusSurface(const Frame& frame, double major, double minor, const Rectangle& domain)
+    : MeridianFormula(frame, 1, 1, domain), major_(major), minor_(minor) {
+  if (!(minor > 0)) throw std::invalid_argument("the minor radius of a torus must be positive");
+  if (!(major > -minor)) throw std::invalid_argument("the major radius of a torus must be greater than -minor radius");
+  check_domain(domain, rules(major, minor));
+}
+
+NurbsCurveForm TorusSurface::meridian_form() const {
+  NurbsCurveForm form = circle_form(domain_.v);
+  for (Vec4& p : form.points) p = {major_ * p.w + minor_ * p.x, minor_ * p.y, 0, p.w};
+  return form;
+}
+
+void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
+  if (major_ == 0) {
+    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(minor_), line, range, hits,
+                     [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
+    return;
+  }
+  // In units of R + r, the direction a unit vector, s measured from the point nearest to the center.
+  const MovedLine moved = moved_near(line, frame_.origin, frame_);
+  const double size = std::abs(major_) + minor_, speed = glm::length(moved.direction);
+  const double major = major_ / size, minor = minor_ / size;
+  const Vec3 o = moved.origin / size, d = moved.direction / speed;
+  const double square = glm::dot(o, o);
+  if (!(square <= 1 + 1e-9)) return;
+  const double reach = std::sqrt(std::max(0.0, 1 - square)) + 1e-6;
+
+  const double b = glm::dot(o, d), k = square + (major - minor) * (major + minor), four = 4 * major * major;
+  const double alpha = d.x * d.x + d.y * d.y, beta = o.x * d.x + o.y * d.y, gamma = o.x * o.x + o.y * o.y;
+  const std::array<double, 5> quartic{k * k - four * gamma, 4 * b * k - 2 * four * beta,
+                                      4 * b * b + 2 * k - four * alpha, 4 * b, 1};
+  const auto add = [&](double s) {
+    // Newton on (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic.
+    for (int step = 0; step < 2; ++step) {
+      const Vec3 p = o + s * d;
+      const double rho = std::hypot(p.x, p.y), across = rho - major;
+      const double f = across * across + (p.z - minor) * (p.z + minor);
+      const double change = -0.5 * f / (across * (p.x * d.x + p.y * d.y) / rho + p.z * d.z);
+      if (!(std::abs(change) <= 1e-6)) break;
+      s += change;
+    }
+    const double t = moved.start + s * (size / speed);
+    if (!range.contains(t)) return;
+    const Vec3 p = o + s * d;
+    const auto u = angle_within(domain_.u, std::atan2(p.y, p.x));
+    const auto v = angle_within(domain_.v, std::atan2(p.z, std::hypot(p.x, p.y) - major));
+    if (u && v) hits.add({t, *u, *v});
+  };
+  const auto add_all = [&](const Crossings& found) {
+    for (int i = 0; i < found.count; ++i) add(found.s[i]);
+  };
+
+  const double discriminant = b * b - k;
+  if (major >= minor || !(discriminant > 0)) {  // g >= 0 everywhere: no lemon
+    if (major > 0) add_all(crossings(quartic, {-reach, reach}));
+    return;
+  }
+  const double first = -b - std::sqrt(discriminant), second = -b + std::sqrt(discriminant);
+  if (major > 0) {
+    Crossings before = crossings(quartic, {-reach, first}), after = crossings(quartic, {second, reach});
+    if (before.count % 2 == 0) before.add(first);
+    if (after.count % 2 == 0) after.add(second);
+    add_all(before);
+    add_all(after);
+  } else {
+    Crossings inside = crossings(quartic, {first, second});
+    if (inside.count % 2 != 0)
+      inside.add(std::abs(value(quartic, first)) < std::abs(value(quartic, second)) ? first : second);
+    // From tip to tip along the axis both crossings stand at the ends.
+    if (inside.count == 0 && value(quartic, 0.5 * (first + second)) > 0) {
+      inside.add(first);
+      inside.add(second);
+    }
+    add_all(inside);
+  }
+}
+
+TypeDeclaration torus_surface_type() {
+  return declare(Category::surface, "torus_surface",
+                 "Ring, horn, apple or lemon torus about the axis z of its frame; the normal points away from the "
+                 "center line of the tube.")
+      .field("frame", frame(), "placement: the center, the axis of symmetry z, x at the angle 0", "{}")
+      .field(
+          "major_radius", length(),
+          "radius R of the center circle: R > minor_radius a ring, equal a horn, smaller an apple (outer sheet), 0 a "
+          "sphere, negative a lemon (inner sheet)")
+      .field("minor_radius", length().positive(), "radius r of the tube")
+      .optional("domain", rectangle(),
+                "part of the surface, in radians: u around the axis, v around the tube from its outside; "
+                "{ u: [0, 2*pi], v: [-pi, pi] } by default, of apple and lemon the part between the tips")
+      .check("major_radius > -minor_radius", "the sheet is empty: major_radius must be greater than -minor_radius")
+      .built_by([](const Fields& f) {
+        const double major = f.number("major_radius"), minor = f.number("minor_radius");
+        if (!(major > -minor)) throw FieldError("major_radius", "must be greater than -minor_radius");
+        const Rectangle full = TorusSurface::full_domain(major, minor);
+        return TorusSurface(f.frame(), major, minor, read_domain(f, full, rules(major, minor)));
+      });
+}
+
+}  // namespace lekalo::geometry
