@@ -68,6 +68,13 @@ struct Knots {
   std::vector<double> values;  // the full vector
 };
 
+// Width and height of a picture; 0 stands for `auto`.
+struct PictureSize {
+  double width = 0;
+  double height = 0;
+  bool on_paper = false;  // millimetres rather than pixels
+};
+
 // What a field accepts.
 enum class Kind {
   number,       // double; `dimension` says plain, length or angle
@@ -165,6 +172,9 @@ FieldType group(std::vector<Field> fields);
 FieldType groups(std::vector<Field> fields);
 FieldType transform();
 FieldType page_length();
+FieldType picture_size();
+FieldType words(std::vector<std::string> words);
+FieldType texts();
 
 struct Field {
   std::string name;
