@@ -15,9 +15,9 @@ using geometry::Grid;
 
 std::optional<Vec3> Builder::read_coordinates(const Value& value, const Counters& counters) {
   if (!value.is_sequence() || value.items.size() < 2 || value.items.size() > 3) {
-    diagnostics_.error(value.place,
-                       value.is_sequence() ? fmt::format("a point has 2 or 3 coordinates, found {}", value.items.size())
-                                           : fmt::format("expected coordinates [x, y, z], found {}", kind_name(value)));
+    diagnostics_.error(value.place, value.is_sequence()
+                                        ? fmt::format("a point has 2 or 3 coordinates, found {}", value.items.size())
+                                        : fmt::format("expected coordinates [x, y, z], found {}", kind_name(value)));
     return std::nullopt;
   }
   Vec3 point(0);
@@ -50,7 +50,8 @@ std::optional<Vec3> Builder::read_place_on(const Value& map, const Counters& cou
   const Value* of = map.find("of");
   if (!of) {
     if (map.find("page"))
-      diagnostics_.error(map.place, "a place on the page is no point of space", "give coordinates or a place { of: ... }");
+      diagnostics_.error(map.place, "a place on the page is no point of space",
+                         "give coordinates or a place { of: ... }");
     else
       diagnostics_.error(map.place, "expected a point",
                          "coordinates [x, y, z], the name of a point, or a place { of: curve, t: ... }");
@@ -111,8 +112,7 @@ std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& cou
     const Value* of = value.find("of");
     const Value* which = value.find("vector");
     if (!of || !which || !which->is_scalar()) {
-      diagnostics_.error(value.place, "expected a direction",
-                         "x, [a, b, c] or { of: curve, t: ..., vector: tangent }");
+      diagnostics_.error(value.place, "expected a direction", "x, [a, b, c] or { of: curve, t: ..., vector: tangent }");
       return std::nullopt;
     }
     const Category wanted[] = {Category::curve, Category::surface};
@@ -149,7 +149,8 @@ std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& cou
         result = (*surface)->normal(*u, *v);
     }
     if (!result) {
-      diagnostics_.error(which->place, fmt::format("'{}' is no vector of a {}", which->text, geometry::name(built->category)),
+      diagnostics_.error(which->place,
+                         fmt::format("'{}' is no vector of a {}", which->text, geometry::name(built->category)),
                          built->category == Category::curve ? "tangent, normal or binormal" : "normal, du or dv");
       return std::nullopt;
     }
@@ -364,8 +365,9 @@ std::optional<Affine> Builder::read_transform_step(const Value& step, const Coun
       kind = &entry;
     } else if (name != "axis" && name != "about" && name != "repeat") {
       const auto nearest = geometry::nearest_name(name, kinds);
-      diagnostics_.error(entry.key.place, fmt::format("unknown step '{}' of a transform{}", name,
-                                                      nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
+      diagnostics_.error(entry.key.place,
+                         fmt::format("unknown step '{}' of a transform{}", name,
+                                     nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
                          "translate, rotate (with axis), scale, mirror or matrix; about: the point that stays");
       return std::nullopt;
     }

@@ -19,8 +19,8 @@ using geometry::SurfacePtr;
 
 namespace {
 
-constexpr int kDeepestNesting = 64;        // inline maps and references
-constexpr size_t kMostRepeats = 1000000;   // of one repeat
+constexpr int kDeepestNesting = 64;       // inline maps and references
+constexpr size_t kMostRepeats = 1000000;  // of one repeat
 
 std::string quoted_list(const std::vector<std::string>& names, size_t most = 12) {
   std::string text;
@@ -207,7 +207,8 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
   const Value* v = value.is_map() ? value.find("v") : nullptr;
   if (u || v) {
     if (!u || !v || value.entries.size() != 2) {
-      diagnostics_.error(value.place, fmt::format("'{}' takes one value for both directions, or {{ u: ..., v: ... }}", field.name));
+      diagnostics_.error(value.place,
+                         fmt::format("'{}' takes one value for both directions, or {{ u: ..., v: ... }}", field.name));
       return false;
     }
   } else {
@@ -299,7 +300,8 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
                                           std::span<const Category> wanted, const char* default_type) {
   if (given.invalid) return std::nullopt;
   if (!given.is_map()) {
-    diagnostics_.error(given.place, fmt::format("expected {} as a map with a type, found {}", describe(wanted), kind_name(given)));
+    diagnostics_.error(given.place,
+                       fmt::format("expected {} as a map with a type, found {}", describe(wanted), kind_name(given)));
     return std::nullopt;
   }
   if (depth_ >= kDeepestNesting) {
@@ -336,18 +338,20 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
     const std::vector<std::string> known = type_names(wanted);
     const auto nearest = geometry::nearest_name(name, known);
     if (!meant.empty())
-      diagnostics_.error(type_place, fmt::format("'{}' exists for several kinds", name), "say which: " + quoted_list(meant));
+      diagnostics_.error(type_place, fmt::format("'{}' exists for several kinds", name),
+                         "say which: " + quoted_list(meant));
     else
-      diagnostics_.error(type_place,
-                         fmt::format("unknown type '{}'{}", name,
-                                     nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
-                         nearest ? "" : "one of " + quoted_list(known, 40));
+      diagnostics_.error(
+          type_place,
+          fmt::format("unknown type '{}'{}", name, nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
+          nearest ? "" : "one of " + quoted_list(known, 40));
     return std::nullopt;
   }
   if (!contains(wanted, type->category)) {
-    diagnostics_.error(type_place, fmt::format("'{}' makes a {}, but {} is wanted here", name,
-                                               geometry::name(type->category), describe(wanted)),
-                       "one of " + quoted_list(type_names(wanted), 40));
+    diagnostics_.error(
+        type_place,
+        fmt::format("'{}' makes a {}, but {} is wanted here", name, geometry::name(type->category), describe(wanted)),
+        "one of " + quoted_list(type_names(wanted), 40));
     return std::nullopt;
   }
   std::vector<std::string> common = {"type", "like", "repeat"};
@@ -491,11 +495,12 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
     if (values)
       for (const Entry& entry : values->entries) names.push_back(entry.key.name);
     const auto nearest = geometry::nearest_name(*text, names);
-    diagnostics_.error(value.place,
-                       fmt::format("there is {} called '{}'{}",
-                                   is_geometry(wanted.front()) ? "no geometry" : fmt::format("no {}", geometry::name(wanted.front())),
-                                   *text, nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
-                       nearest || names.empty() ? "" : "there are " + quoted_list(names, 20));
+    diagnostics_.error(
+        value.place,
+        fmt::format("there is {} called '{}'{}",
+                    is_geometry(wanted.front()) ? "no geometry" : fmt::format("no {}", geometry::name(wanted.front())),
+                    *text, nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
+        nearest || names.empty() ? "" : "there are " + quoted_list(names, 20));
     return std::nullopt;
   }
   NamedThing& thing = things->find(found.entry->key.name)->second;
@@ -562,7 +567,8 @@ std::optional<Built> Builder::refer(const Value& value, const Counters& counters
   auto all = named(value, wanted);
   if (!all) return std::nullopt;
   if (all->size() != 1) {
-    diagnostics_.error(value.place, fmt::format("'{}' is a family of {}; one thing is wanted here", value.text, all->size()),
+    diagnostics_.error(value.place,
+                       fmt::format("'{}' is a family of {}; one thing is wanted here", value.text, all->size()),
                        fmt::format("name a member, for example {}.0", value.text));
     return std::nullopt;
   }

@@ -34,8 +34,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 std::string range_text(const FieldType& type, double scale) {
   const bool lower = std::isfinite(type.minimum), upper = std::isfinite(type.maximum);
-  if (lower && upper)
-    return fmt::format("between {:.9g} and {:.9g}", type.minimum * scale, type.maximum * scale);
+  if (lower && upper) return fmt::format("between {:.9g} and {:.9g}", type.minimum * scale, type.maximum * scale);
   if (lower) return fmt::format("{} {:.9g}", type.minimum_excluded ? "greater than" : "at least", type.minimum * scale);
   return fmt::format("{} {:.9g}", type.maximum_excluded ? "less than" : "at most", type.maximum * scale);
 }
@@ -56,15 +55,15 @@ std::optional<double> Builder::read_number_by(const FieldType& type, const Value
     // Model lengths never carry a unit.
     const std::string& t = value.text;
     for (const char* unit : {"mm", "cm", "pt", "px", "in"})
-      if (t.size() > 2 && t.ends_with(unit) && (std::isdigit(static_cast<unsigned char>(t[t.size() - 3])) || t[t.size() - 3] == ' ')) {
+      if (t.size() > 2 && t.ends_with(unit) &&
+          (std::isdigit(static_cast<unsigned char>(t[t.size() - 3])) || t[t.size() - 3] == ' ')) {
         diagnostics_.error(value.place, fmt::format("a length of the model has no unit, found '{}'", t),
                            "write the bare number; info.unit says what one scene unit is");
         return std::nullopt;
       }
   }
   const bool is_angle = type.dimension == Dimension::angle;
-  const std::optional<double> x =
-      is_angle ? parameters_.angle(value, counters) : parameters_.number(value, counters);
+  const std::optional<double> x = is_angle ? parameters_.angle(value, counters) : parameters_.number(value, counters);
   if (!x) return std::nullopt;
   // Ranges of angles are declared in radians and shown in degrees.
   const double scale = is_angle ? 180 / geometry::kPi : 1;
@@ -300,7 +299,8 @@ std::optional<geometry::PictureSize> Builder::read_picture_size(const Value& val
     }
     const double most = paper ? 5000 : 65536;
     if (!(*sides[k] >= 1 && *sides[k] <= most)) {
-      diagnostics_.error(item.place, fmt::format("a side of a picture is between 1 and {:.9g} {}", most, paper ? "mm" : "pixels"));
+      diagnostics_.error(item.place,
+                         fmt::format("a side of a picture is between 1 and {:.9g} {}", most, paper ? "mm" : "pixels"));
       return std::nullopt;
     }
   }
@@ -326,10 +326,12 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     report(diagnostics_, value, reading.slip());
     return std::nullopt;
   };
-  if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots && is_word(type, value))
+  if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots &&
+      is_word(type, value))
     return std::any(value.text);
   switch (type.kind) {
-    case Kind::number: return wrap(read_number_by(type, value, counters));
+    case Kind::number:
+      return wrap(read_number_by(type, value, counters));
     case Kind::integer: {
       const auto n = parameters_.integer(value, counters);
       if (!n) return std::nullopt;
@@ -339,17 +341,20 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       }
       return std::any(*n);
     }
-    case Kind::boolean: return wrap_reading(read_boolean(value));
+    case Kind::boolean:
+      return wrap_reading(read_boolean(value));
     case Kind::choice:
       if (is_word(type, value)) return std::any(value.text);
       diagnostics_.error(value.place,
-                         value.is_scalar() ? fmt::format("unknown word '{}'{}", value.text,
-                                                         suggestion(value.text, type.choices))
-                                           : fmt::format("expected a word, found {}", kind_name(value)),
+                         value.is_scalar()
+                             ? fmt::format("unknown word '{}'{}", value.text, suggestion(value.text, type.choices))
+                             : fmt::format("expected a word, found {}", kind_name(value)),
                          fmt::format("one of {}", join(type.choices)));
       return std::nullopt;
-    case Kind::text: return wrap_reading(read_text(value));
-    case Kind::name: return wrap_reading(read_name(value));
+    case Kind::text:
+      return wrap_reading(read_text(value));
+    case Kind::name:
+      return wrap_reading(read_name(value));
     case Kind::file: {
       const auto name = read_text(value);
       if (!name) return wrap_reading(name);
@@ -361,12 +366,18 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       }
       return std::any(path->string());
     }
-    case Kind::point: return wrap(read_point(value, counters));
-    case Kind::direction: return wrap(read_vector(value, counters, true));
-    case Kind::vector: return wrap(read_vector(value, counters, false));
-    case Kind::axis: return wrap(read_axis(value, counters));
-    case Kind::frame: return wrap(read_frame(value, counters));
-    case Kind::range: return wrap(read_range_by(type, value, counters));
+    case Kind::point:
+      return wrap(read_point(value, counters));
+    case Kind::direction:
+      return wrap(read_vector(value, counters, true));
+    case Kind::vector:
+      return wrap(read_vector(value, counters, false));
+    case Kind::axis:
+      return wrap(read_axis(value, counters));
+    case Kind::frame:
+      return wrap(read_frame(value, counters));
+    case Kind::range:
+      return wrap(read_range_by(type, value, counters));
     case Kind::rectangle: {
       const Value* u = value.find("u");
       const Value* v = value.find("v");
@@ -381,10 +392,14 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       return std::any(geometry::Rectangle{*a, *b});
     }
     case Kind::points:
-    case Kind::points2: return wrap(read_points(type, value, counters));
-    case Kind::net: return wrap(read_net(type, value, counters));
-    case Kind::numbers: return wrap(read_numbers(type, value, counters));
-    case Kind::number_grid: return wrap(read_number_grid(type, value, counters));
+    case Kind::points2:
+      return wrap(read_points(type, value, counters));
+    case Kind::net:
+      return wrap(read_net(type, value, counters));
+    case Kind::numbers:
+      return wrap(read_numbers(type, value, counters));
+    case Kind::number_grid:
+      return wrap(read_number_grid(type, value, counters));
     case Kind::indices: {
       std::vector<std::vector<int>> lists;
       for (const Scoped& row : items(value, counters)) {
@@ -398,9 +413,12 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       }
       return std::any(lists);
     }
-    case Kind::knots: return wrap(read_knots(type, value, counters));
-    case Kind::color: return read_color(type, value, counters);
-    case Kind::formula: return wrap(read_formula(type, value, counters));
+    case Kind::knots:
+      return wrap(read_knots(type, value, counters));
+    case Kind::color:
+      return read_color(type, value, counters);
+    case Kind::formula:
+      return wrap(read_formula(type, value, counters));
     case Kind::formulas: {
       std::vector<Expression> all;
       for (const Scoped& item : items(value, counters)) {
@@ -432,7 +450,8 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       std::vector<Fields> all;
       for (const Scoped& item : items(value, counters)) {
         if (!item.value->is_map()) {
-          diagnostics_.error(item.value->place, fmt::format("expected a map of fields, found {}", kind_name(*item.value)));
+          diagnostics_.error(item.value->place,
+                             fmt::format("expected a map of fields, found {}", kind_name(*item.value)));
           return std::nullopt;
         }
         auto one = read_fields(*type.fields, *item.value, item.counters, "this map", {"repeat"});
@@ -441,13 +460,15 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       }
       return std::any(all);
     }
-    case Kind::transform: return wrap(read_transform(value, counters));
+    case Kind::transform:
+      return wrap(read_transform(value, counters));
     case Kind::page_length: {
       const auto length = read_page_length(value);
       if (!length) return wrap_reading(length);
       return std::any(length->millimetres(96));
     }
-    case Kind::picture_size: return wrap(read_picture_size(value, counters));
+    case Kind::picture_size:
+      return wrap(read_picture_size(value, counters));
     case Kind::texts: {
       std::vector<std::string> all;
       for (const Scoped& item : items(value, counters)) {

@@ -64,8 +64,7 @@ std::optional<Expression> Parameters::bind(const Value& value, const Counters& c
 }
 
 std::optional<Expression> Parameters::bind(const Value& value, std::string_view text, std::size_t start,
-                                           const Counters& counters,
-                                           std::span<const Expression::Variable> variables) {
+                                           const Counters& counters, std::span<const Expression::Variable> variables) {
   if (value.invalid) return std::nullopt;
   const auto report = [&](const ExpressionError& error) {
     diagnostics_.error(value.place_of(start + error.offset, 1), error.message, error.hint);
@@ -117,9 +116,10 @@ std::optional<double> Parameters::finish(const Value& value, const Expression& e
     return std::nullopt;
   }
   if (!std::isfinite(result)) {
-    diagnostics_.error(value.place,
-                       fmt::format("the formula has no finite value ({})", std::isnan(result) ? "not a number" : "infinite"),
-                       "division by zero, or the root or logarithm of a negative number");
+    diagnostics_.error(
+        value.place,
+        fmt::format("the formula has no finite value ({})", std::isnan(result) ? "not a number" : "infinite"),
+        "division by zero, or the root or logarithm of a negative number");
     return std::nullopt;
   }
   return result;

@@ -21,22 +21,26 @@ std::vector<Field> info_fields() {
 
 std::vector<Field> image_fields() {
   using namespace geometry;
-  return {{"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
-          {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
-          {"margin", page_length(), "free border of a drawing", false, {}},
-          {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
-          {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
-          {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
-          {"seed", integer().non_negative(), "of the sample positions", false, "0"},
-          {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
-          {"background", color().non_negative(), "behind everything", false, "white"}};
+  return {
+      {"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
+      {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
+      {"margin", page_length(), "free border of a drawing", false, {}},
+      {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
+      {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
+      {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
+      {"seed", integer().non_negative(), "of the sample positions", false, "0"},
+      {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
+      {"background", color().non_negative(), "behind everything", false, "white"}};
 }
 
 std::vector<Field> object_fields() {
   using namespace geometry;
   return {
-      {"shape", references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}),
-       "what is shown: a name, a family or an inline map", true, {}},
+      {"shape",
+       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}),
+       "what is shown: a name, a family or an inline map",
+       true,
+       {}},
       {"name", text(), "in messages, layers and drawings; the shape's name by default", false, {}},
       {"material", reference({Category::material}), "name or inline map; a neutral grey by default", false, {}},
       {"back_material", reference({Category::material}), "of the side that the normals look away from", false, {}},
@@ -52,7 +56,9 @@ std::vector<Field> object_fields() {
        groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
                {"normal", direction(), "towards what is cut away", true, {}},
                {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
-       "planes that cut away what lies beyond them", false, {}},
+       "planes that cut away what lies beyond them",
+       false,
+       {}},
       {"transform", transform(), "steps in the order in which they happen", false, {}}};
 }
 
@@ -72,16 +78,27 @@ const std::vector<SectionDeclaration>& sections() {
   static const std::vector<SectionDeclaration> all = {
       {"lekalo", "version of the scene language: 1; the first key of every scene file", Shape::free, {}, {}},
       {"info", "title, figure number and source of the scene", Shape::fields, info_fields(), {}},
-      {"include", "files read before this one: a name, or { file, as: prefix, set: { parameter: value } }", Shape::free, {}, {}},
+      {"include",
+       "files read before this one: a name, or { file, as: prefix, set: { parameter: value } }",
+       Shape::free,
+       {},
+       {}},
       {"parameters", "named numbers and angles that every formula may use", Shape::numbers, {}, {}},
-      {"geometry", "named points, curves, surfaces, bodies and meshes, in any order", Shape::named, {},
+      {"geometry",
+       "named points, curves, surfaces, bodies and meshes, in any order",
+       Shape::named,
+       {},
        {Category::point, Category::curve, Category::surface, Category::body, Category::mesh}},
       {"materials", "named materials", Shape::named, {}, {Category::material}},
       {"lights", "named lights; {} means none; a studio by default", Shape::named, {}, {Category::light}},
       {"camera", "from where the scene is seen; everything, framed, by default", Shape::one_of, {}, {Category::camera}},
       {"image", "size and sampling of the picture", Shape::fields, image_fields(), {}},
       {"integrator", "how light is computed", Shape::one_of, {}, {Category::integrator}},
-      {"objects", "what is shown and how; every entity that nothing else uses by default", Shape::list, object_fields(), {}},
+      {"objects",
+       "what is shown and how; every entity that nothing else uses by default",
+       Shape::list,
+       object_fields(),
+       {}},
       {"styles", "named styles of lines, markers and text of drawings", Shape::free, {}, {}},
       {"drawing", "page-wide choices of drawings", Shape::free, {}, {}},
       {"panels", "several views on one page", Shape::free, {}, {}},
