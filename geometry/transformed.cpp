@@ -1,157 +1,130 @@
-// Jets map by the linear part; enclosures by the same map in interval arithmetic; homogeneous control points (w p, w)
-// to (w M p, w); normals by the inverse transpose times the determinant's sign (Golovanov 2016, 1.4). Hits are found in
-// the surface's own space: the line moves near to it first, so that a distant origin costs no figures.
+// Jets map by the linear part, enclosures by the same in interval arithmetic, homogeneous control points (w p, w) to
+// (w M p, w), normals by the inverse transpose times the determinant's sign (Golovanov 2016, 1.4). A line goes to the
+// original's own space, whose formula finds the hits.
 #include "geometry/transformed.h"
 
-#include <cmath>
 #include <stdexcept>
 
-#include "geometry/formula.h"
 #include "geometry/surfaces/local_line.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-Vec4 image(const Affine& map, const Vec4& p) { return {map.linear * Vec3(p) + p.w * map.offset, p.w}; }
-
-Triple<Interval> image_direction(const Affine& map, const Box3& box) {
-  const Triple<Interval> v = triple(box);
-  return v.x * triple(map.linear[0]) + v.y * triple(map.linear[1]) + v.z * triple(map.linear[2]);
-}
-Box3 image_box(const Affine& map, const Box3& box) { return box_of(image_direction(map, box) + triple(map.offset)); }
-
-// The sign of the determinant; throws for a map that has no inverse.
-double orientation(const Affine& map) {
-  const double determinant = map.determinant();
-  const double largest = glm::length(map.linear[0]) * glm::length(map.linear[1]) * glm::length(map.linear[2]);
-  if (!(std::abs(determinant) > 1e-14 * largest))
-    throw std::invalid_argument("the transform flattens space: its determinant is zero");
-  return determinant < 0 ? -1 : 1;
+// The image of a box, rounded outward.
+Box3 image_of(const Box3& box, const Mat3& linear, const Vec3& offset) {
+  if (box.empty()) return box;
+  Box3 result;
+  for (int row = 0; row < 3; ++row) {
+    Interval sum = offset[row];
+    for (int k = 0; k < 3; ++k) sum += Interval(linear[k][row]) * Interval(box.lo[k], box.hi[k]);
+    result.lo[row] = sum.lo;
+    result.hi[row] = sum.hi;
+  }
+  return result;
 }
 
-class TransformedCurve final : public Curve {
- public:
-  TransformedCurve(CurvePtr curve, const Affine& map) : curve_(std::move(curve)), map_(map) { orientation(map); }
-  const CurvePtr& original() const { return curve_; }
-  const Affine& map() const { return map_; }
-
-  Interval domain() const override { return curve_->domain(); }
-  double period() const override { return curve_->period(); }
-  bool is_closed() const override { return curve_->is_closed(); }
-  CurveJet evaluate(double t, int order) const override {
-    CurveJet jet = curve_->evaluate(t, order);
-    for (int k = 0; k <= order; ++k) jet.d[k] = map_.linear * jet.d[k];
-    jet.d[0] += map_.offset;
-    return jet;
-  }
-  CurveEnclosure enclose(const Interval& t, int order) const override {
-    CurveEnclosure result = curve_->enclose(t, order);
-    result.d[0] = image_box(map_, result.d[0]);
-    for (int k = 1; k <= order; ++k) result.d[k] = box_of(image_direction(map_, result.d[k]));
-    return result;
-  }
-  std::vector<CurvePiece> pieces() const override {
-    std::vector<CurvePiece> result = curve_->pieces();
-    for (CurvePiece& piece : result)
-      for (Vec4& p : piece.points) p = image(map_, p);
-    return result;
-  }
-  std::optional<NurbsCurveForm> as_nurbs() const override {
-    auto form = curve_->as_nurbs();
-    if (form)
-      for (Vec4& p : form->points) p = image(map_, p);
-    return form;
-  }
-
- private:
-  CurvePtr curve_;
-  Affine map_;
-};
-
-class TransformedSurface final : public Surface {
- public:
-  TransformedSurface(SurfacePtr surface, const Affine& map)
-      : surface_(std::move(surface)),
-        map_(map),
-        inverse_(map.inverse()),
-        normal_map_(orientation(map) * glm::transpose(inverse_.linear)) {
-    set_reversed(surface_->reversed());
-    const Box3 box = bounds(*surface_);
-    center_ = map.point(box.bounded() ? box.center() : Vec3(0));
-  }
-  const SurfacePtr& original() const { return surface_; }
-  const Affine& map() const { return map_; }
-
-  Rectangle domain() const override { return surface_->domain(); }
-  Periods periods() const override { return surface_->periods(); }
-  SurfaceJet evaluate(double u, double v, int order) const override {
-    SurfaceJet jet = surface_->evaluate(u, v, order);
-    for (int k = 0; k < SurfaceJet::index(0, order) + 1; ++k) jet.values[k] = map_.linear * jet.values[k];
-    jet.values[0] += map_.offset;
-    return jet;
-  }
-  SurfaceEnclosure enclose(const Rectangle& box, int order) const override {
-    SurfaceEnclosure result = surface_->enclose(box, order);
-    result.values[0] = image_box(map_, result.values[0]);
-    for (int k = 1; k < SurfaceJet::index(0, order) + 1; ++k)
-      result.values[k] = box_of(image_direction(map_, result.values[k]));
-    return result;
-  }
-  std::vector<SurfacePiece> pieces() const override {
-    std::vector<SurfacePiece> result = surface_->pieces();
-    for (SurfacePiece& piece : result)
-      for (Vec4& p : piece.points) p = image(map_, p);
-    return result;
-  }
-  std::optional<NurbsSurfaceForm> as_nurbs() const override {
-    auto form = surface_->as_nurbs();
-    if (form)
-      for (Vec4& p : form->points) p = image(map_, p);
-    return form;
-  }
-  DegenerateEdges degenerate_edges() const override { return surface_->degenerate_edges(); }
-  bool bounded() const override { return surface_->bounded(); }
-  bool has_line_formula() const override { return surface_->has_line_formula(); }
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override {
-    const MovedLine moved = moved_near(line, center_);
-    const Line own{inverse_.point(moved.origin), inverse_.direction(moved.direction)};
-    LineHits found;
-    surface_->line_hits(own, Interval::entire(), found);
-    for (int i = 0; i < found.size(); ++i) {
-      const double at = moved.start + found[i].t;
-      if (t.contains(at)) hits.add({at, found[i].u, found[i].v});
-    }
-  }
-  Vec3 normal(double u, double v) const override {
-    const Vec3 parametric = surface_->normal_sign() * surface_->normal(u, v);
-    return normal_sign() * glm::normalize(normal_map_ * parametric);
-  }
-
- private:
-  SurfacePtr surface_;
-  Affine map_, inverse_;
-  Mat3 normal_map_;
-  Vec3 center_;
-};
+void map_points(std::vector<Vec4>& points, const Affine& map) {
+  for (Vec4& p : points) p = Vec4(map.linear * Vec3(p) + p.w * map.offset, p.w);
+}
 
 }  // namespace
 
-CurvePtr transformed_curve(CurvePtr curve, const Affine& map) {
-  if (map.is_identity()) return curve;
-  if (const auto* image = dynamic_cast<const TransformedCurve*>(curve.get()))
-    return transformed_curve(image->original(), map * image->map());
-  return std::make_shared<TransformedCurve>(std::move(curve), map);
+CurveJet TransformedCurve::evaluate(double t, int order) const {
+  CurveJet jet = original_->evaluate(t, order);
+  jet.d[0] = map_.point(jet.d[0]);
+  for (int k = 1; k <= order; ++k) jet.d[k] = map_.direction(jet.d[k]);
+  return jet;
 }
 
-SurfacePtr transformed_surface(SurfacePtr surface, const Affine& map) {
-  if (map.is_identity()) return surface;
-  if (const auto* image = dynamic_cast<const TransformedSurface*>(surface.get())) {
-    auto result = std::make_shared<TransformedSurface>(image->original(), map * image->map());
-    result->set_reversed(surface->reversed());
-    return result;
+CurveEnclosure TransformedCurve::enclose(const Interval& t, int order) const {
+  CurveEnclosure result = original_->enclose(t, order);
+  for (int k = 0; k <= order; ++k) result.d[k] = image_of(result.d[k], map_.linear, k == 0 ? map_.offset : Vec3(0));
+  return result;
+}
+
+std::vector<CurvePiece> TransformedCurve::pieces() const {
+  std::vector<CurvePiece> result = original_->pieces();
+  for (CurvePiece& piece : result) map_points(piece.points, map_);
+  return result;
+}
+
+std::optional<NurbsCurveForm> TransformedCurve::as_nurbs() const {
+  std::optional<NurbsCurveForm> form = original_->as_nurbs();
+  if (form) map_points(form->points, map_);
+  return form;
+}
+
+TransformedSurface::TransformedSurface(SurfacePtr original, const Affine& map)
+    : original_(std::move(original)), map_(map) {
+  const double determinant = map.determinant();
+  const Mat3& a = map.linear;
+  if (!(std::abs(determinant) > 1e-14 * glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2])))
+    throw std::invalid_argument("the transform flattens space: its determinant is 0");
+  inverse_ = map.inverse();
+  orientation_ = determinant > 0 ? 1 : -1;
+  set_reversed(original_->reversed());
+  const Box3 box = bounds(*original_);
+  center_ = map.point(box.bounded() ? box.center() : Vec3(0));
+}
+
+SurfaceJet TransformedSurface::evaluate(double u, double v, int order) const {
+  SurfaceJet jet = original_->evaluate(u, v, order);
+  jet.values[0] = map_.point(jet.values[0]);
+  for (int k = 1; k < (order + 1) * (order + 2) / 2; ++k) jet.values[k] = map_.direction(jet.values[k]);
+  return jet;
+}
+
+SurfaceEnclosure TransformedSurface::enclose(const Rectangle& box, int order) const {
+  SurfaceEnclosure result = original_->enclose(box, order);
+  for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k)
+    result.values[k] = image_of(result.values[k], map_.linear, k == 0 ? map_.offset : Vec3(0));
+  return result;
+}
+
+std::vector<SurfacePiece> TransformedSurface::pieces() const {
+  std::vector<SurfacePiece> result = original_->pieces();
+  for (SurfacePiece& piece : result) map_points(piece.points, map_);
+  return result;
+}
+
+std::optional<NurbsSurfaceForm> TransformedSurface::as_nurbs() const {
+  std::optional<NurbsSurfaceForm> form = original_->as_nurbs();
+  if (form) map_points(form->points, map_);
+  return form;
+}
+
+// An affine map keeps the parameter along a line. The line starts anew near the surface before it is mapped: the map of
+// a distant origin would lose as many digits as it is farther away than the surface is large.
+void TransformedSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
+  const MovedLine moved = moved_near(line, center_);
+  LineHits found;
+  original_->line_hits({inverse_.point(moved.origin), inverse_.direction(moved.direction)}, Interval::entire(), found);
+  for (int i = 0; i < found.size(); ++i) {
+    const double at = moved.start + found[i].t;
+    if (t.contains(at)) hits.add({at, found[i].u, found[i].v});
   }
-  return std::make_shared<TransformedSurface>(std::move(surface), map);
+}
+
+Vec3 TransformedSurface::normal(double u, double v) const {
+  const Vec3 n = original_->normal_sign() * original_->normal(u, v);
+  return normal_sign() * orientation_ * glm::normalize(glm::transpose(inverse_.linear) * n);
+}
+
+CurvePtr transformed(const CurvePtr& curve, const Affine& map) {
+  if (map.is_identity()) return curve;
+  if (const auto* inner = dynamic_cast<const TransformedCurve*>(curve.get()))
+    return std::make_shared<TransformedCurve>(inner->original(), map * inner->map());
+  return std::make_shared<TransformedCurve>(curve, map);
+}
+
+SurfacePtr transformed(const SurfacePtr& surface, const Affine& map) {
+  if (map.is_identity()) return surface;
+  const auto* inner = dynamic_cast<const TransformedSurface*>(surface.get());
+  auto result = inner ? std::make_shared<TransformedSurface>(inner->original(), map * inner->map())
+                      : std::make_shared<TransformedSurface>(surface, map);
+  result->set_reversed(surface->reversed());
+  return result;
 }
 
 }  // namespace lekalo::geometry

@@ -1,16 +1,61 @@
-// Curves and surfaces under affine maps, exactly: nothing is sampled or approximated.
+// Curves and surfaces under an affine map, with their parameters unchanged (Golovanov 2016, 1.4).
 #pragma once
 
+#include "geometry/curve.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
 
-// M r(t) (Golovanov 2016, 2.15.6): the same parameters, period and pieces. A map of an image is folded into one map;
-// the identity gives the curve itself. Throws std::invalid_argument for a map that flattens space.
-CurvePtr transformed_curve(CurvePtr curve, const Affine& map);
+class TransformedCurve final : public Curve {
+ public:
+  TransformedCurve(CurvePtr original, const Affine& map) : original_(std::move(original)), map_(map) {}
+  const CurvePtr& original() const { return original_; }
+  const Affine& map() const { return map_; }
 
-// M r(u, v): the same parameters, periods, pieces and reversed(). The normal is that of r_u x r_v of the image: a
-// mirror does not keep the side that it points to in the way a solid would (reverse it where that is wanted).
-SurfacePtr transformed_surface(SurfacePtr surface, const Affine& map);
+  Interval domain() const override { return original_->domain(); }
+  double period() const override { return original_->period(); }
+  bool is_closed() const override { return original_->is_closed(); }
+  CurveJet evaluate(double t, int order) const override;
+  CurveEnclosure enclose(const Interval& t, int order) const override;
+  std::vector<CurvePiece> pieces() const override;
+  std::optional<NurbsCurveForm> as_nurbs() const override;
+
+ private:
+  CurvePtr original_;
+  Affine map_;
+};
+
+// The normal is that of r_u x r_v of the image, as for every surface: a mirror image of an outward-oriented surface
+// looks inward.
+class TransformedSurface final : public Surface {
+ public:
+  // Throws std::invalid_argument for a singular map.
+  TransformedSurface(SurfacePtr original, const Affine& map);
+  const SurfacePtr& original() const { return original_; }
+  const Affine& map() const { return map_; }
+
+  Rectangle domain() const override { return original_->domain(); }
+  Periods periods() const override { return original_->periods(); }
+  SurfaceJet evaluate(double u, double v, int order) const override;
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  std::vector<SurfacePiece> pieces() const override;
+  std::optional<NurbsSurfaceForm> as_nurbs() const override;
+  DegenerateEdges degenerate_edges() const override { return original_->degenerate_edges(); }
+  bool bounded() const override { return original_->bounded(); }
+  bool has_line_formula() const override { return original_->has_line_formula(); }
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  Vec3 normal(double u, double v) const override;
+
+ private:
+  SurfacePtr original_;
+  Affine map_;
+  Affine inverse_;
+  double orientation_;  // sign of the determinant
+  Vec3 center_;         // a place near the image, where lines are taken from
+};
+
+// The image keeps the original's `reversed`. Maps of maps are multiplied out; the identity gives the original itself.
+CurvePtr transformed(const CurvePtr& curve, const Affine& map);
+SurfacePtr transformed(const SurfacePtr& surface, const Affine& map);
 
 }  // namespace lekalo::geometry

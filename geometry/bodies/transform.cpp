@@ -19,12 +19,12 @@ Body transformed(const Body& body, const Affine& map) {
     vertex.tolerance *= growth;
   }
   for (Edge& edge : result.edges) {
-    edge.curve = transformed_curve(edge.curve, map);
+    edge.curve = transformed(edge.curve, map);
     edge.tolerance *= growth;
   }
   const bool mirrored = map.determinant() < 0;
   for (Face& face : result.faces) {
-    face.surface = transformed_surface(face.surface, map);
+    face.surface = transformed(face.surface, map);
     // In a mirror r_u x r_v turns inward, and a loop with the face on its left gets it on its right.
     if (mirrored) face.forward = !face.forward;
   }

@@ -6,7 +6,7 @@ namespace {
 
 // Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4).
 void bernstein(int n, double s, double* b, double* d) {
-  double lower[32];
+  double lower[32] = {1};
   b[0] = 1;
   for (int k = 1; k <= n; ++k) {
     if (k == n)

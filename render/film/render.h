@@ -12,15 +12,17 @@ namespace lekalo::render {
 
 struct RenderOptions {
   int threads = 0;  // 0: all
-  // Called now and then from one thread with the share done (0..1).
+  // Called now and then, never from two threads at once, with the share done (0..1) and all rays traced so far.
   std::function<void(double done, uint64_t rays)> progress;
-  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: rows not yet begun are left out
+  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: tiles not yet begun are left out
   std::string resume_file;                  // OUTPUT.partial to continue from, empty: none
-  std::string partial_file;                 // where to keep sums when stopped
+  std::string partial_file;  // where to keep the work done when stopped, and once a minute; empty: nowhere
+  uint64_t identity = 0;     // of scene and build: a partial file is continued only with the same identity and film
+  bool key_layer = false;    // add the layer id.key (see RaySample::key), folded to 32 bits
 };
 
 struct RenderResult {
-  Image image;  // the layers R G B A, Z, P, N, Ng, uv, id, albedo, samples, direct
+  Image image;  // see below
   bool complete = true;
   uint64_t camera_rays = 0;
   uint64_t shadow_rays = 0;
@@ -29,6 +31,17 @@ struct RenderResult {
   uint64_t not_finite = 0;  // samples that were NaN or infinite and were left out
 };
 
+// Renders the model's film as its camera sees the world.
+//
+// Filtered layers: R G B A (background included, alpha 0 there), direct.R .G .B. Layers of the sample nearest the
+// pixel's centre, 0 where it hits nothing: Z (distance from the eye, or from the picture plane of a parallel view),
+// P.X .Y .Z, N.* (shading normal), Ng.* (geometric normal), uv.U uv.V, id.object (number of the object in the order of
+// the model, groups before their members, from 1), id.material (in the order of first use, from 1), albedo.R .G .B.
+// `samples` counts the samples of the pixel. Pixels of an unfinished picture are 0 where no tile is done.
+//
+// A picture is the same bits for any number of threads and after any number of stops and resumes. A crop gives the same
+// pixels as the full picture. Throws ImageError for an unreadable or foreign partial file and
+// std::invalid_argument if the film asks for what there is not (filter, empty crop, camera of another size).
 RenderResult render(const World& world, const RenderOptions& options);
 
 }  // namespace lekalo::render

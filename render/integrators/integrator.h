@@ -20,8 +20,10 @@ struct RaySample {
   SurfacePoint point;  // valid when hit
   double depth = 0;    // distance along the ray
   Spectrum albedo;
-  Spectrum direct;   // light of sources on the first hit, without reflections and refractions
+  Spectrum direct;   // light of sources (ambient ones too) on the first hit, without reflections and refractions
   uint64_t key = 0;  // identifies the tree of objects, shadows and texture cells behind this sample
+  uint32_t shadow_rays = 0;
+  uint32_t other_rays = 0;  // reflected and refracted
 };
 
 class Integrator {

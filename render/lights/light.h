@@ -1,4 +1,10 @@
 // Sources of light.
+//
+// Radiometry. A light's `intensity` I is the I_p of Golovanov 2016, 8.4: a white matt surface facing the light shows
+// the radiance I. Lambert's surface of albedo k_d under the irradiance E shows k_d E / pi, so the irradiance that the
+// light gives at right angles is E = pi I: the same everywhere (decay none, the classic model's point light), or at
+// unit distance (decay inverse_square: E = pi I / d^2). The Phong lobe adds k_s cos(alpha)^n E / pi. Ambient light of
+// intensity I_a is the radiance I_a from all sides; a surface shows k_a I_a of it.
 #pragma once
 
 #include <memory>
@@ -11,16 +17,16 @@ namespace lekalo::render {
 struct LightSample {
   Vec3 direction{0, 0, 1};                // unit, from the point towards the light
   double distance = geometry::kInfinity;  // to the sampled place on the light
-  Spectrum radiance;                      // what arrives at the point, per unit cosine, if nothing is in the way
-  double weight = 1;                      // of this sample among those of the light; sums to 1 over all samples
+  Spectrum irradiance;  // E on a surface facing the sample if nothing is in the way, as if all the light came from it
+  double weight = 1;    // of this sample among those of the light; sums to 1 over all samples
 };
 
 class Light {
  public:
   virtual ~Light() = default;
-  // Light that reaches every point from everywhere (I_a); the other lights return none.
+  // Radiance that reaches every point from everywhere (I_a); the other lights return none.
   virtual Spectrum ambient() const { return {}; }
-  // Number of samples to take at a point; 1 for point, spot and distant lights, 0 for ambient ones.
+  // Number of samples to take at a point; 1 for point and spot lights, 0 for ambient ones.
   virtual int sample_count() const { return 1; }
   // Sample `index` of sample_count() at the point; (r1, r2) in [0, 1)^2 jitters it within its stratum and is not used
   // where `sampling: grid` asks for fixed places.

@@ -30,4 +30,8 @@ class Sampler {
 };
 using SamplerPtr = std::shared_ptr<const Sampler>;
 
+// Correlated multi-jittered samples (Kensler 2013): for any number of samples, one in each column and row strip and one
+// in each cell of a near-square grid, shuffled differently in each pixel. samples >= 1.
+SamplerPtr make_stratified_sampler(int samples, uint32_t seed);
+
 }  // namespace lekalo::render

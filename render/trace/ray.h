@@ -38,6 +38,7 @@ struct Hit {
 struct SurfacePoint {
   Vec3 position{0};
   Vec3 smooth_position{0};         // of meshes: on the smooth surface that the normals describe, for rays that leave it
+  Vec3 incoming{0};                // unit direction of the ray that met the point
   Vec3 geometric_normal{0, 0, 1};  // outward (or r_u x r_v) unit normal of what was really hit: a facet for meshes
   Vec3 normal{0, 0, 1};            // unit shading normal on the same side
   Vec3 du{0};

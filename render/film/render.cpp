@@ -1,0 +1,255 @@
+#include "render/film/render.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "render/film/tiles.h"
+
+namespace lekalo::render {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kProgressInterval{100};
+constexpr std::chrono::seconds kSaveInterval{60};
+
+// Materials numbered from 1 in the order in which objects first use them.
+class MaterialNumbers {
+ public:
+  explicit MaterialNumbers(const std::vector<Object>& objects) { add(objects); }
+  uint32_t operator()(const Material& material) const {
+    const auto found = numbers_.find(&material);
+    return found == numbers_.end() ? 0 : found->second;
+  }
+
+ private:
+  void add(const std::vector<Object>& objects) {
+    for (const Object& object : objects) {
+      for (const MaterialPtr& material : {object.material, object.back_material})
+        if (material) numbers_.emplace(material.get(), static_cast<uint32_t>(numbers_.size() + 1));
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) add((*group)->objects);
+    }
+  }
+  std::unordered_map<const Material*, uint32_t> numbers_;
+};
+
+// Traces the pixels of one tile.
+class TileTracer {
+ public:
+  TileTracer(const World& world, TiledFilm& film)
+      : world_(world),
+        film_(film),
+        sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
+        materials_(world.model().objects) {}
+
+  Tally trace(int number) const {
+    constexpr int n = TileSums::kPlanes;
+    const Window tile = film_.tile(number);
+    TileSums& result = film_.sums()[number];
+    const Window w = result.window;
+    std::vector<double> sums(static_cast<size_t>(w.width()) * w.height() * n);
+    const int reach = film_.reach();
+    std::vector<double> weights(2 * reach + 1);
+    Tally tally;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        double nearest = geometry::kInfinity;
+        uint32_t counted = 0;
+        const bool own = film_.crop().contains(x, y);
+        for (int s = 0; s < sampler_->samples_per_pixel(); ++s) {
+          const Vec2 place = sampler_->pixel_position(x, y, s);
+          SampleStream random = sampler_->stream(x, y, s);
+          const Ray ray = world_.model().camera->ray(x + place.x, y + place.y);
+          const RaySample sample = world_.model().integrator->trace(world_, ray, random);
+          ++tally.camera_rays;
+          tally.shadow_rays += sample.shadow_rays;
+          tally.other_rays += sample.other_rays;
+          if (!sample.radiance.is_finite() || !sample.direct.is_finite() || !std::isfinite(sample.alpha)) {
+            ++tally.not_finite;
+            continue;
+          }
+          ++counted;
+          const double values[n] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
+                                    sample.direct[0],   sample.direct[1],   sample.direct[2],   1};
+          for (int i = -reach; i <= reach; ++i) weights[i + reach] = film_.filter().weight(place.x - i - 0.5);
+          for (int qy = std::max(y - reach, w.y0); qy <= std::min(y + reach, w.y1 - 1); ++qy) {
+            const double weight_y = film_.filter().weight(place.y - (qy - y) - 0.5);
+            for (int qx = std::max(x - reach, w.x0); qx <= std::min(x + reach, w.x1 - 1); ++qx) {
+              const double weight = weight_y * weights[qx - x + reach];
+              double* sum = &sums[(static_cast<size_t>(qy - w.y0) * w.width() + (qx - w.x0)) * n];
+              for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
+            }
+          }
+          const Vec2 off = place - 0.5;
+          if (own && glm::dot(off, off) < nearest) {
+            nearest = glm::dot(off, off);
+            store(x, y, sample);
+          }
+        }
+        if (own) film_.image().channels[kSamples].values[pixel(x, y)] = static_cast<float>(counted);
+      }
+    }
+    result.values.assign(sums.begin(), sums.end());
+    return tally;
+  }
+
+ private:
+  size_t pixel(int x, int y) const {
+    const Window& crop = film_.crop();
+    return static_cast<size_t>(y - crop.y0) * crop.width() + (x - crop.x0);
+  }
+
+  // The data layers of a sample.
+  void store(int x, int y, const RaySample& sample) const {
+    std::vector<Channel>& channels = film_.image().channels;
+    const size_t i = pixel(x, y);
+    const auto set = [&](int layer, double value) { channels[layer].values[i] = static_cast<float>(value); };
+    const auto set3 = [&](int layer, const Vec3& v) {
+      for (int k = 0; k < 3; ++k) set(layer + k, v[k]);
+    };
+    const bool hit = sample.hit;
+    const SurfacePoint& point = sample.point;
+    set(kZ, hit ? sample.depth : 0);
+    set3(kPX, hit ? point.position : Vec3(0));
+    set3(kNX, hit ? point.normal : Vec3(0));
+    set3(kNgX, hit ? point.geometric_normal : Vec3(0));
+    set(kU, hit ? point.u : 0);
+    set(kV, hit ? point.v : 0);
+    set3(kAlbedoR, hit ? rgb(sample.albedo) : Vec3(0));
+    const bool front = glm::dot(point.incoming, point.geometric_normal) < 0;
+    channels[kObject].ids[i] = hit ? static_cast<uint32_t>(point.object + 1) : 0;
+    channels[kMaterial].ids[i] = hit ? materials_(world_.material(point, front)) : 0;
+    if (channels.size() > kKey) channels[kKey].ids[i] = static_cast<uint32_t>(sample.key ^ (sample.key >> 32));
+  }
+
+  const World& world_;
+  TiledFilm& film_;
+  SamplerPtr sampler_;
+  MaterialNumbers materials_;
+};
+
+// What is done so far, kept by all threads together.
+class Ledger {
+ public:
+  Ledger(TiledFilm& film, const RenderOptions& options) : film_(film), options_(options) {
+    if (options.resume_file.empty()) return;
+    done_ = read_partial(options.resume_file, film, options.identity, tally_);
+  }
+
+  bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+  bool complete() const { return static_cast<int>(done_.size()) == film_.tile_count(); }
+  const Tally& tally() const { return tally_; }
+  const std::vector<int>& done() const { return done_; }
+
+  void finished(int tile, const Tally& tally) {
+    bool save = false;
+    {
+      std::lock_guard lock(mutex_);
+      done_.push_back(tile);
+      tally_ += tally;
+      const Clock::time_point now = Clock::now();
+      if (options_.progress && now - last_progress_ >= kProgressInterval) {
+        last_progress_ = now;
+        report();
+      }
+      if (!options_.partial_file.empty() && now - last_save_ >= kSaveInterval) {
+        last_save_ = now;
+        save = true;
+      }
+    }
+    if (save) write();
+  }
+
+  void report() const {
+    if (options_.progress)
+      options_.progress(static_cast<double>(done_.size()) / film_.tile_count(),
+                        tally_.camera_rays + tally_.shadow_rays + tally_.other_rays);
+  }
+
+  // The finished tiles do not change any more, so others may go on while this is written.
+  void write() {
+    std::unique_lock writing(write_mutex_, std::try_to_lock);
+    if (!writing) return;
+    std::vector<int> done;
+    Tally tally;
+    {
+      std::lock_guard lock(mutex_);
+      done = done_;
+      tally = tally_;
+    }
+    write_partial(options_.partial_file, film_, options_.identity, done, tally);
+  }
+
+ private:
+  TiledFilm& film_;
+  const RenderOptions& options_;
+  std::mutex mutex_, write_mutex_;
+  std::vector<int> done_;
+  Tally tally_;
+  Clock::time_point last_progress_ = Clock::now(), last_save_ = Clock::now();
+};
+
+void describe(Image& image, const Model& model) {
+  image.metadata["lekalo.samples"] = model.film.samples;
+  image.metadata["lekalo.filter"] = model.film.filter;
+  image.metadata["lekalo.seed"] = static_cast<int>(model.film.seed);
+  if (!model.source.empty()) image.metadata["lekalo.scene"] = model.source;
+  if (!model.title.empty()) image.metadata["lekalo.title"] = model.title;
+  if (!model.unit.empty()) image.metadata["lekalo.unit"] = model.unit;
+  for (const auto& [name, value] : model.parameters) image.metadata["lekalo.parameter." + name] = value;
+}
+
+}  // namespace
+
+RenderResult render(const World& world, const RenderOptions& options) {
+  const Model& model = world.model();
+  if (!model.camera || !model.integrator) throw std::invalid_argument("a picture needs a camera and an integrator");
+  if (model.camera->width() != model.film.width || model.camera->height() != model.film.height)
+    throw std::invalid_argument("the camera was made for a picture of another size");
+  const Clock::time_point begin = Clock::now();
+  TiledFilm film(model.film, options.key_layer);
+  Ledger ledger(film, options);
+  std::vector<char> is_done(film.tile_count(), 0);
+  for (const int tile : ledger.done()) is_done[tile] = 1;
+
+  const TileTracer tracer(world, film);
+  const int threads = options.threads > 0 ? options.threads : tbb::task_arena::automatic;
+  std::unique_ptr<tbb::global_control> more_threads;  // than there are cores, if asked for
+  if (options.threads > 0)
+    more_threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, options.threads);
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, film.tile_count(), 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int tile = range.begin(); tile < range.end(); ++tile) {
+            if (is_done[tile] || ledger.stopped()) continue;
+            ledger.finished(tile, tracer.trace(tile));
+          }
+        },
+        tbb::simple_partitioner());
+  });
+
+  RenderResult result;
+  result.complete = ledger.complete();
+  if (!result.complete && !options.partial_file.empty()) ledger.write();
+  film.develop();
+  describe(film.image(), model);
+  result.image = std::move(film.image());
+  result.camera_rays = ledger.tally().camera_rays;
+  result.shadow_rays = ledger.tally().shadow_rays;
+  result.other_rays = ledger.tally().other_rays;
+  result.not_finite = ledger.tally().not_finite;
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  ledger.report();
+  return result;
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,108 @@
+// The film while it is exposed: tiles of pixels, each the work of one thread.
+//
+// A sample counts for all pixels within the filter's radius, also beyond its tile. So each tile sums its own samples
+// over its pixels and a margin of the filter's reach; in the end a pixel is the sum of the tiles that reach it, in the
+// order of tiles. No sum ever depends on which thread did what when. The tiling belongs to the full picture, not to the
+// crop.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/film/filter.h"
+#include "render/image/image.h"
+#include "render/scene/model.h"
+#include "render/spectrum.h"
+
+namespace lekalo::render {
+
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels, half open
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+  Window grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
+};
+Window intersection(const Window& a, const Window& b);
+
+// Rays and samples of a part of the picture.
+struct Tally {
+  uint64_t camera_rays = 0, shadow_rays = 0, other_rays = 0, not_finite = 0;
+  Tally& operator+=(const Tally& other);
+};
+
+// Sums of one tile: r g b alpha, direct r g b, weight for each pixel of `window`, row by row.
+struct TileSums {
+  static constexpr int kPlanes = 8;
+  Window window;  // the tile with its margin
+  std::vector<float> values;
+};
+
+class TiledFilm {
+ public:
+  // Throws std::invalid_argument for an unknown filter or an empty crop.
+  explicit TiledFilm(const Film& film, bool key_layer);
+
+  int tile_count() const { return static_cast<int>(tiles_.size()); }
+  const Window& tile(int i) const { return tiles_[i]; }  // pixels whose samples the tile takes
+  const Window& crop() const { return crop_; }
+  const Filter& filter() const { return *filter_; }
+  int reach() const { return reach_; }  // pixels beyond its own that a sample counts for
+  Image& image() { return image_; }
+  std::vector<TileSums>& sums() { return sums_; }  // empty values: not done
+
+  // Hash of everything that decides the film's layout and contents but the scene.
+  uint64_t settings_hash() const { return settings_hash_; }
+
+  // Writes the filtered layers of the image from the sums of the tiles that are done.
+  void develop();
+
+ private:
+  Window crop_;
+  std::unique_ptr<const Filter> filter_;
+  int reach_ = 0;
+  std::vector<Window> tiles_;
+  std::vector<TileSums> sums_;
+  Image image_;
+  uint64_t settings_hash_ = 0;
+};
+
+// Places of the layers among the image's channels.
+enum Layer : int {
+  kR,
+  kG,
+  kB,
+  kA,
+  kDirectR,
+  kDirectG,
+  kDirectB,  // filtered
+  kZ,
+  kPX,
+  kPY,
+  kPZ,
+  kNX,
+  kNY,
+  kNZ,
+  kNgX,
+  kNgY,
+  kNgZ,
+  kU,
+  kV,
+  kObject,
+  kMaterial,
+  kAlbedoR,
+  kAlbedoG,
+  kAlbedoB,
+  kSamples,
+  kKey
+};
+
+// The file of a stopped picture (OUTPUT.partial): the tiles done so far and what they cost.
+// `done` lists the numbers of the finished tiles, whose sums and data layers are complete.
+void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, const std::vector<int>& done,
+                   const Tally& tally);
+// Reads it back into the film; returns the numbers of the finished tiles. Throws ImageError.
+std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t identity, Tally& tally);
+
+}  // namespace lekalo::render

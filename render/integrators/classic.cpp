@@ -1,0 +1,341 @@
+// Recursive ray tracing (Golovanov 2016, 8.5, algorithm 2): a ray that meets a surface brings the light of the classic
+// model there (8.4.4) and splits into the mirror ray and the refracted ray. Terms in the order of the code:
+//
+//   emission + k_a I_a / (1 + k_r (r - r_0)) + sum over lights of V E / pi (k_d cos(theta) + k_s cos(alpha)^n)
+//   + mirror radiance(mirror ray) + k_t radiance(refracted ray), all of it times e^(-mu l) of the way to the surface,
+//
+// E / pi the I_p of the book (lights/light.h), V the share of a light sample that shadows let through. Total internal
+// reflection adds k_t to the mirror share. Light refracted at the index for yellow light (line d) is the same for all
+// lanes: the classic model has no dispersion.
+#include "render/integrators/classic.h"
+
+#include "geometry/describe.h"
+#include "render/integrators/classic_model.h"
+#include "render/integrators/media.h"
+#include "render/materials/fresnel.h"
+#include "render/materials/optical_constants.h"
+#include "render/materials/textured_color.h"
+#include "render/trace/world.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Boundaries in a row that are no boundaries for light; more can only be a broken scene.
+constexpr int kMostPasses = 1000;
+constexpr float kOverPi = static_cast<float>(1 / kPi);
+const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
+const Spectrum kWhite{1, 1, 1, 0};
+
+// The light of lights at a point, before the coefficients.
+struct Illumination {
+  Spectrum diffuse;       // sum of V E / pi cos(theta)
+  Spectrum specular;      // sum of V E / pi cos(alpha)^n
+  Spectrum unobstructed;  // sum of E / pi cos(theta)
+};
+
+// A surface point seen by a ray, all normals on the viewer's side.
+struct Seen {
+  SurfacePoint point;
+  bool front = true;
+  Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
+  double length = 0;                             // of the way from the eye
+};
+
+class Tracer {
+ public:
+  Tracer(const World& world, const ClassicOptions& options, double reference_depth, SampleStream& random,
+         RaySample& sample)
+      : world_(world), options_(options), reference_depth_(reference_depth), random_(random), sample_(sample) {
+    for (const LightPtr& light : world.lights()) ambient_ += light->ambient();
+  }
+
+  // `weight`: what the light of this ray is multiplied with on its way to the eye; `length`: of the way up to its
+  // origin.
+  Spectrum radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length);
+
+ private:
+  Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, const ClassicCoefficients& c,
+                 const Media& media, const Media& behind, int depth, const Spectrum& weight);
+  Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
+  Spectrum passing(const Ray& shadow_ray, const Media& media);
+  Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
+  void record(const Seen& seen, const Material& material);
+  void mix(uint64_t value) { sample_.key = hash_combine(sample_.key, value); }
+
+  const World& world_;
+  const ClassicOptions& options_;
+  double reference_depth_;
+  SampleStream& random_;
+  RaySample& sample_;
+  Spectrum ambient_;
+};
+
+Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length) {
+  Spectrum through = kWhite;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    Hit hit;
+    if (!world_.nearest(ray, hit)) {
+      mix(0);
+      return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
+    }
+    Seen seen;
+    seen.point = world_.surface_point(ray, hit);
+    seen.point.incoming = ray.direction;
+    seen.front = glm::dot(ray.direction, seen.point.geometric_normal) < 0;
+    seen.length = length + hit.t;
+
+    const int32_t body = seen.point.instance;
+    const std::optional<Medium> medium = world_.material(seen.point, true).interior(kYellow);
+    if (medium && !seen.front && !media.is_inside(body)) media.enter(body, *medium);  // the eye is inside the body
+    Media behind = media;
+    if (medium) seen.front ? behind.enter(body, *medium) : behind.leave(body);
+    through *= transmittance(media.current().absorption, hit.t);
+
+    const Material& material = world_.material(seen.point, seen.front);
+    const ClassicCoefficients c = material.classic(seen.point, Wavelengths{});
+    const bool is_boundary = !medium || (seen.front ? behind : media).filling() == body;
+    if (is_boundary && (seen.front || !c.catches_shadows)) {
+      const double side = seen.front ? 1 : -1;
+      seen.geometric_normal = side * seen.point.geometric_normal;
+      seen.smooth_normal = side * seen.point.normal;
+      seen.normal = side * material.shading_normal(seen.point);
+      return through * shade(ray, seen, material, c, media, behind, depth, weight * through);
+    }
+    media = behind;
+    length = seen.length;
+    ray.origin = world_.leave(seen.point, ray.direction);
+  }
+  return {};
+}
+
+Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& material, const ClassicCoefficients& given,
+                       const Media& media, const Media& behind, int depth, const Spectrum& weight) {
+  ClassicCoefficients c = given;
+  if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
+  mix(static_cast<uint64_t>(seen.point.instance) << 32 | static_cast<uint32_t>(seen.point.face));
+  mix(hash_combine(seen.front, material.cell(seen.point)));
+  if (depth == 0) record(seen, material);
+
+  const Illumination light = illuminate(ray, seen, c, media);
+  if (c.catches_shadows) return caught_shadow(light, c, depth == 0);
+
+  const float fading = options_.depth_attenuation > 0
+                           ? static_cast<float>(depth_factor(options_.depth_attenuation, seen.length, reference_depth_))
+                           : 1.0f;
+  const Spectrum direct =
+      fading * (c.ambient * ambient_) +
+      (options_.attenuate_lights ? fading : 1.0f) * (c.diffuse * light.diffuse + c.specular * light.specular);
+  if (depth == 0) sample_.direct = direct;
+  Spectrum sum = c.emission + direct;
+
+  Spectrum mirror = c.mirror, transmission = c.transmission;
+  const double n0 = media.current().index, n1 = behind.current().index;
+  // A smooth normal may look away from the viewer near the outline of a mesh; then the facet's own is taken.
+  const Vec3 m = glm::dot(ray.direction, seen.normal) < 0 ? seen.normal : seen.geometric_normal;
+  const double cosine = -glm::dot(ray.direction, m);
+  const float per_n0 = static_cast<float>(1 / n0);
+  switch (c.fresnel) {
+    case Fresnel::none:
+      break;
+    case Fresnel::boundary: {
+      const float f = static_cast<float>(fresnel_dielectric(cosine, n0, n1));
+      mirror += f * transmission;
+      transmission *= 1 - f;
+      break;
+    }
+    case Fresnel::coat:
+      mirror *= fresnel_dielectric(cosine, per_n0 * c.index);
+      break;
+    case Fresnel::conductor:
+      mirror *= fresnel_conductor(cosine, per_n0 * c.index, per_n0 * c.extinction);
+      break;
+  }
+  std::optional<Vec3> inward;
+  if (!transmission.is_zero()) {
+    inward = refracted(ray.direction, m, n0, n1);
+    if (inward && glm::dot(*inward, seen.geometric_normal) >= 0)
+      inward = refracted(ray.direction, seen.geometric_normal, n0, n1);
+    if (!inward) mirror += transmission;
+  }
+
+  const auto follow = [&](const Vec3& direction, const Spectrum& share, const Media& inside) {
+    if (depth >= options_.max_depth || (weight * share).largest() <= options_.weight_cutoff) {
+      mix(1);
+      return Spectrum();
+    }
+    Ray next;
+    next.origin = world_.leave(seen.point, direction);
+    next.direction = direction;
+    next.kind = RayKind::reflection;
+    ++sample_.other_rays;
+    return share * radiance(next, inside, depth + 1, weight * share, seen.length);
+  };
+  if (!mirror.is_zero()) {
+    Vec3 direction = reflected(ray.direction, m);
+    if (glm::dot(direction, seen.geometric_normal) <= 0) direction = reflected(ray.direction, seen.geometric_normal);
+    mix(2);
+    sum += follow(direction, mirror, media);
+  }
+  if (inward) {
+    mix(3);
+    sum += follow(*inward, transmission, behind);
+  }
+  return sum;
+}
+
+Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media) {
+  Illumination sum;
+  const bool diffuse = !c.diffuse.is_zero(), specular = !c.specular.is_zero();
+  if (!diffuse && !specular) return sum;
+  const double m_v = -glm::dot(seen.normal, ray.direction);
+  // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it.
+  Ray shadow_ray;
+  shadow_ray.kind = RayKind::shadow;
+  shadow_ray.origin = world_.leave(seen.point, seen.geometric_normal);
+  for (const LightPtr& light : world_.lights()) {
+    const int count = light->sample_count();
+    for (int i = 0; i < count; ++i) {
+      const Vec2 r = random_.next_pair();
+      const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
+      const double cosine = glm::dot(seen.normal, sample.direction);
+      if (cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero()) {
+        mix(4);
+        continue;
+      }
+      // R.V with R = 2 (m.L) m - L and V = -d
+      const double cos_alpha = 2 * cosine * m_v + glm::dot(sample.direction, ray.direction);
+      const double lobe = specular ? phong_lobe(cos_alpha, c.exponent) : 0;
+      if (!diffuse && lobe == 0) continue;
+      const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
+      sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
+      Spectrum visible = kWhite;
+      if (light->casts_shadows() && options_.shadows != ShadowMode::none) {
+        shadow_ray.direction = sample.direction;
+        shadow_ray.t_max = sample.distance;
+        visible = passing(shadow_ray, media);
+      }
+      mix(visible.is_zero() ? 5 : 6);
+      sum.diffuse += static_cast<float>(cosine) * (visible * light_per_pi);
+      sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
+    }
+  }
+  return sum;
+}
+
+Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
+  ++sample_.shadow_rays;
+  const bool blocked = world_.occluded(shadow_ray);
+  if (!blocked && around.filling() < 0) return kWhite;
+  if (options_.shadows == ShadowMode::opaque) return blocked ? Spectrum() : kWhite;
+  Ray ray = shadow_ray;
+  Media media = around;
+  Spectrum share = kWhite;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    Hit hit;
+    if (!world_.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
+    const SurfacePoint point = world_.surface_point(ray, hit);
+    const bool front = glm::dot(ray.direction, point.geometric_normal) < 0;
+    const Material& material = world_.material(point, front);
+    if (!material.transmits()) return {};
+    const std::optional<Medium> medium = world_.material(point, true).interior(kYellow);
+    if (medium && !front && !media.is_inside(point.instance)) media.enter(point.instance, *medium);
+    share *= transmittance(media.current().absorption, hit.t);
+    Media behind = media;
+    if (medium) front ? behind.enter(point.instance, *medium) : behind.leave(point.instance);
+    if (!medium || (front ? behind : media).filling() == point.instance)
+      share *= material.classic(point, Wavelengths{}).transmission;
+    if (share.is_zero()) return {};
+    media = behind;
+    mix(static_cast<uint64_t>(point.instance) << 32 | static_cast<uint32_t>(point.face));
+    const Vec3 origin = world_.leave(point, ray.direction);
+    ray.t_max -= glm::dot(origin - ray.origin, ray.direction);
+    ray.origin = origin;
+  }
+  return {};
+}
+
+Spectrum Tracer::caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first) {
+  Spectrum missing;  // share of the light that does not arrive, times the strength of shadows
+  for (int i = 0; i < 4; ++i) {
+    const float open = ambient_[i] + light.unobstructed[i];
+    if (open > 0) missing[i] = c.diffuse[i] * (light.unobstructed[i] - light.diffuse[i]) / open;
+  }
+  if (first) sample_.alpha = missing.largest();
+  return (kWhite - missing) * world_.model().background;
+}
+
+void Tracer::record(const Seen& seen, const Material& material) {
+  sample_.hit = true;
+  sample_.alpha = 1;
+  sample_.point = seen.point;
+  sample_.depth = seen.length;
+  sample_.albedo = material.albedo(seen.point, Wavelengths{});
+}
+
+class ClassicIntegrator final : public Integrator {
+ public:
+  explicit ClassicIntegrator(const ClassicOptions& options) : options_(options) {}
+
+  RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
+    RaySample sample;
+    sample.alpha = 0;
+    Tracer tracer(world, options_, reference_depth(world, ray), random, sample);
+    sample.radiance = tracer.radiance(ray, Media(), 0, kWhite, 0);
+    return sample;
+  }
+
+ private:
+  double reference_depth(const World& world, const Ray& ray) const {
+    if (options_.depth_attenuation == 0) return 0;
+    if (options_.reference_depth) return *options_.reference_depth;
+    const Vec3 to_center = world.center() - ray.origin;
+    const bool parallel = world.model().camera && world.model().camera->is_parallel();
+    return (parallel ? glm::dot(to_center, ray.direction) : glm::length(to_center)) - world.radius();
+  }
+
+  ClassicOptions options_;
+};
+
+}  // namespace
+
+IntegratorPtr make_classic_integrator(const ClassicOptions& options) {
+  return std::make_shared<ClassicIntegrator>(options);
+}
+
+TypeDeclaration classic_integrator_type() {
+  return declare(
+             Category::integrator, "classic",
+             "Recursive ray tracing with the classic light model: ambient light, Lambert, Phong, mirror reflection, "
+             "refraction, absorption, hard and soft shadows.")
+      .field("max_depth", integer().between(0, 100), "mirror reflections and refractions in a row", "12")
+      .field("weight_cutoff", number().between(0, 1),
+             "rays that would bring a smaller share of their light are left out", "1/512")
+      .field(
+          "shadows", choice({"none", "opaque", "transparent"}),
+          "opaque: everything in the way stops light; transparent: clear bodies let the share k_t e^(-mu l) through, "
+          "straight on",
+          "transparent")
+      .field("depth_attenuation", number().non_negative(),
+             "k_r per unit of length: ambient light is divided by 1 + k_r (r - r_0), r the distance from the eye", "0")
+      .field("reference_depth", number().or_word({"nearest"}), "r_0; nearest: where the scene begins", "nearest")
+      .field("attenuate", choice({"ambient", "all"}), "what the depth term acts on: ambient light, or lights as well",
+             "ambient")
+      .built_by([](const Fields& f) {
+        ClassicOptions options;
+        options.max_depth = f.integer("max_depth");
+        options.weight_cutoff = f.number("weight_cutoff");
+        const std::string& shadows = f.text("shadows");
+        options.shadows = shadows == "none"     ? ShadowMode::none
+                          : shadows == "opaque" ? ShadowMode::opaque
+                                                : ShadowMode::transparent;
+        options.depth_attenuation = f.number("depth_attenuation");
+        if (f.holds<double>("reference_depth")) options.reference_depth = f.number("reference_depth");
+        options.attenuate_lights = f.text("attenuate") == "all";
+        return make_classic_integrator(options);
+      });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,64 @@
+// Light from infinitely far away, evenly from a disc of the sky: the sun (0.53 degrees), or a soft box of any scale.
+#include <cmath>
+
+#include "render/lights/lights.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class DistantLamp final : public Light {
+ public:
+  explicit DistantLamp(const DistantLight& light)
+      : light_(light),
+        frame_(frame_about(Vec3(0), -light.direction)),
+        one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)) {}
+
+  int sample_count() const override { return light_.angular_diameter > 0 ? light_.sampling.n * light_.sampling.n : 1; }
+
+  LightSample sample(const Vec3&, int index, double r1, double r2) const override {
+    const int count = sample_count();
+    LightSample sample{frame_.z, kInfinity, irradiance_of(light_.lamp, 1), 1.0 / count};
+    if (light_.angular_diameter > 0) {
+      // Equal areas of the disc are equal solid angles when 1 - cos grows with the square of the disc's radius.
+      const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
+      const double square = glm::dot(disc, disc);
+      const double height = square * one_minus_cosine_;  // 1 - cos of the angle from the axis
+      const double scale = std::sqrt(one_minus_cosine_ * (2 - height));
+      sample.direction = frame_.direction(Vec3(disc * scale, 1 - height));
+    }
+    return sample;
+  }
+  bool casts_shadows() const override { return light_.lamp.shadows; }
+
+ private:
+  DistantLight light_;
+  Frame frame_;
+  double one_minus_cosine_;
+};
+
+}  // namespace
+
+LightPtr make_light(const DistantLight& light) { return std::make_shared<DistantLamp>(light); }
+
+TypeDeclaration distant_light_type() {
+  TypeDeclaration type =
+      declare(Category::light, "distant_light", "Light from infinitely far away: the sun, or a soft box of any scale.");
+  type.field("direction", direction(), "the way the light goes")
+      .field("angular_diameter", angle().non_negative().at_most(170),
+             "of the source as seen from the scene; 0: parallel rays, sharp shadows", "0");
+  declare_area_sampling(type);
+  declare_lamp(type, false);
+  return type.built_by([](const Fields& f) {
+    DistantLight light;
+    light.direction = f.vec3("direction");
+    light.angular_diameter = f.number("angular_diameter");
+    light.sampling = area_sampling(f);
+    light.lamp = lamp(f);
+    return make_light(light);
+  });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,99 @@
+// Light from a flat area, rectangle or disc: penumbras (Golovanov 2016, 8.5). A point gets the mean of the light of
+// point lights over the area; of a one-sided area, a matt emitter, each counts with the cosine at the area, so that
+// with decay inverse_square it is an emitter of the radiance pi I / area.
+#include <algorithm>
+#include <cmath>
+
+#include "render/lights/lights.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class FlatLamp : public Light {
+ public:
+  FlatLamp(const Frame& frame, bool one_sided, const AreaSampling& sampling, const Lamp& lamp)
+      : frame_(frame), one_sided_(one_sided), sampling_(sampling), lamp_(lamp) {}
+
+  int sample_count() const override { return sampling_.n * sampling_.n; }
+
+  LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
+    const Vec2 place = on_area(area_sample(sampling_, index, r1, r2));
+    const Vec3 to_light = frame_.point(Vec3(place, 0)) - point;
+    const double distance = glm::length(to_light);
+    const Vec3 direction = to_light / distance;
+    const float share = one_sided_ ? static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z))) : 1.0f;
+    return {direction, distance, share * irradiance_of(lamp_, distance), 1.0 / sample_count()};
+  }
+  bool casts_shadows() const override { return lamp_.shadows; }
+
+ protected:
+  // Place in the frame's xy plane of a place in the unit square, area preserving up to a factor.
+  virtual Vec2 on_area(const Vec2& square) const = 0;
+
+ private:
+  Frame frame_;
+  bool one_sided_;
+  AreaSampling sampling_;
+  Lamp lamp_;
+};
+
+class RectangleLamp final : public FlatLamp {
+ public:
+  explicit RectangleLamp(const RectangleLight& light)
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), size_(light.size) {}
+  Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * size_; }
+
+ private:
+  Vec2 size_;
+};
+
+class DiscLamp final : public FlatLamp {
+ public:
+  explicit DiscLamp(const DiscLight& light)
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), radius_(light.radius) {}
+  Vec2 on_area(const Vec2& square) const override { return radius_ * concentric_disc(square); }
+
+ private:
+  double radius_;
+};
+
+void declare_area(TypeDeclaration& type) {
+  type.field(
+      "one_sided", boolean(),
+      "true: shines to the side of z only, less to the edges (cosine), as a glowing panel does; false: evenly in all "
+      "directions",
+      "false");
+  declare_area_sampling(type);
+  declare_lamp(type);
+}
+
+}  // namespace
+
+LightPtr make_light(const RectangleLight& light) { return std::make_shared<RectangleLamp>(light); }
+LightPtr make_light(const DiscLight& light) { return std::make_shared<DiscLamp>(light); }
+
+TypeDeclaration rectangle_light_type() {
+  TypeDeclaration type = declare(Category::light, "rectangle_light", "Light from a rectangle: soft shadows.");
+  type.field("frame", frame(), "the rectangle lies in its xy plane, centred at the origin", "{}")
+      .field("size", numbers().positive().count(2, 2), "along x and y of the frame");
+  declare_area(type);
+  return type.built_by([](const Fields& f) {
+    const std::vector<double>& size = f.numbers("size");
+    return make_light(RectangleLight{f.frame(), {size[0], size[1]}, f.boolean("one_sided"), area_sampling(f), lamp(f)});
+  });
+}
+
+TypeDeclaration disc_light_type() {
+  TypeDeclaration type = declare(Category::light, "disc_light", "Light from a disc: soft shadows.");
+  type.field("frame", frame(), "the disc lies in its xy plane, centred at the origin", "{}")
+      .field("radius", length().positive(), "of the disc");
+  declare_area(type);
+  return type.built_by([](const Fields& f) {
+    return make_light(DiscLight{f.frame(), f.number("radius"), f.boolean("one_sided"), area_sampling(f), lamp(f)});
+  });
+}
+
+}  // namespace lekalo::render

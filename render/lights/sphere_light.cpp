@@ -1,0 +1,56 @@
+// Light from a ball, evenly bright over the disc as which it is seen.
+#include <cmath>
+
+#include "render/lights/lights.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class SphereLamp final : public Light {
+ public:
+  explicit SphereLamp(const SphereLight& light) : light_(light) {}
+
+  int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
+
+  // The directions fill the cone around the ball evenly in solid angle; the place is the near side of the ball.
+  LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
+    const Vec3 to_center = light_.center - point;
+    const double distance = glm::length(to_center);
+    LightSample sample{{0, 0, 1}, 0, {}, 1.0 / sample_count()};
+    if (distance <= light_.radius) return sample;  // inside the lamp: no light
+    const double sine = light_.radius / distance;
+    const double one_minus_cosine = sine * sine / (1 + std::sqrt(1 - sine * sine));
+    const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
+    const double height = glm::dot(disc, disc) * one_minus_cosine;
+    const Vec3 local(disc * std::sqrt(one_minus_cosine * (2 - height)), 1 - height);
+    sample.direction = frame_about(Vec3(0), to_center / distance).direction(local);
+    const double along = distance * local.z;
+    const double square = light_.radius * light_.radius - (distance * distance - along * along);
+    sample.distance = along - std::sqrt(std::fmax(0.0, square));
+    sample.irradiance = irradiance_of(light_.lamp, distance);
+    return sample;
+  }
+  bool casts_shadows() const override { return light_.lamp.shadows; }
+
+ private:
+  SphereLight light_;
+};
+
+}  // namespace
+
+LightPtr make_light(const SphereLight& light) { return std::make_shared<SphereLamp>(light); }
+
+TypeDeclaration sphere_light_type() {
+  TypeDeclaration type = declare(Category::light, "sphere_light", "Light from a ball: soft shadows on all sides.");
+  type.field("center", point(), "of the ball").field("radius", length().positive(), "of the ball");
+  declare_area_sampling(type);
+  declare_lamp(type);
+  return type.built_by([](const Fields& f) {
+    return make_light(SphereLight{f.vec3("center"), f.number("radius"), area_sampling(f), lamp(f)});
+  });
+}
+
+}  // namespace lekalo::render

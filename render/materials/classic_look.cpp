@@ -1,0 +1,98 @@
+// The classic light model as it stands (Golovanov 2016, 8.4.2-8.4.5): ambient, Lambert, Phong, mirror, refraction,
+// absorption and emission, each coefficient a number, a colour or a texture.
+#include "render/materials/materials.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class ClassicMaterial final : public Material {
+ public:
+  explicit ClassicMaterial(const ClassicLook& look) : look_(look) {}
+
+  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
+    ClassicCoefficients c;
+    const Spectrum color = look_.color.at(point);
+    c.emission = look_.emission.at(point);
+    c.ambient = color * look_.ambient.at(point);
+    c.diffuse = color * look_.diffuse.at(point);
+    c.specular = look_.specular.at(point);
+    c.exponent = static_cast<float>(look_.exponent);
+    c.mirror = look_.mirror.at(point);
+    c.transmission = look_.transmission.at(point);
+    c.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
+    c.two_sided = look_.two_sided;
+    return c;
+  }
+
+  std::optional<Medium> interior(const Wavelengths&) const override {
+    if (!transmits()) return std::nullopt;
+    return Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
+  }
+
+  bool transmits() const override { return !look_.transmission.is_black(); }
+  Vec3 shading_normal(const SurfacePoint& point) const override {
+    return deviated_normal(point, look_.normal_deviation);
+  }
+
+  uint64_t cell(const SurfacePoint& point) const override {
+    uint64_t hash = deviation_cell(point, look_.normal_deviation);
+    for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
+                                       &look_.transmission, &look_.emission})
+      hash = hash_combine(hash, color->cell(point));
+    return hash;
+  }
+
+ private:
+  ClassicLook look_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const ClassicLook& look) { return std::make_shared<ClassicMaterial>(look); }
+
+TypeDeclaration classic_look_type() {
+  TypeDeclaration type = declare(
+      Category::material, "classic",
+      "The classic light model: I = k_a I_a + sum of I_p (k_d cos(theta) + k_s cos(alpha)^n) over the lights, with "
+      "traced mirror reflection and refraction. A coefficient is a number, a colour or a texture.");
+  type.field("color", textured_share(), "multiplies ambient and diffuse", "1")
+      .field("ambient", textured_share(), "k_a: share of the ambient light", "0.2")
+      .field("diffuse", textured_share(), "k_d: Lambert's reflection", "0.8")
+      .field("specular", textured_share(), "k_s: height of Phong's highlight", "0")
+      .field("exponent", number().at_least(1), "n: larger is sharper; about 1 to 200", "20")
+      .field("mirror", textured_share(), "share of the traced mirror reflection", "0")
+      .field("transmission", textured_share(), "k_t: share of the traced refracted ray", "0")
+      .field("fresnel", boolean(),
+             "at angle-dependent reflectance F, reflect mirror + F transmission and let (1 - F) transmission through",
+             "false")
+      .field("index", number().positive(), "refractive index behind the surface; 1: light passes straight", "1")
+      .field("absorption", color().non_negative(),
+             "mu behind the surface, per unit of length: light falls by e^(-mu l)", "0")
+      .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0")
+      .field("emission", textured_color(), "radiance added whatever the light", "0")
+      .field("two_sided", boolean(), "false: the back shows only ambient light and emission", "true");
+  declare_normal_deviation(type);
+  return type.built_by([](const Fields& f) {
+    ClassicLook look;
+    look.color = color_texture(f, "color");
+    look.ambient = color_texture(f, "ambient");
+    look.diffuse = color_texture(f, "diffuse");
+    look.specular = color_texture(f, "specular");
+    look.exponent = f.number("exponent");
+    look.mirror = color_texture(f, "mirror");
+    look.transmission = color_texture(f, "transmission");
+    look.fresnel = f.boolean("fresnel");
+    look.index = f.number("index");
+    look.absorption = f.vec3("absorption");
+    look.priority = f.integer("priority");
+    look.emission = color_texture(f, "emission");
+    look.two_sided = f.boolean("two_sided");
+    look.normal_deviation = normal_deviation(f);
+    return make_material(look);
+  });
+}
+
+}  // namespace lekalo::render

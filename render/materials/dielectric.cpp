@@ -1,0 +1,80 @@
+// Clear body: glass, crystal, liquid. Snell's refraction, Fresnel's reflectance, Bouguer's absorption (Golovanov 2016,
+// 8.4), the refractive index from the substance's dispersion formula.
+#include "render/materials/fresnel.h"
+#include "render/materials/gloss.h"
+#include "render/materials/materials.h"
+#include "render/materials/optical_constants.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class DielectricMaterial final : public Material {
+ public:
+  explicit DielectricMaterial(const Dielectric& dielectric) : dielectric_(dielectric), index_d_(index(kLineD)) {
+    coefficients_.exponent = phong_exponent(dielectric.roughness);
+    coefficients_.specular = rgb(Vec3(phong_height(coefficients_.exponent, fresnel_dielectric(1, 1, index_d_))));
+    coefficients_.transmission = rgb(Vec3(1));
+    coefficients_.fresnel = Fresnel::boundary;
+  }
+
+  ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
+
+  std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
+    const float nanometres = wavelengths.nanometres[0];
+    return Medium{static_cast<float>(nanometres == kLineD ? index_d_ : index(nanometres)), rgb(dielectric_.absorption),
+                  dielectric_.priority};
+  }
+  bool transmits() const override { return true; }
+  Vec3 shading_normal(const SurfacePoint& point) const override {
+    return deviated_normal(point, dielectric_.normal_deviation);
+  }
+  uint64_t cell(const SurfacePoint& point) const override {
+    return deviation_cell(point, dielectric_.normal_deviation);
+  }
+
+ private:
+  double index(double nanometres) const {
+    return dielectric_.glass.empty() ? dielectric_.index : dielectric_index(dielectric_.glass, nanometres);
+  }
+
+  Dielectric dielectric_;
+  double index_d_;  // computed once for the usual wavelength
+  ClassicCoefficients coefficients_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const Dielectric& dielectric) { return std::make_shared<DielectricMaterial>(dielectric); }
+
+TypeDeclaration dielectric_type() {
+  TypeDeclaration type =
+      declare(Category::material, "dielectric",
+              "Clear body: glass, crystal, liquid. Classic reading, with F the boundary's reflectance at the actual "
+              "angle: mirror "
+              "= F, k_t = 1 - F, refracted with the index for yellow light (line d, 587.56 nm); k_a = k_d = 0; lamps "
+              "show as Phong "
+              "highlights with n = (1/r^4 - 1)/2 within 1 to 1000 and k_s = F0 (n + 2)/2, at most 1, r the roughness.");
+  type.optional("glass", choice(dielectric_names()), "substance; gives the index for every wavelength")
+      .optional("index", number().positive(), "refractive index, the same for all wavelengths; 1.5 without `glass`")
+      .field("absorption", color().non_negative(), "mu per unit of length: light falls by e^(-mu l)", "0")
+      .field("roughness", number().between(0, 1), "width of highlights", "0.1")
+      .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0");
+  declare_normal_deviation(type);
+  return type.built_by([](const Fields& f) {
+    if (f.has("glass") && f.has("index"))
+      throw FieldError("index", "both 'glass' and 'index' are given", "the glass has its own index: leave one out");
+    Dielectric dielectric;
+    if (f.has("glass")) dielectric.glass = f.text("glass");
+    if (f.has("index")) dielectric.index = f.number("index");
+    dielectric.absorption = f.vec3("absorption");
+    dielectric.roughness = f.number("roughness");
+    dielectric.priority = f.integer("priority");
+    dielectric.normal_deviation = normal_deviation(f);
+    return make_material(dielectric);
+  });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,45 @@
+// Matt surface: Lambert's law, the same brightness from everywhere (Golovanov 2016, 8.4).
+#include "render/materials/materials.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class DiffuseMaterial final : public Material {
+ public:
+  explicit DiffuseMaterial(const Diffuse& diffuse) : diffuse_(diffuse) {}
+
+  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
+    ClassicCoefficients c;
+    c.ambient = c.diffuse = diffuse_.color.at(point);
+    return c;
+  }
+  Vec3 shading_normal(const SurfacePoint& point) const override {
+    return deviated_normal(point, diffuse_.normal_deviation);
+  }
+  uint64_t cell(const SurfacePoint& point) const override {
+    return hash_combine(deviation_cell(point, diffuse_.normal_deviation), diffuse_.color.cell(point));
+  }
+
+ private:
+  Diffuse diffuse_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const Diffuse& diffuse) { return std::make_shared<DiffuseMaterial>(diffuse); }
+
+TypeDeclaration diffuse_type() {
+  TypeDeclaration type = declare(Category::material, "diffuse",
+                                 "Matt surface: reflects light evenly in all directions. Classic reading: "
+                                 "k_a = k_d = color.");
+  type.field("color", textured_share(), "share of the light that is reflected", "0.8");
+  declare_normal_deviation(type);
+  return type.built_by([](const Fields& f) {
+    return make_material(Diffuse{color_texture(f, "color"), normal_deviation(f)});
+  });
+}
+
+}  // namespace lekalo::render

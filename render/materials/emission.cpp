@@ -1,0 +1,41 @@
+// Surface that glows evenly in all directions: it shows its outline and its brightness (Golovanov 2016, 8.4).
+#include "render/materials/materials.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class EmissionMaterial final : public Material {
+ public:
+  explicit EmissionMaterial(const Emission& emission) : emission_(emission) {}
+
+  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
+    ClassicCoefficients c;
+    c.emission = static_cast<float>(emission_.strength) * emission_.color.at(point);
+    return c;
+  }
+  uint64_t cell(const SurfacePoint& point) const override { return emission_.color.cell(point); }
+
+ private:
+  Emission emission_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const Emission& emission) { return std::make_shared<EmissionMaterial>(emission); }
+
+TypeDeclaration emission_type() {
+  return declare(Category::material, "emission",
+                 "Surface that glows evenly. Classic reading: the radiance color times strength whatever the light; it "
+                 "does "
+                 "not light other objects (area lights do).")
+      .field("color", textured_color(), "of the light", "white")
+      .field("strength", number().non_negative(), "multiplies the colour", "1")
+      .built_by([](const Fields& f) {
+        return make_material(Emission{color_texture(f, "color"), f.number("strength")});
+      });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,61 @@
+// Coloured body under a clear coat of refractive index n: paint, porcelain, plastic.
+#include "render/materials/fresnel.h"
+#include "render/materials/gloss.h"
+#include "render/materials/materials.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class PlasticMaterial final : public Material {
+ public:
+  explicit PlasticMaterial(const Plastic& plastic) : plastic_(plastic) {
+    const double share = mirror_share(plastic.roughness);
+    const double reflectance = fresnel_dielectric(1, 1, plastic.index);
+    gloss_.exponent = phong_exponent(plastic.roughness);
+    gloss_.specular = rgb(Vec3(phong_height(gloss_.exponent, reflectance)));
+    gloss_.mirror = rgb(Vec3(share));
+    gloss_.fresnel = Fresnel::coat;
+    gloss_.index = Spectrum(static_cast<float>(plastic.index));
+  }
+
+  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
+    ClassicCoefficients c = gloss_;
+    c.ambient = c.diffuse = plastic_.color.at(point);
+    return c;
+  }
+  Vec3 shading_normal(const SurfacePoint& point) const override {
+    return deviated_normal(point, plastic_.normal_deviation);
+  }
+  uint64_t cell(const SurfacePoint& point) const override {
+    return hash_combine(deviation_cell(point, plastic_.normal_deviation), plastic_.color.cell(point));
+  }
+
+ private:
+  Plastic plastic_;
+  ClassicCoefficients gloss_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const Plastic& plastic) { return std::make_shared<PlasticMaterial>(plastic); }
+
+TypeDeclaration plastic_type() {
+  TypeDeclaration type = declare(
+      Category::material, "plastic",
+      "Coloured body under a clear coat: plastic, paint, porcelain. Classic reading, with r the roughness, F0 and F "
+      "the coat's reflectance at right and at the actual angle: k_a = k_d = color; Phong's exponent "
+      "n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 (n + 2)/2, at most 1; mirror = F (1 - 4 r^2)^2 up to r = 0.5.");
+  type.field("color", textured_share(), "share of the light that the body reflects", "0.8")
+      .field("roughness", number().between(0, 1), "0: glossy; 1: a wide, faint highlight", "0.4")
+      .field("index", number().at_least(1), "refractive index of the coat", "1.5");
+  declare_normal_deviation(type);
+  return type.built_by([](const Fields& f) {
+    return make_material(
+        Plastic{color_texture(f, "color"), f.number("roughness"), f.number("index"), normal_deviation(f)});
+  });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,38 @@
+// Ground that looks like the background except where lights do not reach it.
+#include "render/materials/materials.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+class ShadowCatcherMaterial final : public Material {
+ public:
+  explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) {
+    coefficients_.ambient = coefficients_.diffuse = rgb(Vec3(catcher.strength));
+    coefficients_.catches_shadows = true;
+  }
+  ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
+  Spectrum albedo(const SurfacePoint&, const Wavelengths&) const override { return {}; }
+
+ private:
+  ClassicCoefficients coefficients_;
+};
+
+}  // namespace
+
+MaterialPtr make_material(const ShadowCatcher& catcher) { return std::make_shared<ShadowCatcherMaterial>(catcher); }
+
+TypeDeclaration shadow_catcher_type() {
+  return declare(
+             Category::material, "shadow_catcher",
+             "Ground that shows only the background and the shadows on it; not seen from behind. Classic reading: the "
+             "background times 1 - strength (1 - light received / light received without obstacles); alpha is the "
+             "share "
+             "taken away.")
+      .field("strength", number().between(0, 1), "of the shadows", "1")
+      .built_by([](const Fields& f) { return make_material(ShadowCatcher{f.number("strength")}); });
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,15 @@
+// Where the scenes and data that come with the program lie (studio set-ups, the teapot's patches).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace lekalo::render {
+
+// Folders with shipped scenes, those that exist, in the order in which a shipped file is searched: beside the running
+// program (../share/lekalo/scenes, as in the build tree and in an installed one), then lekalo/scenes of the data
+// folders of the system ($XDG_DATA_DIRS, else /usr/local/share and /usr/share), for programs that only link the
+// library. Every path is absolute. Empty if the program was copied away from its tree.
+std::vector<std::filesystem::path> data_folders();
+
+}  // namespace lekalo::render

@@ -1,0 +1,75 @@
+// The display transform against IEC 61966-2-1 and Narkowicz' formula worked out by hand.
+#include "render/image/display.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lekalo::render {
+namespace {
+
+Image grey(std::vector<float> values) {
+  Image image = make_image(static_cast<int>(values.size()), 1);
+  add_channel(image, "Y").values = std::move(values);
+  return image;
+}
+
+TEST(Display, SrgbIsExact) {
+  EXPECT_EQ(srgb_encode(0), 0);
+  EXPECT_DOUBLE_EQ(srgb_encode(1), 1);
+  EXPECT_NEAR(srgb_encode(0.5), 0.7353569830524495, 1e-15);  // 1.055 0.5^(1/2.4) - 0.055
+  EXPECT_NEAR(srgb_encode(0.18), 0.46135612950044164, 1e-15);
+  EXPECT_DOUBLE_EQ(srgb_encode(0.001), 0.01292);
+  for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(srgb_decode(srgb_encode(i / 1000.0)), i / 1000.0, 1e-7);
+}
+
+TEST(Display, FilmicIsNarkowiczAtSixTenths) {
+  EXPECT_EQ(filmic(0), 0);
+  EXPECT_NEAR(filmic(1), 0.6 * 1.536 / (0.6 * 2.048 + 0.14), 1e-15);  // 2.51 0.6 + 0.03, 2.43 0.6 + 0.59
+  EXPECT_NEAR(filmic(12.0678), 1, 1e-5);                              // the larger root of f = 1, over 0.6
+}
+
+TEST(Display, EverySrgbLevelSurvives) {
+  std::vector<float> values;
+  for (int i = 0; i < 256; ++i) values.push_back(static_cast<float>(srgb_decode(i / 255.0)));
+  const DisplayResult result = to_display(grey(values), {});
+  ASSERT_EQ(result.image.channels, 1);
+  for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(result.image.samples[i], i);
+  EXPECT_EQ(result.non_finite, 0u);
+}
+
+TEST(Display, ExposureIsInStops) {
+  EXPECT_EQ(to_display(grey({0.125f}), {.exposure = 2}).image.samples[0], 188);  // half light: level 187.5
+  EXPECT_EQ(to_display(grey({1.0f}), {.exposure = -1, .bits = 16}).image.samples[0],
+            std::lround(65535 * 0.7353569830524495));
+}
+
+TEST(Display, NotFiniteAndOutOfRangeValuesAreShownAndCounted) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Image image = grey({std::nanf(""), kInfinity, -kInfinity, -1.0f, 1e30f, 3.0f});
+  for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic}) {
+    const DisplayResult result = to_display(image, {.curve = curve});
+    EXPECT_EQ(result.non_finite, 3u);
+    EXPECT_EQ(result.image.samples[0], 0);
+    EXPECT_EQ(result.image.samples[1], 255);
+    EXPECT_EQ(result.image.samples[2], 0);
+    EXPECT_EQ(result.image.samples[3], 0);
+    EXPECT_EQ(result.image.samples[4], 255);
+    EXPECT_EQ(result.image.samples[5], curve == ToneCurve::none ? 255 : std::lround(255 * srgb_encode(filmic(3))));
+  }
+}
+
+TEST(Display, AlphaIsDividedOutOrLeftBeforeBlack) {
+  Image image = make_image(2, 1);
+  for (const char* name : {"R", "G", "B"}) add_channel(image, name).values = {0.25f, 0.0f};
+  add_channel(image, "A").values = {0.5f, 0.0f};
+  const DisplayImage kept = to_display(image, {.alpha = true}).image;
+  EXPECT_EQ(kept.samples, (std::vector<std::uint16_t>{188, 188, 188, 128, 0, 0, 0, 0}));
+  const DisplayImage before_black = to_display(image, {}).image;
+  EXPECT_EQ(before_black.channels, 3);
+  EXPECT_EQ(before_black.samples[0], std::lround(255 * srgb_encode(0.25)));
+}
+
+}  // namespace
+}  // namespace lekalo::render

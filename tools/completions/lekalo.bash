@@ -1,0 +1,44 @@
+# bash completion for lekalo(1)
+
+_lekalo() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=''
+  COMPREPLY=()
+
+  case $previous in
+    --metric) words='flip rmse psnr ssim max' ;;
+    --format) words='pov obj ply stl' ;;
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --ray | --filter | --jobs | --accept | --reason | --isa)
+      return ;;
+    -o | --against | --rays | --junit) compopt -o default; return ;;
+    --report) compopt -o dirnames; return ;;
+  esac
+  if [[ -z $words ]]; then
+    if (( COMP_CWORD == 1 )); then
+      words='render draw make compare test check measure evaluate trace export schema types --help --version'
+    elif [[ $current == -* ]]; then
+      case $command in
+        render | draw | make) words='-o --size --samples --threads --isa --crop --set --frames --watch --resume --json --quiet --stats --stamp' ;;
+        compare) words='--metric --threshold --layer --report --json --quiet' ;;
+        test) words='--filter --jobs --accept --reason --report --junit --json --quiet' ;;
+        check) words='--set --json --quiet' ;;
+        measure) words='--topology --against --set --json' ;;
+        evaluate) words='--at --set --json' ;;
+        trace) words='--ray --rays --set --json' ;;
+        export) words='--format -o --set --quiet' ;;
+        types) words='--json' ;;
+      esac
+      words+=' --help'
+    fi
+  fi
+  if [[ -n $words ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+  else
+    local file pattern='\.(yaml|yml|json)$'
+    [[ $command != compare ]] || pattern='\.(exr|png)$'
+    while read -r file; do
+      [[ ! -d $file && ! $file =~ $pattern ]] || COMPREPLY+=("$file")
+    done < <(compgen -f -- "$current")
+    compopt -o filenames
+  fi
+}
+complete -F _lekalo lekalo
