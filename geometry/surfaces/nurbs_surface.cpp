@@ -9,6 +9,7 @@
 #include "geometry/curves/rational.h"
 #include "geometry/curves/rational_enclosure.h"
 #include "geometry/curves/weights.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -157,7 +158,7 @@ DegenerateEdges collapsed_edges(const NurbsSurfaceForm& form, const Rectangle& d
         box.include(cartesian(piece.points[i * (q + 1) + j]));
       }
     }
-    return box.diameter() <= 1e-12 * size;
+    return box.diameter() <= kCollapsedEdge * size;
   };
   const auto first_span = [](const std::vector<double>& knots, const Interval& t) {
     return Interval{t.lo, std::min(t.hi, *std::upper_bound(knots.begin(), knots.end(), t.lo))};
