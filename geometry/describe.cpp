@@ -147,6 +147,9 @@ FieldType groups(std::vector<Field> fields) {
 }
 FieldType transform() { return of_kind(Kind::transform); }
 FieldType page_length() { return of_kind(Kind::page_length); }
+FieldType texts() { return of_kind(Kind::texts); }
+FieldType picture_size() { return of_kind(Kind::picture_size); }
+FieldType words(std::vector<std::string> allowed) { return of_kind(Kind::words).or_word(std::move(allowed)); }
 
 const std::any& Fields::any(std::string_view field) const {
   const auto found = values_.find(field);

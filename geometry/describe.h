@@ -68,38 +68,48 @@ struct Knots {
   std::vector<double> values;  // the full vector
 };
 
+// Width and height of a picture; 0 stands for `auto`.
+struct PictureSize {
+  double width = 0;
+  double height = 0;
+  bool on_paper = false;  // millimetres rather than pixels
+};
+
 // What a field accepts.
 enum class Kind {
-  number,       // double; `dimension` says plain, length or angle
-  integer,      // int
-  boolean,      // bool
-  choice,       // std::string, one of `choices`
-  text,         // std::string
-  file,         // std::string: path of an existing file, made absolute
-  name,         // std::string: a new name, not looked up
-  point,        // Vec3: a place (coordinates, a named point, a point on a curve or surface)
-  direction,    // Vec3 of unit length: x, -z, a list, or taken from a curve or surface
-  vector,       // Vec3 of any length
-  axis,         // Axis
-  frame,        // Frame: { origin, z, x }; with the short forms `center` and `normal` beside it
-  range,        // Interval [a, b], a < b
-  rectangle,    // Rectangle: { u: [a, b], v: [a, b] }
-  points,       // std::vector<Vec3>
-  points2,      // std::vector<Vec3> with z = 0: places in a parameter plane
-  net,          // Grid<Vec3>
-  numbers,      // std::vector<double>
-  number_grid,  // Grid<double>
-  indices,      // std::vector<std::vector<int>>: lists of point numbers
-  knots,        // Knots
-  color,        // Vec3: linear Rec.709
-  formula,      // Expression of `variables`
-  formulas,     // std::vector<Expression>, `minimum_count` to `maximum_count`
-  reference,    // one built thing of one of `categories`, as std::any
-  references,   // std::vector<std::any>; a family stands for its members
-  group,        // Fields: a map with its own declared fields
-  groups,       // std::vector<Fields>
-  transform,    // Affine: a list of steps
-  page_length   // double in millimetres (of mm, pt, px at the page's resolution)
+  number,        // double; `dimension` says plain, length or angle
+  integer,       // int
+  boolean,       // bool
+  choice,        // std::string, one of `choices`
+  text,          // std::string
+  file,          // std::string: path of an existing file, made absolute
+  name,          // std::string: a new name, not looked up
+  point,         // Vec3: a place (coordinates, a named point, a point on a curve or surface)
+  direction,     // Vec3 of unit length: x, -z, a list, or taken from a curve or surface
+  vector,        // Vec3 of any length
+  axis,          // Axis
+  frame,         // Frame: { origin, z, x }; with the short forms `center` and `normal` beside it
+  range,         // Interval [a, b], a < b
+  rectangle,     // Rectangle: { u: [a, b], v: [a, b] }
+  points,        // std::vector<Vec3>
+  points2,       // std::vector<Vec3> with z = 0: places in a parameter plane
+  net,           // Grid<Vec3>
+  numbers,       // std::vector<double>
+  number_grid,   // Grid<double>
+  indices,       // std::vector<std::vector<int>>: lists of point numbers
+  knots,         // Knots
+  color,         // Vec3: linear Rec.709
+  formula,       // Expression of `variables`
+  formulas,      // std::vector<Expression>, `minimum_count` to `maximum_count`
+  reference,     // one built thing of one of `categories`, as std::any
+  references,    // std::vector<std::any>; a family stands for its members
+  group,         // Fields: a map with its own declared fields
+  groups,        // std::vector<Fields>
+  transform,     // Affine: a list of steps
+  page_length,   // double in millimetres (of mm, pt, px at the page's resolution)
+  picture_size,  // PictureSize: [960, 540], [84 mm, auto]
+  words,         // std::vector<std::string>, each one of `choices`
+  texts          // std::vector<std::string>
 };
 
 enum class Dimension { plain, length, angle };
@@ -165,6 +175,9 @@ FieldType group(std::vector<Field> fields);
 FieldType groups(std::vector<Field> fields);
 FieldType transform();
 FieldType page_length();
+FieldType picture_size();
+FieldType words(std::vector<std::string> words);
+FieldType texts();
 
 struct Field {
   std::string name;

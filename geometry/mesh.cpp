@@ -110,8 +110,7 @@ void set_smooth_normals(Mesh& mesh, double crease_angle) {
   }
   std::vector<Vec3> sum(3 * count, Vec3(0));
   for (uint32_t i = 0; i < count; ++i)
-    for (int k = 0; k < 3; ++k)
-      sum[groups.find(3 * i + k)] += corner_angle(mesh, mesh.triangles[i], k) * facet[i];
+    for (int k = 0; k < 3; ++k) sum[groups.find(3 * i + k)] += corner_angle(mesh, mesh.triangles[i], k) * facet[i];
   mesh.normals.clear();
   std::vector<int32_t> index(3 * count, -1);
   for (uint32_t i = 0; i < count; ++i) {

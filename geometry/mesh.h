@@ -38,8 +38,9 @@ bool is_closed(const Mesh& mesh);
 // Every triangle its own plane's normal.
 void set_flat_normals(Mesh& mesh);
 
-// Normals of corners as the mean of the meeting triangles' normals weighted by their angles (Thuerrner, Wuethrich 1998).
-// Triangles that meet in a side at more than the crease angle (radians) do not share normals along it; pi: all do.
+// Normals of corners as the mean of the meeting triangles' normals weighted by their angles (Thuerrner, Wuethrich
+// 1998). Triangles that meet in a side at more than the crease angle (radians) do not share normals along it; pi: all
+// do.
 void set_smooth_normals(Mesh& mesh, double crease_angle = kPi);
 
 // The mesh under an affine map; a negative determinant turns the triangles round so that outside stays outside.

@@ -1,6 +1,11 @@
+// Jets map by the linear part, enclosures by the same in interval arithmetic, homogeneous control points (w p, w) to
+// (w M p, w), normals by the inverse transpose times the determinant's sign (Golovanov 2016, 1.4). A line goes to the
+// original's own space, whose formula finds the hits.
 #include "geometry/transformed.h"
 
 #include <stdexcept>
+
+#include "geometry/surfaces/local_line.h"
 
 namespace lekalo::geometry {
 
@@ -34,8 +39,7 @@ CurveJet TransformedCurve::evaluate(double t, int order) const {
 
 CurveEnclosure TransformedCurve::enclose(const Interval& t, int order) const {
   CurveEnclosure result = original_->enclose(t, order);
-  for (int k = 0; k <= order; ++k)
-    result.d[k] = image_of(result.d[k], map_.linear, k == 0 ? map_.offset : Vec3(0));
+  for (int k = 0; k <= order; ++k) result.d[k] = image_of(result.d[k], map_.linear, k == 0 ? map_.offset : Vec3(0));
   return result;
 }
 
@@ -54,10 +58,14 @@ std::optional<NurbsCurveForm> TransformedCurve::as_nurbs() const {
 TransformedSurface::TransformedSurface(SurfacePtr original, const Affine& map)
     : original_(std::move(original)), map_(map) {
   const double determinant = map.determinant();
-  if (!(std::abs(determinant) > 0)) throw std::invalid_argument("the transform flattens space: its determinant is 0");
+  const Mat3& a = map.linear;
+  if (!(std::abs(determinant) > 1e-14 * glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2])))
+    throw std::invalid_argument("the transform flattens space: its determinant is 0");
   inverse_ = map.inverse();
   orientation_ = determinant > 0 ? 1 : -1;
   set_reversed(original_->reversed());
+  const Box3 box = bounds(*original_);
+  center_ = map.point(box.bounded() ? box.center() : Vec3(0));
 }
 
 SurfaceJet TransformedSurface::evaluate(double u, double v, int order) const {
@@ -86,9 +94,16 @@ std::optional<NurbsSurfaceForm> TransformedSurface::as_nurbs() const {
   return form;
 }
 
-// An affine map keeps the parameter along a line.
+// An affine map keeps the parameter along a line. The line starts anew near the surface before it is mapped: the map of
+// a distant origin would lose as many digits as it is farther away than the surface is large.
 void TransformedSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  original_->line_hits({inverse_.point(line.origin), inverse_.direction(line.direction)}, t, hits);
+  const MovedLine moved = moved_near(line, center_);
+  LineHits found;
+  original_->line_hits({inverse_.point(moved.origin), inverse_.direction(moved.direction)}, Interval::entire(), found);
+  for (int i = 0; i < found.size(); ++i) {
+    const double at = moved.start + found[i].t;
+    if (t.contains(at)) hits.add({at, found[i].u, found[i].v});
+  }
 }
 
 Vec3 TransformedSurface::normal(double u, double v) const {

@@ -51,9 +51,10 @@ class TransformedSurface final : public Surface {
   Affine map_;
   Affine inverse_;
   double orientation_;  // sign of the determinant
+  Vec3 center_;         // a place near the image, where lines are taken from
 };
 
-// The image keeps the original's `reversed`. Maps of maps are multiplied out.
+// The image keeps the original's `reversed`. Maps of maps are multiplied out; the identity gives the original itself.
 CurvePtr transformed(const CurvePtr& curve, const Affine& map);
 SurfacePtr transformed(const SurfacePtr& surface, const Affine& map);
 

@@ -11,7 +11,9 @@
   X(hyperboloid_one_sheet_type)  \
   X(hyperboloid_two_sheets_type) \
   X(elliptic_paraboloid_type)    \
-  X(hyperbolic_paraboloid_type)
+  X(hyperbolic_paraboloid_type)  \
+  X(extrusion_surface_type)      \
+  X(revolution_surface_type)
 
 namespace lekalo::geometry {
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "render/image/atomic_file.h"
@@ -20,6 +21,15 @@ namespace lekalo::render {
 namespace {
 
 constexpr const char* kDamaged = "the file is damaged or incomplete";
+
+// More than libpng needs for a row (at most a million pixels) or an honest chunk. A damaged length must not make it
+// take 2 GB for a comment; its own limit only warns.
+constexpr png_alloc_size_t kLargestAllocation = png_alloc_size_t{1} << 26;
+
+png_voidp allocate(png_structp, png_alloc_size_t size) {
+  return size > kLargestAllocation ? nullptr : std::malloc(size);
+}
+void release(png_structp, png_voidp memory) { std::free(memory); }
 
 // libpng packs a 1280 x 960 rendering in 0.07 s at this level and in 0.16 s at its default 6, for 8% fewer bytes.
 constexpr int kCompressionLevel = 4;
@@ -44,7 +54,7 @@ struct Reader {
     if (file == nullptr) {
       throw ImageError(path, std::string("cannot read: ") + std::strerror(errno), "check the name and the permissions");
     }
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning);
+    png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning, nullptr, allocate, release);
     info = png == nullptr ? nullptr : png_create_info_struct(png);
   }
   ~Reader() {

@@ -144,6 +144,7 @@ bool SyntaxChecker::looks_like_entry() const {
   while (is_name_character(char_at(i))) ++i;
   if (i == at_) return false;
   if (char_at(i) == ':') return !blank_at(i + 1) && char_at(i + 1) != '/' && char_at(i + 1) != '\\';
+  if (text_.substr(i).starts_with("：")) return true;
   while (char_at(i) == ' ') ++i;
   return char_at(i) == '=' && char_at(i + 1) != '=';
 }
@@ -190,6 +191,7 @@ void SyntaxChecker::keyed_value(Span key, std::size_t colon) {
   constexpr std::size_t kLongestKey = 512;  // YAML allows 1024 bytes up to the ':'
   if (colon - key.begin > kLongestKey)
     fail({key.begin, key.begin + 1}, "this key is too long", "text with ': ' in it needs quotes");
+  check_null(key);
   Level& level = levels_.back();
   if (level.awaiting) value_missing(level);
   level.entry = key;

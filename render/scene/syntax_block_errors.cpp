@@ -13,7 +13,8 @@ namespace lekalo::render {
 void SyntaxChecker::indentation_error(int column) {
   std::set<int> columns;
   for (const Level& level : levels_) columns.insert(level.column);
-  fail(here(), fmt::format("this line is indented by {}, the entries above it by {}", column, fmt::join(columns, ", ")),
+  fail(here(),
+       fmt::format("this line is indented by {}, the entries above it by {}", column, fmt::join(columns, " or ")),
        "lines that belong together begin in the same column");
 }
 
@@ -59,6 +60,9 @@ void SyntaxChecker::not_a_key() {
     const std::string_view value = rest.substr(std::min(sign + length, rest.size()));
     return shorten(value.substr(std::min(value.find_first_not_of(" \t"), value.size())));
   };
+  if (const CodePoint next = rest.size() > 1 ? decode_utf8(rest, 1) : CodePoint{}; is_unusual_space(next.code))
+    fail({at_ + name_end + 1, at_ + name_end + 1 + next.length},
+         fmt::format("{} behind '{}:'", describe_character(next.code), name), "replace it by an ordinary space");
   if (!name.empty() && rest.starts_with(':'))
     fail(here(name_end + 1), fmt::format("a space is missing behind '{}:'", name),
          fmt::format("write '{}: {}'", name, value_behind(1)));

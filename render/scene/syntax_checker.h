@@ -87,6 +87,7 @@ class SyntaxChecker {
   Span plain(bool in_flow);        // at_ on the first character; moves behind the last one
   void check_first_character(bool in_flow);
   void check_plain(Span scalar, bool in_flow);
+  void check_null(Span scalar);
 
   char peek() const { return at_ < text_.size() ? text_[at_] : '\n'; }
   char char_at(std::size_t i) const { return i < text_.size() ? text_[i] : '\n'; }

@@ -147,6 +147,10 @@ void SyntaxChecker::check_first_character(bool in_flow) {
     case '!':
       fail(here(), "a value cannot begin with '!': to YAML that is a tag, and scene files have none", quotes);
     case '%':
+      if (!in_flow && at_ == line_begin_ && std::isupper(static_cast<unsigned char>(char_at(at_ + 1))))
+        fail(here(), "a line that begins with '%' is a directive to YAML, and scene files have none",
+             "remove this line");
+      [[fallthrough]];
     case '@':
     case '`':
       fail(here(), fmt::format("a value without quotes cannot begin with '{}'", c), "put it in single quotes");
@@ -179,11 +183,17 @@ void SyntaxChecker::check_first_character(bool in_flow) {
          "write straight quotes: '...'");
 }
 
-void SyntaxChecker::check_plain(Span scalar, bool in_flow) {
+// YAML's words for nothing.
+void SyntaxChecker::check_null(Span scalar) {
   const std::string_view text = slice(scalar);
   if (text == "null" || text == "Null" || text == "NULL" || text == "~")
-    report(scalar, fmt::format("'{}' is not a value in scene files", text),
+    report(scalar, fmt::format("'{}' means nothing in scene files", text),
            "leave the entry out to have its default; put the word in quotes if it is text");
+}
+
+void SyntaxChecker::check_plain(Span scalar, bool in_flow) {
+  const std::string_view text = slice(scalar);
+  check_null(scalar);
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (static_cast<unsigned char>(text[i]) < 0x80) continue;
     const CodePoint c = decode_utf8(text, i);

@@ -1,0 +1,53 @@
+#include "render/scene/load.h"
+
+#include "render/scene/builder.h"
+#include "render/scene/data_path.h"
+
+namespace lekalo::render {
+
+namespace {
+
+// FNV-1a, 64 bits: identifies a scene for --resume.
+void mix(uint64_t& hash, std::string_view text) {
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211u;
+  }
+  hash ^= 255;
+  hash *= 1099511628211u;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+  Diagnostics diagnostics;
+  ReadOptions read;
+  read.search_path = data_folders();
+  read.set_parameters = options.set_parameters;
+  read.includes = options.includes;
+  const SceneDescription scene = read_scene(path, read, diagnostics);
+  LoadedScene result;
+  result.hash = 14695981039346656037u;
+  for (const auto& file : scene.files) {
+    if (!file->path.empty()) result.files.push_back(file->path);
+    mix(result.hash, file->text);
+  }
+  for (const auto& [name, value] : options.set_parameters) {
+    mix(result.hash, name);
+    mix(result.hash, value);
+  }
+  if (scene.root.invalid) throw SceneError(diagnostics);
+  if (scene.kind != FileKind::scene) {
+    diagnostics.error(scene.root.place, "this is a regression suite, not a scene", "run it with: lekalo test");
+    throw SceneError(diagnostics);
+  }
+  BuildOptions build;
+  build.search_path = read.search_path;
+  Builder builder(scene, build, diagnostics);
+  result.model = std::make_shared<const Model>(builder.build());
+  if (diagnostics.has_errors()) throw SceneError(diagnostics);
+  result.defaults_taken = builder.defaults_taken();
+  return result;
+}
+
+}  // namespace lekalo::render

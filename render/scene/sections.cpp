@@ -1,0 +1,116 @@
+#include "render/scene/sections.h"
+
+#include <stdexcept>
+
+namespace lekalo::render {
+
+using geometry::Category;
+using geometry::Field;
+using Shape = SectionDeclaration::Shape;
+
+namespace {
+
+std::vector<Field> info_fields() {
+  using namespace geometry;
+  return {{"title", text(), "what the scene shows, for the file's metadata", false, {}},
+          {"figure", text(), "number of the figure it stands for, in quotes: '2.10'", false, {}},
+          {"shows", texts(), "capabilities that it shows, in quotes", false, {}},
+          {"source", text(), "book and section that it comes from", false, {}},
+          {"unit", text(), "what one scene unit is: mm, m, ...", false, {}}};
+}
+
+std::vector<Field> image_fields() {
+  using namespace geometry;
+  return {
+      {"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
+      {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
+      {"margin", page_length(), "free border of a drawing", false, {}},
+      {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
+      {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
+      {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
+      {"seed", integer().non_negative(), "of the sample positions", false, "0"},
+      {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
+      {"background", color().non_negative(), "behind everything", false, "white"}};
+}
+
+std::vector<Field> object_fields() {
+  using namespace geometry;
+  return {
+      {"shape",
+       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}),
+       "what is shown: a name, a family or an inline map",
+       true,
+       {}},
+      {"name", text(), "in messages, layers and drawings; the shape's name by default", false, {}},
+      {"material", reference({Category::material}), "name or inline map; a neutral grey by default", false, {}},
+      {"back_material", reference({Category::material}), "of the side that the normals look away from", false, {}},
+      {"representation", choice({"direct", "mesh"}), "rays meet the exact surface, or triangles", false, "direct"},
+      {"mesh",
+       group({{"sag", length().positive(), "largest distance from the surface, in scene units", false, {}},
+              {"sag_pixels", number().positive(), "the same in pixels, where no sag is given", false, "0.25"}}),
+       "fineness of the mesh representation", false, "{}"},
+      {"shading", choice({"smooth", "flat"}), "normals of the surface, or of the facets of a mesh", false, "smooth"},
+      {"visible_to", words({"camera", "shadow", "reflection"}), "which rays see it", false,
+       "[camera, shadow, reflection]"},
+      {"clip",
+       groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
+               {"normal", direction(), "towards what is cut away", true, {}},
+               {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
+       "planes that cut away what lies beyond them",
+       false,
+       {}},
+      {"transform", transform(), "steps in the order in which they happen", false, {}}};
+}
+
+std::vector<Field> output_fields() {
+  using namespace geometry;
+  return {{"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg (drawings)", true, {}},
+          {"kind", choice({"render", "drawing"}), "of a png: the picture or the drawing", false, "render"},
+          {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
+          {"tone", choice({"none", "filmic"}), "display curve of a png", false, "none"},
+          {"panel", text(), "only this panel of a drawing", false, {}},
+          {"width", page_length(), "of a drawing on paper", false, {}}};
+}
+
+}  // namespace
+
+const std::vector<SectionDeclaration>& sections() {
+  static const std::vector<SectionDeclaration> all = {
+      {"lekalo", "version of the scene language: 1; the first key of every scene file", Shape::free, {}, {}},
+      {"info", "title, figure number and source of the scene", Shape::fields, info_fields(), {}},
+      {"include",
+       "files read before this one: a name, or { file, as: prefix, set: { parameter: value } }",
+       Shape::free,
+       {},
+       {}},
+      {"parameters", "named numbers and angles that every formula may use", Shape::numbers, {}, {}},
+      {"geometry",
+       "named points, curves, surfaces, bodies and meshes, in any order",
+       Shape::named,
+       {},
+       {Category::point, Category::curve, Category::surface, Category::body, Category::mesh}},
+      {"materials", "named materials", Shape::named, {}, {Category::material}},
+      {"lights", "named lights; {} means none; a studio by default", Shape::named, {}, {Category::light}},
+      {"camera", "from where the scene is seen; everything, framed, by default", Shape::one_of, {}, {Category::camera}},
+      {"image", "size and sampling of the picture", Shape::fields, image_fields(), {}},
+      {"integrator", "how light is computed", Shape::one_of, {}, {Category::integrator}},
+      {"objects",
+       "what is shown and how; every entity that nothing else uses by default",
+       Shape::list,
+       object_fields(),
+       {}},
+      {"styles", "named styles of lines, markers and text of drawings", Shape::free, {}, {}},
+      {"drawing", "page-wide choices of drawings", Shape::free, {}, {}},
+      {"panels", "several views on one page", Shape::free, {}, {}},
+      {"layout", "arrangement of the panels", Shape::free, {}, {}},
+      {"outputs", "files to write", Shape::list, output_fields(), {}}};
+  return all;
+}
+
+const SectionDeclaration& section_declaration(std::string_view name) {
+  for (const SectionDeclaration& section : sections())
+    if (section.name == name) return section;
+  throw std::logic_error("there is no section '" + std::string(name) + "'");
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,30 @@
+// All types that scene files can name, from the families' lists.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/describe.h"
+
+namespace lekalo::render {
+
+using geometry::Category;
+using geometry::TypeDeclaration;
+
+const std::vector<TypeDeclaration>& all_types();
+
+// The type of this name; type names are unique across categories. Null if there is none.
+const TypeDeclaration* find_type(std::string_view name);
+
+// Names of the types of these categories, sorted.
+std::vector<std::string> type_names(std::span<const Category> categories);
+
+// For a bare word that exists for several kinds (`sphere`): the types that it may mean (`sphere_surface`, ...).
+std::vector<std::string> types_meant_by(std::string_view word);
+
+// "a curve", "a surface or a body": for messages.
+std::string describe(std::span<const Category> categories);
+
+}  // namespace lekalo::render

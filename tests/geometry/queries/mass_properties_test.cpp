@@ -1,0 +1,128 @@
+// Lengths, areas, volumes and moments against closed forms: Golovanov 2016, 5.6 and 8.9-8.11, Pappus.
+#include "geometry/queries/mass_properties.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/curves/circle.h"
+#include "geometry/curves/ellipse.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/tessellation/tessellate.h"
+
+namespace lekalo::geometry {
+namespace {
+
+constexpr double kExact = 1e-11;
+
+void expect_near(const Measure& found, double exact) {
+  EXPECT_NEAR(found.value, exact, kExact * std::abs(exact));
+  // The stated error covers the true one, up to the last digits.
+  EXPECT_LE(std::abs(found.value - exact), found.error + 1e-14 * std::abs(exact));
+  EXPECT_LE(found.error, 1e-9 * std::abs(exact));
+}
+
+void expect_near(const Vec3& found, const Vec3& exact, double size) {
+  EXPECT_LT(glm::length(found - exact), kExact * size);
+}
+
+TEST(MassProperties, LengthsOfCurves) {
+  expect_near(measure(Circle(Frame{}, 2)).length, 4 * kPi);
+  // Perimeter of the ellipse with the semi-axes 3 and 2 (complete elliptic integral).
+  expect_near(measure(Ellipse(Frame{}, 3, 2)).length, 15.86543958929059);
+  const CurveMeasures half = measure(Circle(Frame{}, 1, {0, kPi}));
+  expect_near(half.centroid, {0, 2 / kPi, 0}, 1);
+  const Measure back = arc_length(Circle(Frame{}, 1), 2, 0.5);
+  EXPECT_NEAR(back.value, -1.5, 1e-13);
+}
+
+TEST(MassProperties, AreasOfSurfaces) {
+  expect_near(measure(SphereSurface(Frame{}, 3)).area, 36 * kPi);
+  const SurfaceMeasures half = measure(SphereSurface(Frame{}, 1, {{0, kTwoPi}, {0, 0.5 * kPi}}));
+  expect_near(half.area, 2 * kPi);
+  expect_near(half.centroid, {0, 0, 0.5}, 1);
+}
+
+TEST(MassProperties, BoxAtItsCorner) {
+  const MassProperties found = measure(box(Frame{}, {1, 2, 3}));
+  expect_near(found.volume, 6);
+  expect_near(found.area, 22);
+  expect_near(found.centroid, {0.5, 1, 1.5}, 1);
+  expect_near(found.principal_moments, {2.5, 5, 6.5}, 10);
+  const Mat3 corner = inertia_about(found, Vec3(0));
+  expect_near(corner[0], {26, -3, -4.5}, 30);
+  expect_near(corner[1], {-3, 20, -9}, 30);
+  expect_near(corner[2], {-4.5, -9, 10}, 30);
+  Vec3 moments;
+  Mat3 axes;
+  principal_moments(corner, moments, axes);
+  expect_near(moments, {3.4132039467999142, 25.2530905607229815, 27.3337054924771150}, 30);
+  EXPECT_NEAR(std::abs(glm::dot(axes[0], Vec3(0.23255647275, 0.49600132014, 0.83660036900))), 1, 1e-10);
+  EXPECT_NEAR(glm::determinant(axes), 1, 1e-12);
+}
+
+TEST(MassProperties, PrincipalMomentsOfTheBook) {
+  Vec3 moments;
+  Mat3 axes;
+  principal_moments(Mat3(Vec3(2, -1, 0), Vec3(-1, 2, -1), Vec3(0, -1, 2)), moments, axes);
+  expect_near(moments, {2 - std::sqrt(2.0), 2, 2 + std::sqrt(2.0)}, 4);
+  principal_moments(Mat3(Vec3(6, -1, -2), Vec3(-1, 5, -1), Vec3(-2, -1, 4)), moments, axes);
+  expect_near(moments, {2.1048934840724693, 5.6027049307029095, 7.2924015852246217}, 8);
+  principal_moments(Mat3(Vec3(5, -1, -1), Vec3(-1, 5, -1), Vec3(-1, -1, 5)), moments, axes);
+  expect_near(moments, {3, 6, 6}, 6);
+  EXPECT_NEAR(std::abs(glm::dot(axes[0], Vec3(1, 1, 1) / std::sqrt(3.0))), 1, 1e-12);
+}
+
+TEST(MassProperties, CylinderConesAndBall) {
+  const Frame frame = frame_about({5, -3, 2}, {1, 2, 2});
+  const double r = 1.5, h = 4;
+  const MassProperties cylinder = measure(cylinder_body(frame, r, h));
+  expect_near(cylinder.volume, kPi * r * r * h);
+  expect_near(cylinder.area, kTwoPi * r * (r + h));
+  expect_near(cylinder.centroid, frame.point({0, 0, h / 2}), 5);
+  const double mass = kPi * r * r * h;
+  expect_near(cylinder.principal_moments,
+              {mass * r * r / 2, mass * (3 * r * r + h * h) / 12, mass * (3 * r * r + h * h) / 12}, 40);
+
+  // Frustum r = 2, h = 3, half-angle -15 degrees.
+  const double top = 2 + 3 * std::tan(-15 * kPi / 180);
+  EXPECT_NEAR(top, 1.196152422706632, 1e-15);
+  expect_near(measure(frustum(Frame{}, 2, top, 3)).volume, 24.57694782135417);
+
+  const MassProperties cone = measure(frustum(Frame{}, 2, 0, 3));
+  expect_near(cone.area, 35.2207174126371);
+  expect_near(cone.volume, 12.5663706143592);
+  expect_near(cone.centroid, {0, 0, 0.75}, 1);
+  const Mat3 base = inertia_about(cone, Vec3(0));
+  EXPECT_NEAR(base[2][2], 15.0796447372310, 1e-11);
+  EXPECT_NEAR(base[0][0], 18.8495559215388, 1e-11);
+  // The apex below.
+  expect_near(measure(frustum(Frame{}, 0, 2, 3)).volume, 4 * kPi);
+
+  const MassProperties ball_found = measure(ball(frame_about({100, 0, 0}, {0, 1, 1}), 2));
+  expect_near(ball_found.volume, 32 * kPi / 3);
+  expect_near(ball_found.area, 16 * kPi);
+  expect_near(ball_found.centroid, {100, 0, 0}, 2);
+}
+
+TEST(MassProperties, MeshesAreExactPolyhedra) {
+  const Mesh cube = tessellate(box(Frame{Vec3(10, 20, 30)}, {1, 2, 3}), {});
+  const MassProperties found = measure(cube);
+  EXPECT_TRUE(found.closed);
+  expect_near(found.volume, 6);
+  expect_near(found.area, 22);
+  expect_near(found.centroid, {10.5, 21, 31.5}, 1);
+  expect_near(found.principal_moments, {2.5, 5, 6.5}, 10);
+  // Independent of the origin because it is closed.
+  const Mesh moved = transformed(cube, Affine::translation({10, 20, 30}));
+  EXPECT_NEAR(measure(moved).volume.value, 6, 1e-12);
+  // Halving the sag halves the error of the volume of a ball.
+  const double exact = 4 * kPi / 3;
+  const double coarse = exact - measure(tessellate(ball(Frame{}, 1), {1e-2, kPi, {}})).volume.value;
+  const double fine = exact - measure(tessellate(ball(Frame{}, 1), {1e-4, kPi, {}})).volume.value;
+  EXPECT_NEAR(coarse / fine, 100, 12);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry

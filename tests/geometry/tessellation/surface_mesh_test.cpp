@@ -1,0 +1,114 @@
+// Meshes of surfaces: sag measured densely, welds, counts near those of Golovanov 2016, 8.7, where both directions share
+// the tolerance (ours keeps the sag on the diagonals too).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/queries/mass_properties.h"
+#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/tessellation/tessellate.h"
+#include "tessellation/mesh_checks.h"
+
+namespace lekalo::geometry {
+namespace {
+
+TessellationTolerance sag_only(double sag) { return {sag, kPi, {}}; }
+
+TEST(SurfaceMesh, SphereIsClosedAndKeepsTheSag) {
+  const SphereSurface sphere(Frame{}, 1);
+  for (double sag : {0.1, 0.01, 1e-3, 1e-4}) {
+    const Mesh mesh = tessellate(sphere, sag_only(sag));
+    EXPECT_TRUE(is_closed(mesh));
+    EXPECT_TRUE(points_are_distinct(mesh));
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    expect_good_normals(mesh);
+    EXPECT_LE(measured_sag(mesh, sphere), sag * 1.02);
+    const double volume = measure(mesh).volume.value;
+    EXPECT_LT(volume, 4 * kPi / 3);
+    EXPECT_GT(volume, 4 * kPi / 3 * (1 - 3 * sag));
+  }
+  // Half the sag in each direction needs twice the 506 triangles of the book, whose diagonals deviate by 1.76 sags.
+  EXPECT_LE(tessellate(sphere, sag_only(0.01)).triangles.size(), 1040u);
+}
+
+TEST(SurfaceMesh, NormalsAndParametersAreTheSurfacesOwn) {
+  SphereSurface sphere(frame_about({1, 2, 3}, {1, 1, 1}), 2);
+  sphere.set_reversed(true);
+  const Mesh mesh = tessellate(sphere, sag_only(0.01));
+  EXPECT_LT(measure(mesh).volume.value, 0);
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = mesh.points[t.point[k]];
+      const Vec2 uv = mesh.parameters[t.parameter[k]];
+      EXPECT_LT(glm::length(p - sphere.point(uv.x, uv.y)), 1e-14 * 10);
+      EXPECT_LT(glm::length(mesh.normals[t.normal[k]] - (Vec3(1, 2, 3) - p) / 2.0), 1e-12);
+    }
+}
+
+TEST(SurfaceMesh, CylinderUsesItsToleranceInOneDirection) {
+  const CylinderSurface cylinder(Frame{}, 1, 5);
+  const Mesh mesh = tessellate(cylinder, sag_only(0.01));
+  // 23 strips, 46 triangles.
+  EXPECT_EQ(mesh.triangles.size(), 46u);
+  EXPECT_EQ(euler_characteristic(mesh), 0);
+  EXPECT_LE(measured_sag(mesh, cylinder), 0.01);
+}
+
+TEST(SurfaceMesh, ConeApexIsAFanWithItsOwnNormals) {
+  const ConeSurface cone(Frame{}, 2, 0, 3);
+  const Mesh mesh = tessellate(cone, sag_only(0.01));
+  EXPECT_EQ(euler_characteristic(mesh), 1);
+  expect_good_normals(mesh, 0.99);
+  EXPECT_LE(measured_sag(mesh, cone), 0.0101);
+}
+
+TEST(SurfaceMesh, PlaneIsTwoTrianglesAndTheSaddleIsNot) {
+  EXPECT_EQ(tessellate(Plane(Frame{}, {{0, 3}, {0, 2}}), sag_only(1e-9)).triangles.size(), 2u);
+  // z = u v: no curvature along the lines, deviation 1/4 at the center of two triangles.
+  Grid<Vec3> net{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}}};
+  const NurbsSurface saddle = bezier_surface(net);
+  EXPECT_GT(measured_sag(tessellate(saddle, sag_only(1)), saddle), 0.1);
+  for (double sag : {0.05, 0.01, 1e-4}) {
+    const Mesh mesh = tessellate(saddle, sag_only(sag));
+    EXPECT_LE(measured_sag(mesh, saddle), sag * (1 + 1e-9));
+    // The area twice over: 1/4 by n^2 cells, so 1/(4 sag) cells.
+    EXPECT_LE(mesh.triangles.size(), 2 * 1.3 / (4 * sag) + 8);
+  }
+}
+
+TEST(SurfaceMesh, BicubicPatchWithACollapsedEdge) {
+  Grid<Vec3> net{4, 4, {}};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      net.values.push_back(Vec3(j * (i - 1.5), j, 0.8 * std::sin(1.3 * i + 0.7) * j * (3 - 0.5 * j)));
+  const NurbsSurface patch = bezier_surface(net);  // v = 0 is the point 0
+  for (double sag : {0.1, 0.01, 1e-3}) {
+    const Mesh mesh = tessellate(patch, {sag, 0.35, {}});
+    EXPECT_EQ(euler_characteristic(mesh), 1);
+    EXPECT_LE(measured_sag(mesh, patch), sag * 1.05);
+    expect_good_normals(mesh);
+  }
+}
+
+TEST(SurfaceMesh, SagAsAFunctionOfPlace) {
+  const SphereSurface sphere(Frame{}, 1);
+  TessellationTolerance tolerance{1, kPi, [](const Vec3& p) { return p.z > 0 ? 1e-3 : 1e-2; }};
+  const Mesh mesh = tessellate(sphere, tolerance);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_LT(mesh.triangles.size(), tessellate(sphere, sag_only(1e-3)).triangles.size());
+  for (const auto& t : mesh.triangles) {
+    const Vec3 m = (mesh.points[t.point[0]] + mesh.points[t.point[1]] + mesh.points[t.point[2]]) / 3.0;
+    EXPECT_LE(1 - glm::length(m), m.z > 0.1 ? 1.02e-3 : 1.02e-2);
+  }
+}
+
+TEST(SurfaceMesh, RefusesWhatCannotBeDone) {
+  EXPECT_THROW(tessellate(Plane(Frame{}), sag_only(0.1)), std::invalid_argument);
+  EXPECT_THROW(tessellate(SphereSurface(Frame{}, 1), sag_only(1e-12)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry
