@@ -13,9 +13,6 @@ namespace {
 // two places of the cell differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
 constexpr double kContraction = 0.25;
 
-// A cell whose roots lie within this share of it from the linear guess, for a line at 45 degrees, is flat.
-constexpr double kFlat = 0.25;
-
 // Undecided cells along one line and piece after which the search gives up: only lines that run inside the surface
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
@@ -373,10 +370,10 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   return m;
 }
 
-bool is_flat(const CellModel& m) {
-  // What a line sees of the bend at 45 degrees, in shares of the shorter side.
+double roughness(const CellModel& m) {
   const double shorter = std::min(glm::length(m.dx), glm::length(m.dy));
-  return std::max(m.shift_x, m.shift_y) + m.bend / shorter <= kFlat;
+  const double r = std::max(m.shift_x, m.shift_y) + m.bend / shorter;
+  return r < kInfinity ? r : kInfinity;
 }
 
 void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits) {

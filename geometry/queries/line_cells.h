@@ -77,7 +77,8 @@ CellModel model_of(const Surface& surface, const Rectangle& box);
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
                CellHits& hits);
 
-// True when the model is flat enough that lines not grazing the cell are decided without halving.
-bool is_flat(const CellModel& model);
+// How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
+// not graze a cell of roughness below 1/4 are decided without halving.
+double roughness(const CellModel& model);
 
 }  // namespace lekalo::geometry
