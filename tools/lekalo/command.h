@@ -28,6 +28,7 @@ using Action = std::function<int()>;
 void add_render(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
 
 // A number as commands print it: 17 significant digits, enough to give the same double back.
 std::string digits(double x);

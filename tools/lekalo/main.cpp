@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   command::add_render(app, action);
   command::add_check(app, action);
   command::add_evaluate(app, action);
+  command::add_compare(app, action);
 
   try {
     app.parse(argc, argv);
