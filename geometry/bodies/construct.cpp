@@ -166,14 +166,12 @@ std::vector<Vec2> base_polygon(const Fields& fields) {
 
 void declare_axis(TypeDeclaration& type) {
   type.field("frame", frame(), "placement: the center of the base circle, the axis z, x at the angle 0", "{}")
-      .optional("axis", axis(), "axis as a line, in place of a frame")
       .optional("height", length().positive(), "length along the axis, from the base")
       .optional("heights", range(), "where the body begins and ends along the axis, in place of height");
 }
 
 AxialPlacement axial_placement(const Fields& fields) {
   Frame frame = fields.frame();
-  if (fields.has("axis")) frame = frame_about(fields.axis("axis").through, fields.axis("axis").along);
   if (fields.has("height") == fields.has("heights"))
     throw FieldError("height", fields.has("height") ? "height and heights are both given" : "the height is missing",
                      "give height, or heights: [from, to]");

@@ -131,7 +131,7 @@ CurveMeasures measure(const Curve& curve) {
   return result;
 }
 
-Measure arc_length(const Curve& curve, double a, double b) {
+Measured arc_length(const Curve& curve, double a, double b) {
   require_bounded({std::min(a, b), std::max(a, b)});
   if (a == b) return {};
   const Interval range{std::min(a, b), std::max(a, b)};

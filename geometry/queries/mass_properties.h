@@ -12,24 +12,24 @@
 namespace lekalo::geometry {
 
 // A value with an estimate of its absolute error.
-struct Measure {
+struct Measured {
   double value = 0;
   double error = 0;
 };
 
 struct CurveMeasures {
-  Measure length;
+  Measured length;
   Vec3 centroid{0};  // of the curve as a wire of constant thickness
 };
 
 struct SurfaceMeasures {
-  Measure area;
+  Measured area;
   Vec3 centroid{0};  // of the surface as a sheet of constant thickness
 };
 
 struct MassProperties {
-  Measure area;
-  Measure volume;
+  Measured area;
+  Measured volume;
   Vec3 centroid{0};
   double centroid_error = 0;  // length
   // Inertia tensor about the centroid along the world's axes: diagonal J_xx = integral of y^2 + z^2, others the
@@ -49,7 +49,7 @@ inline constexpr double kMeasureAccuracy = 1e-12;
 // Throws std::invalid_argument for an unbounded curve or surface.
 CurveMeasures measure(const Curve& curve);
 // The length of the part from a to b (negative if b < a).
-Measure arc_length(const Curve& curve, double a, double b);
+Measured arc_length(const Curve& curve, double a, double b);
 SurfaceMeasures measure(const Surface& surface);
 SurfaceMeasures measure_face(const Body& body, int face);
 MassProperties measure(const Body& body, double accuracy = kMeasureAccuracy);

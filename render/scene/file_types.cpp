@@ -5,7 +5,9 @@
 #include "render/scene/include.h"
 #include "render/scene/model.h"
 
-#define LEKALO_FILE_TYPES(X) X(patches_type)
+#define LEKALO_FILE_TYPES(X) \
+  X(patches_type)            \
+  X(mesh_type)
 
 namespace lekalo::render {
 
@@ -24,6 +26,8 @@ TypeDeclaration patches_type() {
   });
   return type;
 }
+
+TypeDeclaration mesh_type();
 
 #define CALL(type) type(),
 std::vector<TypeDeclaration> file_types() { return {LEKALO_FILE_TYPES(CALL)}; }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kExact = 1e-11;
 
-void expect_near(const Measure& found, double exact) {
+void expect_near(const Measured& found, double exact) {
   EXPECT_NEAR(found.value, exact, kExact * std::abs(exact));
   // The stated error covers the true one, up to the last digits.
   EXPECT_LE(std::abs(found.value - exact), found.error + 1e-14 * std::abs(exact));
@@ -33,7 +33,7 @@ TEST(MassProperties, LengthsOfCurves) {
   expect_near(measure(Ellipse(Frame{}, 3, 2)).length, 15.86543958929059);
   const CurveMeasures half = measure(Circle(Frame{}, 1, {0, kPi}));
   expect_near(half.centroid, {0, 2 / kPi, 0}, 1);
-  const Measure back = arc_length(Circle(Frame{}, 1), 2, 0.5);
+  const Measured back = arc_length(Circle(Frame{}, 1), 2, 0.5);
   EXPECT_NEAR(back.value, -1.5, 1e-13);
 }
 
