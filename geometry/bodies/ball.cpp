@@ -1,5 +1,5 @@
-// Ball (Golovanov 2016, 5.6): one face, the sphere by longitude and latitude; the seam runs along longitude 0, the poles
-// are pole edges. Loop: +south +seam -north -seam.
+// Ball (Golovanov 2016, 5.6): one face, the sphere by longitude and latitude; the seam runs along longitude 0, the
+// poles are pole edges. Loop: +south +seam -north -seam.
 #include "geometry/bodies/construct.h"
 #include "geometry/bodies/primitives.h"
 #include "geometry/curves/circle.h"
@@ -17,8 +17,8 @@ Body ball(const Frame& frame, double radius) {
   const int north_pole =
       body.add_edge(point_curve(turn, body.vertices[north].point), north, north, {"", "north"}, EdgeKind::pole);
   const Frame meridian{frame.origin, frame.x, frame.z, -frame.y};
-  const int seam = body.add_edge(std::make_shared<Circle>(meridian, radius, latitude), south, north, {"", "seam"},
-                                 EdgeKind::seam);
+  const int seam =
+      body.add_edge(std::make_shared<Circle>(meridian, radius, latitude), south, north, {"", "seam"}, EdgeKind::seam);
   const int face = body.add_face(std::make_shared<SphereSurface>(frame, radius), true, {"", "side"}, false);
   body.add_loop(face, {{south_pole, true, image_line(turn, {0, latitude.lo}, {kTwoPi, latitude.lo})},
                        {seam, true, image_line(latitude, {kTwoPi, latitude.lo}, {kTwoPi, latitude.hi})},
@@ -32,9 +32,7 @@ TypeDeclaration ball_type() {
   return declare(Category::body, "ball", "Solid sphere. Face: side.")
       .field("frame", frame(), "placement: the center, the axis z through the poles, x at longitude 0", "{}")
       .field("radius", length().positive(), "radius")
-      .built_by([](const Fields& f) -> BodyPtr {
-        return std::make_shared<Body>(ball(f.frame(), f.number("radius")));
-      });
+      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(ball(f.frame(), f.number("radius"))); });
 }
 
 }  // namespace lekalo::geometry

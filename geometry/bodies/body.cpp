@@ -78,8 +78,8 @@ bool Body::is_closed() const {
 int Body::euler_characteristic() const {
   const auto real_edges =
       std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.kind != EdgeKind::pole; });
-  const int f = static_cast<int>(faces.size()), e = static_cast<int>(real_edges),
-            v = static_cast<int>(vertices.size()), l = static_cast<int>(loops.size());
+  const int f = static_cast<int>(faces.size()), e = static_cast<int>(real_edges), v = static_cast<int>(vertices.size()),
+            l = static_cast<int>(loops.size());
   return f - e + v + (f - l);
 }
 

@@ -1,8 +1,8 @@
 // Box and wedge (Golovanov 2016, 5.6).
 //
-// Surfaces of a box with the corner p: u x + v y (z_min), u y + v z (x_min), u x + v z (y_min) and the same moved by the
-// opposite lengths; the normals of z_max, x_max and y_min look outward, the others inward. Edges run along the positive
-// axes.
+// Surfaces of a box with the corner p: u x + v y (z_min), u y + v z (x_min), u x + v z (y_min) and the same moved by
+// the opposite lengths; the normals of z_max, x_max and y_min look outward, the others inward. Edges run along the
+// positive axes.
 #include <stdexcept>
 
 #include "geometry/bodies/construct.h"
@@ -73,8 +73,7 @@ Body wedge(const Frame& frame, const Vec3& size, double top) {
   require_size(size);
   if (!(top >= 0)) throw std::invalid_argument("the length of the top must not be negative");
   std::array<Vec3, 8> corners;
-  for (int c = 0; c < 8; ++c)
-    corners[c] = {c & 4 ? (c & 1 ? top : size.x) : 0, c & 2 ? size.y : 0, c & 1 ? size.z : 0};
+  for (int c = 0; c < 8; ++c) corners[c] = {c & 4 ? (c & 1 ? top : size.x) : 0, c & 2 ? size.y : 0, c & 1 ? size.z : 0};
   return hexahedron(frame, corners, top == 0);
 }
 

@@ -24,8 +24,7 @@ CurvePtr line_over(const Interval& t, const Vec3& from, const Vec3& to) {
 Vec3 polygon_normal(const std::vector<Vec3>& points, const std::vector<int>& corners) {
   Vec3 sum(0);
   const Vec3 o = points[corners[0]];
-  for (size_t i = 1; i + 1 < corners.size(); ++i)
-    sum += glm::cross(points[corners[i]] - o, points[corners[i + 1]] - o);
+  for (size_t i = 1; i + 1 < corners.size(); ++i) sum += glm::cross(points[corners[i]] - o, points[corners[i + 1]] - o);
   return sum;
 }
 
@@ -53,8 +52,9 @@ Body polyhedron(const std::vector<Vec3>& points, const std::vector<PolygonFace>&
   for (const PolygonFace& polygon : faces) {
     const std::vector<int>& corners = polygon.corners;
     const Vec3 outward = polygon_normal(points, corners);
-    const Frame frame = polygon.frame ? *polygon.frame
-                                      : frame_from(points[corners[0]], outward, points[corners[1]] - points[corners[0]]);
+    const Frame frame = polygon.frame
+                            ? *polygon.frame
+                            : frame_from(points[corners[0]], outward, points[corners[1]] - points[corners[0]]);
     const bool forward = glm::dot(frame.z, outward) > 0;
     std::vector<Vec2> flat;
     Vec2 lo(kInfinity), hi(-kInfinity);
@@ -100,7 +100,8 @@ Body polyhedron(const std::vector<Vec3>& points, const std::vector<PolygonFace>&
 void declare_base(TypeDeclaration& type) {
   type.field("frame", frame(), "placement: the base lies in the plane of x and y", "{}")
       .optional("sides", integer().between(3, 10000), "number of sides of a regular base; needs a radius")
-      .optional("radius", length().positive(), "distance of a regular base's corners from its center; the first is on x")
+      .optional("radius", length().positive(),
+                "distance of a regular base's corners from its center; the first is on x")
       .optional("points", parameter_points().count(3), "corners of the base in the frame's x and y, in place of sides");
 }
 

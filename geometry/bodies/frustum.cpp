@@ -34,14 +34,13 @@ Body frustum(const Frame& frame, double radius, double top_radius, double height
     End& end = ends[k];
     const Origin origin{"", k == 0 ? "start" : "end"};
     end.vertex = body.add_vertex(end.frame.origin + end.radius * frame.x, origin);
-    end.edge = end.radius > 0 ? body.add_edge(std::make_shared<Circle>(end.frame, end.radius), end.vertex, end.vertex,
-                                              origin)
-                              : body.add_edge(point_curve(turn, end.frame.origin), end.vertex, end.vertex, origin,
-                                              EdgeKind::pole);
+    end.edge = end.radius > 0
+                   ? body.add_edge(std::make_shared<Circle>(end.frame, end.radius), end.vertex, end.vertex, origin)
+                   : body.add_edge(point_curve(turn, end.frame.origin), end.vertex, end.vertex, origin, EdgeKind::pole);
   }
-  const int seam = body.add_edge(
-      std::make_shared<Segment>(body.vertices[ends[0].vertex].point, body.vertices[ends[1].vertex].point),
-      ends[0].vertex, ends[1].vertex, {"", "seam"}, EdgeKind::seam);
+  const int seam =
+      body.add_edge(std::make_shared<Segment>(body.vertices[ends[0].vertex].point, body.vertices[ends[1].vertex].point),
+                    ends[0].vertex, ends[1].vertex, {"", "seam"}, EdgeKind::seam);
 
   SurfacePtr side_surface;
   if (radius == top_radius)
@@ -78,8 +77,9 @@ TypeDeclaration cylinder_body_type() {
 }
 
 TypeDeclaration cone_body_type() {
-  TypeDeclaration type = declare(Category::body, "cone_body",
-                                 "Circular cone or frustum. Faces: start (the base), end (the top of a frustum), side.");
+  TypeDeclaration type =
+      declare(Category::body, "cone_body",
+              "Circular cone or frustum. Faces: start (the base), end (the top of a frustum), side.");
   declare_axis(type);
   type.field("radius", length().non_negative(), "radius of the base circle")
       .optional("top_radius", length().non_negative(), "radius of the top circle; 0, the apex, when left out")

@@ -46,10 +46,14 @@ CurveJet NurbsCurve::evaluate(double t, int order) const {
   basis_derivatives(p, axis_.knots(), place.span, place.t, evaluated, basis);
   const Vec4* points = points_.data() + (place.span - p);
   Vec4 sums[kMaxCurveOrder + 1];
-  for (int k = 0; k <= evaluated; ++k) {
-    Vec4 sum(0);
-    for (int j = 0; j <= p; ++j) sum += basis.d[k][j] * points[j];
-    sums[k] = sum;
+  for (int k = 0; k <= evaluated; ++k) sums[k] = Vec4(0);
+  // Derivatives of the basis sum to zero: taken of differences they lose nothing to a distant origin, and a constant
+  // coordinate has no derivative at all.
+  const Vec4 base = points[p / 2];
+  for (int j = 0; j <= p; ++j) {
+    sums[0] += basis.d[0][j] * points[j];
+    const Vec4 difference = points[j] - base;
+    for (int k = 1; k <= evaluated; ++k) sums[k] += basis.d[k][j] * difference;
   }
   CurveJet jet;
   jet.order = order;

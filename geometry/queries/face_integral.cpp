@@ -41,8 +41,7 @@ Integral integrate_over(const Surface& surface, const Rectangle& box, const Surf
                    with_ends(box.u, joints(surface, box, true)), with_ends(box.v, joints(surface, box, false)), goal);
 }
 
-Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, int count,
-                        const IntegrationGoal& goal) {
+Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, int count, const IntegrationGoal& goal) {
   const Face& the_face = body.faces[face];
   const Surface& surface = *the_face.surface;
   if (!the_face.trimmed) return integrate_over(surface, surface.domain(), f, count, goal);
@@ -52,6 +51,7 @@ Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, i
   const double start = box.u.middle();
   IntegrationGoal inner_goal = goal;
   inner_goal.relative = std::max(1e-14, 0.1 * goal.relative);
+  inner_goal.absolute = 0.1 * goal.absolute;
   Integral total;
   total.value.assign(count, 0);
   total.error.assign(count, 0);
@@ -67,9 +67,9 @@ Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, i
         std::fill(values.begin(), values.end(), 0.0);
         if (speed == 0 || u == start) return;
         const Interval range{std::min(u, start), std::max(u, start)};
-        const Integral inner = integrate(
-            [&](double s, std::span<double> inside) { f(surface.evaluate(s, v, 1), inside); }, count,
-            with_ends(range, joints_u), inner_goal);
+        const Integral inner =
+            integrate([&](double s, std::span<double> inside) { f(surface.evaluate(s, v, 1), inside); }, count,
+                      with_ends(range, joints_u), inner_goal);
         const double factor = u > start ? speed : -speed;
         for (int k = 0; k < count; ++k) {
           values[k] = factor * inner.value[k];

@@ -241,7 +241,7 @@ class EnclosureTarget final : public LineTarget {
     }
     --budget;
     Rectangle first = box, second = box;
-    if (model.variation_x + glm::length(model.dx) >= model.variation_y + glm::length(model.dy))
+    if (glm::length(model.dx) >= glm::length(model.dy))
       first.u.hi = second.u.lo = box.u.middle();
     else
       first.v.hi = second.v.lo = box.v.middle();

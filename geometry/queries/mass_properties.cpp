@@ -2,7 +2,9 @@
 //
 //   V = 1/3 int r.m dS,   V c_x = 1/4 int x r.m dS,   int x y dV = 1/5 int x y r.m dS.
 //
-// The origin is first moved to the middle of the body, so that r.m does not cancel.
+// The origin is first moved to the middle of the body, so that r.m does not cancel, and lengths are measured by the
+// body's half diameter: then all integrals are of the order of one, and an integrand that is nothing but rounding (r.m
+// on a plane through the origin) is seen to be one.
 #include "geometry/queries/mass_properties.h"
 
 #include <Eigen/Eigenvalues>
@@ -21,17 +23,33 @@ namespace {
 constexpr int kAreaIntegrals = 4;
 constexpr int kAllIntegrals = 14;
 
-void area_integrands(const SurfaceJet& jet, const Vec3& origin, std::span<double> values) {
-  const double element = glm::length(glm::cross(jet.du(), jet.dv()));
-  const Vec3 r = jet.point() - origin;
+// The origin and unit of length that integrals are taken in.
+struct Scale {
+  Vec3 origin;
+  double unit;
+  explicit Scale(const Box3& box) : origin(box.center()), unit(box.diameter() > 0 ? 0.5 * box.diameter() : 1.0) {}
+  // Of integral k of the list above, in this unit.
+  double factor(int k) const {
+    const int power = k == 0 ? 2 : k < 5 ? 3 : k < 8 ? 4 : 5;
+    return std::pow(unit, power);
+  }
+};
+
+void area_integrands(const SurfaceJet& jet, const Scale& scale, std::span<double> values) {
+  const double element = glm::length(glm::cross(jet.du(), jet.dv())) / (scale.unit * scale.unit);
+  const Vec3 r = (jet.point() - scale.origin) / scale.unit;
   values[0] = element;
   for (int k = 0; k < 3; ++k) values[1 + k] = element * r[k];
 }
 
-void mass_integrands(const SurfaceJet& jet, const Vec3& origin, std::span<double> values) {
-  area_integrands(jet, origin, values);
-  const Vec3 r = jet.point() - origin;
-  const double flux = glm::dot(r, glm::cross(jet.du(), jet.dv()));
+double volume_element(const SurfaceJet& jet, const Scale& scale) {
+  return glm::dot((jet.point() - scale.origin) / scale.unit, glm::cross(jet.du() / scale.unit, jet.dv() / scale.unit));
+}
+
+void mass_integrands(const SurfaceJet& jet, const Scale& scale, std::span<double> values) {
+  area_integrands(jet, scale, values);
+  const Vec3 r = (jet.point() - scale.origin) / scale.unit;
+  const double flux = volume_element(jet, scale);
   values[4] = flux / 3;
   for (int k = 0; k < 3; ++k) values[5 + k] = flux * r[k] / 4;
   for (int k = 0; k < 3; ++k) values[8 + k] = flux * r[k] * r[k] / 5;
@@ -40,12 +58,15 @@ void mass_integrands(const SurfaceJet& jet, const Vec3& origin, std::span<double
   values[13] = flux * r.z * r.x / 5;
 }
 
-SurfaceMeasures area_of(const Integral& integral, const Vec3& origin) {
+SurfaceMeasures area_of(const Integral& integral, const Scale& scale) {
   SurfaceMeasures result;
-  result.area = {integral.value[0], integral.error[0]};
-  result.centroid = origin + Vec3(integral.value[1], integral.value[2], integral.value[3]) / integral.value[0];
+  result.area = {scale.factor(0) * integral.value[0], scale.factor(0) * integral.error[0]};
+  result.centroid =
+      scale.origin + scale.unit / integral.value[0] * Vec3(integral.value[1], integral.value[2], integral.value[3]);
   return result;
 }
+
+IntegrationGoal goal(double accuracy) { return {0.1 * accuracy, accuracy, 2000000}; }
 
 // From the integrals about `origin` to the properties about the centroid.
 MassProperties properties_of(const std::array<double, kAllIntegrals>& value,
@@ -94,18 +115,19 @@ bool has_free_borders(const Body& body) {
 
 CurveMeasures measure(const Curve& curve) {
   require_bounded(curve.domain());
-  const Vec3 origin = curve.point(curve.domain().middle());
+  const Scale scale(bounds(curve));
   const auto integrand = [&](double t, std::span<double> values) {
     const CurveJet jet = curve.evaluate(t, 1);
-    const double speed = glm::length(jet.d[1]);
+    const double speed = glm::length(jet.d[1]) / scale.unit;
     values[0] = speed;
-    for (int k = 0; k < 3; ++k) values[1 + k] = speed * (jet.d[0][k] - origin[k]);
+    for (int k = 0; k < 3; ++k) values[1 + k] = speed * (jet.d[0][k] - scale.origin[k]) / scale.unit;
   };
-  const Integral integral =
-      integrate(integrand, 4, smooth_breaks(curve, curve.domain()), {0, kMeasureAccuracy, 1000000});
+  const Integral integral = integrate(integrand, 4, smooth_breaks(curve, curve.domain()), goal(kMeasureAccuracy));
   CurveMeasures result;
-  result.length = {integral.value[0], integral.error[0]};
-  result.centroid = origin + Vec3(integral.value[1], integral.value[2], integral.value[3]) / integral.value[0];
+  result.length = {scale.unit * integral.value[0], scale.unit * integral.error[0]};
+  result.centroid = scale.origin;
+  if (integral.value[0] > 0)
+    result.centroid += scale.unit / integral.value[0] * Vec3(integral.value[1], integral.value[2], integral.value[3]);
   return result;
 }
 
@@ -113,66 +135,60 @@ Measure arc_length(const Curve& curve, double a, double b) {
   require_bounded({std::min(a, b), std::max(a, b)});
   if (a == b) return {};
   const Interval range{std::min(a, b), std::max(a, b)};
-  const Integral integral = integrate(
-      [&](double t, std::span<double> values) { values[0] = glm::length(curve.evaluate(t, 1).d[1]); }, 1,
-      smooth_breaks(curve, range), {0, kMeasureAccuracy, 1000000});
+  const Integral integral =
+      integrate([&](double t, std::span<double> values) { values[0] = glm::length(curve.evaluate(t, 1).d[1]); }, 1,
+                smooth_breaks(curve, range), {0, kMeasureAccuracy, 2000000});
   return {a < b ? integral.value[0] : -integral.value[0], integral.error[0]};
 }
 
 SurfaceMeasures measure(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("an unbounded surface has no area; give it a domain");
-  const Rectangle domain = surface.domain();
-  const Vec3 origin = surface.point(domain.u.middle(), domain.v.middle());
-  return area_of(integrate_over(
-                     surface, domain,
-                     [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, origin, values); },
-                     kAreaIntegrals, {0, kMeasureAccuracy, 4000000}),
-                 origin);
+  const Scale scale(bounds(surface));
+  const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
+  return area_of(integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy)), scale);
 }
 
 SurfaceMeasures measure_face(const Body& body, int face) {
-  const Vec3 origin = bounds(body).center();
-  return area_of(integrate_over(
-                     body, face,
-                     [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, origin, values); },
-                     kAreaIntegrals, {0, kMeasureAccuracy, 4000000}),
-                 origin);
+  Box3 box;
+  for (int loop : body.faces[face].loops)
+    for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.edges[body.coedges[coedge].edge].curve));
+  const Scale scale(box);
+  const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
+  return area_of(integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy)), scale);
 }
+
+namespace {
+// Normals that look outward are those of r_u x r_v where this is 1, the opposite ones where it is -1.
+double outward(const Face& face) { return face.forward == (face.surface->normal_sign() > 0) ? 1 : -1; }
+}  // namespace
 
 MassProperties measure(const Body& body, double accuracy) {
   const Box3 box = bounds(body);
-  const Vec3 origin = box.center();
+  const Scale scale(box);
+  const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { mass_integrands(jet, scale, values); };
   std::array<double, kAllIntegrals> value{}, error{};
   for (size_t face = 0; face < body.faces.size(); ++face) {
-    const Integral integral = integrate_over(
-        body, static_cast<int>(face),
-        [&](const SurfaceJet& jet, std::span<double> values) { mass_integrands(jet, origin, values); }, kAllIntegrals,
-        {0, accuracy, 4000000});
-    const double outward = body.faces[face].forward == (body.faces[face].surface->normal_sign() > 0) ? 1 : -1;
+    const Integral integral = integrate_over(body, static_cast<int>(face), integrands, kAllIntegrals, goal(accuracy));
     for (int k = 0; k < kAllIntegrals; ++k) {
-      value[k] += k < kAreaIntegrals ? integral.value[k] : outward * integral.value[k];
-      error[k] += integral.error[k];
+      const double sign = k < kAreaIntegrals ? 1 : outward(body.faces[face]);
+      value[k] += sign * scale.factor(k) * integral.value[k];
+      error[k] += scale.factor(k) * integral.error[k];
     }
   }
-  MassProperties result = properties_of(value, error, origin, box.diameter());
+  MassProperties result = properties_of(value, error, scale.origin, box.diameter());
   result.closed = !has_free_borders(body);
   return result;
 }
 
 double signed_volume(const Body& body, int shell, double accuracy) {
-  const Vec3 origin = bounds(body).center();
+  const Scale scale(bounds(body));
+  const auto integrand = [&](const SurfaceJet& jet, std::span<double> values) {
+    values[0] = volume_element(jet, scale) / 3;
+  };
   double volume = 0;
-  for (int face : body.shells[shell].faces) {
-    const Integral integral = integrate_over(
-        body, face,
-        [&](const SurfaceJet& jet, std::span<double> values) {
-          values[0] = glm::dot(jet.point() - origin, glm::cross(jet.du(), jet.dv())) / 3;
-        },
-        1, {0, accuracy, 200000});
-    const double outward = body.faces[face].forward == (body.faces[face].surface->normal_sign() > 0) ? 1 : -1;
-    volume += outward * integral.value[0];
-  }
-  return volume;
+  for (int face : body.shells[shell].faces)
+    volume += outward(body.faces[face]) * integrate_over(body, face, integrand, 1, goal(accuracy)).value[0];
+  return scale.factor(4) * volume;
 }
 
 // A tetrahedron from the origin to a triangle a b c: with d = det(a, b, c),

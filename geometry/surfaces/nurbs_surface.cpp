@@ -9,6 +9,7 @@
 #include "geometry/curves/rational.h"
 #include "geometry/curves/rational_enclosure.h"
 #include "geometry/curves/weights.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -60,13 +61,22 @@ void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const Bas
   const int p = form.degree_u, q = form.degree_v;
   const size_t stride = form.count_v();
   const Vec4* row = form.points.data() + (span_u - p) * stride + (span_v - q);
+  // Derivatives are taken of differences from one point: nothing is lost to a distant origin, and a constant coordinate
+  // has no derivative at all.
+  const Vec4 base = row[(p / 2) * stride + q / 2];
   for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k) sums[k] = Vec4(0);
   for (int i = 0; i <= p; ++i, row += stride) {
-    for (int dv = 0; dv <= order; ++dv) {
-      Vec4 sum(0);
-      for (int j = 0; j <= q; ++j) sum += bv.d[dv][j] * row[j];
-      for (int du = 0; du + dv <= order; ++du) sums[SurfaceJet::index(du, dv)] += bu.d[du][i] * sum;
+    Vec4 point(0), across[kInnerOrder + 1];
+    for (int dv = 0; dv <= order; ++dv) across[dv] = Vec4(0);
+    for (int j = 0; j <= q; ++j) {
+      point += bv.d[0][j] * row[j];
+      const Vec4 difference = row[j] - base;
+      for (int dv = 0; dv <= order; ++dv) across[dv] += bv.d[dv][j] * difference;
     }
+    sums[0] += bu.d[0][i] * point;
+    for (int dv = 0; dv <= order; ++dv)
+      for (int du = dv == 0 ? 1 : 0; du + dv <= order; ++du)
+        sums[SurfaceJet::index(du, dv)] += bu.d[du][i] * across[dv];
   }
 }
 
@@ -157,7 +167,7 @@ DegenerateEdges collapsed_edges(const NurbsSurfaceForm& form, const Rectangle& d
         box.include(cartesian(piece.points[i * (q + 1) + j]));
       }
     }
-    return box.diameter() <= 1e-12 * size;
+    return box.diameter() <= kCollapsedEdge * size;
   };
   const auto first_span = [](const std::vector<double>& knots, const Interval& t) {
     return Interval{t.lo, std::min(t.hi, *std::upper_bound(knots.begin(), knots.end(), t.lo))};

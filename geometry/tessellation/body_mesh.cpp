@@ -1,7 +1,7 @@
 // Watertight mesh of a body (Golovanov 2016, 8.8): one polygon for every edge, used by both faces.
 //
-// Every face first gets its own grid lines. An edge along the border of an untrimmed face takes that face's lines as its
-// points; any other edge takes as many as its own curvature and the grids of both faces ask for. Then each face is
+// Every face first gets its own grid lines. An edge along the border of an untrimmed face takes that face's lines as
+// its points; any other edge takes as many as its own curvature and the grids of both faces ask for. Then each face is
 // filled: grid cells inside, a constrained triangulation between them and the border (face_mesh.cpp).
 #include "geometry/tessellation/body_mesh.h"
 
@@ -18,7 +18,13 @@ Rectangle grid_box(const Body& body, int face) {
   Box3 box;
   for (int loop : body.faces[face].loops)
     for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.coedges[coedge].image));
-  return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}};
+  // Boxes are a little wide; beyond a pole the surface has the opposite normal.
+  const Rectangle domain = surface.domain();
+  const Periods periods = surface.periods();
+  Rectangle result{{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}};
+  if (periods.u == 0) result.u = intersect(result.u, domain.u);
+  if (periods.v == 0) result.v = intersect(result.v, domain.v);
+  return result;
 }
 
 int constant_coordinate(const Curve& image) {
@@ -105,8 +111,7 @@ class BodyMesher {
           polygon.point[k] = static_cast<int32_t>(result.mesh.points.size());
           result.mesh.points.push_back(edge.curve->point(polygon.t[k]));
         }
-        for (size_t k = 1; k < polygon.t.size(); ++k)
-          result.border_sides.add(polygon.point[k - 1], polygon.point[k]);
+        for (size_t k = 1; k < polygon.t.size(); ++k) result.border_sides.add(polygon.point[k - 1], polygon.point[k]);
       }
       result.edges.push_back(std::move(polygon));
     }
@@ -208,8 +213,6 @@ class BodyMesher {
 
 }  // namespace
 
-Mesh tessellate(const Body& body, const TessellationTolerance& tolerance) {
-  return BodyMesher(body, tolerance).run();
-}
+Mesh tessellate(const Body& body, const TessellationTolerance& tolerance) { return BodyMesher(body, tolerance).run(); }
 
 }  // namespace lekalo::geometry

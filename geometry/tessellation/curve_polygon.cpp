@@ -21,9 +21,7 @@ namespace {
 // The largest number of chords of one curve; a tolerance that needs more is a mistake.
 constexpr double kMostChords = 4e6;
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 double largest_length(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
 

@@ -76,13 +76,11 @@ Direction make_direction(const Surface& surface, const Rectangle& box, bool alon
   std::vector<double> cuts{range.lo};
   for (double joint : joints(surface, box, along_u)) cuts.push_back(joint);
   cuts.push_back(range.hi);
-  const int parts =
-      std::max(kSamplesOfPiece, kSamples / static_cast<int>(std::max<size_t>(1, cuts.size() - 1)));
+  const int parts = std::max(kSamplesOfPiece, kSamples / static_cast<int>(std::max<size_t>(1, cuts.size() - 1)));
   Direction result;
   for (size_t i = 0; i + 1 < cuts.size(); ++i) {
     const double width = cuts[i + 1] - cuts[i];
-    const bool jumps =
-        i > 0 && normal_jumps(surface, cuts[i], std::min(width, cuts[i] - cuts[i - 1]), along_u, other);
+    const bool jumps = i > 0 && normal_jumps(surface, cuts[i], std::min(width, cuts[i] - cuts[i - 1]), along_u, other);
     if (i == 0 || jumps) {
       result.sections.push_back({{cuts[i]}, {}});
       result.doubled.push_back(jumps);
@@ -98,8 +96,8 @@ Direction make_direction(const Surface& surface, const Rectangle& box, bool alon
 
 // What one sample of the surface asks for.
 struct Demand {
-  double u = 0, v = 0;              // (a + b r) / (8 d), (c + b / r) / (8 d)
-  double turn_u = 0, turn_v = 0;    // |m_u| / angle, |m_v| / angle
+  double u = 0, v = 0;            // (a + b r) / (8 d), (c + b / r) / (8 d)
+  double turn_u = 0, turn_v = 0;  // |m_u| / angle, |m_v| / angle
 };
 
 Demand demand_at(const Surface& surface, double u, double v, const TessellationTolerance& tolerance) {
@@ -136,13 +134,12 @@ struct Densities {
 // Share of the tolerance that a direction's lines use where they stand, given its demands without the share.
 double used_share(Direction& direction, const std::vector<double>& demand, int fewest) {
   double used = 0;
-  const int fewest_here =
-      static_cast<int>((fewest + direction.sections.size() - 1) / direction.sections.size());
+  const int fewest_here = static_cast<int>((fewest + direction.sections.size() - 1) / direction.sections.size());
   direction.each([&](int index, const LineDensity& s, size_t k) {
     const double total = s.total();
     const double steps = std::max<double>(fewest_here, std::ceil(total * (1 - 1e-9)));
-    const double spacing = total > 0 ? total / (steps * std::max(s.value[k], 1e-300))
-                                     : (s.at.back() - s.at.front()) / steps;
+    const double spacing =
+        total > 0 ? total / (steps * std::max(s.value[k], 1e-300)) : (s.at.back() - s.at.front()) / steps;
     const double step = std::min(spacing, s.at.back() - s.at.front());
     used = std::max(used, demand[index] * step * step);
   });
@@ -260,8 +257,7 @@ class GridCheck {
     sides_u_.resize(rows + 1);
     centers_.resize(rows);
     for (int j = 0; j <= rows; ++j)
-      sides_u_[j] =
-          side_excess(grid_.node(i, j), grid_.node(i + 1, j), jets_[rows + j].point(), excess_u_[i]);
+      sides_u_[j] = side_excess(grid_.node(i, j), grid_.node(i + 1, j), jets_[rows + j].point(), excess_u_[i]);
     for (int j = 0; j < rows; ++j) centers_[j] = jets_[2 * rows + 1 + j].point();
   }
 
@@ -309,7 +305,7 @@ class GridCheck {
   const TessellationTolerance& tolerance_;
   Densities& densities_;
   SurfaceGrid& grid_;
-  const double cosine_ = std::cos(std::min(kPi, tolerance_.angle * (1 + 1e-6)));
+  const double cosine_ = std::cos(std::min(kPi, tolerance_.angle*(1 + 1e-6)));
   std::vector<double> excess_u_, excess_v_;
   std::vector<double> sides_u_, sides_v_, sides_v_before_;
   std::vector<Vec3> centers_;

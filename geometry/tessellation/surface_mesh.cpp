@@ -137,8 +137,7 @@ class SurfaceMesher {
 }  // namespace
 
 Mesh tessellate(const Surface& surface, const TessellationTolerance& tolerance) {
-  if (!surface.bounded())
-    throw std::invalid_argument("an unbounded surface has no mesh; give it a domain");
+  if (!surface.bounded()) throw std::invalid_argument("an unbounded surface has no mesh; give it a domain");
   const SurfaceGrid grid = make_grid(surface, surface.domain(), tolerance);
   return SurfaceMesher(surface, grid).run();
 }

@@ -167,13 +167,17 @@ void PlanarTriangulation::restore_delaunay() {
 
 PlanarTriangulation::Side PlanarTriangulation::find_side(int a, int b) const {
   const int start = first_triangle_[a];
-  int t = start;
-  do {
-    const Triangle& triangle = triangles_[t];
-    const int k = triangle.vertex[0] == a ? 0 : triangle.vertex[1] == a ? 1 : 2;
-    if (triangle.vertex[next(k)] == b) return {t, previous(k)};
-    t = triangle.across[next(k)];
-  } while (t != start && t >= 0);
+  // Counterclockwise around a, and the other way if that ends at the border (a is one of the enclosing three).
+  for (const bool counterclockwise : {true, false}) {
+    int t = start;
+    do {
+      const Triangle& triangle = triangles_[t];
+      const int k = triangle.vertex[0] == a ? 0 : triangle.vertex[1] == a ? 1 : 2;
+      if (triangle.vertex[next(k)] == b) return {t, previous(k)};
+      t = triangle.across[counterclockwise ? next(k) : previous(k)];
+    } while (t != start && t >= 0);
+    if (t >= 0) break;
+  }
   return {-1, -1};
 }
 
@@ -244,9 +248,9 @@ void PlanarTriangulation::constrain_piece(int a, int b, std::vector<std::array<i
       continue;
     }
     flip(side);
-    const bool crosses = p != a && p != b && q != a && q != b &&
-                         (orient2d(points_[a], points_[b], points_[p]) > 0) !=
-                             (orient2d(points_[a], points_[b], points_[q]) > 0);
+    const bool crosses =
+        p != a && p != b && q != a && q != b &&
+        (orient2d(points_[a], points_[b], points_[p]) > 0) != (orient2d(points_[a], points_[b], points_[q]) > 0);
     (crosses ? crossed.push_back({p, q}) : made.push_back({p, q}));
   }
 
@@ -330,8 +334,7 @@ std::vector<IndexTriangle> delaunay(std::span<const Vec2> points) {
   for (int pass = 0; pass < 2; ++pass) {
     const size_t start = hull.size();
     for (int i : order) {
-      while (hull.size() >= start + 2 &&
-             orient2d(points[hull[hull.size() - 2]], points[hull.back()], points[i]) < 0)
+      while (hull.size() >= start + 2 && orient2d(points[hull[hull.size() - 2]], points[hull.back()], points[i]) < 0)
         hull.pop_back();
       hull.push_back(i);
     }

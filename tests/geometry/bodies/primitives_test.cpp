@@ -51,6 +51,7 @@ TEST(Primitives, CountsOfTheBook) {
 }
 
 TEST(Primitives, PrismsPyramidsAndWedges) {
+  expect_counts(torus_body(kTilted, 3, 1), 1, 2, 1, 1, 0);
   expect_counts(prism(kTilted, kArrow, 2), 6, 12, 8, 6, 2);
   expect_counts(pyramid(kTilted, kArrow, {0.3, 0.3, 2}), 5, 8, 5, 5, 2);
   expect_counts(pyramid(kTilted, kArrow, {0.3, 0.3, 2}, 0.25), 6, 12, 8, 6, 2);

@@ -106,6 +106,19 @@ TEST(MassProperties, CylinderConesAndBall) {
   expect_near(ball_found.centroid, {100, 0, 0}, 2);
 }
 
+TEST(MassProperties, TorusOfTheBook) {
+  Frame frame;
+  frame.origin = {1, 2, 3};
+  const MassProperties found = measure(torus_body(frame, 3, 1));
+  expect_near(found.area, 118.4352528130723);
+  expect_near(found.volume, 59.21762640653615);
+  expect_near(found.centroid, {1, 2, 3}, 1);
+  const Mat3 origin = inertia_about(found, Vec3(0));
+  expect_near(origin[0], {1073.3194786184677, -118.4352528130723, -177.6528792196085}, 1000);
+  expect_near(origin[1], {-118.4352528130723, 895.6665993988593, -355.3057584392169}, 1000);
+  expect_near(origin[2], {-177.6528792196085, -355.3057584392169, 873.4599894964082}, 1000);
+}
+
 TEST(MassProperties, MeshesAreExactPolyhedra) {
   const Mesh cube = tessellate(box(Frame{Vec3(10, 20, 30)}, {1, 2, 3}), {});
   const MassProperties found = measure(cube);
@@ -117,11 +130,11 @@ TEST(MassProperties, MeshesAreExactPolyhedra) {
   // Independent of the origin because it is closed.
   const Mesh moved = transformed(cube, Affine::translation({10, 20, 30}));
   EXPECT_NEAR(measure(moved).volume.value, 6, 1e-12);
-  // Halving the sag halves the error of the volume of a ball.
+  // The error of a ball's volume falls with the sag (the counts of lines are whole, hence the room).
   const double exact = 4 * kPi / 3;
   const double coarse = exact - measure(tessellate(ball(Frame{}, 1), {1e-2, kPi, {}})).volume.value;
   const double fine = exact - measure(tessellate(ball(Frame{}, 1), {1e-4, kPi, {}})).volume.value;
-  EXPECT_NEAR(coarse / fine, 100, 12);
+  EXPECT_NEAR(coarse / fine, 100, 20);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Meshes of surfaces: sag measured densely, welds, counts near those of Golovanov 2016, 8.7, where both directions share
-// the tolerance (ours keeps the sag on the diagonals too).
+// Meshes of surfaces: sag measured densely, welds, counts near those of Golovanov 2016, 8.7, where both directions
+// share the tolerance (ours keeps the sag on the diagonals too).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +9,8 @@
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
+#include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
-#include "tessellation/mesh_checks.h"
 
 namespace lekalo::geometry {
 namespace {
