@@ -197,13 +197,14 @@ Vec3 normal_of(const Surface& surface, const SurfaceJet& jet, const Vec2& at, co
   return (surface.normal_sign() / length) * cross;
 }
 
-// Fills nodes and diagonals, and raises densities where the grid does not keep the tolerance. True when it does.
+// Fills nodes and diagonals and measures the grid: for every column and row of cells, the largest deviation as a
+// multiple of the tolerance, where that is more than 1.
 class GridCheck {
  public:
-  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, Densities& densities, SurfaceGrid& grid)
-      : surface_(surface), tolerance_(tolerance), densities_(densities), grid_(grid) {}
+  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, SurfaceGrid& grid)
+      : surface_(surface), tolerance_(tolerance), grid_(grid) {}
 
-  bool run() {
+  void run() {
     const size_t nu = grid_.u.size(), nv = grid_.v.size();
     grid_.points.resize(nu * nv);
     grid_.normals.resize(nu * nv);
@@ -212,9 +213,10 @@ class GridCheck {
     excess_v_.assign(nv - 1, 0);
     fill_nodes();
     for (size_t i = 0; i < nu; ++i) measure_column(static_cast<int>(i));
-    const bool raised_u = densities_.u.raise(grid_.u, excess_u_), raised_v = densities_.v.raise(grid_.v, excess_v_);
-    return !raised_u && !raised_v;
   }
+
+  const std::vector<double>& excess_u() const { return excess_u_; }
+  const std::vector<double>& excess_v() const { return excess_v_; }
 
  private:
   void fill_nodes() {
@@ -305,7 +307,6 @@ class GridCheck {
 
   const Surface& surface_;
   const TessellationTolerance& tolerance_;
-  Densities& densities_;
   SurfaceGrid& grid_;
   const double cosine_ = std::cos(std::min(kPi, tolerance_.angle*(1 + 1e-6)));
   std::vector<double> excess_u_, excess_v_;
@@ -370,6 +371,16 @@ static void gather_poles(SurfaceGrid& grid) {
   for (int i = 0; i <= grid.columns(); ++i) gather(grid.rows() + 1, [&](int j) { return grid.node(i, j); });
 }
 
+SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<double> v,
+                    const TessellationTolerance& tolerance) {
+  SurfaceGrid grid;
+  grid.u = std::move(u);
+  grid.v = std::move(v);
+  GridCheck(surface, tolerance, grid).run();
+  gather_poles(grid);
+  return grid;
+}
+
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& given) {
   TessellationTolerance tolerance = given;
   // Beyond a right angle the deviation along normals measures nothing.
@@ -385,7 +396,11 @@ SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const Tessel
                       kMostTriangles));
     grid.u = densities.u.lines(fewest_u);
     grid.v = densities.v.lines(fewest_v);
-    if (GridCheck(surface, tolerance, densities, grid).run()) break;
+    GridCheck check(surface, tolerance, grid);
+    check.run();
+    const bool raised_u = densities.u.raise(grid.u, check.excess_u());
+    const bool raised_v = densities.v.raise(grid.v, check.excess_v());
+    if (!raised_u && !raised_v) break;
   }
   gather_poles(grid);
   return grid;
