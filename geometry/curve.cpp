@@ -4,6 +4,7 @@
 
 #include "geometry/curves/blossom.h"
 #include "geometry/curves/knot_spans.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -67,10 +68,9 @@ ParameterMap ParameterMap::cut(double t0, double t1) const {
 bool Curve::is_closed() const {
   const Interval range = domain();
   if (!(range.lo > -kInfinity && range.hi < kInfinity)) return false;
-  // Room for a domain written with rounded multiples of pi.
-  if (period() > 0) return range.width() >= period() * (1 - 1e-12);
+  if (period() > 0) return range.width() >= period() * (1 - kDomainSlack);
   const double size = bounds(*this).diameter();
-  return size > 0 && glm::length(point(range.hi) - point(range.lo)) <= 1e-9 * size;
+  return size > 0 && glm::length(point(range.hi) - point(range.lo)) <= kClosedCurve * size;
 }
 
 void Curve::evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const {

@@ -87,8 +87,8 @@ class Curve {
   virtual Interval domain() const = 0;
   // Smallest p > 0 with r(t + p) = r(t); 0 where the curve is not periodic.
   virtual double period() const { return 0; }
-  // True when the end points coincide to 1e-9 of the curve's box (a periodic curve over less than its period is not
-  // closed).
+  // True when the end points coincide to kClosedCurve of the curve's box (a periodic curve over less than its period is
+  // not closed).
   virtual bool is_closed() const;
 
   // Point and derivatives up to `order` (0..kMaxCurveOrder) in closed form or by jets, never by differences.

@@ -12,17 +12,13 @@
 #include <cmath>
 
 #include "geometry/surface.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
 constexpr int kSeriesOrder = 3;
-// Near a singular point, at the distance delta from it, N loses eps/delta of its direction and the limit is off by
-// delta: they are equal at 1e-8.
-constexpr double kSwitch = 1e-8;
-// Coefficients below this share of their own terms are rounding errors.
-constexpr double kNoise = 1e-13;
 
 double scale_of(const Interval& range) {
   const double width = range.width();
@@ -39,12 +35,13 @@ double inward(const Interval& range, double x) {
 
 struct NormalSeries {
   Vec3 c[kSeriesOrder + 1];
-  double size = 0;  // the largest sum of the absolute values of a coefficient's terms
+  double noise[kSeriesOrder + 1];  // lengths that rounding alone can give the coefficients
 };
 
 NormalSeries normal_series(const SurfaceJet& jet, double step_u, double step_v) {
   constexpr double kFactorial[] = {1, 1, 2, 6};
   Vec3 ru[kSeriesOrder + 1], rv[kSeriesOrder + 1];
+  double largest_u = 0, largest_v = 0;
   for (int k = 0; k <= kSeriesOrder; ++k) {
     ru[k] = rv[k] = Vec3(0);
     double binomial = 1;  // of k over j
@@ -56,31 +53,20 @@ NormalSeries normal_series(const SurfaceJet& jet, double step_u, double step_v) 
     }
     ru[k] *= std::abs(step_u);
     rv[k] *= std::abs(step_v);
+    largest_u = std::max(largest_u, glm::length(ru[k]));
+    largest_v = std::max(largest_v, glm::length(rv[k]));
   }
   NormalSeries series;
   for (int k = 0; k <= kSeriesOrder; ++k) {
     series.c[k] = Vec3(0);
-    double size = 0;
+    double terms = 0;
     for (int i = 0; i <= k; ++i) {
       series.c[k] += glm::cross(ru[i], rv[k - i]);
-      size += glm::length(ru[i]) * glm::length(rv[k - i]);
+      terms += glm::length(ru[i]) * largest_v + largest_u * glm::length(rv[k - i]);
     }
-    series.size = std::max(series.size, size);
+    series.noise[k] = kNormalNoise * terms;
   }
   return series;
-}
-
-// The coefficient whose direction the normal takes, or -1.
-int leading_coefficient(const NormalSeries& series) {
-  for (int k = 0; k <= kSeriesOrder; ++k) {
-    const double length = glm::length(series.c[k]);
-    if (!(length > kNoise * series.size)) continue;
-    bool leads = true;
-    for (int later = k + 1; later <= kSeriesOrder; ++later)
-      leads = leads && length > kSwitch * glm::length(series.c[later]);
-    if (leads) return k;
-  }
-  return -1;
 }
 
 Vec3 limit_normal(const Surface& surface, double u, double v) {
@@ -88,12 +74,24 @@ Vec3 limit_normal(const Surface& surface, double u, double v) {
   const double step_u = scale_of(domain.u) * inward(domain.u, u);
   const double step_v = scale_of(domain.v) * inward(domain.v, v);
   const NormalSeries series = normal_series(surface.evaluate(u, v, kSeriesOrder + 1), step_u, step_v);
-  const int k = leading_coefficient(series);
-  if (k >= 0) {
+  // The coefficient that rules at a small distance. A vanishing N is looked at from further away: at a double root (the
+  // tip of a horn torus) c_1 is known long before it vanishes, but has opposite signs on the two sides.
+  const bool vanishes = !(glm::length(series.c[0]) > series.noise[0]);
+  const double distance = vanishes ? 100 * kNormalLimit : kNormalLimit;
+  int leading = -1;
+  double largest = 0;
+  for (int k = kSeriesOrder; k >= 0; --k) {
+    const double length = glm::length(series.c[k]), term = length * std::pow(distance, k);
+    if (length > series.noise[k] && term > largest) {
+      largest = term;
+      leading = k;
+    }
+  }
+  if (leading >= 0) {
+    const Vec3& c = series.c[leading];
     // A point just before a singular line that the direction crosses keeps the normal of its own side.
-    const bool crosses =
-        k > 0 && glm::length(series.c[0]) > kNoise * series.size && glm::dot(series.c[0], series.c[k]) < 0;
-    return glm::normalize(crosses ? -series.c[k] : series.c[k]);
+    const bool crosses = !vanishes && glm::dot(series.c[0], c) < 0;
+    return glm::normalize(crosses ? -c : c);
   }
   for (const double shift : {1e-6, 1e-4, 1e-2}) {
     const SurfaceJet near = surface.evaluate(u + shift * step_u, v + shift * step_v, 1);
@@ -118,7 +116,8 @@ Vec3 parametric_normal(const Surface& surface, double u, double v, const Surface
   const double reach = std::max(glm::length(jet.du()) * scale_u, glm::length(jet.dv()) * scale_v);
   const Vec3 p = glm::abs(jet.point());
   const bool tiny = reach < 1e-9 * std::max({p.x, p.y, p.z});
-  if (!tiny && length * scale_u * scale_v > 10 * kSwitch * reach * reach && std::isfinite(length)) return n / length;
+  if (!tiny && length * scale_u * scale_v > 10 * kNormalLimit * reach * reach && std::isfinite(length))
+    return n / length;
   return limit_normal(surface, u, v);
 }
 

@@ -23,4 +23,29 @@ inline constexpr double kTrimSlack = 1e-11;
 // Edge curves and their images on the faces agree to this (of the body's size) in a body that we made.
 inline constexpr double kEdgeTolerance = 1e-12;
 
+// A curve whose end points agree to this is closed: what is left after chains of operations, and far below what can be
+// seen or what a modeller calls a gap.
+inline constexpr double kClosedCurve = 1e-9;
+
+// An edge of a control net whose points agree to this shrinks to one point: rounding of coordinates given in decimals
+// and moved by a few transformations.
+inline constexpr double kCollapsedEdge = 1e-12;
+
+// Knots closer than this part of their range are meant to be equal.
+inline constexpr double kSameKnot = 1e-10;
+
+// The knots of a closed spline repeat to this part of the period (then they are made to repeat exactly).
+inline constexpr double kKnotPeriod = 1e-9;
+
+// A domain that exceeds another by this part of its width agrees with it: multiples of pi written in decimals. Parts of
+// spans narrower than this are not worth a piece of their own.
+inline constexpr double kDomainSlack = 1e-12;
+
+// Normals by their limit: at the distance delta (of the domain) from a singular point r_u x r_v loses eps/delta of its
+// direction and the limit is off by delta; they are equal here.
+inline constexpr double kNormalLimit = 1e-8;
+
+// Taylor coefficients of r_u x r_v below this part of their largest possible terms are rounding errors.
+inline constexpr double kNormalNoise = 1e-15;
+
 }  // namespace lekalo::geometry

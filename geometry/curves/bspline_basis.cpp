@@ -14,42 +14,44 @@ int find_span(int degree, std::span<const double> knots, double t) {
   return span;
 }
 
-void basis_derivatives(int degree, std::span<const double> knots, int span, double t, int order,
-                       BasisDerivatives& result) {
-  // values[d][j] is N_{span-d+j}^d; reciprocal[d][j] is 1/(t_{i+d} - t_i) with i = span - d + 1 + j.
-  double values[kMaxDegree + 1][kMaxDegree + 1];
-  double reciprocal[kMaxDegree + 1][kMaxDegree + 1];
-  values[0][0] = 1;
+SpanBasis span_basis(int degree, std::span<const double> knots, int span, double t, int order) {
+  SpanBasis basis;
+  basis.degree = degree;
+  // row[j] is N_{span-d+j}^d, d growing to the degree; the last rows are kept.
+  double row[kMaxDegree + 1];
+  row[0] = 1;
+  if (degree <= order) basis.values[degree][0] = 1;
   for (int d = 1; d <= degree; ++d) {
+    const int k = degree - d;  // the derivative whose sums take this row; its differences' factors belong to k + 1
     double carried = 0;
     for (int j = 0; j < d; ++j) {
       const double left = knots[span - d + 1 + j], right = knots[span + 1 + j];
-      reciprocal[d][j] = 1 / (right - left);
-      const double share = values[d - 1][j] * reciprocal[d][j];
-      values[d][j] = carried + (right - t) * share;
+      const double reciprocal = 1 / (right - left);
+      if (k < order) basis.factors[k + 1][j] = d * reciprocal;
+      const double share = row[j] * reciprocal;
+      row[j] = carried + (right - t) * share;
       carried = (t - left) * share;
     }
-    values[d][d] = carried;
+    row[d] = carried;
+    if (k <= order) std::copy_n(row, d + 1, basis.values[k]);
   }
+  return basis;
+}
 
-  std::copy_n(values[degree], degree + 1, result.d[0].begin());
-  for (int k = 1; k <= order; ++k) {
-    auto& row = result.d[k];
-    if (k > degree) {
-      std::fill_n(row.begin(), degree + 1, 0.0);
-      continue;
+void basis_derivative(int degree, std::span<const double> knots, int span, double t, int k, std::span<double> result) {
+  std::fill_n(result.begin(), degree + 1, 0.0);
+  if (k > degree) return;
+  const SpanBasis basis = span_basis(degree, knots, span, t, k);
+  std::copy_n(basis.values[k], degree - k + 1, result.begin());
+  // Each step differentiates and raises the degree by one.
+  for (int step = k; step >= 1; --step) {
+    double previous = 0;
+    for (int j = 0; j <= degree - step; ++j) {
+      const double share = basis.factors[step][j] * result[j];
+      result[j] = previous - share;
+      previous = share;
     }
-    // Differentiate k times, raising the degree by one each time.
-    std::copy_n(values[degree - k], degree - k + 1, row.begin());
-    for (int d = degree - k + 1; d <= degree; ++d) {
-      double previous = 0;
-      for (int j = 0; j < d; ++j) {
-        const double share = d * row[j] * reciprocal[d][j];
-        row[j] = previous - share;
-        previous = share;
-      }
-      row[d] = previous;
-    }
+    result[degree - step + 1] = previous;
   }
 }
 

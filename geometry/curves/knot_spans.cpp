@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/tolerances.h"
+
 namespace lekalo::geometry {
 
 std::vector<SpanPart> span_parts(int degree, std::span<const double> knots, std::span<const ParameterMap> maps,
                                  const Interval& domain) {
   const int last = static_cast<int>(knots.size()) - 1 - degree;
-  const double sliver = 1e-12 * std::max(domain.width(), 0.0);
+  const double sliver = kDomainSlack * std::max(domain.width(), 0.0);
   if (last <= degree || domain.lo < knots[degree] - sliver || domain.hi > knots[last] + sliver || domain.empty())
     throw std::invalid_argument("the domain lies outside the domain of the NURBS form");
 

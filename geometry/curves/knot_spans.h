@@ -19,7 +19,7 @@ struct SpanPart {
 
 // Parts of the non-empty spans of knots[degree..size - 1 - degree] that meet the domain, in order, covering it without
 // gaps. `maps` has one entry for each non-empty span or is empty (affine). A sliver at an end of the domain, narrower
-// than 1e-12 of it, is left to the neighbouring part.
+// than kDomainSlack of it, is left to the neighbouring part.
 // Throws std::invalid_argument when the domain does not lie in the knots' (to rounding) or the maps are too few.
 std::vector<SpanPart> span_parts(int degree, std::span<const double> knots, std::span<const ParameterMap> maps,
                                  const Interval& domain);

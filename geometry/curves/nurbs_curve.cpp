@@ -42,15 +42,10 @@ CurveJet NurbsCurve::evaluate(double t, int order) const {
   const SplineAxis::Place place = axis_.place(t);
   const int evaluated = place.beyond != 0 && order == 0 ? 1 : order;
   const int p = degree();
-  BasisDerivatives basis;
-  basis_derivatives(p, axis_.knots(), place.span, place.t, evaluated, basis);
-  const Vec4* points = points_.data() + (place.span - p);
-  Vec4 sums[kMaxCurveOrder + 1];
-  for (int k = 0; k <= evaluated; ++k) {
-    Vec4 sum(0);
-    for (int j = 0; j <= p; ++j) sum += basis.d[k][j] * points[j];
-    sums[k] = sum;
-  }
+  const SpanBasis basis = span_basis(p, axis_.knots(), place.span, place.t, evaluated);
+  Vec4 points[kMaxDegree + 1], sums[kMaxCurveOrder + 1];
+  std::copy_n(points_.data() + (place.span - p), p + 1, points);
+  basis.derivatives(points, evaluated, sums);
   CurveJet jet;
   jet.order = order;
   if (rational_)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/curves/bspline_basis.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -29,7 +30,7 @@ void check_knots(int degree, std::vector<double>& knots) {
       throw FieldError("knots", fmt::format("knots must not decrease, but knot {} is {} and knot {} is {}", i, knots[i],
                                             i + 1, knots[i + 1]));
   }
-  const double snap = 1e-10 * (knots.back() - knots.front());
+  const double snap = kSameKnot * (knots.back() - knots.front());
   int first = 0;  // of a run of equal knots
   for (int i = 1; i < size; ++i) {
     if (knots[i] - knots[first] <= snap)
@@ -49,7 +50,7 @@ void check_periodic(int degree, std::vector<double>& knots, int distinct) {
   const double period = knots[degree + distinct] - knots[degree];
   for (int k = 0; k <= 2 * degree; ++k) {
     const double expected = knots[k] + period;
-    if (std::abs(knots[k + distinct] - expected) > 1e-9 * period)
+    if (std::abs(knots[k + distinct] - expected) > kKnotPeriod * period)
       throw FieldError("knots",
                        fmt::format("the knots of a closed curve must repeat after the period {}: knot {} should be {}, "
                                    "not {}",
@@ -76,7 +77,7 @@ SplineAxis::SplineAxis(int degree, std::vector<double> knots, Extension extensio
 }
 
 void SplineAxis::restrict_to(const Interval& part) {
-  const double slack = 1e-12 * whole_.width();
+  const double slack = kDomainSlack * whole_.width();
   if (!(part.width() > 0)) throw FieldError("domain", "the domain is empty");
   if (!periodic()) {
     if (part.lo < whole_.lo - slack || part.hi > whole_.hi + slack)

@@ -21,8 +21,8 @@ class SplineAxis {
   // The full knot vector; the domain is knots[degree] .. knots[knots.size() - 1 - degree]. A periodic axis has its
   // first `degree` control points repeated at the end (count() counts them). Throws FieldError (fields degree, knots)
   // for a degree outside 1..kMaxDegree, decreasing knots, a multiplicity above degree + 1, an empty domain; for a
-  // periodic axis unless t_{k+n} = t_k + T for n distinct points, k = 0..2 degree. Knots closer than 1e-10 of the range
-  // become equal.
+  // periodic axis unless t_{k+n} = t_k + T for n distinct points, k = 0..2 degree. Knots closer than kSameKnot of their
+  // range become equal.
   SplineAxis(int degree, std::vector<double> knots, Extension extension);
 
   // The axis restricted to a part of its domain; on a periodic axis any part not longer than the period, over the seam

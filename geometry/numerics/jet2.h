@@ -38,6 +38,8 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
   }
 
   static constexpr Jet2 product(const Jet2& a, const Jet2& b) {
+    if (a.is_constant()) return b * a.c[0];
+    if (b.is_constant()) return a * b.c[0];
     Jet2 r;
     for (int degree = 0; degree <= N; ++degree) {
       for (int j = 0; j <= degree; ++j) r.c[index(degree - j, j)] = convolution(a, b, degree - j, j, 0);
@@ -45,6 +47,7 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
     return r;
   }
   static constexpr Jet2 quotient(const Jet2& a, const Jet2& b) {
+    if (b.is_constant()) return a / b.c[0];
     Jet2 r;
     for (int degree = 0; degree <= N; ++degree) {
       for (int j = 0; j <= degree; ++j) {
@@ -70,6 +73,29 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
     return r;
   }
 
+  // f of a jet, where f takes jets in one variable. Most arguments in surfaces depend on u or on v alone (cos u, sin
+  // v): these need no composition.
+  template <class F>
+  static Jet2 apply(F f, const Jet2& a) {
+    Jet<S, N> along_u, along_v;
+    bool only_u = true, only_v = true;
+    for (int degree = 0; degree <= N; ++degree) {
+      for (int j = 0; j <= degree; ++j) {
+        const S& x = a.c[index(degree - j, j)];
+        if (j == 0) along_u.c[degree] = x;
+        if (j == degree) along_v.c[degree] = x;
+        if (x == S(0)) continue;
+        if (j > 0) only_u = false;
+        if (j < degree) only_v = false;
+      }
+    }
+    if (!only_u && !only_v) return compose(f(Jet<S, N>::variable(a.value())), a);
+    const Jet<S, N> along = f(only_u ? along_u : along_v);
+    Jet2 r;
+    for (int degree = 0; degree <= N; ++degree) r.c[only_u ? index(degree, 0) : index(0, degree)] = along.c[degree];
+    return r;
+  }
+
   friend Jet2 atan2(const Jet2& y, const Jet2& x) {  // as for Jet
     using std::atan2;
     const S angle = atan2(y.value(), x.value());
@@ -87,14 +113,14 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
     return r;
   }
   friend Jet2 pow(const Jet2& base, const Jet2& exponent) {
-    if (exponent.is_constant())
-      return compose(pow(Jet<S, N>::variable(base.value()), Jet<S, N>(exponent.value())), base);
-    return exp(exponent * log(base));
+    if (!exponent.is_constant()) return exp(exponent * log(base));
+    const Jet<S, N> constant(exponent.value());
+    return apply([&](const Jet<S, N>& x) { return pow(x, constant); }, base);
   }
   template <class A>
   requires std::is_arithmetic_v<A>
   friend Jet2 pow(const Jet2& base, A exponent) {
-    return compose(pow(Jet<S, N>::variable(base.value()), exponent), base);
+    return apply([&](const Jet<S, N>& x) { return pow(x, exponent); }, base);
   }
 
  private:
@@ -139,10 +165,10 @@ constexpr Jet2<S, N> sqr(const Jet2<S, N>& a) {
   return r;
 }
 
-#define LEKALO_COMPOSED_FUNCTION(function)                                   \
-  template <class S, int N>                                                  \
-  Jet2<S, N> function(const Jet2<S, N>& a) {                                 \
-    return Jet2<S, N>::compose(function(Jet<S, N>::variable(a.value())), a); \
+#define LEKALO_COMPOSED_FUNCTION(function)                                       \
+  template <class S, int N>                                                      \
+  Jet2<S, N> function(const Jet2<S, N>& a) {                                     \
+    return Jet2<S, N>::apply([](const Jet<S, N>& x) { return function(x); }, a); \
   }
 
 LEKALO_COMPOSED_FUNCTION(sqrt)

@@ -40,6 +40,7 @@ Evaluation evaluate(const double* c, double x, double relative_error) {
     sum = sum * size + std::fabs(c[i]);
   }
   const double error = kUnitRoundoff * (2 * running - std::fabs(p)) * 1.01 + relative_error * sum;
+  if (!std::isfinite(error)) return {p, p > 0 ? 1 : -1};  // overflow of p leaves the sign right
   return {p, p > error ? 1 : p < -error ? -1 : 0};
 }
 

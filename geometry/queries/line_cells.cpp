@@ -13,18 +13,9 @@ namespace {
 // two places of the cell differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
 constexpr double kContraction = 0.25;
 
-// A cell with |variation| at most this share of its smaller extent is flat.
-constexpr double kFlat = 0.12;
-
 // Undecided cells along one line and piece after which the search gives up: only lines that run inside the surface
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
-
-double largest_distance(const Box3& box, const Vec3& from) {
-  const Vec3 d = glm::max(glm::abs(box.lo - from), glm::abs(box.hi - from));
-  const double length = glm::length(d);
-  return std::isfinite(length) ? length : kInfinity;
-}
 
 // Rational Bezier cells: control points, halved by de Casteljau.
 struct PatchCells {
@@ -88,14 +79,14 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, Ce
   double a = glm::dot(line.n1, m.dx), b = glm::dot(line.n1, m.dy);
   double c = glm::dot(line.n2, m.dx), d = glm::dot(line.n2, m.dy);
   const double f = glm::dot(line.n1, r), g = glm::dot(line.n2, r);
-  const double variation = m.variation_x + m.variation_y;
   double determinant = a * d - b * c;
-  if (determinant == 0 || !(variation < kInfinity)) return Verdict::unsure;
+  if (determinant == 0 || !(m.shift_x < kInfinity)) return Verdict::unsure;
   const double inverse = 1 / determinant;
   const double x0 = -(d * f - b * g) * inverse, y0 = -(a * g - c * f) * inverse;
-  // Row norms of the inverse times the variation: how far a root may lie from the linear guess.
-  const double ex = std::sqrt(d * d + b * b) * std::abs(inverse) * variation;
-  const double ey = std::sqrt(a * a + c * c) * std::abs(inverse) * variation;
+  // How far a root may lie from the linear guess.
+  const double n1 = glm::dot(line.n1, m.normal), n2 = glm::dot(line.n2, m.normal);
+  const double ex = m.shift_x + std::abs((d * n1 - b * n2) * inverse) * m.bend;
+  const double ey = m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend;
   const double reach = 1 + kBorderSlack;
   if (std::abs(x0) > reach + ex || std::abs(y0) > reach + ey) return Verdict::none;
   if (!(ex <= kContraction && ey <= kContraction)) return Verdict::unsure;
@@ -143,7 +134,7 @@ bool is_singular(const CellModel& m, double whole_x, double whole_y) {
 }
 
 // How far the cell reaches along x and y, at most.
-Vec2 extent(const CellModel& m) { return {glm::length(m.dx) + m.variation_x, glm::length(m.dy) + m.variation_y}; }
+Vec2 extent(const CellModel& m) { return {glm::length(m.dx) + m.variation, glm::length(m.dy) + m.variation}; }
 
 // Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
 // simpler by being made narrower, that is the side towards the pole.
@@ -177,14 +168,16 @@ struct Search {
   }
   // The undecided remains of a singular point: cells around it differ in the parameter that does not matter.
   void add_singular(const CellHit& hit) {
-    const double near = 1e-9 * (whole.x + whole.y) * std::sqrt(line.inverse_length2);
+    const double size = whole.x + whole.y;
+    const double near = size < kInfinity ? 1e-9 * size * std::sqrt(line.inverse_length2) : 0;
     for (int i = 0; i < hits.count; ++i)
       if (std::abs(hits.hits[i].t - hit.t) <= near) return;
     hits.add(hit);
   }
   bool is_smallest(const CellModel& m, double hx, double hy) const {
     const Vec2 e = extent(m);
-    return e.x + e.y < kSmallestCell * (whole.x + whole.y) || std::max(hx, hy) < kSmallestCell;
+    const double size = whole.x + whole.y;
+    return (size < kInfinity && e.x + e.y < kSmallestCell * size) || std::max(hx, hy) < kSmallestCell;
   }
 };
 
@@ -199,7 +192,6 @@ void search(Search& s, const PatchView& patch, const CellModel& m, double x0, do
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
     return;
   }
-  if (cells.excluded(s.line)) return;
   if (s.is_smallest(m, hx, hy)) {
     if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
       s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
@@ -222,6 +214,7 @@ void search(Search& s, const PatchView& patch, const CellModel& m, double x0, do
     PatchView half{workspace().points.data() + at, patch.degree_u, patch.degree_v};
     const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
     const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
+    if (PatchCells{half}.excluded(s.line)) continue;
     search(s, half, model_of(half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, at + n);
   }
 }
@@ -237,7 +230,6 @@ void search(Search& s, const Surface& surface, const Rectangle& box, const CellM
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
     return;
   }
-  if (cells.excluded(s.line)) return;
   if (s.is_smallest(m, hx, hy)) {
     if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
       s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
@@ -252,6 +244,7 @@ void search(Search& s, const Surface& surface, const Rectangle& box, const CellM
       (child == 0 ? half.v.hi : half.v.lo) = box.v.middle();
     const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
     const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
+    if (SurfaceCells{&surface, half}.excluded(s.line)) continue;
     search(s, surface, half, model_of(surface, half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy);
   }
 }
@@ -269,41 +262,86 @@ LineBasis::LineBasis(const Line& l) : line(l) {
   n2 = {b, sign + d.y * d.y * a, -d.y};
 }
 
+namespace {
+
+// A vector in a cell's own directions: shares of dx and dy, and the part along the normal.
+struct CellFrame {
+  Vec3 dual_x{0}, dual_y{0}, normal{0};
+  bool regular = false;
+  CellFrame(const Vec3& dx, const Vec3& dy) {
+    const Vec3 n = glm::cross(dx, dy);
+    const double area2 = glm::dot(n, n);
+    regular = area2 > 1e-24 * glm::dot(dx, dx) * glm::dot(dy, dy) && area2 > 1e-290;
+    if (!regular) return;
+    dual_x = glm::cross(dy, n) / area2;
+    dual_y = glm::cross(n, dx) / area2;
+    normal = n / std::sqrt(area2);
+  }
+};
+
+// Largest parts of the vectors included.
+struct LargestParts {
+  double x = 0, y = 0, normal = 0, length2 = 0;
+  void include(const Vec3& v, const CellFrame& frame) {
+    x = std::max(x, std::abs(glm::dot(v, frame.dual_x)));
+    y = std::max(y, std::abs(glm::dot(v, frame.dual_y)));
+    normal = std::max(normal, std::abs(glm::dot(v, frame.normal)));
+    length2 = std::max(length2, glm::dot(v, v));
+  }
+};
+
+void add(CellModel& m, const LargestParts& parts, double factor) {
+  m.shift_x += factor * parts.x;
+  m.shift_y += factor * parts.y;
+  m.bend += factor * parts.normal;
+  m.variation += factor * std::sqrt(parts.length2);
+}
+
+}  // namespace
+
 CellModel model_of(const PatchView& patch) {
   CellModel m;
   const PatchPoint center = evaluate(patch, 0.5, 0.5);
   m.point = center.point;
   m.dx = 0.5 * center.ds;
   m.dy = 0.5 * center.dt;
+  const CellFrame frame(m.dx, m.dy);
+  m.normal = frame.normal;
+  double least_weight = kInfinity, most_weight = -kInfinity;
+  for (int k = 0; k < patch.count(); ++k) {
+    least_weight = std::min(least_weight, patch.points[k].w);
+    most_weight = std::max(most_weight, patch.points[k].w);
+  }
+  if (!(least_weight > 0)) {
+    m.shift_x = m.shift_y = m.bend = m.variation = kInfinity;
+    return m;
+  }
   // With X~ = X - w S0 the derivative is S_x = (X~_x - S~ w_x) / w, S~ = S - S0 = X~ / w. All in Bernstein form: the
   // derivative of X~ raised to the patch's own degree, less w dx, has coefficients K; then
-  //   |S_x - dx| <= max|K| / min w + max|S~| max|w_x| / min w.
-  double least_weight = kInfinity, reach = 0, kx = 0, ky = 0, wx = 0, wy = 0;
+  //   |S_x - dx| <= max|K| / min w + max|S~| max|w_x| / min w
+  // holds for every part of the vectors.
+  const bool polynomial = least_weight == most_weight;
   const int p = patch.degree_u, q = patch.degree_v;
+  LargestParts along_x, along_y, reach;
+  double wx = 0, wy = 0;
+  // Coefficient k of a derivative of degree n raised by one degree, times 1/2 for x = 2 s - 1.
+  const auto difference = [&](int k, int n, const Vec4& before, const Vec4& c, const Vec4& after, const Vec3& mean,
+                              LargestParts& parts, double& largest_w) {
+    const Vec4 d = 0.5 * (static_cast<double>(k) * (c - before) + static_cast<double>(n - k) * (after - c));
+    parts.include(Vec3(d) - d.w * m.point - c.w * mean, frame);
+    largest_w = std::max(largest_w, std::abs(d.w));
+  };
   for (int i = 0; i <= p; ++i)
     for (int j = 0; j <= q; ++j) {
       const Vec4& c = patch.at(i, j);
-      least_weight = std::min(least_weight, c.w);
-      if (!(c.w > 0)) {
-        m.variation_x = m.variation_y = kInfinity;
-        return m;
-      }
-      const Vec3 here = Vec3(c) - c.w * m.point;
-      reach = std::max(reach, glm::dot(here, here) / (c.w * c.w));
-      const auto raised = [&](int k, int n, const Vec4& before, const Vec4& after, const Vec3& mean, double& largest,
-                              double& largest_w) {
-        // Coefficient k of the derivative raised by one degree, times 1/2 for x = 2 s - 1.
-        const Vec4 d = 0.5 * (static_cast<double>(k) * (c - before) + static_cast<double>(n - k) * (after - c));
-        const Vec3 difference = Vec3(d) - d.w * m.point - c.w * mean;
-        largest = std::max(largest, glm::dot(difference, difference));
-        largest_w = std::max(largest_w, std::abs(d.w));
-      };
-      raised(i, p, i > 0 ? patch.at(i - 1, j) : c, i < p ? patch.at(i + 1, j) : c, m.dx, kx, wx);
-      raised(j, q, j > 0 ? patch.at(i, j - 1) : c, j < q ? patch.at(i, j + 1) : c, m.dy, ky, wy);
+      difference(i, p, i > 0 ? patch.at(i - 1, j) : c, c, i < p ? patch.at(i + 1, j) : c, m.dx, along_x, wx);
+      difference(j, q, j > 0 ? patch.at(i, j - 1) : c, c, j < q ? patch.at(i, j + 1) : c, m.dy, along_y, wy);
+      if (!polynomial) reach.include(Vec3(c) / c.w - m.point, frame);
     }
-  reach = std::sqrt(reach);
-  m.variation_x = (std::sqrt(kx) + reach * wx) / least_weight;
-  m.variation_y = (std::sqrt(ky) + reach * wy) / least_weight;
+  add(m, along_x, 1 / least_weight);
+  add(m, along_y, 1 / least_weight);
+  if (!polynomial) add(m, reach, (wx + wy) / least_weight);
+  if (!frame.regular) m.shift_x = m.shift_y = kInfinity;
   return m;
 }
 
@@ -314,16 +352,28 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   m.point = jet.point();
   m.dx = hu * jet.du();
   m.dy = hv * jet.dv();
+  const CellFrame frame(m.dx, m.dy);
+  m.normal = frame.normal;
   const SurfaceEnclosure hull = surface.enclose(box, 1);
-  m.variation_x = hu * largest_distance(hull.d(1, 0), jet.du());
-  m.variation_y = hv * largest_distance(hull.d(0, 1), jet.dv());
+  const auto include = [&](const Box3& derivative, const Vec3& mean, double h) {
+    // The box's support in each direction.
+    const Vec3 d = h * glm::max(glm::abs(derivative.lo - mean), glm::abs(derivative.hi - mean));
+    m.shift_x += glm::dot(d, glm::abs(frame.dual_x));
+    m.shift_y += glm::dot(d, glm::abs(frame.dual_y));
+    m.bend += glm::dot(d, glm::abs(frame.normal));
+    m.variation += glm::length(d);
+  };
+  include(hull.d(1, 0), jet.du(), hu);
+  include(hull.d(0, 1), jet.dv(), hv);
+  if (!frame.regular || !(m.variation < kInfinity)) m.shift_x = m.shift_y = kInfinity;
+  if (!(m.variation < kInfinity)) m.bend = m.variation = kInfinity;
   return m;
 }
 
-bool is_flat(const CellModel& m) {
-  const double normal = glm::length(glm::cross(m.dx, m.dy));
-  const double longer = std::max(glm::length(m.dx), glm::length(m.dy));
-  return (m.variation_x + m.variation_y) * longer <= kFlat * normal;
+double roughness(const CellModel& m) {
+  const double shorter = std::min(glm::length(m.dx), glm::length(m.dy));
+  const double r = std::max(m.shift_x, m.shift_y) + m.bend / shorter;
+  return r < kInfinity ? r : kInfinity;
 }
 
 void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits) {
@@ -335,6 +385,7 @@ void intersect(const PatchView& patch, const CellModel& model, const LineBasis& 
     hits.add(hit);
     return;
   }
+  if (PatchCells{patch}.excluded(line)) return;
   Search s{line, hits, extent(model)};
   search(s, patch, model, 0, 0, 1, 1, 0);
 }

@@ -7,6 +7,9 @@
 //   f(x, y) = f0 + (J + E)(x, y),  |E_k| <= r:
 //
 //   - a root can only lie within  -J^-1 f0 +- |J^-1| r: if that misses the cell there is none (mean value theorem);
+//   - E is bounded in the cell's own directions: its parts along dx and dy move a root by so much of the cell whatever
+//     the line; the part along the normal, which is what curvature makes, counts only as far as the line sees it, not
+//     at all for a line along the normal;
 //   - if |J^-1| r <= 1/4 there is at most one, and Newton's iteration projected to the cell converges to it, or to a
 //     point of the border with f != 0, and then there is none (contraction);
 //   - otherwise the cell is halved. Cells of parts of surfaces that a hull test excludes are dropped first.
@@ -27,11 +30,16 @@ struct CellModel {
   Vec3 point{0};
   Vec3 dx{0};
   Vec3 dy{0};
-  double variation_x = 0;  // bound on |S_x - dx| over the cell
-  double variation_y = 0;
+  Vec3 normal{0};  // unit, across dx and dy; zero where they are parallel
+  // Bounds over the cell on |S_x - dx| + |S_y - dy|, both taken apart as (shift_x dx + shift_y dy + bend normal):
+  // shares of dx and of dy, and a length. Infinite where dx and dy are parallel.
+  double shift_x = 0;
+  double shift_y = 0;
+  double bend = 0;
+  double variation = 0;  // bound on the lengths of both differences, added up
 };
 
-// The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. Variations are infinite where a
+// The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. All bounds are infinite where a
 // weight is not positive.
 CellModel model_of(const PatchView& patch);
 
@@ -69,7 +77,8 @@ CellModel model_of(const Surface& surface, const Rectangle& box);
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
                CellHits& hits);
 
-// True when the model is flat enough that lines not grazing the cell are decided without halving.
-bool is_flat(const CellModel& model);
+// How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
+// not graze a cell of roughness below 1/4 are decided without halving.
+double roughness(const CellModel& model);
 
 }  // namespace lekalo::geometry

@@ -13,7 +13,9 @@
   X(elliptic_paraboloid_type)    \
   X(hyperbolic_paraboloid_type)  \
   X(extrusion_surface_type)      \
-  X(revolution_surface_type)
+  X(revolution_surface_type)     \
+  X(bezier_surface_type)         \
+  X(nurbs_surface_type)
 
 namespace lekalo::geometry {
 

@@ -9,6 +9,7 @@
 #include "geometry/curves/rational.h"
 #include "geometry/curves/rational_enclosure.h"
 #include "geometry/curves/weights.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -54,19 +55,23 @@ namespace {
 constexpr int kInnerOrder = kMaxSurfaceOrder + 1;
 constexpr int kInnerCount = (kInnerOrder + 1) * (kInnerOrder + 2) / 2;
 
-// All homogeneous derivatives of total order up to `order` of one span pair.
-void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const BasisDerivatives& bu,
-                 const BasisDerivatives& bv, int order, Vec4* sums) {
+// All homogeneous derivatives of total order up to `order` of one span pair: along v in each row of control points,
+// then along u over the rows' results.
+void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const SpanBasis& bu, const SpanBasis& bv,
+                 int order, Vec4* sums) {
   const int p = form.degree_u, q = form.degree_v;
   const size_t stride = form.count_v();
   const Vec4* row = form.points.data() + (span_u - p) * stride + (span_v - q);
-  for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k) sums[k] = Vec4(0);
+  Vec4 columns[kInnerOrder + 1][kMaxDegree + 1];  // [derivative by v][row]
+  Vec4 points[kMaxDegree + 1], derivatives[kInnerOrder + 1];
   for (int i = 0; i <= p; ++i, row += stride) {
-    for (int dv = 0; dv <= order; ++dv) {
-      Vec4 sum(0);
-      for (int j = 0; j <= q; ++j) sum += bv.d[dv][j] * row[j];
-      for (int du = 0; du + dv <= order; ++du) sums[SurfaceJet::index(du, dv)] += bu.d[du][i] * sum;
-    }
+    std::copy_n(row, q + 1, points);
+    bv.derivatives(points, order, derivatives);
+    for (int dv = 0; dv <= order; ++dv) columns[dv][i] = derivatives[dv];
+  }
+  for (int dv = 0; dv <= order; ++dv) {
+    bu.derivatives(columns[dv], order - dv, derivatives);
+    for (int du = 0; du + dv <= order; ++du) sums[SurfaceJet::index(du, dv)] = derivatives[du];
   }
 }
 
@@ -96,9 +101,8 @@ SurfaceJet NurbsSurface::evaluate(double u, double v, int order) const {
   const bool outside = pu.beyond != 0 || pv.beyond != 0;
   // Beyond a corner only d(0..1, 0..1) are needed, beyond an edge one order more.
   const int evaluated = !outside ? order : std::max(2, order + 1);
-  BasisDerivatives bu, bv;
-  basis_derivatives(u_.degree(), u_.knots(), pu.span, pu.t, evaluated, bu);
-  basis_derivatives(v_.degree(), v_.knots(), pv.span, pv.t, evaluated, bv);
+  const SpanBasis bu = span_basis(u_.degree(), u_.knots(), pu.span, pu.t, evaluated);
+  const SpanBasis bv = span_basis(v_.degree(), v_.knots(), pv.span, pv.t, evaluated);
   Vec4 sums[kInnerCount];
   tensor_sums(form_, pu.span, pv.span, bu, bv, evaluated, sums);
 
@@ -157,7 +161,7 @@ DegenerateEdges collapsed_edges(const NurbsSurfaceForm& form, const Rectangle& d
         box.include(cartesian(piece.points[i * (q + 1) + j]));
       }
     }
-    return box.diameter() <= 1e-12 * size;
+    return box.diameter() <= kCollapsedEdge * size;
   };
   const auto first_span = [](const std::vector<double>& knots, const Interval& t) {
     return Interval{t.lo, std::min(t.hi, *std::upper_bound(knots.begin(), knots.end(), t.lo))};

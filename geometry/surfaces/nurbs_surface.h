@@ -43,7 +43,7 @@ class NurbsSurface final : public Surface {
 };
 
 // Which edges of the form's part over `domain` shrink to a point: all Cartesian control points of the edge agree to
-// 1e-12 of the net's size.
+// kCollapsedEdge of the net's size.
 DegenerateEdges collapsed_edges(const NurbsSurfaceForm& form, const Rectangle& domain);
 
 // The field `weights` of a net, or none. Throws FieldError when its shape is not that of `points`.

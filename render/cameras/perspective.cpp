@@ -68,7 +68,7 @@ TypeDeclaration perspective_type() {
   type.optional("from", point(), "where the eye is; without it all is framed, seen as `view` says")
       .optional("at", point(), "the middle of the picture; default: the middle of what is framed")
       .field("up", direction(), "what is up in the picture", "z")
-      .field("field_of_view", angle().positive().at_most(170), "of the picture's shorter side", "40");
+      .field("field_of_view", angle().positive().at_most(kPi * 170 / 180), "of the picture's shorter side", "40");
   declare_view(type, "{ azimuth: -60, elevation: 25 }");
   return type.built_by([](const Fields& f) -> CameraFactory {
     const ViewFields fields = view_fields(f);

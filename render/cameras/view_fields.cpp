@@ -27,7 +27,7 @@ Vec3 middle(const Box3& box) { return box.empty() || !box.bounded() ? Vec3(0) : 
 void declare_view(TypeDeclaration& type, std::string default_view) {
   FieldType view =
       group({{"azimuth", angle(), "of the viewer's place, from x towards y; front is -90", true, {}},
-             {"elevation", angle().between(-90, 90), "of the viewer's place above the xy plane", true, {}}});
+             {"elevation", angle().between(-kPi / 2, kPi / 2), "of the viewer's place above the xy plane", true, {}}});
   type.field("view", view.or_word(view_names()), "from where all is seen when `from` is not given",
              std::move(default_view))
       .field("frame",

@@ -25,7 +25,7 @@ class Filter {
 // box: 1 within the radius (0.5). gaussian: e^(-d^2/(2 s^2)) less its value at the radius (1.5), s = radius/3.
 // mitchell: the cubic of Mitchell and Netravali (1988) with B = C = 1/3, stretched to the radius (2).
 // radius 0 stands for the radius in parentheses. Throws std::invalid_argument for another name or a radius outside
-// [0.5, 8].
+// [0.5, 16].
 std::unique_ptr<const Filter> make_filter(const std::string& name, double radius);
 
 }  // namespace lekalo::render

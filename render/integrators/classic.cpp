@@ -229,7 +229,8 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
   ++sample_.shadow_rays;
   const bool blocked = world_.occluded(shadow_ray);
   if (!blocked && around.filling() < 0) return kWhite;
-  if (options_.shadows == ShadowMode::opaque) return blocked ? Spectrum() : kWhite;
+  if (options_.shadows == ShadowMode::opaque || !world_.has_transmitting_materials())
+    return blocked ? Spectrum() : kWhite;
   Ray ray = shadow_ray;
   Media media = around;
   Spectrum share = kWhite;

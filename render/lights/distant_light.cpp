@@ -47,7 +47,7 @@ TypeDeclaration distant_light_type() {
   TypeDeclaration type =
       declare(Category::light, "distant_light", "Light from infinitely far away: the sun, or a soft box of any scale.");
   type.field("direction", direction(), "the way the light goes")
-      .field("angular_diameter", angle().non_negative().at_most(170),
+      .field("angular_diameter", angle().non_negative().at_most(kPi * 170 / 180),
              "of the source as seen from the scene; 0: parallel rays, sharp shadows", "0");
   declare_area_sampling(type);
   declare_lamp(type, false);

@@ -45,7 +45,7 @@ TypeDeclaration spot_light_type() {
   type.field("position", point(), "where it stands")
       .optional("at", point(), "where it points to; or give `direction`")
       .optional("direction", direction(), "along the axis of the cone")
-      .field("angle", angle().positive().at_most(90), "from the axis to where the light ends", "30")
+      .field("angle", angle().positive().at_most(kPi / 2), "from the axis to where the light ends", "30")
       .optional("inner_angle", angle().non_negative(),
                 "from the axis to where the full light ends; between the two it fades smoothly; default: no fading");
   declare_lamp(type);

@@ -24,6 +24,7 @@ class ConductorMaterial final : public Material {
     ClassicCoefficients c;
     c.exponent = phong_exponent(conductor_.roughness);
     c.ambient = static_cast<float>(1 - share) * reflectance;
+    c.diffuse = static_cast<float>(conductor_.roughness) * c.ambient;
     c.specular = static_cast<float>(phong_height(c.exponent, 1 - share)) * reflectance;
     c.mirror = Spectrum(static_cast<float>(share));
     c.fresnel = Fresnel::conductor;
@@ -54,7 +55,8 @@ TypeDeclaration conductor_type() {
       declare(Category::material, "conductor",
               "Metal, with its measured reflectance. Classic reading, with r the roughness, F0 and F the metal's "
               "reflectance at right and at the actual angle, s = (1 - 4 r^2)^2 up to r = 0.5, then 0: mirror = s F; "
-              "k_a = (1 - s) F0; Phong's exponent n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 times (1 - s)(n + 2)/2, "
+              "k_a = (1 - s) F0; k_d = r k_a; Phong's exponent n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 times (1 - "
+              "s)(n + 2)/2, "
               "at most F0.");
   type.field("metal", choice(metal_names()), "chemical symbol; CuZn is brass, CuZn_90_10 tombac")
       .field("roughness", number().between(0, 1), "0: mirror; 0.5 and more: no mirror images, only highlights", "0.2");

@@ -254,7 +254,8 @@ void Builder::build_camera(Model& model) {
     }
     model.film.width = static_cast<int>(width);
     model.film.height = static_cast<int>(height);
-    model.camera = make(model.film.width, model.film.height, box);
+    model.make_camera = [make, box](int w, int h) { return make(w, h, box); };
+    model.camera = model.make_camera(model.film.width, model.film.height);
   } catch (const std::invalid_argument& error) {
     diagnostics_.error(camera ? camera->place : scene_.root.place, error.what());
     return;

@@ -331,7 +331,7 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
                        "one of " + quoted_list(type_names(wanted), 40));
     return std::nullopt;
   }
-  const TypeDeclaration* type = find_type(name);
+  const TypeDeclaration* type = find_type(name, wanted);
   const Place& type_place = type_value ? type_value->place : map.place;
   if (!type) {
     const std::vector<std::string> meant = types_meant_by(name);

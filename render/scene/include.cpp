@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 
+#include "geometry/expression/nearest_name.h"
 #include "render/scene/characters.h"
 #include "render/scene/merge.h"
 #include "render/scene/scalars.h"
@@ -180,20 +181,23 @@ Value SceneReader::read_one(const std::shared_ptr<const SourceFile>& file, FileK
 
 std::optional<Inclusion> SceneReader::inclusion(const Value& entry) {
   if (entry.invalid) return std::nullopt;
-  if (entry.is_scalar()) return Inclusion{entry.text, {}, nullptr, entry.place};
   constexpr const char* kForm = "write a file name or { file: bolt.yaml, as: b1, set: { length: 4 } }";
-  if (!entry.is_map()) {
-    diagnostics_.error(entry.place, fmt::format("expected a file to include, found {}", kind_name(entry)), kForm);
+  if (entry.is_sequence()) {
+    diagnostics_.error(entry.place, "expected a file to include, found a list", kForm);
     return std::nullopt;
   }
+  const Value* file = entry.is_scalar() ? &entry : entry.find("file");
+  if (!file) diagnostics_.error(entry.place, "'include' without 'file'", kForm);
+  if (file && file->is_scalar() && !file->invalid && file->text.empty())
+    diagnostics_.error(file->place, "the name of the file to include is empty", kForm);
   Inclusion result;
-  result.place = entry.place;
+  if (file && file->is_scalar() && !file->invalid) {
+    result.name = file->text;
+    result.place = file->place;
+  }
   for (const Entry& field : entry.entries) {
-    if (field.key.name == "file" && field.value.is_scalar()) {
-      result.name = field.value.text;
-      result.place = field.value.place;
-      if (field.value.invalid) return std::nullopt;
-    } else if (field.key.name == "as" && field.value.is_scalar()) {
+    if (&field.value == file && file->is_scalar()) continue;
+    if (field.key.name == "as" && field.value.is_scalar()) {
       const Reading<std::string> prefix = read_name(field.value);
       if (!prefix) report(diagnostics_, field.value, prefix.slip());
       if (prefix) result.prefix = *prefix;
@@ -206,10 +210,7 @@ std::optional<Inclusion> SceneReader::inclusion(const Value& entry) {
       diagnostics_.error(field.key.place, fmt::format("unknown field '{}' of 'include'", field.key.name), kForm);
     }
   }
-  if (!entry.find("file")) {
-    diagnostics_.error(entry.place, "'include' without 'file'", kForm);
-    return std::nullopt;
-  }
+  if (result.name.empty()) return std::nullopt;
   return result;
 }
 
@@ -271,7 +272,7 @@ std::shared_ptr<const SourceFile> SceneReader::open(const fs::path& path, const 
 
 std::optional<Value> SceneReader::include(const Inclusion& inclusion, const std::shared_ptr<const SourceFile>& from) {
   const std::optional<fs::path> path = find_input(*from, inclusion.name, options_.search_path);
-  if (!path || inclusion.name.empty()) {
+  if (!path) {
     std::string looked = from->path.parent_path().empty() ? "the current folder" : from->path.parent_path().string();
     for (const fs::path& folder : options_.search_path) looked += ", " + folder.string();
     diagnostics_.error(inclusion.place, fmt::format("there is no file '{}' to include", inclusion.name),
@@ -311,7 +312,16 @@ std::optional<Value> SceneReader::include(const Inclusion& inclusion, const std:
   return root;
 }
 
-// The names of all parameters, for hints; at most a handful.
+// "(did you mean 'length'?)" behind a message about an unknown parameter.
+std::string suggestion(const Value* parameters, const std::string& name) {
+  std::vector<std::string> names;
+  if (parameters)
+    for (const Entry& entry : parameters->entries) names.push_back(entry.key.name);
+  const auto nearest = geometry::nearest_name(name, names);
+  return nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : "";
+}
+
+// The first names of all parameters, for hints.
 std::string parameter_names(const Value* parameters) {
   if (!parameters || parameters->entries.empty()) return "it has no parameters";
   std::string names = "its parameters are";
@@ -330,7 +340,9 @@ void SceneReader::apply_set(Value& root, const Inclusion& inclusion) {
     if (parameter)
       *parameter = entry.value;
     else
-      diagnostics_.error(entry.key.place, fmt::format("'{}' has no parameter '{}'", inclusion.name, entry.key.name),
+      diagnostics_.error(entry.key.place,
+                         fmt::format("'{}' has no parameter '{}'{}", inclusion.name, entry.key.name,
+                                     suggestion(parameters, entry.key.name)),
                          parameter_names(parameters));
   }
 }
@@ -348,7 +360,8 @@ void set_parameter(Value& root, const std::string& name, const std::string& text
   Value* parameters = root.find("parameters");
   Value* parameter = parameters ? parameters->find(name) : nullptr;
   if (!parameter) {
-    diagnostics.error(name_place, fmt::format("the scene has no parameter '{}'", name), parameter_names(parameters));
+    diagnostics.error(name_place, fmt::format("the scene has no parameter '{}'{}", name, suggestion(parameters, name)),
+                      parameter_names(parameters));
     return;
   }
   if (text.find_first_not_of(" \t\n") == std::string::npos) {

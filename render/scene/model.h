@@ -2,6 +2,7 @@
 // made from a scene file by scene/build, or by a C++ program directly.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -84,6 +85,8 @@ struct Model {
   std::vector<LightPtr> lights;
   Spectrum background{1.0f, 1.0f, 1.0f};
   CameraPtr camera;
+  // The same view for a picture of another size; set where the camera frames the scene or keeps an aspect ratio.
+  std::function<CameraPtr(int width, int height)> make_camera;
   Film film;
   IntegratorPtr integrator;
   std::vector<OutputFile> outputs;

@@ -2,6 +2,7 @@
 // (syntax_scalars.cpp). Included by these files only.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,9 +83,9 @@ class SyntaxChecker {
   [[noreturn]] void flow_error(Span at, const std::string& message, const std::string& hint);
 
   // syntax_scalars.cpp
-  void quoted();                   // at_ on the quote; moves behind the closing one
-  void escape(std::size_t begin);  // checks one escape of the double-quoted text that begins there; moves behind it
-  Span plain(bool in_flow);        // at_ on the first character; moves behind the last one
+  void quoted();             // at_ on the quote; moves behind the closing one
+  void escape(bool dollar);  // checks one escape of a double-quoted text, with a $ in it or not; moves behind it
+  Span plain(bool in_flow);  // at_ on the first character; moves behind the last one
   void check_first_character(bool in_flow);
   void check_plain(Span scalar, bool in_flow);
   void check_null(Span scalar);

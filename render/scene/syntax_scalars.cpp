@@ -48,6 +48,12 @@ const char* meaning_of_escape(char c) {
 void SyntaxChecker::quoted() {
   const std::size_t begin = at_;
   const char quote = peek();
+  bool dollar = false;
+  if (quote == '"')
+    for (std::size_t i = begin + 1; char_at(i) != '"' && char_at(i) != '\n' && !dollar; ++i) {
+      dollar = text_[i] == '$';
+      if (text_[i] == '\\') ++i;
+    }
   for (++at_;;) {
     const char c = peek();
     if (c == '\n') {
@@ -58,7 +64,7 @@ void SyntaxChecker::quoted() {
                  fmt::format("this {} quote is not closed on its line", quote == '"' ? "double" : "single"), hint);
     }
     if (c == '\\' && quote == '"') {
-      escape(begin);
+      escape(dollar);
       continue;
     }
     ++at_;
@@ -69,24 +75,23 @@ void SyntaxChecker::quoted() {
 }
 
 // JSON's escapes without \b \f \r, which would put control characters into texts.
-void SyntaxChecker::escape(std::size_t begin) {
+void SyntaxChecker::escape(bool dollar) {
   const std::size_t at = at_;
   const char c = char_at(at + 1);
+  at_ += 2;
+  if (c == '"' || c == '\\' || c == '/') return;
   std::size_t end = at + 1;
   while (is_letter(char_at(end))) ++end;
   const std::string command(text_.substr(at + 1, end - at - 1));
-  const std::string_view line = text_.substr(begin, line_end(begin) - begin);
-  const bool tex = line.find('$') != std::string_view::npos ||
-                   std::find(kTexCommands.begin(), kTexCommands.end(), command) != kTexCommands.end();
+  const bool tex = dollar || std::find(kTexCommands.begin(), kTexCommands.end(), command) != kTexCommands.end();
   const Span whole{at, std::max(end, at + 2)};
-  at_ += 2;
-  if (c == '"' || c == '\\' || c == '/') return;
   if ((c == 'n' || c == 't') && !tex) return;
-  if (c == 'u' && !tex) {
-    const std::string_view digits = text_.substr(std::min(at + 2, text_.size()), 4);
-    const bool hex = digits.size() == 4 &&
-                     std::all_of(digits.begin(), digits.end(), [](unsigned char d) { return std::isxdigit(d); });
-    if (!hex) fail(here(0), "'\\u' needs four hexadecimal digits", "write '\\u00e9', or the character itself");
+  const std::string_view digits = text_.substr(std::min(at + 2, text_.size()), 4);
+  const bool hex =
+      digits.size() == 4 && std::all_of(digits.begin(), digits.end(), [](unsigned char d) { return std::isxdigit(d); });
+  if (c == 'u' && !hex && command.size() == 1)
+    fail(whole, "'\\u' needs four hexadecimal digits", "write '\\u00e9', or the character itself");
+  if (c == 'u' && hex) {
     const unsigned long code = std::stoul(std::string(digits), nullptr, 16);
     const Span number{at, at + 6};
     if (code >= 0xD800 && code < 0xE000)

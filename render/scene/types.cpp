@@ -24,10 +24,14 @@ const std::vector<TypeDeclaration>& all_types() {
   return types;
 }
 
-const TypeDeclaration* find_type(std::string_view name) {
-  for (const TypeDeclaration& type : all_types())
-    if (type.name == name) return &type;
-  return nullptr;
+const TypeDeclaration* find_type(std::string_view name, std::span<const Category> preferred) {
+  const TypeDeclaration* any = nullptr;
+  for (const TypeDeclaration& type : all_types()) {
+    if (type.name != name) continue;
+    if (std::find(preferred.begin(), preferred.end(), type.category) != preferred.end()) return &type;
+    any = &type;
+  }
+  return any;
 }
 
 std::vector<std::string> type_names(std::span<const Category> categories) {

@@ -15,8 +15,9 @@ using geometry::TypeDeclaration;
 
 const std::vector<TypeDeclaration>& all_types();
 
-// The type of this name; type names are unique across categories. Null if there is none.
-const TypeDeclaration* find_type(std::string_view name);
+// The type of this name, of one of these categories if there is such, else of any: geometry names are unique, but
+// `classic` is both a material and an integrator. Null if there is none.
+const TypeDeclaration* find_type(std::string_view name, std::span<const Category> preferred = {});
 
 // Names of the types of these categories, sorted.
 std::vector<std::string> type_names(std::span<const Category> categories);

@@ -56,6 +56,7 @@ struct World::Compiled {
   Hierarchy top;
   std::vector<const Object*> objects;  // by the number that hits carry
   WorldStatistics statistics;
+  bool transmits = false;
   std::map<ShareKey, int> uses;
   std::map<ShareKey, std::shared_ptr<Hierarchy>> shared;
   std::map<const Group*, std::shared_ptr<Hierarchy>> groups;
@@ -187,6 +188,9 @@ World::World(std::shared_ptr<const Model> model) : model_(std::move(model)), com
   c.count_uses(model_->objects);
   c.add(c.top, model_->objects, Affine());
   c.top.commit();
+  for (const Object* object : c.objects)
+    for (const Material* material : {object->material.get(), object->back_material.get()})
+      c.transmits = c.transmits || (material && material->transmits());
   c.statistics.pieces = c.top.piece_count();
   c.statistics.triangles = c.top.triangle_count();
   c.statistics.bytes = c.top.memory();
@@ -199,6 +203,7 @@ World::~World() = default;
 bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
 std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
+bool World::has_transmitting_materials() const { return compiled_->transmits; }
 WorldStatistics World::statistics() const { return compiled_->statistics; }
 Vec3 World::center() const { return compiled_->top.center(); }
 double World::radius() const { return compiled_->top.radius(); }

@@ -42,6 +42,8 @@ class World {
   Vec3 leave(const SurfacePoint& point, const Vec3& direction) const;
 
   const Material& material(const SurfacePoint& point, bool front) const;
+  // True if some material lets light through, so that what occludes may only tint.
+  bool has_transmitting_materials() const;
   const Model& model() const { return *model_; }
   const std::vector<LightPtr>& lights() const { return model_->lights; }
   WorldStatistics statistics() const;

@@ -9,6 +9,7 @@
 #include "render/integrators/classic.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
+#include "render/materials/textures.h"
 #include "render/trace/world.h"
 
 namespace lekalo::render {
@@ -30,9 +31,7 @@ inline geometry::SurfacePtr plane_part(const geometry::Frame& frame, const geome
 }
 
 // Both faces of the slab z0 <= z <= z1, as one object.
-inline SurfaceSet slab(double z0, double z1) {
-  return {plane({0, 0, z1}, {0, 0, 1}), plane({0, 0, z0}, {0, 0, -1})};
-}
+inline SurfaceSet slab(double z0, double z1) { return {plane({0, 0, z1}, {0, 0, 1}), plane({0, 0, z0}, {0, 0, -1})}; }
 
 struct SmallScene {
   Model model;

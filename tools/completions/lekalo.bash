@@ -5,26 +5,27 @@ _lekalo() {
   COMPREPLY=()
 
   case $previous in
+    --representation) words='direct mesh' ;;
     --metric) words='flip rmse psnr ssim max' ;;
     --format) words='pov obj ply stl' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --ray | --filter | --jobs | --accept | --reason | --isa)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --order | --ray | --filter | --jobs | --accept | --reason | --isa)
       return ;;
-    -o | --against | --rays | --junit) compopt -o default; return ;;
+    -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render draw make compare test check measure evaluate trace export schema types --help --version'
+      words='render compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render | draw | make) words='-o --size --samples --threads --isa --crop --set --frames --watch --resume --json --quiet --stats --stamp' ;;
+        render) words='-o --output --size --samples --threads --isa --crop --representation --set --frames --watch --resume --json --quiet --stats --stamp' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --accept --reason --report --junit --json --quiet' ;;
         check) words='--set --json --quiet' ;;
         measure) words='--topology --against --set --json' ;;
-        evaluate) words='--at --set --json' ;;
+        evaluate) words='--at --order --set --json' ;;
         trace) words='--ray --rays --set --json' ;;
-        export) words='--format -o --set --quiet' ;;
+        export) words='--format -o --output --set --quiet' ;;
         types) words='--json' ;;
       esac
       words+=' --help'

@@ -1,8 +1,8 @@
 # fish completion for lekalo(1)
 
-set -l commands render draw make compare test check measure evaluate trace export schema types
+set -l commands render compare test check measure evaluate trace export schema types
 complete -c lekalo -n "not __fish_seen_subcommand_from $commands" -f
-for line in 'render:render the pictures of a scene' 'draw:write the drawings of a scene' 'make:write everything that a scene lists' \
+for line in 'render:render the pictures of a scene' \
         'compare:compare two images' 'test:run an image regression suite' 'check:report all errors of a scene file' \
         'measure:lengths, areas, volumes, topology' 'evaluate:a point with derivatives and curvatures' 'trace:all hits of rays' \
         'export:write a scene for another program' 'schema:print the JSON Schema of scene files' 'types:list or describe types'
@@ -12,7 +12,7 @@ end
 complete -c lekalo -l help -d 'show help'
 complete -c lekalo -n "not __fish_seen_subcommand_from $commands" -l version -d 'show the version'
 
-set -l picture '__fish_seen_subcommand_from render draw make'
+set -l picture '__fish_seen_subcommand_from render'
 complete -c lekalo -n $picture -l size -x -d 'WxH pixels'
 complete -c lekalo -n $picture -l samples -x -d 'samples a pixel'
 complete -c lekalo -n $picture -l threads -x -d threads
@@ -20,13 +20,14 @@ complete -c lekalo -n $picture -l isa -x -d 'instruction set'
 complete -c lekalo -n $picture -l crop -x -d 'X0,Y0,X1,Y1 in pixels'
 complete -c lekalo -n $picture -l frames -x -d 'name=a..b:n'
 complete -c lekalo -n $picture -l watch -d 'render again when a file changes'
-complete -c lekalo -n $picture -l resume -d 'go on with an interrupted rendering'
+complete -c lekalo -n $picture -l representation -x -a 'direct mesh' -d 'of every object'
+complete -c lekalo -n $picture -l resume -r -d 'go on with an interrupted rendering'
 complete -c lekalo -n $picture -l stats -d 'print rays, times, memory'
 complete -c lekalo -n $picture -l stamp -d 'put the date into outputs'
-complete -c lekalo -n '__fish_seen_subcommand_from render draw make export' -s o -r -d 'output file'
-complete -c lekalo -n '__fish_seen_subcommand_from render draw make check measure evaluate trace export' -l set -x -d 'name=value'
-complete -c lekalo -n '__fish_seen_subcommand_from render draw make compare test check measure evaluate trace types' -l json -d 'print JSON'
-complete -c lekalo -n '__fish_seen_subcommand_from render draw make compare test check export' -l quiet -d 'print errors only'
+complete -c lekalo -n '__fish_seen_subcommand_from render export' -s o -l output -r -d 'output file'
+complete -c lekalo -n '__fish_seen_subcommand_from render check measure evaluate trace export' -l set -x -d 'name=value'
+complete -c lekalo -n '__fish_seen_subcommand_from render compare test check measure evaluate trace types' -l json -d 'print JSON'
+complete -c lekalo -n '__fish_seen_subcommand_from render compare test check export' -l quiet -d 'print errors only'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l metric -x -a 'flip rmse psnr ssim max' -d 'what to measure'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l threshold -x -d 'largest difference'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l layer -x -d 'layer of EXR files'
@@ -39,6 +40,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from test' -l junit -r -d 'JUnit X
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l topology -d 'list vertices, edges, faces'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l against -r -d 'table of samples'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l at -x -d 't or u,v'
+complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l order -x -d 'derivatives of a curve'
 complete -c lekalo -n '__fish_seen_subcommand_from trace' -l ray -x -d 'ox,oy,oz,dx,dy,dz'
 complete -c lekalo -n '__fish_seen_subcommand_from trace' -l rays -r -d 'file of rays'
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l format -x -a 'pov obj ply stl' -d 'what to write'

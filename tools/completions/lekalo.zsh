@@ -4,8 +4,6 @@
 local -a commands scene picture
 commands=(
   'render:render the pictures of a scene'
-  'draw:write the drawings of a scene'
-  'make:write everything that a scene lists'
   'compare:compare two images'
   'test:run an image regression suite'
   'check:report all errors of a scene file'
@@ -18,10 +16,10 @@ commands=(
 )
 scene=('*--set[set a parameter]:name=value' '--help[show help]')
 picture=(
-  '*-o[output file]:file:_files'
+  '*'{-o,--output}'[output file]:file:_files' '--representation[of every object]:kind:(direct mesh)'
   '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name'
   '--crop[window in pixels]:X0,Y0,X1,Y1' '--frames[sequence over a parameter]:name=a..b\:n'
-  '--watch[render again when a file changes]' '--resume[go on with an interrupted rendering]'
+  '--watch[render again when a file changes]' '--resume[go on with an interrupted rendering]:file:_files -g "*.partial"'
   '--json[print JSON]' '--quiet[print errors only]' '--stats[print rays, times, memory]' '--stamp[put the date into outputs]'
 )
 
@@ -35,7 +33,7 @@ local command=$words[2]
 shift words
 (( CURRENT-- ))
 case $command in
-  render|draw|make) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
+  render) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   compare) _arguments '--metric[what to measure]:metric:(flip rmse psnr ssim max)' '--threshold[largest difference]:number' \
     '--layer[layer of EXR files]:name' '--report[HTML report]:folder:_files -/' '--json[print JSON]' '--quiet[print errors only]' \
     '--help[show help]' '*:image:_files -g "*.(exr|png)"' ;;
@@ -45,10 +43,10 @@ case $command in
   check) _arguments $scene '--json[print JSON]' '--quiet[print errors only]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples]:file:_files' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
-  evaluate) _arguments $scene '--at[where]:t or u,v' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
+  evaluate) _arguments $scene '--at[where]:t or u,v' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '*-o[output file]:file:_files' '--quiet[print errors only]' \
+  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   schema|types) _arguments '--json[print JSON]' '--help[show help]' ;;
 esac

@@ -184,6 +184,28 @@ TEST(QuarticRoots, multiple_and_special) {
   EXPECT_NEAR(wide[3].x, 1e6, 1e-8);
 }
 
+// Coefficients of any size, many of them zero: as many changes of sign as the signs at infinity ask for, in order.
+TEST(QuarticRoots, parity_of_random_polynomials) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (int sample = 0; sample < 5000; ++sample) {
+    std::array<double, 5> c;
+    for (double& x : c) {
+      x = random() % 6 == 0 ? 0.0 : number(random);
+      if (random() % 20 == 0) x *= std::pow(10.0, static_cast<int>(random() % 200) - 100);
+    }
+    int changes = 0;
+    double previous = -std::numeric_limits<double>::infinity();
+    for (const PolynomialRoot& root : quartic_roots(c)) {
+      EXPECT_GT(root.x, previous);
+      previous = root.x;
+      changes += root.tangent ? 0 : 1;
+    }
+    EXPECT_TRUE(changes % 2 == 0 || c[4] == 0 || c[0] == 0)
+        << c[0] << ' ' << c[1] << ' ' << c[2] << ' ' << c[3] << ' ' << c[4];
+  }
+}
+
 TEST(CertifiedRoots, simple_roots_of_any_degree) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(0, 1);

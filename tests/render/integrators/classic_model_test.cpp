@@ -13,7 +13,7 @@ using geometry::kPi;
 constexpr double kDegree = kPi / 180;
 
 TEST(ClassicModel, PhongLobeFallsToHalfAtTheKnownAngles) {
-  const std::pair<double, double> table[] = {{1, 60},         {2, 45},         {5, 29.477318},  {10, 21.087350},
+  const std::pair<double, double> table[] = {{1, 60},         {2, 45},        {5, 29.477318},  {10, 21.087350},
                                              {20, 14.997675}, {50, 9.518345}, {100, 6.738272}, {200, 4.767432}};
   for (const auto& [exponent, degrees] : table)
     EXPECT_NEAR(phong_lobe(std::cos(degrees * kDegree), exponent), 0.5, 1e-6) << exponent;
@@ -22,9 +22,7 @@ TEST(ClassicModel, PhongLobeFallsToHalfAtTheKnownAngles) {
 
 TEST(ClassicModel, SnellsLawInVectors) {
   const Vec3 m(0, 0, 1);
-  const auto d = [](double degrees) {
-    return Vec3(std::sin(degrees * kDegree), 0, -std::cos(degrees * kDegree));
-  };
+  const auto d = [](double degrees) { return Vec3(std::sin(degrees * kDegree), 0, -std::cos(degrees * kDegree)); };
   const Vec3 t = *refracted(d(30), m, 1, 1.5);
   EXPECT_NEAR(t.x, 1.0 / 3, 1e-15);
   EXPECT_NEAR(t.z, -0.942809041582063, 1e-15);

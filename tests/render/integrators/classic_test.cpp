@@ -116,9 +116,9 @@ TEST(ClassicIntegrator, BallLensCrossesTheAxisWhereOpticsSays) {
   struct Case {
     double height, crossing, path;
   };
-  for (const Case& c : {Case{0.1, 1.4958270630560686, 1.9955506062794353},
-                        Case{0.5, 1.3915729488893103, 1.8856180831641267},
-                        Case{0.8, 1.2002814469451297, 1.6918103387266024}}) {
+  for (const Case& c :
+       {Case{0.1, 1.4958270630560686, 1.9955506062794353}, Case{0.5, 1.3915729488893103, 1.8856180831641267},
+        Case{0.8, 1.2002814469451297, 1.6918103387266024}}) {
     SmallScene scene;
     scene.add(sphere({0, 0, 0}, 1), clear_glass(1.5));
     scene.add(plane({c.crossing, 0, 0}, {-1, 0, 0}), coordinate_screen({0, 0, 1}));
@@ -264,7 +264,8 @@ TEST(ClassicIntegrator, ShadowCatcherShowsTheBackgroundLessItsShadows) {
   EXPECT_EQ(open.radiance, scene.model.background);
   EXPECT_EQ(open.alpha, 0);
   const RaySample shadow = trace(*world, {0, 0, 1}, {0, 0, -1});
-  EXPECT_NEAR(shadow.alpha, 0.5 * 1 / 1.25, kFloat);  // half of what the lamp would have brought beside the ambient light
+  EXPECT_NEAR(shadow.alpha, 0.5 * 1 / 1.25,
+              kFloat);  // half of what the lamp would have brought beside the ambient light
   EXPECT_NEAR(shadow.radiance[2], 0.7 * 0.6, kFloat);
   EXPECT_EQ(trace(*world, {4, 0, -1}, {0, 0, 1}).hit, false);  // from below
 }

@@ -143,8 +143,10 @@ TEST_F(Include, ParametersOfTwoIncludedFilesNeedADecision) {
 TEST_F(Include, UnknownParametersAreNamed) {
   write("a.yaml", "lekalo: 1\nparameters: { radius: 1 }\n");
   options_.set_parameters = {{"hight", "2"}};
-  read("lekalo: 1\ninclude: { file: a.yaml, set: { r: 2 } }\n");
-  EXPECT_EQ(said_, "main.yaml:2:33 'a.yaml' has no parameter 'r'\n--set:1:1 the scene has no parameter 'hight'\n");
+  read("lekalo: 1\ninclude: { file: a.yaml, set: { raduis: 2 } }\n");
+  EXPECT_EQ(said_,
+            "main.yaml:2:33 'a.yaml' has no parameter 'raduis' (did you mean 'radius'?)\n--set:1:1 the scene has no "
+            "parameter 'hight'\n");
 }
 
 TEST_F(Include, PrefixesKeepFilesApart) {
@@ -251,14 +253,14 @@ TEST_F(Include, AllContentErrorsOfAllFilesComeInOneRun) {
 }
 
 TEST_F(Include, FormsOfIncludeAreChecked) {
-  read("lekalo: 1\ninclude: [{ as: x }, { file: [a] }, { file: a.yaml, with: 1 }, [b]]\n");
+  read("lekalo: 1\ninclude: [{ as: x }, { file: [a] }, { file: a.yaml, with: 1 }, [b], '']\n");
   EXPECT_EQ(said_,
             "main.yaml:2:11 'include' without 'file'\n"
             "main.yaml:2:30 'file' cannot be a list\n"
-            "main.yaml:2:30 there is no file '' to include\n"
-            "main.yaml:2:52 unknown field 'with' of 'include'\n"
             "main.yaml:2:45 there is no file 'a.yaml' to include\n"
-            "main.yaml:2:64 expected a file to include, found a list\n");
+            "main.yaml:2:53 unknown field 'with' of 'include'\n"
+            "main.yaml:2:64 expected a file to include, found a list\n"
+            "main.yaml:2:69 the name of the file to include is empty\n");
 }
 
 TEST_F(Include, FilesThatCannotBeRead) {

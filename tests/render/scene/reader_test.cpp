@@ -136,7 +136,7 @@ TEST(Reader, HoldsItsLimits) {
   limits.nodes = 100;
   std::string list = "a: [0";
   for (int i = 0; i < 200; ++i) list += ", 0";
-  EXPECT_NE(errors(list + "]", limits).find("scene.yaml:1:299: this file has more than 100 values"), std::string::npos);
+  EXPECT_NE(errors(list + "]", limits).find("scene.yaml:1:296: this file has more than 100 values"), std::string::npos);
   limits.bytes = 500;
   EXPECT_NE(errors(list + "]", limits).find("this file has 0.0 million bytes"), std::string::npos);
 }

@@ -65,7 +65,10 @@ TEST(Slips, TexInDoubleQuotes) {
             "1:6 in double quotes '\\nabla' is not TeX: '\\n' stands for a line break" + cure);
   EXPECT_EQ(said("a: \"\\frac12\"\n"), "1:5 in double quotes '\\frac' is not TeX: '\\f' stands for a form feed" + cure);
   EXPECT_EQ(said("a: \"\\mathbf{p}\"\n"), "1:5 in double quotes '\\mathbf' means nothing" + cure);
-  EXPECT_EQ(said("a: \"one\\ntwo\\t3\"\n"), "") << "JSON's escapes";
+  EXPECT_EQ(said("a: \"\\upsilon\"\n"), "1:5 in double quotes '\\upsilon' means nothing" + cure);
+  EXPECT_EQ(said("a: \"one\\ntwo\\t3 \\uABCDef $\"\n"),
+            "1:8 in double quotes '\\ntwo' is not TeX: '\\n' stands for a line break" + cure);
+  EXPECT_EQ(said("a: \"one\\ntwo\\t3 \\uABCDef\"\nb: \"$\\\\theta$ \\u00e9\"\n"), "") << "JSON's escapes";
 }
 
 TEST(Slips, CommasOfFunctionsInBrackets) {
@@ -243,7 +246,7 @@ TEST(Slips, AliasBombIsRefusedAtItsFirstAnchor) {
     for (int i = 0; i < 9; ++i) bomb += std::string(i ? ", *" : "*") + static_cast<char>(c - 1);
     bomb += "]\n";
   }
-  EXPECT_EQ(said(bomb).substr(0, 32), "1:4 a value cannot begin with '&'");
+  EXPECT_EQ(said(bomb).substr(0, 33), "1:4 a value cannot begin with '&'");
 }
 
 }  // namespace

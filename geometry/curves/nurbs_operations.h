@@ -1,0 +1,30 @@
+// Exact changes of the description of a NURBS curve: the curve stays the same, or changes its parameter only.
+//
+// All work in homogeneous coordinates on forms with affine maps (a transcendental parameter cannot be written in
+// knots); others throw std::invalid_argument. Decomposition into Bezier pieces is bezier_pieces (geometry/curve.h).
+#pragma once
+
+#include <utility>
+
+#include "geometry/curve.h"
+
+namespace lekalo::geometry {
+
+// Inserts a knot inside the domain `times` times (Boehm; Golovanov 2016, 2.11). Throws std::invalid_argument when t is
+// not inside the domain or its multiplicity would exceed the degree.
+NurbsCurveForm insert_knot(const NurbsCurveForm& form, double t, int times = 1);
+
+// The same curve with a degree higher by `by` >= 0; every knot's multiplicity grows with it (Golovanov 2016, 2.6;
+// Ramshaw 1989). Throws std::invalid_argument above kMaxDegree.
+NurbsCurveForm elevate_degree(const NurbsCurveForm& form, int by = 1);
+
+// The parts before and after t, inside the domain; clamped at t. Throws std::invalid_argument for t outside.
+std::pair<NurbsCurveForm, NurbsCurveForm> split(const NurbsCurveForm& form, double t);
+
+// The same points in the opposite direction over the same domain: r(lo + hi - t).
+NurbsCurveForm reversed(const NurbsCurveForm& form);
+
+// The same points over another domain (Golovanov 2016, 2.15.4).
+NurbsCurveForm reparametrized(const NurbsCurveForm& form, const Interval& domain);
+
+}  // namespace lekalo::geometry

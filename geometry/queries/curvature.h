@@ -1,0 +1,30 @@
+// Curvatures of curves and surfaces at a point, from their derivatives.
+#pragma once
+
+#include "geometry/curve.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// Frenet's frame, curvature and torsion (Golovanov 2016, 2.1.2-2.1.4). At a singular point (r' = 0) nothing is known;
+// at a straightening point (r' parallel to r'') the curvature is 0 and normal, binormal and torsion are not defined.
+struct CurveCurvature {
+  bool has_tangent = false;
+  bool has_normal = false;
+  Vec3 tangent{0}, normal{0}, binormal{0};
+  double curvature = 0;  // >= 0, 1/length
+  double torsion = 0;    // positive for a right-handed helix
+};
+CurveCurvature curvature(const CurveJet& jet);  // order >= 3
+
+// Gaussian, mean and principal curvatures, signed by the normal: a convex surface seen from outside has negative ones
+// (Golovanov 2016, 3.1.4-3.1.12). principal[0] >= principal[1]; directions are unit vectors of space.
+struct SurfaceCurvature {
+  bool regular = false;  // r_u x r_v != 0
+  double gaussian = 0, mean = 0;
+  double principal[2] = {0, 0};
+  Vec3 directions[2]{Vec3(0), Vec3(0)};
+};
+SurfaceCurvature curvature(const SurfaceJet& jet, const Vec3& normal);  // order >= 2, unit normal
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,193 @@
+// The picture loop: the same bits for any threads, crops and interruptions; layers that agree with the camera.
+#include "render/film/render.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include "render/image/image_error.h"
+#include "render/small_scene.h"
+
+namespace lekalo::render {
+namespace {
+
+SmallScene ball_on_ground(const std::string& filter = "box") {
+  SmallScene scene;
+  scene.model.background = {0.2f, 0.4f, 0.8f};
+  scene.add(sphere({0, 0, 1}, 1), make_material(Plastic{.roughness = 0.2}));
+  geometry::Frame ground;
+  scene.add(plane_part(ground, {-3, 3}, {-3, 3}),
+            make_material(Diffuse{.color = make_texture(Checker{.color = 0.2, .background = 0.9})}));
+  RectangleLight light;
+  light.frame.origin = {-3, -3, 6};
+  light.size = {1, 1};
+  light.sampling.n = 2;
+  scene.light(light).light(AmbientLight{.intensity = 0.2});
+  scene.model.film.width = 70;
+  scene.model.film.height = 50;
+  scene.model.film.samples = 4;
+  scene.model.film.filter = filter;
+  scene.model.camera = make_camera(PerspectiveView{{0, -7, 4}, {0, 0, 0.7}, {0, 0, 1}, 0.6}, 70, 50);
+  return scene;
+}
+
+bool same(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels.size() != b.channels.size()) return false;
+  for (size_t i = 0; i < a.channels.size(); ++i)
+    if (a.channels[i].values != b.channels[i].values || a.channels[i].ids != b.channels[i].ids) return false;
+  return true;
+}
+
+TEST(Render, SameBitsForAnyNumberOfThreads) {
+  for (const char* filter : {"box", "gaussian", "mitchell"}) {
+    const auto world = ball_on_ground(filter).world();
+    const RenderResult one = render(*world, {.threads = 1, .key_layer = true});
+    const RenderResult many = render(*world, {.threads = 5, .key_layer = true});
+    EXPECT_TRUE(one.complete);
+    EXPECT_TRUE(same(one.image, many.image)) << filter;
+    EXPECT_EQ(one.camera_rays, 70u * 50 * 4);
+    EXPECT_EQ(one.shadow_rays, many.shadow_rays);
+    EXPECT_GT(one.other_rays, 0u);
+    EXPECT_EQ(one.not_finite, 0u);
+  }
+}
+
+TEST(Render, CropShowsThePixelsOfTheFullPicture) {
+  SmallScene scene = ball_on_ground("mitchell");
+  const Image full = render(*scene.world(), {}).image;
+  scene.model.film.crop = {20, 11, 53, 37};
+  const Image crop = render(*scene.world(), {}).image;
+  ASSERT_EQ(crop.width, 33);
+  ASSERT_EQ(crop.height, 26);
+  EXPECT_EQ(crop.x, 20);
+  EXPECT_EQ(crop.full_width, 70);
+  for (size_t c = 0; c < full.channels.size(); ++c)
+    for (int y = 0; y < crop.height; ++y)
+      for (int x = 0; x < crop.width; ++x) {
+        const size_t i = static_cast<size_t>(y) * crop.width + x, j = static_cast<size_t>(y + 11) * 70 + x + 20;
+        ASSERT_EQ(value_at(crop.channels[c], i), value_at(full.channels[c], j)) << full.channels[c].name;
+      }
+}
+
+TEST(Render, ResumedPictureIsTheSameBits) {
+  const std::string file = (std::filesystem::temp_directory_path() / "lekalo_render_test.partial").string();
+  const auto world = ball_on_ground("gaussian").world();
+  const RenderResult whole = render(*world, {.threads = 2});
+
+  // Stopped from inside after the first tiles, again and again, until the picture is complete.
+  class Stopping final : public Integrator {
+   public:
+    Stopping(IntegratorPtr inner, std::atomic<bool>& stop) : inner_(std::move(inner)), stop_(stop) {}
+    RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
+      stop_ = true;
+      return inner_->trace(world, ray, random);
+    }
+
+   private:
+    IntegratorPtr inner_;
+    std::atomic<bool>& stop_;
+  };
+  std::atomic<bool> stop = false;
+  auto model = std::make_shared<Model>(world->model());
+  model->integrator = std::make_shared<Stopping>(model->integrator, stop);
+  const World stopping(model);
+  RenderOptions options{.threads = 2, .stop = &stop, .partial_file = file, .identity = 42};
+  RenderResult part = render(stopping, options);
+  EXPECT_FALSE(part.complete);
+  options.resume_file = file;
+  int rounds = 1;
+  for (; !part.complete && rounds < 100; ++rounds) {
+    stop = false;
+    part = render(stopping, options);
+  }
+  EXPECT_GT(rounds, 2);
+  EXPECT_TRUE(same(part.image, whole.image));
+  EXPECT_EQ(part.camera_rays, whole.camera_rays);
+  EXPECT_EQ(part.shadow_rays, whole.shadow_rays);
+
+  options.identity = 43;
+  EXPECT_THROW(render(*world, options), ImageError);
+  options.resume_file = file + ".missing";
+  EXPECT_THROW(render(*world, options), ImageError);
+  std::filesystem::remove(file);
+}
+
+TEST(Render, DataLayersAgreeWithTheCamera) {
+  SmallScene scene = ball_on_ground();
+  scene.model.film.samples = 1;
+  const Image image = render(*scene.world(), {}).image;
+  const auto value = [&](const char* name, size_t i) { return value_at(*find_channel(image, name), i); };
+  int hits = 0;
+  for (size_t i = 0; i < image.pixel_count(); ++i) {
+    EXPECT_EQ(value("samples", i), 1);
+    if (value("id.object", i) == 0) {
+      EXPECT_EQ(value("A", i), 0);
+      EXPECT_EQ(value("Z", i), 0);
+      EXPECT_EQ(value("B", i), 0.8f);
+      continue;
+    }
+    ++hits;
+    const Vec3 p(value("P.X", i), value("P.Y", i), value("P.Z", i)),
+        n(value("N.X", i), value("N.Y", i), value("N.Z", i));
+    const PicturePoint q = scene.model.camera->project(p);
+    EXPECT_NEAR(q.x, i % 70 + 0.5, 1e-3);
+    EXPECT_NEAR(q.y, i / 70 + 0.5, 1e-3);
+    EXPECT_NEAR(q.depth, value("Z", i), 1e-5);
+    const bool ball = value("id.object", i) == 1;
+    EXPECT_LT(glm::length(n - (ball ? p - Vec3(0, 0, 1) : Vec3(0, 0, 1))), 1e-5);
+    EXPECT_EQ(value("id.material", i), ball ? 1 : 2);
+    if (!ball) {
+      const bool even = static_cast<int>(std::floor(p.x) + std::floor(p.y)) % 2 == 0;
+      EXPECT_FLOAT_EQ(value("albedo.R", i), even ? 0.2f : 0.9f);
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+TEST(Render, WhiteRoomStaysWhiteUnderEveryFilter) {
+  for (const char* filter : {"box", "gaussian", "mitchell"}) {
+    SmallScene scene;
+    scene.model.background = Spectrum(1, 1, 1);
+    scene.model.film = {.width = 40, .height = 40, .samples = 3, .filter = filter};
+    scene.add(sphere({0, 0, 0}, 1), make_material(Emission{.color = 1.0}));
+    scene.model.camera = make_camera(PerspectiveView{}, 40, 40);
+    const Image image = render(*scene.world(), {}).image;
+    for (const float value : find_channel(image, "R")->values) EXPECT_NEAR(value, 1, 1e-6);
+  }
+}
+
+TEST(Render, NotFiniteSamplesAreCountedAndLeftOut) {
+  class Broken final : public Integrator {
+   public:
+    RaySample trace(const World&, const Ray& ray, SampleStream&) const override {
+      RaySample sample;
+      sample.radiance = Spectrum(ray.direction.x < 0 ? NAN : 0.5f);
+      return sample;
+    }
+  };
+  SmallScene scene = ball_on_ground();
+  auto model = std::make_shared<Model>(scene.model);
+  model->integrator = std::make_shared<Broken>();
+  const RenderResult result = render(World(model), {});
+  EXPECT_EQ(result.not_finite, 35u * 50 * 4);
+  EXPECT_EQ(find_channel(result.image, "samples")->values[0], 0);
+  EXPECT_EQ(find_channel(result.image, "R")->values[0], 0);
+  EXPECT_EQ(find_channel(result.image, "R")->values[69], 0.5f);
+}
+
+TEST(Render, SaysWhatItCannotDo) {
+  SmallScene scene = ball_on_ground();
+  scene.model.film.filter = "sinc";
+  EXPECT_THROW(render(*scene.world(), {}), std::invalid_argument);
+  scene = ball_on_ground();
+  scene.model.film.crop = {100, 0, 120, 20};
+  EXPECT_THROW(render(*scene.world(), {}), std::invalid_argument);
+  scene = ball_on_ground();
+  scene.model.film.width = 71;
+  EXPECT_THROW(render(*scene.world(), {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lekalo::render

@@ -1,0 +1,138 @@
+// Lights against closed forms of their irradiance.
+#include "render/lights/lights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lekalo::render {
+namespace {
+
+using geometry::kPi;
+
+// Irradiance on a surface at the origin with the normal z, as a sum over all samples, each in the middle of its
+// stratum.
+double irradiance(const Light& light, const Vec3& normal = {0, 0, 1}) {
+  double sum = 0;
+  for (int i = 0; i < light.sample_count(); ++i) {
+    const LightSample s = light.sample(Vec3(0), i, 0.5, 0.5);
+    sum += s.weight * s.irradiance[0] * std::max(0.0, glm::dot(s.direction, normal));
+  }
+  return sum;
+}
+
+TEST(Lights, PointLightIsConstantOrFallsWithTheSquare) {
+  const LightPtr constant = make_light(PointLight{{0, 0, 4}, {.intensity = 3}});
+  EXPECT_NEAR(irradiance(*constant), 3 * kPi, 1e-5);
+  const LightPtr falling = make_light(PointLight{{0, 0, 4}, {.intensity = 3, .inverse_square = true}});
+  EXPECT_NEAR(irradiance(*falling), 3 * kPi / 16, 1e-6);
+}
+
+TEST(Lights, SpotFadesBetweenItsAngles) {
+  const auto lit = [](double degrees) {
+    const double a = degrees * kPi / 180;
+    SpotLight spot{{0, 0, 1}, {std::sin(a), 0, -std::cos(a)}, kPi / 6, kPi / 9, {}};
+    return irradiance(*make_light(spot)) / kPi;
+  };
+  EXPECT_NEAR(lit(19.9), 1, 1e-6);
+  EXPECT_EQ(lit(30.1), 0);
+  // Half way between the cosines the smooth step is 1/2.
+  const double half = std::acos(0.5 * (std::cos(kPi / 6) + std::cos(kPi / 9))) * 180 / kPi;
+  EXPECT_NEAR(lit(half), 0.5, 1e-6);
+}
+
+TEST(Lights, OneSidedRectangleIsAMattEmitter) {
+  // Radiance L = pi I / area over a square of half-side 1 at height 2 above a parallel surface: E = pi L F, four times
+  // the form factor of a corner (Howell, catalogue of configuration factors, B-4):
+  // F = (X atan(Y / sqrt(1+X^2)) / sqrt(1+X^2) + Y atan(X / sqrt(1+Y^2)) / sqrt(1+Y^2)) / (2 pi), X = Y = 1/2.
+  RectangleLight light;
+  light.frame = geometry::frame_about({0, 0, 2}, {0, 0, -1});
+  light.size = {2, 2};
+  light.one_sided = true;
+  light.sampling.n = 64;
+  light.lamp.inverse_square = true;
+  const double x = 0.5, root = std::sqrt(1 + x * x);
+  const double factor = 4 * 2 * x * std::atan(x / root) / root / (2 * kPi);
+  const double radiance = kPi / 4;
+  EXPECT_NEAR(irradiance(*make_light(light)), kPi * radiance * factor, 2e-4 * kPi * radiance * factor);
+  light.frame = geometry::frame_about({0, 0, 2}, {0, 0, 1});
+  EXPECT_EQ(irradiance(*make_light(light)), 0);
+}
+
+TEST(Lights, OneSidedDiscIsAMattEmitter) {
+  // E = pi L R^2 / (R^2 + h^2) on the axis.
+  DiscLight light;
+  light.frame = geometry::frame_about({0, 0, 2}, {0, 0, -1});
+  light.radius = 1;
+  light.one_sided = true;
+  light.sampling.n = 64;
+  light.lamp.inverse_square = true;
+  const double expected = kPi * (kPi / kPi) * 1 / 5;  // L = pi I / area = 1
+  EXPECT_NEAR(irradiance(*make_light(light)), expected, 5e-4 * expected);
+}
+
+TEST(Lights, GridOfARectangleReachesItsEdges) {
+  RectangleLight light;
+  light.frame.origin = {0, 0, 5};
+  light.size = {2, 4};
+  light.sampling = {3, true};
+  const LightPtr lamp = make_light(light);
+  ASSERT_EQ(lamp->sample_count(), 9);
+  Vec3 places[9];
+  for (int i = 0; i < 9; ++i) {
+    const LightSample s = lamp->sample(Vec3(0), i, 0.3, 0.9);
+    places[i] = s.distance * s.direction;
+    EXPECT_NEAR(s.weight, 1.0 / 9, 1e-16);
+  }
+  EXPECT_LT(glm::length(places[0] - Vec3(-1, -2, 5)), 1e-14);
+  EXPECT_LT(glm::length(places[4] - Vec3(0, 0, 5)), 1e-14);
+  EXPECT_LT(glm::length(places[5] - Vec3(1, 0, 5)), 1e-14);
+  EXPECT_LT(glm::length(places[8] - Vec3(1, 2, 5)), 1e-14);
+}
+
+TEST(Lights, StrataAreJitteredInside) {
+  const AreaSampling sampling{4, false};
+  for (int i = 0; i < 16; ++i) {
+    const Vec2 low = area_sample(sampling, i, 0, 0), high = area_sample(sampling, i, 0.999, 0.999);
+    EXPECT_EQ(low, Vec2((i % 4) / 4.0, (i / 4) / 4.0));
+    EXPECT_LT(high.x, (i % 4 + 1) / 4.0);
+    EXPECT_LT(high.y, (i / 4 + 1) / 4.0);
+  }
+}
+
+TEST(Lights, ConcentricMapKeepsAreas) {
+  // A quarter of the square, its inner half by sides, goes to the disc of half the radius.
+  EXPECT_NEAR(glm::length(concentric_disc({0.75, 0.6})), 0.5, 1e-15);
+  EXPECT_NEAR(glm::length(concentric_disc({0.75, 0.75})), 0.5, 1e-15);
+  EXPECT_NEAR(glm::length(concentric_disc({1, 0.2})), 1, 1e-15);
+  EXPECT_EQ(concentric_disc({0.5, 0.5}), Vec2(0));
+}
+
+TEST(Lights, SphereSamplesLieOnItsNearSideWithinItsOutline) {
+  SphereLight light{.center = {0, 3, 4}, .radius = 2, .sampling = {8, false}};
+  const LightPtr lamp = make_light(light);
+  for (int i = 0; i < lamp->sample_count(); ++i) {
+    const LightSample s = lamp->sample(Vec3(0), i, 0.7, 0.2);
+    EXPECT_NEAR(glm::length(s.distance * s.direction - light.center), 2, 1e-12);
+    EXPECT_LE(s.distance, std::sqrt(21.0) + 1e-12);
+    EXPECT_GE(glm::dot(s.direction, glm::normalize(light.center)), std::sqrt(21.0) / 5 - 1e-12);
+  }
+}
+
+TEST(Lights, DistantDiscGivesLessThanItsMiddleByTheMeanCosine) {
+  // Directions evenly in a cone of half angle a: mean cosine (1 + cos a) / 2.
+  DistantLight light{.direction = {0, 0, -1}, .angular_diameter = kPi / 3, .sampling = {64, false}};
+  EXPECT_NEAR(irradiance(*make_light(light)) / kPi, 0.5 * (1 + std::cos(kPi / 6)), 1e-4);
+  light.angular_diameter = 0;
+  EXPECT_EQ(make_light(light)->sample_count(), 1);
+  EXPECT_NEAR(irradiance(*make_light(light)) / kPi, 1, 1e-6);
+}
+
+TEST(Lights, AmbientLightIsTakenOnce) {
+  const LightPtr ambient = make_light(AmbientLight{{1, 0.5, 0.25}, 2});
+  EXPECT_EQ(ambient->sample_count(), 0);
+  EXPECT_EQ(ambient->ambient(), Spectrum(2, 1, 0.5f));
+}
+
+}  // namespace
+}  // namespace lekalo::render

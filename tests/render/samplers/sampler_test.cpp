@@ -1,0 +1,78 @@
+// Stratification by counting, uniformity by moments.
+#include "render/samplers/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace lekalo::render {
+namespace {
+
+TEST(StratifiedSampler, OneSampleIsTheCentre) {
+  EXPECT_EQ(make_stratified_sampler(1, 5)->pixel_position(17, 4, 0), Vec2(0.5));
+}
+
+TEST(StratifiedSampler, EveryRowStripAndEveryCellHoldsOneSample) {
+  for (const int n : {4, 16, 64, 256}) {
+    const SamplerPtr sampler = make_stratified_sampler(n, 0);
+    const int side = static_cast<int>(std::sqrt(n));
+    std::set<int> cells, rows, columns;
+    for (int s = 0; s < n; ++s) {
+      const Vec2 p = sampler->pixel_position(3, 9, s);
+      ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+      cells.insert(static_cast<int>(p.x * side) + side * static_cast<int>(p.y * side));
+      rows.insert(static_cast<int>(p.y * n));
+      columns.insert(static_cast<int>(p.x * n));
+    }
+    EXPECT_EQ(static_cast<int>(cells.size()), n);
+    EXPECT_EQ(static_cast<int>(rows.size()), n);
+    EXPECT_EQ(static_cast<int>(columns.size()), n);
+  }
+}
+
+TEST(StratifiedSampler, AnyNumberOfSamplesFillsTheRows) {
+  for (const int n : {2, 3, 7, 11, 30}) {
+    const SamplerPtr sampler = make_stratified_sampler(n, 1);
+    std::set<int> rows;
+    for (int s = 0; s < n; ++s) rows.insert(static_cast<int>(sampler->pixel_position(0, 0, s).y * n));
+    EXPECT_EQ(static_cast<int>(rows.size()), n);
+  }
+}
+
+TEST(StratifiedSampler, PixelsAndSeedsDiffer) {
+  const SamplerPtr a = make_stratified_sampler(16, 0), b = make_stratified_sampler(16, 1);
+  EXPECT_EQ(a->pixel_position(1, 2, 3), make_stratified_sampler(16, 0)->pixel_position(1, 2, 3));
+  EXPECT_NE(a->pixel_position(1, 2, 3), a->pixel_position(2, 1, 3));
+  EXPECT_NE(a->pixel_position(1, 2, 3), b->pixel_position(1, 2, 3));
+}
+
+TEST(SampleStream, IsUniformAndUncorrelatedBetweenNeighbours) {
+  // 10,000 first numbers of as many streams: mean 1/2, variance 1/12, correlation of neighbours 0, within 4 deviations.
+  double sum = 0, square = 0, product = 0, last = 0.5;
+  const int n = 100;
+  for (uint32_t y = 0; y < n; ++y)
+    for (uint32_t x = 0; x < n; ++x) {
+      const double r = SampleStream(x, y, 0, 0).next();
+      ASSERT_TRUE(r >= 0 && r < 1);
+      sum += r - 0.5;
+      square += (r - 0.5) * (r - 0.5);
+      product += (r - 0.5) * (last - 0.5);
+      last = r;
+    }
+  const double count = n * n;
+  EXPECT_LT(std::fabs(sum / count), 4 * std::sqrt(1 / 12.0 / count));
+  EXPECT_NEAR(square / count, 1 / 12.0, 4 * std::sqrt(1 / 180.0 / count));
+  EXPECT_LT(std::fabs(product / count), 4 / 12.0 / std::sqrt(count));
+}
+
+TEST(SampleStream, DimensionsDiffer) {
+  SampleStream stream(1, 2, 3, 4);
+  const Vec2 first = stream.next_pair(), second = stream.next_pair();
+  EXPECT_NE(first.x, first.y);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(SampleStream(1, 2, 3, 4).next_pair(), first);
+}
+
+}  // namespace
+}  // namespace lekalo::render

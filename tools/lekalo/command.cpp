@@ -1,0 +1,50 @@
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include "geometry/expression/expression.h"
+
+namespace lekalo::command {
+
+void SceneOptions::add_to(CLI::App& app) {
+  app.add_option("scene", file, "scene file")->required()->type_name("FILE");
+  app.add_option("--set", set, "value of a parameter, e.g. --set w=4; repeatable")->type_name("NAME=VALUE");
+}
+
+render::LoadedScene SceneOptions::load() const {
+  render::LoadOptions options;
+  for (const std::string& one : set) {
+    const size_t equals = one.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError(fmt::format("--set takes NAME=VALUE, found '{}'", one));
+    options.set_parameters.emplace_back(one.substr(0, equals), one.substr(equals + 1));
+  }
+  return render::load_scene(file, options);
+}
+
+std::string digits(double x) { return fmt::format("{:.17g}", x); }
+std::string digits(const geometry::Vec3& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z); }
+
+std::vector<double> parse_numbers(const std::string& text, size_t count, const std::string& option) {
+  std::vector<double> numbers;
+  size_t begin = 0;
+  for (size_t i = 0, depth = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] == '(') ++depth;
+    if (i < text.size() && text[i] == ')' && depth > 0) --depth;
+    if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
+    const std::string part = text.substr(begin, i - begin);
+    begin = i + 1;
+    auto parsed = geometry::Expression::parse(part);
+    if (const auto* error = std::get_if<geometry::ExpressionError>(&parsed))
+      throw UsageError(fmt::format("{}: '{}': {}", option, part, error->message));
+    auto& expression = std::get<geometry::Expression>(parsed);
+    if (const auto error = expression.bind({}))
+      throw UsageError(fmt::format("{}: '{}': {}", option, part, error->message));
+    numbers.push_back(expression());
+  }
+  if (count > 0 && numbers.size() != count)
+    throw UsageError(fmt::format("{} takes {} numbers with commas between, found {}", option, count, numbers.size()));
+  return numbers;
+}
+
+}  // namespace lekalo::command

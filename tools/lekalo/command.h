@@ -1,0 +1,45 @@
+// What the commands share: options, exit codes, messages.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/scene/load.h"
+
+namespace lekalo::command {
+
+// Exit codes, the same for every command.
+enum Exit { kDone = 0, kDiffers = 1, kUsage = 2, kSceneError = 3, kFileError = 4, kInterrupted = 5 };
+
+// Options of every command that reads a scene.
+struct SceneOptions {
+  std::string file;
+  std::vector<std::string> set;  // name=value
+
+  void add_to(CLI::App& app);
+  render::LoadedScene load() const;
+};
+
+// A subcommand's work; returns the exit code. Every command is one file with one add_ function.
+using Action = std::function<int()>;
+
+void add_render(CLI::App& app, Action& action);
+void add_check(CLI::App& app, Action& action);
+void add_evaluate(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
+
+// A number as commands print it: 17 significant digits, enough to give the same double back.
+std::string digits(double x);
+std::string digits(const geometry::Vec3& v);
+
+// The numbers of "1,2.5,-3": comma separated formulas without names.
+std::vector<double> parse_numbers(const std::string& text, size_t count, const std::string& option);
+
+// Wrong usage found after parsing the command line; exits with kUsage.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace lekalo::command

@@ -1,0 +1,127 @@
+// lekalo evaluate: a point of a curve or surface with derivatives, normal and curvatures.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "geometry/expression/nearest_name.h"
+#include "geometry/queries/curvature.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::Vec3;
+using nlohmann::ordered_json;
+
+ordered_json json(const Vec3& v) { return ordered_json::array({v.x, v.y, v.z}); }
+
+ordered_json json_or_null(bool known, double x) { return known ? ordered_json(x) : ordered_json(nullptr); }
+
+ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
+  const geometry::CurveJet jet = curve.evaluate(t, std::max(order, 3));
+  ordered_json out;
+  out["t"] = t;
+  out["point"] = json(jet.point());
+  ordered_json derivatives = ordered_json::array();
+  for (int k = 1; k <= order; ++k) derivatives.push_back(json(jet.d[k]));
+  out["derivatives"] = derivatives;
+  const geometry::CurveCurvature c = geometry::curvature(jet);
+  out["tangent"] = c.has_tangent ? json(c.tangent) : ordered_json(nullptr);
+  out["normal"] = c.has_normal ? json(c.normal) : ordered_json(nullptr);
+  out["binormal"] = c.has_normal ? json(c.binormal) : ordered_json(nullptr);
+  out["curvature"] = json_or_null(c.has_tangent, c.curvature);
+  out["torsion"] = json_or_null(c.has_normal, c.torsion);
+  return out;
+}
+
+ordered_json evaluate_surface(const geometry::Surface& surface, double u, double v) {
+  const geometry::SurfaceJet jet = surface.evaluate(u, v, 2);
+  ordered_json out;
+  out["u"] = u;
+  out["v"] = v;
+  out["point"] = json(jet.point());
+  out["du"] = json(jet.du());
+  out["dv"] = json(jet.dv());
+  out["duu"] = json(jet.duu());
+  out["duv"] = json(jet.duv());
+  out["dvv"] = json(jet.dvv());
+  const Vec3 normal = surface.normal(u, v);
+  out["normal"] = json(normal);
+  const geometry::SurfaceCurvature c = geometry::curvature(jet, normal);
+  out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
+  out["mean_curvature"] = json_or_null(c.regular, c.mean);
+  out["principal_curvatures"] =
+      c.regular ? ordered_json::array({c.principal[0], c.principal[1]}) : ordered_json(nullptr);
+  return out;
+}
+
+void print(const ordered_json& out) {
+  for (const auto& [key, value] : out.items()) {
+    if (value.is_null()) {
+      fmt::print("{:<21} -\n", key);
+    } else if (value.is_array() && !value.empty() && value[0].is_array()) {
+      for (size_t k = 0; k < value.size(); ++k)
+        fmt::print("{:<21} {}\n", fmt::format("derivative {}", k + 1),
+                   digits(Vec3(value[k][0].get<double>(), value[k][1].get<double>(), value[k][2].get<double>())));
+    } else if (value.is_array()) {
+      std::string text;
+      for (const auto& x : value) text += (text.empty() ? "" : " ") + digits(x.get<double>());
+      fmt::print("{:<21} {}\n", key, text);
+    } else {
+      fmt::print("{:<21} {}\n", key, digits(value.get<double>()));
+    }
+  }
+}
+
+struct Options {
+  SceneOptions scene;
+  std::string name, at;
+  int order = 2;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  const render::LoadedScene scene = options.scene.load();
+  const auto& geometry = scene.model->geometry;
+  const auto found = geometry.find(options.name);
+  if (found == geometry.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, entity] : geometry) names.push_back(name);
+    const auto nearest = geometry::nearest_name(options.name, names);
+    throw UsageError(fmt::format("the scene has no geometry called '{}'{}", options.name,
+                                 nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+  }
+  ordered_json out;
+  if (const auto* curve = std::get_if<geometry::CurvePtr>(&found->second))
+    out = evaluate_curve(**curve, parse_numbers(options.at, 1, "--at of a curve")[0], options.order);
+  else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&found->second)) {
+    const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
+    out = evaluate_surface(**surface, uv[0], uv[1]);
+  } else {
+    throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
+  }
+  if (options.json)
+    fmt::print("{}\n", out.dump(2));
+  else
+    print(out);
+  return kDone;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Action& action) {
+  auto* sub = app.add_subcommand("evaluate", "A point of a curve or surface with derivatives and curvatures");
+  sub->footer(
+      "Examples:\n  lekalo evaluate ring.yaml section --at 0.5\n  lekalo evaluate ring.yaml ring --at pi/2,1.2 --json");
+  auto options = std::make_shared<Options>();
+  options->scene.add_to(*sub);
+  sub->add_option("name", options->name, "name of the curve or surface")->required();
+  sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->required()->type_name("T|U,V");
+  sub->add_option("--order", options->order, "derivatives of a curve up to this order")
+      ->check(CLI::Range(1, geometry::kMaxCurveOrder));
+  sub->add_flag("--json", options->json, "print JSON");
+  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lekalo::command

@@ -1,0 +1,52 @@
+// The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command.h"
+#include "render/image/image_error.h"
+
+using namespace lekalo;
+
+int main(int argc, char** argv) {
+  CLI::App app{"Renders and draws geometric models from scene files.\n\n  lekalo render scenes/primer/teapot.yaml\n",
+               "lekalo"};
+  app.set_version_flag("--version", "lekalo " LEKALO_VERSION);
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App* a, const CLI::Error& error) {
+    return fmt::format("{}\n'{} --help' shows how to use it\n", error.what(),
+                       a->get_name().empty() ? "lekalo" : "lekalo " + a->get_name());
+  });
+  command::Action action;
+  command::add_render(app, action);
+  command::add_check(app, action);
+  command::add_evaluate(app, action);
+  command::add_compare(app, action);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? command::kDone : command::kUsage;
+  }
+  try {
+    return action();
+  } catch (const render::SceneError& error) {
+    std::fputs(error.what(), stderr);
+    return error.diagnostics().cannot_read() ? command::kFileError : command::kSceneError;
+  } catch (const render::ImageError& error) {
+    fmt::print(stderr, "lekalo: {}\n", error.what());
+    return command::kFileError;
+  } catch (const command::UsageError& error) {
+    fmt::print(stderr, "lekalo: {}\n", error.what());
+    return command::kUsage;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "lekalo: not enough memory\n");
+    return command::kFileError;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "lekalo: {}\n", error.what());
+    return command::kFileError;
+  }
+}
