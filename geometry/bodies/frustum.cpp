@@ -3,6 +3,8 @@
 // Side r_1 = p + rho(v) (cos u x + sin u y) + h v z, u in [0, 2 pi], v in [0, 1]; ends are discs in planes trimmed by
 // circles. Edges: the two circles and the seam u = 0 = 2 pi. An end of radius 0 is a pole edge and has no face.
 // Loops: side  +start +seam -end -seam,  start disc  -start,  end disc  +end.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -98,7 +100,7 @@ TypeDeclaration cone_body_type() {
           if (std::abs(top) <= 1e-14 * radius) top = 0;
           if (top < 0)
             throw FieldError("half_angle", "the cone comes to its apex before the height is reached",
-                             "the apex is at the height " + std::to_string(-radius / slope));
+                             fmt::format("the apex is at the height {:.6g}", -radius / slope));
         }
         if (radius == 0 && top == 0) throw FieldError("radius", "the cone has no width: both radii are zero");
         return std::make_shared<Body>(frustum(place.frame, radius, top, place.height));

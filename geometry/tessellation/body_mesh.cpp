@@ -63,6 +63,7 @@ class BodyMesher {
   BodyMesher(const Body& body, const TessellationTolerance& tolerance) : body_(body), tolerance_(tolerance) {
     for (size_t i = 0; i < body.faces.size(); ++i)
       grids_.push_back(make_grid(*body.faces[i].surface, grid_box(body, static_cast<int>(i)), tolerance));
+    share_lines(body, tolerance, grids_);
     fineness_.assign(body.edges.size(), 1.0);
   }
 

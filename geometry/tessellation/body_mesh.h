@@ -52,6 +52,9 @@ double parameter_at(const Curve& image, int coordinate, double value);
 // 0 or 1: the image runs at a constant value of that coordinate; -1: neither.
 int constant_coordinate(const Curve& image);
 
+// Gives faces that meet along whole sides the same lines there.
+void share_lines(const Body& body, const TessellationTolerance& tolerance, std::vector<SurfaceGrid>& grids);
+
 // Adds the triangles of a face to the mesh; the polygons of its edges are there.
 void add_face_mesh(const Body& body, int face, const SurfaceGrid& grid, const TessellationTolerance& tolerance,
                    BodyMesh& result);

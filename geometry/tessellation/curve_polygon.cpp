@@ -108,14 +108,10 @@ std::vector<double> smooth_polygon(const Curve& curve, double a, double b, const
     if (density.total() > kMostChords)
       throw std::invalid_argument("the sag is too small: a curve would need more than 4 million chords");
     std::vector<double> result = density.lines(round ? 3 : 1);
-    bool fine = true;
-    for (size_t i = 0; i + 1 < result.size(); ++i) {
-      const double excess = chord_excess(curve, result[i], result[i + 1], tolerance);
-      if (excess <= 1) continue;
-      fine = false;
-      density.raise(result[i], result[i + 1], std::min(2.0, std::sqrt(excess) * 1.02));
-    }
-    if (fine || round_number == 11) return result;
+    std::vector<double> excess;
+    for (size_t i = 0; i + 1 < result.size(); ++i)
+      excess.push_back(chord_excess(curve, result[i], result[i + 1], tolerance));
+    if (!density.raise(result, excess) || round_number == 11) return result;
   }
   return {a, b};
 }

@@ -45,10 +45,25 @@ struct LineDensity {
     return result;
   }
 
-  // Multiplies the density where it overlaps [a, b].
-  void raise(double a, double b, double factor) {
-    for (size_t i = 0; i < value.size(); ++i)
-      if (at[i] < b && at[i + 1] > a) value[i] = std::max(value[i], 0.5 / (b - a)) * factor;
+  // Makes the density larger where steps of the lines were too long: excess[i] > 1 by so many times the tolerance
+  // between lines[i] and lines[i + 1]. Deviations grow with the square of the step. False when none was too long.
+  bool raise(const std::vector<double>& lines, const std::vector<double>& excess) {
+    std::vector<double> wanted(value.size(), 0.0);
+    bool any = false;
+    size_t first = 0;
+    for (size_t k = 0; k + 1 < lines.size(); ++k) {
+      if (!(excess[k] > 1)) continue;
+      const double from = std::max(lines[k], at.front()), to = std::min(lines[k + 1], at.back());
+      if (!(from < to)) continue;
+      any = true;
+      // A part that asked for next to nothing still gets its share of the step.
+      const double factor = std::min(2.0, std::sqrt(excess[k]) * 1.02), least = 0.5 / (lines[k + 1] - lines[k]);
+      while (at[first + 1] <= from) ++first;
+      for (size_t i = first; i < value.size() && at[i] < to; ++i)
+        wanted[i] = std::max(wanted[i], std::max(value[i], least) * factor);
+    }
+    for (size_t i = 0; i < value.size(); ++i) value[i] = std::max(value[i], wanted[i]);
+    return any;
   }
 };
 

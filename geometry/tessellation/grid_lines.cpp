@@ -47,10 +47,11 @@ struct Direction {
     }
     return result;
   }
-  void raise(double a, double b, double excess) {
-    const double factor = std::min(2.0, std::sqrt(excess) * 1.02);
-    for (LineDensity& s : sections)
-      if (s.at.front() < b && s.at.back() > a) s.raise(a, b, factor);
+  // True where an excess is larger than 1.
+  bool raise(const std::vector<double>& lines, const std::vector<double>& excess) {
+    bool any = false;
+    for (LineDensity& s : sections) any = s.raise(lines, excess) || any;
+    return any;
   }
   // All intervals of constant density, in order.
   template <class Visit>
@@ -110,7 +111,8 @@ Demand demand_at(const Surface& surface, double u, double v, const TessellationT
   const double l = glm::dot(s.duu(), m), n = glm::dot(s.duv(), m), p = glm::dot(s.dvv(), m);
   const double a = std::abs(l), b = std::abs(n), c = std::abs(p);
   Demand demand;
-  const double scale = 8 * tolerance.sag_near(s.point());
+  // A little less than the sag, because the curvature may be larger between samples.
+  const double scale = 8 * 0.99 * tolerance.sag_near(s.point());
   if (b > 0) {
     const double isotropic = std::sqrt(e / g);
     const double r = std::sqrt((a + b * isotropic) / (c + b / isotropic));
@@ -185,20 +187,24 @@ double normal_parameter(const std::vector<double>& lines, size_t i) {
   return before_crease ? lines[i] - 1e-8 * (lines[i] - lines[i - 1]) : lines[i];
 }
 
-Vec3 normal_of(const Surface& surface, const SurfaceJet& jet, double u, double v) {
-  const Vec3 cross = glm::cross(jet.du(), jet.dv());
-  const double length = glm::length(cross);
-  if (!(length > 1e-6 * glm::length(jet.du()) * glm::length(jet.dv()))) return surface.normal(u, v);
+// The normal from a jet of order 1. Where one derivative is small against the other over the whole grid the cross
+// product may be nothing but rounding, and the surface finds the limit.
+Vec3 normal_of(const Surface& surface, const SurfaceJet& jet, const Vec2& at, const Vec2& size) {
+  const Vec3 du = size.x * jet.du(), dv = size.y * jet.dv();
+  const Vec3 cross = glm::cross(du, dv);
+  const double length = glm::length(cross), reach = std::max(glm::length(du), glm::length(dv));
+  if (!(length > 1e-6 * reach * reach)) return surface.normal(at.x, at.y);
   return (surface.normal_sign() / length) * cross;
 }
 
-// Fills nodes and diagonals, and raises densities where the grid does not keep the tolerance. True when it does.
+// Fills nodes and diagonals and measures the grid: for every column and row of cells, the largest deviation as a
+// multiple of the tolerance, where that is more than 1.
 class GridCheck {
  public:
-  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, Densities& densities, SurfaceGrid& grid)
-      : surface_(surface), tolerance_(tolerance), densities_(densities), grid_(grid) {}
+  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, SurfaceGrid& grid)
+      : surface_(surface), tolerance_(tolerance), grid_(grid) {}
 
-  bool run() {
+  void run() {
     const size_t nu = grid_.u.size(), nv = grid_.v.size();
     grid_.points.resize(nu * nv);
     grid_.normals.resize(nu * nv);
@@ -207,19 +213,17 @@ class GridCheck {
     excess_v_.assign(nv - 1, 0);
     fill_nodes();
     for (size_t i = 0; i < nu; ++i) measure_column(static_cast<int>(i));
-    bool fine = true;
-    for (size_t i = 0; i + 1 < nu; ++i)
-      if (excess_u_[i] > 1) densities_.u.raise(grid_.u[i], grid_.u[i + 1], excess_u_[i]), fine = false;
-    for (size_t j = 0; j + 1 < nv; ++j)
-      if (excess_v_[j] > 1) densities_.v.raise(grid_.v[j], grid_.v[j + 1], excess_v_[j]), fine = false;
-    return fine;
   }
+
+  const std::vector<double>& excess_u() const { return excess_u_; }
+  const std::vector<double>& excess_v() const { return excess_v_; }
 
  private:
   void fill_nodes() {
     const size_t nv = grid_.v.size();
     std::vector<Vec2> places(nv);
     std::vector<SurfaceJet> jets(nv);
+    const Vec2 size(grid_.u.back() - grid_.u.front(), grid_.v.back() - grid_.v.front());
     for (size_t i = 0; i < grid_.u.size(); ++i) {
       for (size_t j = 0; j < nv; ++j) places[j] = {grid_.u[i], grid_.v[j]};
       surface_.evaluate_many(places, 1, jets);
@@ -227,8 +231,8 @@ class GridCheck {
         const size_t node = i * nv + j;
         grid_.points[node] = jets[j].point();
         const double u = normal_parameter(grid_.u, i), v = normal_parameter(grid_.v, j);
-        grid_.normals[node] =
-            u == places[j].x && v == places[j].y ? normal_of(surface_, jets[j], u, v) : surface_.normal(u, v);
+        grid_.normals[node] = u == places[j].x && v == places[j].y ? normal_of(surface_, jets[j], places[j], size)
+                                                                   : surface_.normal(u, v);
       }
     }
   }
@@ -303,7 +307,6 @@ class GridCheck {
 
   const Surface& surface_;
   const TessellationTolerance& tolerance_;
-  Densities& densities_;
   SurfaceGrid& grid_;
   const double cosine_ = std::cos(std::min(kPi, tolerance_.angle*(1 + 1e-6)));
   std::vector<double> excess_u_, excess_v_;
@@ -368,6 +371,16 @@ static void gather_poles(SurfaceGrid& grid) {
   for (int i = 0; i <= grid.columns(); ++i) gather(grid.rows() + 1, [&](int j) { return grid.node(i, j); });
 }
 
+SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<double> v,
+                    const TessellationTolerance& tolerance) {
+  SurfaceGrid grid;
+  grid.u = std::move(u);
+  grid.v = std::move(v);
+  GridCheck(surface, tolerance, grid).run();
+  gather_poles(grid);
+  return grid;
+}
+
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& given) {
   TessellationTolerance tolerance = given;
   // Beyond a right angle the deviation along normals measures nothing.
@@ -383,7 +396,11 @@ SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const Tessel
                       kMostTriangles));
     grid.u = densities.u.lines(fewest_u);
     grid.v = densities.v.lines(fewest_v);
-    if (GridCheck(surface, tolerance, densities, grid).run()) break;
+    GridCheck check(surface, tolerance, grid);
+    check.run();
+    const bool raised_u = densities.u.raise(grid.u, check.excess_u());
+    const bool raised_v = densities.v.raise(grid.v, check.excess_v());
+    if (!raised_u && !raised_v) break;
   }
   gather_poles(grid);
   return grid;

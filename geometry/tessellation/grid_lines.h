@@ -35,6 +35,10 @@ struct SurfaceGrid {
 // and made denser until they do. Throws std::invalid_argument when that would take more than kMostTriangles.
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& tolerance);
 
+// The grid on given lines, increasing, each at most twice; the tolerance decides diagonals only.
+SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<double> v,
+                    const TessellationTolerance& tolerance);
+
 inline constexpr double kMostTriangles = 6.4e7;
 
 // Parameters of one direction where the surface's smooth pieces meet inside the range, shifted by whole periods.

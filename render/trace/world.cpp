@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "geometry/bodies/sew.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/clipped_body.h"
@@ -112,7 +113,9 @@ struct World::Compiled {
             else
               set = shape;
             if (as_mesh && set.front()->bounded()) {
-              leaf.mesh = std::make_shared<geometry::Mesh>(merged_mesh(set, tolerance_of(object, to_world)));
+              const auto tolerance = tolerance_of(object, to_world);
+              leaf.mesh = std::make_shared<geometry::Mesh>(set.size() == 1 ? tessellate(*set.front(), tolerance)
+                                                                           : tessellate(geometry::sew(set), tolerance));
               return;
             }
             for (const SurfacePtr& surface : set) {
@@ -138,28 +141,6 @@ struct World::Compiled {
         },
         object.shape);
     return leaf;
-  }
-
-  static geometry::Mesh merged_mesh(const SurfaceSet& set, const geometry::TessellationTolerance& tolerance) {
-    geometry::Mesh all;
-    for (size_t face = 0; face < set.size(); ++face) {
-      const geometry::Mesh part = tessellate(*set[face], tolerance);
-      const auto shift = [](std::array<int32_t, 3>& index, size_t by) {
-        for (int32_t& i : index)
-          if (i >= 0) i += static_cast<int32_t>(by);
-      };
-      for (geometry::Mesh::Triangle triangle : part.triangles) {
-        shift(triangle.point, all.points.size());
-        shift(triangle.normal, all.normals.size());
-        shift(triangle.parameter, all.parameters.size());
-        triangle.face = static_cast<int32_t>(face);
-        all.triangles.push_back(triangle);
-      }
-      all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-      all.normals.insert(all.normals.end(), part.normals.begin(), part.normals.end());
-      all.parameters.insert(all.parameters.end(), part.parameters.begin(), part.parameters.end());
-    }
-    return all;
   }
 
   // Adds a list of objects to a hierarchy whose space maps to the world by `to_world` (of its first use). `number` is

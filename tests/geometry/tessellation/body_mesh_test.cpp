@@ -3,14 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "geometry/bodies/construct.h"
 #include "geometry/bodies/primitives.h"
+#include "geometry/bodies/sew.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/patches.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/tessellation/mesh_checks.h"
@@ -219,6 +224,60 @@ TEST(BodyMesh, CylinderWithASaddleTop) {
   // The saddle adds nothing to the volume.
   EXPECT_NEAR(measure(body).volume.value, kPi, 1e-10);
   for (double sag : {0.1, 0.01, 0.001, 1e-4}) check(body, {sag, 0.5, {}});
+}
+
+// Middles of the sides that only one triangle uses.
+std::vector<Vec3> free_sides(const Mesh& mesh) {
+  std::map<std::pair<int, int>, int> sides;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++sides[std::minmax(t.point[k], t.point[(k + 1) % 3])];
+  std::vector<Vec3> result;
+  for (const auto& [side, uses] : sides)
+    if (uses == 1) result.push_back(0.5 * (mesh.points[side.first] + mesh.points[side.second]));
+  return result;
+}
+
+TEST(BodyMesh, SewnHalvesOfASphereAreClosed) {
+  const Interval latitude{-0.5 * kPi, 0.5 * kPi};
+  const std::vector<SurfacePtr> halves{std::make_shared<SphereSurface>(kTilted, 2, Rectangle{{0, kPi}, latitude}),
+                                       std::make_shared<SphereSurface>(kTilted, 2, Rectangle{{kPi, kTwoPi}, latitude})};
+  const Body body = sew(halves);
+  for (const Violation& v : body.violations()) ADD_FAILURE() << v.condition << ": " << v.entity;
+  EXPECT_EQ(body.euler_characteristic(), 2);
+  for (double sag : {0.1, 0.01, 0.001}) check(body, {sag, 0.5, {}});
+}
+
+TEST(BodyMesh, SewnWholeSurfacesHaveSeamsAndPoles) {
+  const std::vector<SurfacePtr> sphere{std::make_shared<SphereSurface>(kTilted, 2)};
+  const Body body = sew(sphere);
+  for (const Violation& v : body.violations()) ADD_FAILURE() << v.condition << ": " << v.entity;
+  EXPECT_EQ(body.euler_characteristic(), 2);
+  check(body, {0.01, 0.5, {}});
+}
+
+TEST(BodyMesh, SewnTeapotHasNoCracks) {
+  std::ifstream file(LEKALO_SOURCE_DIR "/scenes/data/newell_teapot.txt");
+  if (!file) GTEST_SKIP() << "scenes/data/newell_teapot.txt is not there";
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::vector<SurfacePtr> patches = parse_patches(text.str());
+  const Body body = sew(patches);
+  for (double sag : {0.1, 0.01, 0.001}) {
+    const Mesh mesh = tessellate(body, {sag, 0.5, {}});
+    EXPECT_TRUE(points_are_distinct(mesh));
+    for (size_t face = 0; face < patches.size(); ++face)
+      EXPECT_LE(measured_sag(mesh, *patches[face], static_cast<int>(face)), sag * 1.1) << face;
+    // Free borders are those of the surfaces that meet no other: the rims of pot and lid, the ends of handle and spout.
+    std::vector<Vec3> border;
+    for (const Edge& edge : body.edges)
+      if (edge.coedges.size() == 1 && edge.kind != EdgeKind::pole)
+        for (int k = 0; k <= 200; ++k) border.push_back(edge.curve->point(edge.curve->domain().lo + k / 200.0));
+    for (const Vec3& middle : free_sides(mesh)) {
+      double nearest = kInfinity;
+      for (const Vec3& p : border) nearest = std::min(nearest, glm::length(p - middle));
+      EXPECT_LE(nearest, sag + 0.01);
+    }
+  }
 }
 
 }  // namespace

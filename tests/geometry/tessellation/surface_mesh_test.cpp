@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/torus.h"
 #include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
 
@@ -91,6 +94,57 @@ TEST(SurfaceMesh, BicubicPatchWithACollapsedEdge) {
     EXPECT_LE(measured_sag(mesh, patch), sag * 1.05);
     expect_good_normals(mesh);
   }
+}
+
+TEST(SurfaceMesh, CreasesHaveANormalForEachSide) {
+  // A roof: degree 1 in u with a ridge, a parabola in v.
+  const SplineAxis across(1, {0, 0, 1, 2, 2}, Extension::tangent);
+  const SplineAxis along(2, {0, 0, 0, 1, 1, 1}, Extension::analytic);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) points.push_back({i - 1.0, 2.0 * j, (i == 1) + (j == 1)});
+  const NurbsSurface roof(across, along, points);
+  const Mesh mesh = tessellate(roof, {0.01, 0.3, {}});
+  expect_good_normals(mesh, 0.98);
+  EXPECT_EQ(euler_characteristic(mesh), 1);
+  EXPECT_TRUE(points_are_distinct(mesh));
+  EXPECT_LE(measured_sag(mesh, roof), 0.0101);
+}
+
+TEST(SurfaceMesh, RandomRationalSurfacesKeepTheSag) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int round = 0; round < 8; ++round) {
+    const int p = 2 + round % 4, q = 5 - round % 4;
+    std::vector<double> ku(p + 1, 0.0), kv(q + 1, 0.0);
+    for (int k = 1; k < 4; ++k) ku.push_back(k), kv.push_back(k);
+    ku.insert(ku.end(), p + 1, 4.0);
+    kv.insert(kv.end(), q + 1, 4.0);
+    const int m = p + 4, n = q + 4;
+    std::vector<Vec3> points;
+    std::vector<double> weights;
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < n; ++j) {
+        points.push_back({i + 0.3 * uniform(random), j + 0.3 * uniform(random), 1.5 * uniform(random)});
+        weights.push_back(1 + 0.7 * uniform(random));
+      }
+    const NurbsSurface surface(SplineAxis(p, ku, Extension::tangent), SplineAxis(q, kv, Extension::tangent), points,
+                               weights);
+    const double sag = round % 2 ? 0.05 : 0.005;
+    const Mesh mesh = tessellate(surface, {sag, 0.5, {}});
+    EXPECT_EQ(euler_characteristic(mesh), 1);
+    EXPECT_LE(measured_sag(mesh, surface), 1.1 * sag);
+  }
+}
+
+TEST(SurfaceMesh, RingTorusOfTheBook) {
+  // 45 x 23 cells where the diagonals may deviate by 1.9 sags; twice as many where they may not.
+  const TorusSurface torus(Frame{}, 3, 1);
+  const Mesh mesh = tessellate(torus, sag_only(0.01));
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(euler_characteristic(mesh), 0);
+  EXPECT_LE(measured_sag(mesh, torus), 0.01);
+  EXPECT_LE(mesh.triangles.size(), 2 * 2070u + 200);
 }
 
 TEST(SurfaceMesh, SagAsAFunctionOfPlace) {
