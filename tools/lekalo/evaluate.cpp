@@ -85,7 +85,8 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   if (surface) return *surface;
   const size_t count = set ? set->size() : (*body)->faces.size();
   for (size_t i = 0; i < count; ++i)
-    if (options.face == std::to_string(i) || (body && options.face == (*body)->faces[i].origin.text()))
+    if (options.face == std::to_string(i) || (count == 1 && options.face.empty()) ||
+        (body && options.face == (*body)->faces[i].origin.text()))
       return set ? (*set)[i] : (*body)->faces[i].surface;
   const std::string hint =
       fmt::format("--face 0 to {}{}", count - 1, body ? ", or a name of 'lekalo measure --topology'" : "");

@@ -133,7 +133,7 @@ int run(const Options& options) {
   }
   render::MeshFormat format;
   try {
-    format = render::mesh_format(options.format.empty() ? output : "." + options.format);
+    format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
     throw UsageError(fmt::format("{}; or give --format obj|ply|stl", error.what()));
   }

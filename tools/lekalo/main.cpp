@@ -18,7 +18,7 @@ class ExamplesFirst : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
     const std::string footer = app->get_footer();
-    return make_description(app) + (footer.empty() ? "" : footer + "\n\n") + make_usage(app, std::move(name)) +
+    return make_description(app) + (footer.empty() ? "" : "\n" + footer + "\n\n") + make_usage(app, std::move(name)) +
            make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
   }
 };
