@@ -57,6 +57,10 @@ Model Builder::build() {
                                : "sections are info, include, parameters, geometry, materials, lights, camera, image, "
                                  "integrator, objects, styles, drawing, panels, layout, outputs");
   }
+  for (const char* name : {"info", "parameters", "image"})
+    if (const Value* value = section(name); value && !value->is_map() && !value->invalid)
+      diagnostics_.error(value->place, fmt::format("'{}' is a map of fields, found {}", name, kind_name(*value)),
+                         fmt::format("write {}: {{ name: value, ... }}", name));
   model.parameters = parameters_.all();
   for (const char* name : {"geometry", "materials", "lights"}) declare_section(name);
   if (const Value* info = section("info")) {
