@@ -39,8 +39,8 @@ std::string wedge(const Frame& frame, const Interval& u) {
 // Keeps lo <= dot(p - origin, axis) <= hi; infinite ends keep all.
 std::string slab(const Vec3& origin, const Vec3& axis, double lo, double hi) {
   std::string text;
-  if (lo > -kInfinity) text += " " + pov_plane(-axis, origin + lo * axis);
-  if (hi < kInfinity) text += " " + pov_plane(axis, origin + hi * axis);
+  if (lo > -kInfinity) text += fmt::format(" {}", pov_plane(-axis, origin + lo * axis));
+  if (hi < kInfinity) text += fmt::format(" {}", pov_plane(axis, origin + hi * axis));
   return text;
 }
 
@@ -184,7 +184,7 @@ std::optional<std::string> patches(const Surface& surface, int steps) {
     for (int i = 0; i < 16; ++i) text += (i % 4 == 0 ? "\n    " : " ") + pov((*points)[i]) + (i < 15 ? "," : "");
     if (pieces.size() > 1) text += " }";
   }
-  return pieces.size() > 1 ? "union {" + text : text;
+  return pieces.size() > 1 ? fmt::format("union {{{}", text) : text;
 }
 
 TessellationTolerance tolerance(const Box3& box, const std::string& name, const PovOptions& options, PovNotes& notes) {
