@@ -1,5 +1,5 @@
 #version 3.7;
-global_settings { assumed_gamma 1 adc_bailout 0 max_trace_level 13 ambient_light rgb <0.4, 0.4, 0.4> }
+global_settings { assumed_gamma 1 adc_bailout 0 max_trace_level 5 ambient_light rgb <0.4, 0.4, 0.4> }
 camera { perspective
   location <3, -6, 4>
   direction <-0.3989023128068564, 0.7978046256137128, -0.4520892878477706>

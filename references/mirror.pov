@@ -19,4 +19,4 @@ plane { <0, 0, 1>, 0
     checker
     texture { pigment { rgb <1, 0.2857143, 0.2857143> } finish { ambient rgb <0.14, 0.14, 0.14> diffuse 0.56 } }
     texture { pigment { rgb <1, 1, 1> } finish { ambient rgb <0.16000001, 0.16000001, 0.16000001> diffuse 0.64000005 } }
-    matrix <2, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, -0.5> } } }
+    matrix <8, 0, 0, 0, 8, 0, 0, 0, 1, 0, 0, -0.5> } } }

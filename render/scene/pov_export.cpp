@@ -180,7 +180,8 @@ std::string Writer::object(const Object& object) {
     text = close(pov_shape(*surface, name, options_, notes_));
   } else if (const auto* set = std::get_if<SurfaceSet>(&object.shape)) {
     text = "union {";
-    for (const SurfacePtr& member : *set) text += fmt::format("\n{} }}", pov_shape(member, name, options_, notes_).text);
+    for (const SurfacePtr& member : *set)
+      text += fmt::format("\n{} }}", pov_shape(member, name, options_, notes_).text);
     text = close({text, {}});
   } else if (const auto* body = std::get_if<BodyPtr>(&object.shape)) {
     text = close(pov_shape(**body, name, options_, notes_));

@@ -9,8 +9,9 @@
 namespace lekalo::render {
 
 struct PovOptions {
-  double sag = 0;       // of triangles where POV-Ray has no exact shape, in scene units; 0: 1e-4 of the shape's size
-  int patch_steps = 3;  // bicubic_patch is divided into at most 2^patch_steps parts in each direction
+  double sag = 0;          // of triangles where POV-Ray has no exact shape, in scene units; 0: 1e-4 of the shape's size
+  double flatness = 1e-5;  // of bicubic_patch: parts flatter than this, in scene units, are not divided further
+  int patch_steps = 7;     // bicubic_patch is divided into at most 2^patch_steps parts in each direction
 };
 
 struct PovScene {

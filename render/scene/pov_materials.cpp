@@ -108,8 +108,8 @@ std::string interior(const Material& material, const ClassicCoefficients& c, con
   if (most > 0) {
     text += fmt::format(" fade_power 1001 fade_distance {} fade_color {}", 1 / most,
                         pov_rgb(Spectrum(1) - divided(medium->absorption, Spectrum(most))));
-    if (!c.mirror.is_zero() || c.fresnel != Fresnel::none)
-      notes.add(name + ": POV-Ray does not absorb light on its way to an inner mirror reflection");
+    if (!c.mirror.is_zero() || c.fresnel != Fresnel::none || !c.specular.is_zero())
+      notes.add(name + ": POV-Ray does not absorb the light of highlights and mirror images on the inside");
   }
   return text + " }";
 }

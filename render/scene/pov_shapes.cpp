@@ -172,7 +172,7 @@ std::optional<std::vector<Vec3>> bicubic(const SurfacePiece& piece) {
   return points;
 }
 
-std::optional<std::string> patches(const Surface& surface, int steps) {
+std::optional<std::string> patches(const Surface& surface, const PovOptions& options) {
   std::string text;
   const std::vector<SurfacePiece> pieces = surface.pieces();
   if (pieces.empty()) return std::nullopt;
@@ -180,7 +180,8 @@ std::optional<std::string> patches(const Surface& surface, int steps) {
     const auto points = bicubic(piece);
     if (!points) return std::nullopt;
     text += pieces.size() > 1 ? "\n  " : "";
-    text += fmt::format("bicubic_patch {{ type 1 flatness 0.0001 u_steps {0} v_steps {0}", steps);
+    text += fmt::format("bicubic_patch {{ type 1 flatness {0} u_steps {1} v_steps {1}", options.flatness,
+                        options.patch_steps);
     for (int i = 0; i < 16; ++i) text += (i % 4 == 0 ? "\n    " : " ") + pov((*points)[i]) + (i < 15 ? "," : "");
     if (pieces.size() > 1) text += " }";
   }
@@ -257,7 +258,7 @@ PovShape pov_shape(const SurfacePtr& surface, const std::string& name, const Pov
   }
   if (const auto text = meridian_surface(*surface)) return {*text, {}};
   if (const auto text = saddle(*surface)) return {*text, {}};
-  if (const auto text = patches(*surface, options.patch_steps)) return {*text, {}};
+  if (const auto text = patches(*surface, options)) return {*text, {}};
   return pov_shape(tessellate(*surface, tolerance(bounds(*surface), name, options, notes)));
 }
 
