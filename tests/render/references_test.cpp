@@ -41,6 +41,9 @@ bool is_flat(const Channel& key, int width, int height, int x, int y) {
   return true;
 }
 
+// nurbs_NAME shows the scene NAME with its shape in NURBS form: POV-Ray has no such shape, but the same picture.
+std::string picture_of(const std::string& name) { return name.starts_with("nurbs_") ? name.substr(6) : name; }
+
 class Reference : public testing::TestWithParam<std::string> {
  protected:
   fs::path scene() const { return kReferences / "scenes" / (GetParam() + ".yaml"); }
@@ -53,7 +56,7 @@ TEST_P(Reference, LooksAsInPovRay) {
   options.threads = 1;
   options.key_layer = true;
   const Image ours = render(world, options).image;
-  const Image theirs = read_exr(kReferences / (GetParam() + ".exr"));
+  const Image theirs = read_exr(kReferences / (picture_of(GetParam()) + ".exr"));
   ASSERT_EQ(ours.width, theirs.width);
   ASSERT_EQ(ours.height, theirs.height);
   const Channel* key = find_channel(ours, "id.key");
@@ -92,6 +95,7 @@ TEST_P(Reference, LooksAsInPovRay) {
 
 // The committed source is what the exporter writes now, and nothing in it is only nearly the scene.
 TEST_P(Reference, SourceIsUpToDate) {
+  if (picture_of(GetParam()) != GetParam()) return;
   const PovScene exported = pov_scene(*load_scene(scene()).model);
   std::ifstream file(kReferences / (GetParam() + ".pov"));
   std::ostringstream committed;
