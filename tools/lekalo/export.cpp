@@ -1,4 +1,4 @@
-// lekalo export: what a scene shows as one triangle mesh for another program.
+// lekalo export: what a scene shows as one triangle mesh for another program, or the whole scene for POV-Ray.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "render/image/atomic_file.h"
 #include "render/scene/mesh_files.h"
+#include "render/scene/pov_export.h"
 
 namespace lekalo::command {
 
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::string> names;
   std::string format, output;
   double sag = 0;
+  render::PovOptions pov;
   bool quiet = false;
 };
 
@@ -125,17 +127,30 @@ class Collection {
   std::set<std::string> left_out_;
 };
 
+int export_pov(const Options& options, const std::string& output) {
+  if (!options.names.empty()) throw UsageError("--format pov writes the whole scene; leave the names out");
+  render::PovOptions pov = options.pov;
+  pov.sag = options.sag;
+  const render::PovScene scene = render::pov_scene(*options.scene.load().model, pov);
+  render::write_file_atomically(output, scene.text);
+  if (!options.quiet)
+    for (const std::string& note : scene.notes) fmt::print(stderr, "not exact: {}\n", note);
+  return kDone;
+}
+
 int run(const Options& options) {
   std::string output = options.output;
   if (output.empty()) {
-    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl");
+    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|pov");
     output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
   }
+  if (options.format == "pov" || (options.format.empty() && output.ends_with(".pov")))
+    return export_pov(options, output);
   render::MeshFormat format;
   try {
     format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
-    throw UsageError(fmt::format("{}; or give --format obj|ply|stl", error.what()));
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|pov", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
   Collection collection(options.sag);
@@ -154,11 +169,13 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("export", "Write what a scene shows as triangles: OBJ, PLY, STL");
+  auto* sub =
+      app.add_subcommand("export", "Write what a scene shows as triangles (OBJ, PLY, STL), or the scene for POV-Ray");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
-      "  lekalo export plate.yaml plate --format stl\n\n"
+      "  lekalo export plate.yaml plate --format stl\n"
+      "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
       "Without names everything that the scene's objects show is written, moved as they are. Triangles keep the sag "
       "of\n"
       "--sag in scene units, else of their object's mesh, else a thousandth of their shape's size. PLY has double\n"
@@ -168,11 +185,16 @@ void add_export(CLI::App& app, Action& action) {
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
   sub->add_option("--format", options->format, "what to write; else the output's extension decides")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"obj", "ply", "stl"}));
+      ->check(CLI::IsMember({"obj", "ply", "stl", "pov"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface")
       ->type_name("LENGTH")
       ->check(CLI::PositiveNumber);
+  sub->add_option("--flatness", options->pov.flatness, "pov: flatness of Bezier patches, in scene units")
+      ->type_name("LENGTH")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--patch-steps", options->pov.patch_steps, "pov: u_steps and v_steps of Bezier patches")
+      ->check(CLI::Range(1, 8));
   sub->add_flag("--quiet", options->quiet, "print no summary");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });
 }
