@@ -26,7 +26,7 @@ _lekalo() {
         evaluate) words='--at --face --order --set --json' ;;
         trace) words='--ray --rays --set --json' ;;
         export) words='--format --sag -o --output --set --quiet' ;;
-        types) words='--json' ;;
+        types) words='--markdown' ;;
       esac
       words+=' --help'
     fi

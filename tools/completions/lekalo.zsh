@@ -48,5 +48,6 @@ case $command in
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  schema|types) _arguments '--json[print JSON]' '--help[show help]' ;;
+  schema) _arguments '--help[show help]' ;;
+  types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;
 esac

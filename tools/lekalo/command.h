@@ -39,6 +39,8 @@ void add_compare(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_types(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 
 // A number as commands print it: 17 significant digits, enough to give the same double back.
 std::string digits(double x);

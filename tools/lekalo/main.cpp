@@ -43,6 +43,8 @@ int main(int argc, char** argv) {
   command::add_measure(app, action);
   command::add_trace(app, action);
   command::add_export(app, action);
+  command::add_types(app, action);
+  command::add_schema(app, action);
 
   try {
     app.parse(argc, argv);
