@@ -8,7 +8,7 @@ _lekalo() {
     --representation) words='direct mesh' ;;
     --metric) words='flip rmse psnr ssim max' ;;
     --format) words='pov obj ply stl' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --tolerance | --ray | --filter | --jobs | --accept | --reason | --isa)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --ray | --filter | --jobs | --accept | --reason | --isa)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;
@@ -25,7 +25,7 @@ _lekalo() {
         measure) words='--topology --against --tolerance --set --json' ;;
         evaluate) words='--at --face --order --set --json' ;;
         trace) words='--ray --rays --set --json' ;;
-        export) words='--format --sag -o --output --set --quiet' ;;
+        export) words='--format --sag --patch-steps --flatness -o --output --set --quiet' ;;
         types) words='--markdown' ;;
       esac
       words+=' --help'

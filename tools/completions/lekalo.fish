@@ -48,3 +48,5 @@ complete -c lekalo -n '__fish_seen_subcommand_from trace' -l ray -x -d 'ox,oy,oz
 complete -c lekalo -n '__fish_seen_subcommand_from trace' -l rays -r -d 'file of rays'
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l format -x -a 'pov obj ply stl' -d 'what to write'
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l sag -x -d 'largest distance from the surface'
+complete -c lekalo -n '__fish_seen_subcommand_from export' -l patch-steps -x -d 'steps of Bezier patches (pov)'
+complete -c lekalo -n '__fish_seen_subcommand_from export' -l flatness -x -d 'flatness of Bezier patches (pov)'

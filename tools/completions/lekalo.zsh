@@ -46,7 +46,7 @@ case $command in
   evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
+  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   schema) _arguments '--help[show help]' ;;
   types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;
