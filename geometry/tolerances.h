@@ -8,6 +8,10 @@ namespace lekalo::geometry {
 // border is found by at least one neighbour whatever the rounding; it is clamped to the border.
 inline constexpr double kBorderSlack = 1e-11;
 
+// The same for closed forms, relative to the width of a range of parameters: the hit is moved onto the border, and so
+// much may lie between it and the line.
+inline constexpr double kHitSlack = 5e-13;
+
 // Two hits of one surface or closed body closer than this, crossing in the same direction, are one crossing reported by
 // two neighbours: the border slack seen from the line, with a factor for the angle.
 inline constexpr double kSameHit = 1e-10;

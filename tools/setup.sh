@@ -6,7 +6,7 @@
 readonly kSetupFailed=10  # exit code of a failed set-up; 0 to 5 belong to the lekalo command
 readonly kBuild="$root/build/release"
 readonly kSetup="$root/build/setup"
-readonly kMegabytesToBuild=700  # a build with tests, rounded up
+readonly kMegabytesToBuild=300  # a build with tests takes about 100
 
 say() { printf 'lekalo: %s\n' "$*" >&2; }
 

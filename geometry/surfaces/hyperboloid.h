@@ -12,6 +12,7 @@ class HyperboloidOneSheet final : public MeridianFormula<HyperboloidOneSheet> {
 
   // Semi-axes (a, b, c) > 0; throws std::invalid_argument.
   HyperboloidOneSheet(const Frame& frame, const Vec3& semi_axes, const Rectangle& domain);
+  Vec3 semi_axes() const { return {a_, b_, c_}; }
 
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
@@ -36,6 +37,7 @@ class HyperboloidTwoSheets final : public MeridianFormula<HyperboloidTwoSheets> 
 
   // a, b > 0, c not zero, v >= 0; throws std::invalid_argument.
   HyperboloidTwoSheets(const Frame& frame, const Vec3& semi_axes, const Rectangle& domain);
+  Vec3 semi_axes() const { return {a_, b_, c_}; }
 
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 

@@ -13,6 +13,7 @@ class EllipticParaboloid final : public MeridianFormula<EllipticParaboloid> {
 
   // a, b > 0, v >= 0; throws std::invalid_argument.
   EllipticParaboloid(const Frame& frame, double a, double b, const Rectangle& domain);
+  Vec2 semi_axes() const { return {a_, b_}; }
 
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
@@ -32,6 +33,8 @@ class HyperbolicParaboloid final : public Surface {
 
   // a, b > 0; throws std::invalid_argument.
   HyperbolicParaboloid(const Frame& frame, double a, double b, const Rectangle& domain);
+  const Frame& frame() const { return frame_; }
+  Vec2 semi_axes() const { return {a_, b_}; }
 
   Rectangle domain() const override { return domain_; }
   SurfaceJet evaluate(double u, double v, int order) const override;

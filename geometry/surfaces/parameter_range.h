@@ -8,15 +8,17 @@
 
 #include "geometry/describe.h"
 #include "geometry/surface.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
-// Rounding room at the ends of a range, a few ulps of the largest number in it: a hit on the border of a patch must not
-// fall between two neighbours.
+// Room at the ends of a range: rounding (a few ulps of the largest number in it) and kHitSlack of its width, so that
+// a line through the common border of two faces meets both; merge_hits makes that one crossing, or two of a graze.
 inline double range_slack(const Interval& range) {
   const double lo = std::abs(range.lo), hi = std::abs(range.hi);
   const double largest = std::max(lo < kInfinity ? lo : 0.0, hi < kInfinity ? hi : 0.0);
-  return 4 * std::numeric_limits<double>::epsilon() * largest;
+  const double width = range.hi - range.lo;
+  return 4 * std::numeric_limits<double>::epsilon() * largest + (width < kInfinity ? kHitSlack * width : 0.0);
 }
 
 // x moved into the range if it lies inside or within rounding of it.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/cameras/camera.h"
+#include "render/cameras/shown.h"
 
 namespace lekalo::render {
 
@@ -54,11 +55,8 @@ ViewDirection preset_view(std::string_view name);
 // Angles in radians; azimuth from x towards y of the viewer's place, elevation above the xy plane: front is (-pi/2, 0).
 ViewDirection view_from_angles(double azimuth, double elevation);
 
-// Parallel camera with the box in the middle of the picture, touching the margin on two sides. `margin`: share of the
-// picture's shorter side left free on each side, in [0, 0.5). An empty or unbounded box counts as the unit cube.
-CameraPtr make_view_camera(const ViewDirection& view, int width, int height, const geometry::Box3& box, double margin);
-
-// The same for points (at least one).
+// Parallel camera with the points (at least one) in the middle of the picture, touching the margin on two sides.
+// `margin`: share of the picture's shorter side left free on each side, in [0, 0.5).
 CameraPtr make_view_camera(const ViewDirection& view, int width, int height, std::span<const Vec3> points,
                            double margin);
 
@@ -67,11 +65,8 @@ CameraPtr make_view_camera(const ViewDirection& view, int width, int height, std
 PerspectiveView framed_perspective(const ViewDirection& view, double field_of_view, int width, int height,
                                    std::span<const Vec3> points, double margin);
 
-// The eight corners; of an empty or unbounded box those of the unit cube about the origin.
-std::vector<Vec3> corners(const geometry::Box3& box);
-
 // What a scene file's camera is until the size of the picture and what it shall show are known.
-using CameraFactory = std::function<CameraPtr(int width, int height, const geometry::Box3& shown)>;
+using CameraFactory = std::function<CameraPtr(int width, int height, const Shown& shown)>;
 
 // Right and up of the picture for a unit view direction: up projected; the y axis where up is parallel to the view.
 struct PictureAxes {

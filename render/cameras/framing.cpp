@@ -52,14 +52,6 @@ ViewDirection view_from_angles(double azimuth, double elevation) {
   return {to_viewer, up, 0};
 }
 
-std::vector<Vec3> corners(const Box3& box) {
-  const Box3 b = box.empty() || !box.bounded() ? Box3{Vec3(-0.5), Vec3(0.5)} : box;
-  std::vector<Vec3> points;
-  for (int i = 0; i < 8; ++i)
-    points.emplace_back(i & 1 ? b.hi.x : b.lo.x, i & 2 ? b.hi.y : b.lo.y, i & 4 ? b.hi.z : b.lo.z);
-  return points;
-}
-
 namespace {
 
 struct Range {
@@ -123,10 +115,6 @@ CameraPtr make_view_camera(const ViewDirection& view, int width, int height, std
   parallel.height = shorter * height / std::min(width, height);
   parallel.along = along;
   return make_camera(parallel, width, height);
-}
-
-CameraPtr make_view_camera(const ViewDirection& view, int width, int height, const Box3& box, double margin) {
-  return make_view_camera(view, width, height, corners(box), margin);
 }
 
 PerspectiveView framed_perspective(const ViewDirection& view, double field_of_view, int width, int height,

@@ -8,15 +8,15 @@ using namespace geometry;
 
 namespace {
 
-// Box of a built thing, as references carry it.
-Box3 bounds_of(const std::any& thing) {
-  if (const auto* point = std::any_cast<Vec3>(&thing)) return {*point, *point};
-  if (const auto* curve = std::any_cast<CurvePtr>(&thing)) return bounds(Entity(*curve));
-  if (const auto* surface = std::any_cast<SurfacePtr>(&thing)) return bounds(Entity(*surface));
-  if (const auto* set = std::any_cast<SurfaceSet>(&thing)) return bounds(Entity(*set));
-  if (const auto* body = std::any_cast<BodyPtr>(&thing)) return bounds(Entity(*body));
-  if (const auto* mesh = std::any_cast<MeshPtr>(&thing)) return bounds(Entity(*mesh));
-  if (const auto* group = std::any_cast<GroupPtr>(&thing)) return bounds(Entity(*group));
+// A built thing, as references carry it.
+Entity entity_of(const std::any& thing) {
+  if (const auto* point = std::any_cast<Vec3>(&thing)) return *point;
+  if (const auto* curve = std::any_cast<CurvePtr>(&thing)) return *curve;
+  if (const auto* surface = std::any_cast<SurfacePtr>(&thing)) return *surface;
+  if (const auto* set = std::any_cast<SurfaceSet>(&thing)) return *set;
+  if (const auto* body = std::any_cast<BodyPtr>(&thing)) return *body;
+  if (const auto* mesh = std::any_cast<MeshPtr>(&thing)) return *mesh;
+  if (const auto* group = std::any_cast<GroupPtr>(&thing)) return *group;
   throw FieldError("frame", "this cannot be framed", "name points, curves, surfaces, bodies or meshes");
 }
 
@@ -49,8 +49,11 @@ ViewFields view_fields(const Fields& fields) {
   }
   result.margin = fields.number("margin");
   result.frame_all = fields.word("frame") == "all";
-  if (!result.frame_all)
-    for (const std::any& thing : fields.references("frame")) result.framed.include(bounds_of(thing));
+  if (!result.frame_all) {
+    Model named;
+    for (const std::any& thing : fields.references("frame")) named.objects.emplace_back().shape = entity_of(thing);
+    result.framed = shown(named);
+  }
   return result;
 }
 

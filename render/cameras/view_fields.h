@@ -12,9 +12,9 @@ struct ViewFields {
   ViewDirection view;
   double margin = 0;
   bool frame_all = true;
-  geometry::Box3 framed;  // of the named things when not frame_all
+  Shown framed;  // the named things when not frame_all
 
-  geometry::Box3 shown(const geometry::Box3& all) const { return frame_all ? all : framed; }
+  const Shown& shown(const Shown& all) const { return frame_all ? all : framed; }
 };
 
 // Adds the fields view, frame, margin.

@@ -287,6 +287,7 @@ class ClassicIntegrator final : public Integrator {
     sample.radiance = tracer.radiance(ray, Media(), 0, kWhite, 0);
     return sample;
   }
+  std::any made_from() const override { return options_; }
 
  private:
   double reference_depth(const World& world, const Ray& ray) const {

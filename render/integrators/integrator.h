@@ -1,6 +1,7 @@
 // From a camera ray to the light that it brings.
 #pragma once
 
+#include <any>
 #include <memory>
 #include <optional>
 
@@ -30,6 +31,8 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual RaySample trace(const World& world, const Ray& ray, SampleStream& random) const = 0;
+  // The plain options that it was made from (ClassicOptions), for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
 };
 using IntegratorPtr = std::shared_ptr<const Integrator>;
 

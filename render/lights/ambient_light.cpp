@@ -9,13 +9,15 @@ namespace {
 
 class AmbientLamp final : public Light {
  public:
-  explicit AmbientLamp(const AmbientLight& light) : radiance_(rgb(light.intensity * light.color)) {}
+  explicit AmbientLamp(const AmbientLight& light) : light_(light), radiance_(rgb(light.intensity * light.color)) {}
 
   Spectrum ambient() const override { return radiance_; }
   int sample_count() const override { return 0; }
   LightSample sample(const Vec3&, int, double, double) const override { return {}; }
+  std::any made_from() const override { return light_; }
 
  private:
+  AmbientLight light_;
   Spectrum radiance_;
 };
 

@@ -32,6 +32,7 @@ class DistantLamp final : public Light {
     return sample;
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
+  std::any made_from() const override { return light_; }
 
  private:
   DistantLight light_;

@@ -43,21 +43,23 @@ class FlatLamp : public Light {
 class RectangleLamp final : public FlatLamp {
  public:
   explicit RectangleLamp(const RectangleLight& light)
-      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), size_(light.size) {}
-  Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * size_; }
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {}
+  Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * light_.size; }
+  std::any made_from() const override { return light_; }
 
  private:
-  Vec2 size_;
+  RectangleLight light_;
 };
 
 class DiscLamp final : public FlatLamp {
  public:
   explicit DiscLamp(const DiscLight& light)
-      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), radius_(light.radius) {}
-  Vec2 on_area(const Vec2& square) const override { return radius_ * concentric_disc(square); }
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {}
+  Vec2 on_area(const Vec2& square) const override { return light_.radius * concentric_disc(square); }
+  std::any made_from() const override { return light_; }
 
  private:
-  double radius_;
+  DiscLight light_;
 };
 
 void declare_area(TypeDeclaration& type) {

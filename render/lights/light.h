@@ -7,6 +7,7 @@
 // intensity I_a is the radiance I_a from all sides; a surface shows k_a I_a of it.
 #pragma once
 
+#include <any>
 #include <memory>
 
 #include "render/spectrum.h"
@@ -32,6 +33,8 @@ class Light {
   // where `sampling: grid` asks for fixed places.
   virtual LightSample sample(const Vec3& point, int index, double r1, double r2) const = 0;
   virtual bool casts_shadows() const { return true; }
+  // The plain value of lights.h that it was made from, for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
 };
 using LightPtr = std::shared_ptr<const Light>;
 

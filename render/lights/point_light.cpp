@@ -17,6 +17,7 @@ class PointLamp final : public Light {
     return {to_light / distance, distance, irradiance_of(light_.lamp, distance), 1};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
+  std::any made_from() const override { return light_; }
 
  private:
   PointLight light_;

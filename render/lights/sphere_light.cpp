@@ -34,6 +34,7 @@ class SphereLamp final : public Light {
     return sample;
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
+  std::any made_from() const override { return light_; }
 
  private:
   SphereLight light_;

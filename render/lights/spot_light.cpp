@@ -23,6 +23,7 @@ class SpotLamp final : public Light {
     return {direction, distance, share * irradiance_of(light_.lamp, distance), 1};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
+  std::any made_from() const override { return light_; }
 
  private:
   double cone_share(double cosine) const {

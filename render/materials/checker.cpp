@@ -17,6 +17,7 @@ class CheckerTexture final : public Texture {
   uint64_t cell(const SurfacePoint& point) const override {
     return hash_combine(is_even(point), shown(point).cell(point));
   }
+  std::any made_from() const override { return checker_; }
 
  private:
   bool is_even(const SurfacePoint& point) const {

@@ -44,6 +44,7 @@ class ClassicMaterial final : public Material {
       hash = hash_combine(hash, color->cell(point));
     return hash;
   }
+  std::any made_from() const override { return look_; }
 
  private:
   ClassicLook look_;

@@ -40,6 +40,7 @@ class ConductorMaterial final : public Material {
     return deviated_normal(point, conductor_.normal_deviation);
   }
   uint64_t cell(const SurfacePoint& point) const override { return deviation_cell(point, conductor_.normal_deviation); }
+  std::any made_from() const override { return conductor_; }
 
  private:
   Conductor conductor_;

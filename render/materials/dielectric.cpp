@@ -34,6 +34,7 @@ class DielectricMaterial final : public Material {
   uint64_t cell(const SurfacePoint& point) const override {
     return deviation_cell(point, dielectric_.normal_deviation);
   }
+  std::any made_from() const override { return dielectric_; }
 
  private:
   double index(double nanometres) const {

@@ -22,6 +22,7 @@ class DiffuseMaterial final : public Material {
   uint64_t cell(const SurfacePoint& point) const override {
     return hash_combine(deviation_cell(point, diffuse_.normal_deviation), diffuse_.color.cell(point));
   }
+  std::any made_from() const override { return diffuse_; }
 
  private:
   Diffuse diffuse_;

@@ -17,6 +17,7 @@ class EmissionMaterial final : public Material {
     return c;
   }
   uint64_t cell(const SurfacePoint& point) const override { return emission_.color.cell(point); }
+  std::any made_from() const override { return emission_; }
 
  private:
   Emission emission_;

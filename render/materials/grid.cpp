@@ -22,6 +22,7 @@ class GridTexture final : public Texture {
   uint64_t cell(const SurfacePoint& point) const override {
     return hash_combine(on_line(point), shown(point).cell(point));
   }
+  std::any made_from() const override { return grid_; }
 
  private:
   bool on_line(const SurfacePoint& point) const {

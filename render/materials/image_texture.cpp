@@ -56,6 +56,7 @@ class PictureTexture final : public Texture {
     return hash_combine(static_cast<uint64_t>(static_cast<long long>(std::floor(p.x))),
                         static_cast<uint64_t>(static_cast<long long>(std::floor(p.y))));
   }
+  std::any made_from() const override { return source_; }
 
  private:
   // In pixels from the upper left corner of the picture.

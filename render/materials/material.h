@@ -2,6 +2,7 @@
 // 2016, 8.4.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -59,6 +60,8 @@ class Material {
   // Number of the texture cell (square of a checker, line or ground of a grid) at the point, so that comparisons can
   // leave out pixels on cell borders; 0 without textures.
   virtual uint64_t cell(const SurfacePoint&) const { return 0; }
+  // The plain value of materials.h that it was made from, for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
 };
 using MaterialPtr = std::shared_ptr<const Material>;
 
@@ -68,6 +71,8 @@ class Texture {
   virtual ~Texture() = default;
   virtual Spectrum at(const SurfacePoint& point) const = 0;
   virtual uint64_t cell(const SurfacePoint&) const { return 0; }
+  // The plain value of textures.h that it was made from, for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
 };
 using TexturePtr = std::shared_ptr<const Texture>;
 

@@ -30,6 +30,7 @@ class ParameterLineTexture final : public Texture {
     const double share = coverage(point);
     return share <= 0 ? 0 : share >= 1 ? 1 : 2;
   }
+  std::any made_from() const override { return lines_; }
 
  private:
   double coverage(const SurfacePoint& point) const {

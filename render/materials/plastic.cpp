@@ -32,6 +32,7 @@ class PlasticMaterial final : public Material {
   uint64_t cell(const SurfacePoint& point) const override {
     return hash_combine(deviation_cell(point, plastic_.normal_deviation), plastic_.color.cell(point));
   }
+  std::any made_from() const override { return plastic_; }
 
  private:
   Plastic plastic_;

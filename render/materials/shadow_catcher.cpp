@@ -9,14 +9,16 @@ namespace {
 
 class ShadowCatcherMaterial final : public Material {
  public:
-  explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) {
+  explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) : catcher_(catcher) {
     coefficients_.ambient = coefficients_.diffuse = rgb(Vec3(catcher.strength));
     coefficients_.catches_shadows = true;
   }
   ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
   Spectrum albedo(const SurfacePoint&, const Wavelengths&) const override { return {}; }
+  std::any made_from() const override { return catcher_; }
 
  private:
+  ShadowCatcher catcher_;
   ClassicCoefficients coefficients_;
 };
 

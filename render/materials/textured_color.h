@@ -16,6 +16,7 @@ class TexturedColor {
 
   Spectrum at(const SurfacePoint& point) const { return texture_ ? texture_->at(point) : constant_; }
   uint64_t cell(const SurfacePoint& point) const { return texture_ ? texture_->cell(point) : 0; }
+  const TexturePtr& texture() const { return texture_; }
   bool is_black() const { return !texture_ && constant_.is_zero(); }
 
  private:

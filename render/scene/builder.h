@@ -109,7 +109,7 @@ class Builder {
   std::optional<std::vector<Built>> named(const Value& value, std::span<const Category> wanted);
   const Built* member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted);
   std::optional<Built> part_of(const Built& whole, std::string_view part, const Value& asked);
-  const Value& with_like(const Value& map, const Value* section);
+  const Value* with_like(const Value& map, const Value* section);
   // Calls visit(counters, member name) for every combination of a map's `repeat`.
   bool repeat(const Value& map, const Counters& counters,
               const std::function<void(const Counters&, const std::string&)>& visit);

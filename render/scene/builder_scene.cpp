@@ -21,11 +21,11 @@ constexpr double kMostPixels = 1e8;  // of a picture
 constexpr double kMillimetresPerInch = 25.4;
 
 // The picture's shape that fits what the camera shows: the ratio height / width of its image, within reason.
-double natural_aspect(const CameraFactory& factory, const Box3& box) {
-  const CameraPtr camera = factory(1000, 1000, box);
+double natural_aspect(const CameraFactory& factory, const Shown& shown) {
+  const CameraPtr camera = factory(1000, 1000, shown);
   double x0 = geometry::kInfinity, x1 = -x0, y0 = x0, y1 = -x0;
-  for (const Vec3& corner : corners(box)) {
-    const PicturePoint p = camera->project(corner);
+  for (const Vec3& point : shown.points) {
+    const PicturePoint p = camera->project(point);
     if (!p.visible_side) return 1;
     x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
   }
@@ -57,6 +57,10 @@ Model Builder::build() {
                                : "sections are info, include, parameters, geometry, materials, lights, camera, image, "
                                  "integrator, objects, styles, drawing, panels, layout, outputs");
   }
+  for (const char* name : {"info", "parameters", "image"})
+    if (const Value* value = section(name); value && !value->is_map() && !value->invalid)
+      diagnostics_.error(value->place, fmt::format("'{}' is a map of fields, found {}", name, kind_name(*value)),
+                         fmt::format("write {}: {{ name: value, ... }}", name));
   model.parameters = parameters_.all();
   for (const char* name : {"geometry", "materials", "lights"}) declare_section(name);
   if (const Value* info = section("info")) {
@@ -213,7 +217,8 @@ void Builder::build_camera(Model& model) {
   static const Category camera_wanted[] = {Category::camera};
   static const Category integrator_wanted[] = {Category::integrator};
   const Value* camera = section("camera");
-  const Box3 box = bounds(model);
+  const Shown all = shown(model);
+  const Box3& box = all.box;
   std::optional<Built> factory;
   if (camera) {
     const char* type =
@@ -239,7 +244,7 @@ void Builder::build_camera(Model& model) {
   const auto& make = std::any_cast<const CameraFactory&>(factory->value);
   try {
     if (size.width == 0 || size.height == 0) {
-      const double aspect = natural_aspect(make, box);
+      const double aspect = natural_aspect(make, all);
       if (size.width == 0) size.width = size.height / aspect;
       if (size.height == 0) size.height = size.width * aspect;
     }
@@ -254,7 +259,7 @@ void Builder::build_camera(Model& model) {
     }
     model.film.width = static_cast<int>(width);
     model.film.height = static_cast<int>(height);
-    model.make_camera = [make, box](int w, int h) { return make(w, h, box); };
+    model.make_camera = [make, all](int w, int h) { return make(w, h, all); };
     model.camera = model.make_camera(model.film.width, model.film.height);
   } catch (const std::invalid_argument& error) {
     diagnostics_.error(camera ? camera->place : scene_.root.place, error.what());

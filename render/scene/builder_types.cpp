@@ -75,8 +75,16 @@ bool Builder::repeat(const Value& map, const Counters& counters,
       return true;
     }
     const Entry& counter = loops->entries[level];
-    if (geometry::is_reserved_word(counter.key.name)) {
-      diagnostics_.error(counter.key.place, fmt::format("a counter may not be called '{}'", counter.key.name));
+    if (!Parameters::may_be_called(counter.key.name)) {
+      diagnostics_.error(counter.key.place, fmt::format("a counter may not be called '{}'", counter.key.name),
+                         "it is a variable, function or unit of formulas");
+      return false;
+    }
+    const std::string scope = counter.key.place.file ? counter.key.place.file->scope : "";
+    if (const Value* parameters = section("parameters");
+        parameters && find_named(*parameters, counter.key.name, scope).entry) {
+      diagnostics_.error(counter.key.place, fmt::format("the counter '{}' is also a parameter", counter.key.name),
+                         "give one of them another name");
       return false;
     }
     struct Step {
@@ -146,17 +154,17 @@ void Builder::declare_section(const char* name) {
   }
 }
 
-// `like: NAME` copies all fields of a thing of the same section; the map's own fields override them.
-const Value& Builder::with_like(const Value& map, const Value* section) {
+// `like: NAME` copies all fields of a thing of the same section; the map's own fields override them. Null after an
+// error.
+const Value* Builder::with_like(const Value& map, const Value* section) {
   const Value* like = map.find("like");
-  if (!like) return map;
-  if (const auto found = liked_.find(&map); found != liked_.end()) return *found->second;
-  const auto fail = [&](const Place& place, const std::string& message, const std::string& hint = {}) -> const Value& {
-    diagnostics_.error(place, message, hint);
-    liked_[&map] = &map;
-    return map;
+  if (!like) return &map;
+  if (const auto found = liked_.find(&map); found != liked_.end()) return found->second;
+  const auto fail = [&](const std::string& message, const std::string& hint = {}) {
+    diagnostics_.error(like->place, message, hint);
+    return liked_[&map] = nullptr;
   };
-  if (!like->is_scalar()) return fail(like->place, "'like' names one thing");
+  if (!like->is_scalar()) return fail("'like' names one thing");
   const std::string scope = like->place.file ? like->place.file->scope : "";
   const Named named = section ? find_named(*section, like->text, scope) : Named{};
   if (!named.entry || !named.member.empty()) {
@@ -164,15 +172,18 @@ const Value& Builder::with_like(const Value& map, const Value* section) {
     if (section)
       for (const Entry& entry : section->entries) names.push_back(entry.key.name);
     const auto nearest = geometry::nearest_name(like->text, names);
-    return fail(like->place, fmt::format("there is nothing called '{}' to be like{}", like->text,
-                                         nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+    return fail(fmt::format("there is nothing called '{}' to be like{}", like->text,
+                            nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
   }
-  if (!like_in_work_.insert(named.entry->key.name).second)
-    return fail(like->place, fmt::format("'{}' is like itself in the end", like->text));
-  const Value& parent = with_like(named.entry->value, section);
+  if (&named.entry->value == &map || !like_in_work_.insert(named.entry->key.name).second)
+    return fail(fmt::format("'{}' is like itself in the end", like->text));
+  const Value* parent = with_like(named.entry->value, section);
   like_in_work_.erase(named.entry->key.name);
-  if (!parent.is_map()) return fail(like->place, fmt::format("'{}' is no map of fields", like->text));
-  Value merged = parent;
+  if (!parent) return liked_[&map] = nullptr;
+  if (!parent->is_map()) return fail(fmt::format("'{}' is no map of fields", like->text));
+  if (named.entry->value.find("repeat") && !map.find("repeat"))
+    return fail(fmt::format("'{}' is a family: its fields need its counters", like->text), "give 'repeat' here too");
+  Value merged = *parent;
   merged.place = map.place;
   std::erase_if(merged.entries, [](const Entry& e) { return e.key.name == "like" || e.key.name == "repeat"; });
   for (const Entry& entry : map.entries) {
@@ -182,7 +193,7 @@ const Value& Builder::with_like(const Value& map, const Value* section) {
   }
   made_.push_back(std::move(merged));
   liked_[&map] = &made_.back();
-  return made_.back();
+  return &made_.back();
 }
 
 const Value& Builder::default_value(const std::string& text) {
@@ -301,7 +312,8 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   if (given.invalid) return std::nullopt;
   if (!given.is_map()) {
     diagnostics_.error(given.place,
-                       fmt::format("expected {} as a map with a type, found {}", describe(wanted), kind_name(given)));
+                       fmt::format("expected {} as a map with a type, found {}", describe(wanted), kind_name(given)),
+                       fmt::format("write {{ type: {}, ... }}", type_names(wanted).front()));
     return std::nullopt;
   }
   if (depth_ >= kDeepestNesting) {
@@ -315,7 +327,9 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   } nested(depth_);
 
   const char* section_text = section_name(wanted.front());
-  const Value& map = with_like(given, section_text ? section(section_text) : nullptr);
+  const Value* completed = with_like(given, section_text ? section(section_text) : nullptr);
+  if (!completed) return std::nullopt;
+  const Value& map = *completed;
   const Value* type_value = map.find("type");
   std::string name = default_type ? default_type : "";
   if (type_value) {
@@ -334,7 +348,7 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   const TypeDeclaration* type = find_type(name, wanted);
   const Place& type_place = type_value ? type_value->place : map.place;
   if (!type) {
-    const std::vector<std::string> meant = types_meant_by(name);
+    const std::vector<std::string> meant = types_meant_by(name, wanted);
     const std::vector<std::string> known = type_names(wanted);
     const auto nearest = geometry::nearest_name(name, known);
     if (!meant.empty())
@@ -507,7 +521,7 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   thing.used = true;
   std::vector<Built> result;
   std::string_view rest = found.member;
-  bool matched = false;
+  bool matched = thing.is_family && rest.empty();  // a family may be empty
   for (NamedThing::Member& one : thing.members) {
     if (thing.is_family && !rest.empty()) {
       const bool exact = rest == one.name;

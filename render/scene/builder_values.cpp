@@ -34,7 +34,11 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 std::string range_text(const FieldType& type, double scale) {
   const bool lower = std::isfinite(type.minimum), upper = std::isfinite(type.maximum);
-  if (lower && upper) return fmt::format("between {:.9g} and {:.9g}", type.minimum * scale, type.maximum * scale);
+  if (lower && upper && !type.minimum_excluded && !type.maximum_excluded)
+    return fmt::format("between {:.9g} and {:.9g}", type.minimum * scale, type.maximum * scale);
+  if (lower && upper)
+    return fmt::format("{} {:.9g} and {} {:.9g}", type.minimum_excluded ? "greater than" : "at least",
+                       type.minimum * scale, type.maximum_excluded ? "less than" : "at most", type.maximum * scale);
   if (lower) return fmt::format("{} {:.9g}", type.minimum_excluded ? "greater than" : "at least", type.minimum * scale);
   return fmt::format("{} {:.9g}", type.maximum_excluded ? "less than" : "at most", type.maximum * scale);
 }
@@ -97,7 +101,8 @@ bool Builder::check_count(const FieldType& type, const Value& value, size_t coun
                        : count < static_cast<size_t>(type.minimum_count)
                            ? fmt::format("at least {}", type.minimum_count)
                            : fmt::format("at most {}", type.maximum_count);
-  diagnostics_.error(value.place, fmt::format("expected {} values, found {}", wanted, count));
+  diagnostics_.error(value.place, fmt::format("expected {} value{}, found {}", wanted,
+                                              wanted.ends_with(" 1") || wanted == "1" ? "" : "s", count));
   return false;
 }
 

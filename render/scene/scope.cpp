@@ -151,11 +151,15 @@ std::optional<int> Parameters::integer(const Value& value, const Counters& count
   return static_cast<int>(*x);
 }
 
+bool Parameters::may_be_called(std::string_view name) {
+  return !geometry::is_reserved_word(name) &&
+         !(name.size() == 1 && std::string_view("tuvsxyz").find(name[0]) != std::string_view::npos);
+}
+
 std::map<std::string, double> Parameters::all() {
   std::map<std::string, double> values;
   for (auto& [name, parameter] : parameters_) {
-    if (geometry::is_reserved_word(name) || name == "t" || name == "u" || name == "v" || name == "s" || name == "x" ||
-        name == "y" || name == "z") {
+    if (!may_be_called(name)) {
       diagnostics_.error(parameter.entry->key.place, fmt::format("a parameter may not be called '{}'", name),
                          "it is a variable, function or unit of formulas");
       continue;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/expression/expression.h"
@@ -38,6 +39,9 @@ class Parameters {
   std::optional<double> number(const Value& value, const Counters& counters);
   std::optional<double> angle(const Value& value, const Counters& counters);
   std::optional<int> integer(const Value& value, const Counters& counters);
+
+  // Variables, functions and units of formulas are no names of parameters and counters.
+  static bool may_be_called(std::string_view name);
 
   // Evaluates all, so that errors in unused parameters are reported too.
   std::map<std::string, double> all();

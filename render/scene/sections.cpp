@@ -37,7 +37,7 @@ std::vector<Field> object_fields() {
   using namespace geometry;
   return {
       {"shape",
-       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}),
+       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}).count(0),
        "what is shown: a name, a family or an inline map",
        true,
        {}},

@@ -42,14 +42,19 @@ std::vector<std::string> type_names(std::span<const Category> categories) {
   return names;
 }
 
-std::vector<std::string> types_meant_by(std::string_view word) {
-  std::vector<std::string> names;
-  for (const TypeDeclaration& type : all_types())
+std::vector<std::string> types_meant_by(std::string_view word, std::span<const Category> wanted) {
+  std::vector<std::string> fitting, others;
+  for (const TypeDeclaration& type : all_types()) {
+    // The ball is the sphere's body.
+    bool meant = word == "sphere" && type.name == "ball";
     for (const std::string_view suffix : {"_curve", "_surface", "_body", "_light", "_mesh"})
-      if (type.name.size() == word.size() + suffix.size() && type.name.starts_with(word) && type.name.ends_with(suffix))
-        names.push_back(type.name);
-  // The ball is the sphere's body.
-  if (word == "sphere") names.push_back("ball");
+      meant = meant || (type.name.size() == word.size() + suffix.size() && type.name.starts_with(word) &&
+                        type.name.ends_with(suffix));
+    if (!meant) continue;
+    const bool fits = std::find(wanted.begin(), wanted.end(), type.category) != wanted.end();
+    (fits ? fitting : others).push_back(type.name);
+  }
+  std::vector<std::string>& names = fitting.empty() ? others : fitting;
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -22,8 +22,9 @@ const TypeDeclaration* find_type(std::string_view name, std::span<const Category
 // Names of the types of these categories, sorted.
 std::vector<std::string> type_names(std::span<const Category> categories);
 
-// For a bare word that exists for several kinds (`sphere`): the types that it may mean (`sphere_surface`, ...).
-std::vector<std::string> types_meant_by(std::string_view word);
+// For a bare word that exists for several kinds (`sphere`): the types that it may mean (`sphere_surface`, ...), those
+// of the wanted categories if there are any.
+std::vector<std::string> types_meant_by(std::string_view word, std::span<const Category> wanted);
 
 // "a curve", "a surface or a body": for messages.
 std::string describe(std::span<const Category> categories);

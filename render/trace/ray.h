@@ -48,7 +48,7 @@ struct SurfacePoint {
   double error = 0;       // bound on the distance of `position` from the surface that was hit
   double pixel_size = 0;  // width of a pixel at this distance in scene units; 0 where not known
   int32_t instance = -1;
-  int32_t object = 0;  // index in the Model's objects
+  int32_t object = 0;  // number in the Model's objects, those of groups counted where they stand
   int32_t face = 0;
 };
 

@@ -285,8 +285,10 @@ Vec3 World::leave(const SurfacePoint& point, const Vec3& direction) const {
   return (outward ? point.smooth_position : point.position) + 4 * point.error * side;
 }
 
+const Object& World::object(const SurfacePoint& point) const { return *compiled_->objects[point.object]; }
+
 const Material& World::material(const SurfacePoint& point, bool front) const {
-  const Object& object = *compiled_->objects[point.object];
+  const Object& object = this->object(point);
   const MaterialPtr& back = object.back_material;
   return *(front || !back ? object.material : back);
 }

@@ -41,6 +41,8 @@ class World {
   // Origin of a ray that leaves the point on the side of `direction`, clear of the point's error bound.
   Vec3 leave(const SurfacePoint& point, const Vec3& direction) const;
 
+  // The object that a point belongs to, which may stand in a group.
+  const Object& object(const SurfacePoint& point) const;
   const Material& material(const SurfacePoint& point, bool front) const;
   // True if some material lets light through, so that what occludes may only tint.
   bool has_transmitting_materials() const;

@@ -8,7 +8,7 @@ _lekalo() {
     --representation) words='direct mesh' ;;
     --metric) words='flip rmse psnr ssim max' ;;
     --format) words='pov obj ply stl' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --order | --ray | --filter | --jobs | --accept | --reason | --isa)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --tolerance | --ray | --filter | --jobs | --accept | --reason | --isa)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;
@@ -22,11 +22,11 @@ _lekalo() {
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --accept --reason --report --junit --json --quiet' ;;
         check) words='--set --json --quiet' ;;
-        measure) words='--topology --against --set --json' ;;
-        evaluate) words='--at --order --set --json' ;;
+        measure) words='--topology --against --tolerance --set --json' ;;
+        evaluate) words='--at --face --order --set --json' ;;
         trace) words='--ray --rays --set --json' ;;
-        export) words='--format -o --output --set --quiet' ;;
-        types) words='--json' ;;
+        export) words='--format --sag -o --output --set --quiet' ;;
+        types) words='--markdown' ;;
       esac
       words+=' --help'
     fi

@@ -41,12 +41,13 @@ case $command in
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
   check) _arguments $scene '--json[print JSON]' '--quiet[print errors only]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples]:file:_files' '--json[print JSON]' \
+  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples]:file:_files' '--tolerance[largest distance that passes]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
-  evaluate) _arguments $scene '--at[where]:t or u,v' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
+  evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
+  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  schema|types) _arguments '--json[print JSON]' '--help[show help]' ;;
+  schema) _arguments '--help[show help]' ;;
+  types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;
 esac

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "geometry/expression/expression.h"
+#include "geometry/expression/nearest_name.h"
+#include "render/scene/include.h"
 
 namespace lekalo::command {
 
@@ -20,6 +22,30 @@ render::LoadedScene SceneOptions::load() const {
     options.set_parameters.emplace_back(one.substr(0, equals), one.substr(equals + 1));
   }
   return render::load_scene(file, options);
+}
+
+const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name) {
+  const auto& geometry = scene.model->geometry;
+  const auto found = geometry.find(name);
+  if (found != geometry.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, entity] : geometry) names.push_back(known);
+  const auto nearest = geometry::nearest_name(name, names);
+  throw UsageError(fmt::format("the scene has no geometry called '{}'{}", name,
+                               nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+}
+
+render::Table load_table(const std::string& path) {
+  render::Diagnostics diagnostics;
+  std::string reason;
+  auto text = render::read_file(path, render::kTableBytes, true, reason);
+  if (!text) {
+    diagnostics.unreadable({render::make_source(path, ""), 0, 0, 1}, fmt::format("cannot be read: {}", reason));
+    throw render::SceneError(diagnostics);
+  }
+  auto table = render::read_table(render::make_source(path, std::move(*text), path), diagnostics);
+  if (!table) throw render::SceneError(diagnostics);
+  return std::move(*table);
 }
 
 std::string digits(double x) { return fmt::format("{:.17g}", x); }

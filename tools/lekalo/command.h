@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/scene/load.h"
+#include "render/scene/table.h"
 
 namespace lekalo::command {
 
@@ -22,6 +23,12 @@ struct SceneOptions {
   render::LoadedScene load() const;
 };
 
+// What the scene's geometry calls `name`; throws UsageError with the nearest name if there is none.
+const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name);
+
+// A table of numbers named on the command line. Throws SceneError with the places of its errors.
+render::Table load_table(const std::string& path);
+
 // A subcommand's work; returns the exit code. Every command is one file with one add_ function.
 using Action = std::function<int()>;
 
@@ -29,6 +36,11 @@ void add_render(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_measure(CLI::App& app, Action& action);
+void add_trace(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
+void add_types(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 
 // A number as commands print it: 17 significant digits, enough to give the same double back.
 std::string digits(double x);

@@ -1,20 +1,15 @@
 // lekalo evaluate: a point of a curve or surface with derivatives, normal and curvatures.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "command.h"
-#include "geometry/expression/nearest_name.h"
 #include "geometry/queries/curvature.h"
+#include "json.h"
 
 namespace lekalo::command {
 
 namespace {
 
 using geometry::Vec3;
-using nlohmann::ordered_json;
-
-ordered_json json(const Vec3& v) { return ordered_json::array({v.x, v.y, v.z}); }
 
 ordered_json json_or_null(bool known, double x) { return known ? ordered_json(x) : ordered_json(nullptr); }
 
@@ -22,14 +17,14 @@ ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   const geometry::CurveJet jet = curve.evaluate(t, std::max(order, 3));
   ordered_json out;
   out["t"] = t;
-  out["point"] = json(jet.point());
+  out["point"] = to_json(jet.point());
   ordered_json derivatives = ordered_json::array();
-  for (int k = 1; k <= order; ++k) derivatives.push_back(json(jet.d[k]));
+  for (int k = 1; k <= order; ++k) derivatives.push_back(to_json(jet.d[k]));
   out["derivatives"] = derivatives;
   const geometry::CurveCurvature c = geometry::curvature(jet);
-  out["tangent"] = c.has_tangent ? json(c.tangent) : ordered_json(nullptr);
-  out["normal"] = c.has_normal ? json(c.normal) : ordered_json(nullptr);
-  out["binormal"] = c.has_normal ? json(c.binormal) : ordered_json(nullptr);
+  out["tangent"] = c.has_tangent ? to_json(c.tangent) : ordered_json(nullptr);
+  out["normal"] = c.has_normal ? to_json(c.normal) : ordered_json(nullptr);
+  out["binormal"] = c.has_normal ? to_json(c.binormal) : ordered_json(nullptr);
   out["curvature"] = json_or_null(c.has_tangent, c.curvature);
   out["torsion"] = json_or_null(c.has_normal, c.torsion);
   return out;
@@ -40,14 +35,14 @@ ordered_json evaluate_surface(const geometry::Surface& surface, double u, double
   ordered_json out;
   out["u"] = u;
   out["v"] = v;
-  out["point"] = json(jet.point());
-  out["du"] = json(jet.du());
-  out["dv"] = json(jet.dv());
-  out["duu"] = json(jet.duu());
-  out["duv"] = json(jet.duv());
-  out["dvv"] = json(jet.dvv());
+  out["point"] = to_json(jet.point());
+  out["du"] = to_json(jet.du());
+  out["dv"] = to_json(jet.dv());
+  out["duu"] = to_json(jet.duu());
+  out["duv"] = to_json(jet.duv());
+  out["dvv"] = to_json(jet.dvv());
   const Vec3 normal = surface.normal(u, v);
-  out["normal"] = json(normal);
+  out["normal"] = to_json(normal);
   const geometry::SurfaceCurvature c = geometry::curvature(jet, normal);
   out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
   out["mean_curvature"] = json_or_null(c.regular, c.mean);
@@ -76,30 +71,40 @@ void print(const ordered_json& out) {
 
 struct Options {
   SceneOptions scene;
-  std::string name, at;
+  std::string name, at, face;
   int order = 2;
   bool json = false;
 };
 
+// A surface of its own, a patch of a set by number, or a face of a body by number or name.
+geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& options) {
+  const auto* surface = std::get_if<geometry::SurfacePtr>(&entity);
+  const auto* set = std::get_if<render::SurfaceSet>(&entity);
+  const auto* body = std::get_if<geometry::BodyPtr>(&entity);
+  if (!surface && !set && !body) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
+  if (surface) return *surface;
+  const size_t count = set ? set->size() : (*body)->faces.size();
+  for (size_t i = 0; i < count; ++i)
+    if (options.face == std::to_string(i) || (count == 1 && options.face.empty()) ||
+        (body && options.face == (*body)->faces[i].origin.text()))
+      return set ? (*set)[i] : (*body)->faces[i].surface;
+  const std::string hint =
+      fmt::format("--face 0 to {}{}", count - 1, body ? ", or a name of 'lekalo measure --topology'" : "");
+  if (options.face.empty())
+    throw UsageError(fmt::format("'{}' has {} faces; say which one: {}", options.name, count, hint));
+  throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
+}
+
 int run(const Options& options) {
   const render::LoadedScene scene = options.scene.load();
-  const auto& geometry = scene.model->geometry;
-  const auto found = geometry.find(options.name);
-  if (found == geometry.end()) {
-    std::vector<std::string> names;
-    for (const auto& [name, entity] : geometry) names.push_back(name);
-    const auto nearest = geometry::nearest_name(options.name, names);
-    throw UsageError(fmt::format("the scene has no geometry called '{}'{}", options.name,
-                                 nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
-  }
+  const render::Entity& entity = find_geometry(scene, options.name);
   ordered_json out;
-  if (const auto* curve = std::get_if<geometry::CurvePtr>(&found->second))
+  if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
     out = evaluate_curve(**curve, parse_numbers(options.at, 1, "--at of a curve")[0], options.order);
-  else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&found->second)) {
-    const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
-    out = evaluate_surface(**surface, uv[0], uv[1]);
   } else {
-    throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
+    const geometry::SurfacePtr surface = surface_of(entity, options);
+    const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
+    out = evaluate_surface(*surface, uv[0], uv[1]);
   }
   if (options.json)
     fmt::print("{}\n", out.dump(2));
@@ -118,6 +123,8 @@ void add_evaluate(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
   sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->required()->type_name("T|U,V");
+  sub->add_option("--face", options->face, "face of a body or patch of a set, as trace and measure --topology call it")
+      ->type_name("NUMBER|NAME");
   sub->add_option("--order", options->order, "derivatives of a curve up to this order")
       ->check(CLI::Range(1, geometry::kMaxCurveOrder));
   sub->add_flag("--json", options->json, "print JSON");

@@ -10,9 +10,25 @@
 
 using namespace lekalo;
 
+namespace {
+
+// The examples come first: they say more than the list of options.
+class ExamplesFirst : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    const std::string footer = app->get_footer();
+    return make_description(app) + (footer.empty() ? "" : "\n" + footer + "\n\n") + make_usage(app, std::move(name)) +
+           make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
+  }
+};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App app{"Renders and draws geometric models from scene files.\n\n  lekalo render scenes/primer/teapot.yaml\n",
                "lekalo"};
+  app.formatter(std::make_shared<ExamplesFirst>());
   app.set_version_flag("--version", "lekalo " LEKALO_VERSION);
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* a, const CLI::Error& error) {
@@ -24,6 +40,11 @@ int main(int argc, char** argv) {
   command::add_check(app, action);
   command::add_evaluate(app, action);
   command::add_compare(app, action);
+  command::add_measure(app, action);
+  command::add_trace(app, action);
+  command::add_export(app, action);
+  command::add_types(app, action);
+  command::add_schema(app, action);
 
   try {
     app.parse(argc, argv);

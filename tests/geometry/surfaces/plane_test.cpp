@@ -30,7 +30,12 @@ TEST(Plane, BorderBelongsToTheRectangleAndAParallelLineDoesNotHit) {
   EXPECT_EQ(hits.size(), 4);
   EXPECT_DOUBLE_EQ(hits[0].t, 7.0 / 3);
   hits.clear();
-  square.line_hits({{1 + 1e-14, 0.5, 7}, {0, 0, -3}}, Interval::entire(), hits);
+  // Within kHitSlack of the border: a hit on the border, so that a line through an edge meets both faces there.
+  square.line_hits({{1 + 1e-13, 0.5, 7}, {0, 0, -3}}, Interval::entire(), hits);
+  ASSERT_EQ(hits.size(), 1);
+  EXPECT_EQ(hits[0].u, 1);
+  hits.clear();
+  square.line_hits({{1 + 1e-12, 0.5, 7}, {0, 0, -3}}, Interval::entire(), hits);
   square.line_hits({{-1, 0.5, 0}, {1, 0, 0}}, Interval::entire(), hits);
   EXPECT_EQ(hits.size(), 0);
 }

@@ -6,11 +6,15 @@
 #include <cmath>
 #include <random>
 
+#include "render/small_scene.h"
+
 namespace lekalo::render {
 namespace {
 
 using geometry::Box3;
 using geometry::kPi;
+
+std::vector<Vec3> corners(const Box3& box) { return Shown(box).points; }
 
 void check_round_trip(const Camera& camera) {
   std::mt19937 random(7);
@@ -39,7 +43,7 @@ TEST(Cameras, ProjectUndoesRay) {
   check_round_trip(*make_camera(PerspectiveView{{3, -7, 2}, {0.5, 0, 0.25}, {0, 0, 1}, 0.7}, 300, 200));
   check_round_trip(*make_camera(ParallelView{{3, -7, 2}, {0.5, 0, 0.25}, {0, 0, 1}, 5}, 300, 200));
   for (const std::string& name : view_names())
-    check_round_trip(*make_view_camera(preset_view(name), 200, 300, Box3{{-1, -2, -3}, {2, 1, 1}}, 0.1));
+    check_round_trip(*make_view_camera(preset_view(name), 200, 300, corners({{-1, -2, -3}, {2, 1, 1}}), 0.1));
 }
 
 TEST(Cameras, UpperLeftPixelIsFirst) {
@@ -77,7 +81,7 @@ TEST(Cameras, UpMayBeParallelToTheView) {
 
 // Pictures of the unit vectors in scene units.
 std::array<Vec2, 3> axes(const ViewDirection& view) {
-  const CameraPtr camera = make_view_camera(view, 100, 100, Box3{Vec3(-1), Vec3(1)}, 0);
+  const CameraPtr camera = make_view_camera(view, 100, 100, corners({Vec3(-1), Vec3(1)}), 0);
   const auto place = [&](const Vec3& p) {
     const PicturePoint q = camera->project(p);
     return camera->pixel_size(p) * Vec2(q.x, -q.y);
@@ -155,7 +159,7 @@ TEST(Framing, FitsTheCornersExactly) {
   const Box3 box{{-3, 0, 1}, {4, 2, 1.5}};
   for (const auto& [w, h] : {std::pair(300, 200), std::pair(100, 400)}) {
     for (const std::string& name : view_names())
-      check_framing(make_view_camera(preset_view(name), w, h, box, 0.1), box, 0.1);
+      check_framing(make_view_camera(preset_view(name), w, h, corners(box), 0.1), box, 0.1);
     for (const char* name : {"front", "isometric", "top", "left"}) {
       const std::vector<Vec3> points = corners(box);
       const PerspectiveView view = framed_perspective(preset_view(name), 0.8, w, h, points, 0.05);
@@ -164,10 +168,24 @@ TEST(Framing, FitsTheCornersExactly) {
   }
 }
 
+TEST(Framing, FitsTheOutlineOfABall) {
+  // Seen from outside, a ball's outline in central projection is a conic about the line of sight; framed by points on
+  // the ball it fills the picture to the margin but for the grid's half a per cent.
+  SmallScene scene;
+  scene.add(sphere({1, 2, 3}, 2), nullptr);
+  const Shown all = shown(scene.model);
+  const PerspectiveView view = framed_perspective(preset_view("isometric"), 0.6, 200, 200, all.points, 0.1);
+  const double distance = glm::length(view.from - Vec3(1, 2, 3));
+  const double outline = std::tan(std::asin(2 / distance)) / std::tan(0.3);  // share of half the picture
+  EXPECT_NEAR(outline, 0.8, 0.005);
+  const Vec3 sight = glm::normalize(view.at - view.from);
+  EXPECT_LT(glm::length(glm::cross(Vec3(1, 2, 3) - view.from, sight)), 0.02);
+}
+
 TEST(Framing, CopesWithAPointAndWithNothing) {
-  const CameraPtr one = make_view_camera(preset_view("front"), 100, 100, Box3{Vec3(3), Vec3(3)}, 0.1);
+  const CameraPtr one = make_view_camera(preset_view("front"), 100, 100, corners({Vec3(3), Vec3(3)}), 0.1);
   EXPECT_NEAR(one->project(Vec3(3)).x, 50, 1e-9);
-  const CameraPtr none = make_view_camera(preset_view("front"), 100, 100, Box3(), 0.1);
+  const CameraPtr none = make_view_camera(preset_view("front"), 100, 100, corners({}), 0.1);
   EXPECT_NEAR(none->project(Vec3(0)).x, 50, 1e-9);
   const CameraPtr near =
       make_camera(framed_perspective(preset_view("front"), 0.7, 100, 100, std::vector<Vec3>{Vec3(3)}, 0.1), 100, 100);

@@ -1,0 +1,96 @@
+#include "render/cameras/shown.h"
+
+#include "render/scene/model.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+constexpr int kSteps = 32;  // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
+constexpr size_t kMostObjects = 500;  // with grids of their own
+
+void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) {
+  if (box.empty() || !box.bounded()) return;
+  for (int i = 0; i < 8; ++i)
+    points.push_back(
+        map.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z}));
+}
+
+double between(const Interval& range, int i) { return range.lo + (range.hi - range.lo) * i / kSteps; }
+
+void add_curve(const Curve& curve, const Affine& map, std::vector<Vec3>& points) {
+  const Interval domain = curve.domain();
+  for (int i = 0; i <= kSteps; ++i) points.push_back(map.point(curve.evaluate(between(domain, i), 0).point()));
+}
+
+// Points of the surface inside `limit`, which keeps the parts of a face's surface beyond the body out.
+void add_surface(const Surface& surface, const Box3& limit, const Affine& map, std::vector<Vec3>& points) {
+  if (!surface.bounded()) return;
+  const Rectangle domain = surface.domain();
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const Vec3 p = surface.point(between(domain.u, i), between(domain.v, j));
+      if (limit.contains(p)) points.push_back(map.point(p));
+    }
+}
+
+void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
+  if (const auto* point = std::get_if<Vec3>(&entity)) {
+    points.push_back(map.point(*point));
+  } else if (const auto* curve = std::get_if<CurvePtr>(&entity)) {
+    add_curve(**curve, map, points);
+  } else if (const auto* surface = std::get_if<SurfacePtr>(&entity)) {
+    add_surface(**surface, Box3::everything(), map, points);
+  } else if (const auto* set = std::get_if<SurfaceSet>(&entity)) {
+    for (const SurfacePtr& one : *set) add_surface(*one, Box3::everything(), map, points);
+  } else if (const auto* body = std::get_if<BodyPtr>(&entity)) {
+    for (const Edge& edge : (*body)->edges)
+      if (edge.curve) add_curve(*edge.curve, map, points);
+    const Box3 limit = bounds(**body);
+    for (const Face& face : (*body)->faces) add_surface(*face.surface, limit, map, points);
+  } else if (const auto* mesh = std::get_if<MeshPtr>(&entity)) {
+    for (const Vec3& p : (*mesh)->points) points.push_back(map.point(p));
+  }
+}
+
+size_t count(const std::vector<Object>& objects) {
+  size_t sum = 0;
+  for (const Object& object : objects) {
+    const auto* group = std::get_if<GroupPtr>(&object.shape);
+    sum += group ? count((*group)->objects) : 1;
+    if (sum > kMostObjects) break;
+  }
+  return sum;
+}
+
+void add(const std::vector<Object>& objects, const Affine& map, bool closely, std::vector<Vec3>& points) {
+  for (const Object& object : objects) {
+    const Affine placed = map * object.transform;
+    const auto* group = std::get_if<GroupPtr>(&object.shape);
+    if (group && closely)
+      add((*group)->objects, placed, closely, points);
+    else if (closely)
+      add(object.shape, placed, points);
+    else
+      add_corners(bounds(object.shape), placed, points);
+  }
+}
+
+}  // namespace
+
+Shown::Shown(const Box3& box) : box(box) {
+  const bool usable = !box.empty() && box.bounded();
+  add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), points);
+}
+
+Shown shown(const Model& model) {
+  Shown result;
+  result.box = bounds(model);
+  add(model.objects, Affine(), count(model.objects) <= kMostObjects, result.points);
+  if (result.points.empty()) return Shown(result.box);
+  return result;
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,33 @@
+// What scene files may say, in words: made from the declarations of types and sections, for `lekalo types`, the
+// schema's descriptions and the pages of docs/reference.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/scene/types.h"
+
+namespace lekalo::render {
+
+// "length greater than 0", "angle in degrees", "one of box, gaussian", "a curve: name or map".
+std::string value_text(const geometry::FieldType& type);
+
+// A map of this type with all that it needs, in one line: "{ type: circle, radius: 1 }".
+std::string example_of(const TypeDeclaration& type);
+
+// Fields that the scene layer adds to every type of the category: `transform`, `reversed`, `like`, `repeat`.
+std::vector<geometry::Field> common_fields(Category category);
+
+// Categories that have types, in the order of the manual, and the name of a category's page ("curves").
+const std::vector<Category>& categories_of_manual();
+std::string plural(Category category);
+
+// All types by category, one line each; all about one type.
+std::string list_of_types();
+std::string description_of(const TypeDeclaration& type);
+
+// The pages of the reference: file name and Markdown text.
+std::vector<std::pair<std::string, std::string>> reference_pages();
+
+}  // namespace lekalo::render

@@ -1,0 +1,183 @@
+"""evaluate, measure and trace against closed forms: circle, torus, ball, box, and a table of points of a circle."""
+
+import math
+import unittest
+
+from program import DIFFERS, ProgramTest, USAGE
+
+SCENE = """
+lekalo: 1
+parameters: { tube: 0.5 }
+geometry:
+  rim:   { type: circle, radius: 2 }
+  ring:  { type: torus_body, major_radius: 2, minor_radius: tube }
+  tire:  { type: torus_surface, major_radius: 2, minor_radius: tube }
+  ball:  { type: ball, center: [0, 0, 3], radius: 1.5 }
+  block: { type: box, size: [1, 2, 3] }
+  floor: { type: plane }
+  shell: { type: sphere_surface, radius: 1, domain: { u: [0, 360 deg], v: [0, 90 deg] } }
+  patch: { type: bezier_surface, points: [[[20, 0, 0], [20, 1, 1], [20, 2, 0]], [[21, 0, 1], [21, 1, 3], [21, 2, 1]],
+           [[22, 0, 0], [22, 1, 1], [22, 2, 0]]] }
+  tile:  { type: mesh, file: tile.obj }
+objects:
+  - { shape: ball }
+  - { shape: block, name: brick, transform: { translate: [10, 0, 0] } }
+  - { shape: ring, transform: { translate: [0, 0, -10] } }
+  - { shape: patch }
+"""
+
+TILE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+
+
+class Numbers(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.yaml", SCENE)
+        self.write("tile.obj", TILE)
+
+    def measure(self, name, *more):
+        return self.json_of("measure", "scene.yaml", name, *more)
+
+    def test_length_of_a_circle(self):
+        measured = self.measure("rim")
+        self.assertEqual(measured["kind"], "curve")
+        self.assert_near(measured["length"], 4 * math.pi, 1e-13)
+        self.assertLess(measured["length_error"], 1e-11)
+        self.assert_near(measured["centroid"], [0, 0, 0], 1e-14)
+
+    def test_torus_area_volume_and_moments(self):
+        """Area 4 pi^2 R r, volume 2 pi^2 R r^2 (Pappus); moments V (R^2 + 3/4 r^2), V (R^2/2 + 5/8 r^2)."""
+        for tube in 0.5, 0.25:
+            measured = self.measure("ring", "--set", f"tube={tube}")
+            volume = 2 * math.pi**2 * 2 * tube**2
+            across, about = volume * (2 + 0.625 * tube**2), volume * (4 + 0.75 * tube**2)
+            self.assertTrue(measured["closed"])
+            self.assert_near(measured["area"], 8 * math.pi**2 * tube, 1e-11)
+            self.assert_near(measured["volume"], volume, 1e-11)
+            self.assert_near(measured["centroid"], [0, 0, 0], 1e-12)
+            self.assert_near(measured["principal_moments"], [across, across, about], 1e-10)
+            self.assert_near(measured["inertia"], [[across, 0, 0], [0, across, 0], [0, 0, about]], 1e-10)
+            for key in "area", "volume":
+                self.assertLess(measured[key + "_error"], 1e-10)
+        self.assert_near(self.measure("tire")["area"], 4 * math.pi**2, 1e-11)
+
+    def test_open_surfaces_and_meshes(self):
+        """A hemisphere's sheet balances at half its radius."""
+        measured = self.measure("shell")
+        self.assert_near(measured["area"], 2 * math.pi, 1e-12)
+        self.assert_near(measured["centroid"], [0, 0, 0.5], 1e-12)
+        tile = self.measure("tile")
+        self.assert_near(tile["area"], 1, 1e-15)
+        self.assertFalse(tile["closed"])
+        self.assertNotIn("volume", tile)
+
+    def test_box_axes(self):
+        measured = self.measure("block")
+        self.assert_near([measured["volume"], measured["area"]], [6, 22], 1e-12)
+        self.assert_near(measured["centroid"], [0.5, 1, 1.5], 1e-13)
+        self.assert_near(measured["principal_moments"], [0.5 * (1 + 4), 0.5 * (1 + 9), 0.5 * (4 + 9)], 1e-12)
+        axes = [[abs(x) for x in axis] for axis in measured["principal_axes"]]
+        self.assert_near(axes, [[0, 0, 1], [0, 1, 0], [1, 0, 0]], 1e-12)
+
+    def test_text_has_all_digits(self):
+        text, _ = self.run_program("measure", "scene.yaml", "rim")
+        length = text.split("length", 1)[1].split()[0]
+        self.assertEqual(float(length), self.measure("rim")["length"])
+
+    def test_what_cannot_be_measured(self):
+        for name, reason in ("floor", "unbounded"), ("bal", "did you mean 'ball'?"):
+            self.assertIn(reason, self.run_program("measure", "scene.yaml", name, code=USAGE)[1])
+        self.assertIn("no topology", self.run_program("measure", "scene.yaml", "rim", "--topology", code=USAGE)[1])
+
+    def test_topology(self):
+        block = self.measure("block", "--topology")
+        self.assertEqual([len(block[key]) for key in ("faces", "edges", "vertices", "violations")], [6, 12, 8, 0])
+        self.assertEqual((block["valid"], block["closed"], block["euler_characteristic"]), (True, True, 2))
+        self.assertEqual(sorted(face["name"] for face in block["faces"]),
+                         ["x_max", "x_min", "y_max", "y_min", "z_max", "z_min"])
+        for edge in block["edges"]:
+            self.assertEqual(len(edge["faces"]), 2)
+        ring = self.measure("ring", "--topology")
+        self.assertEqual(ring["euler_characteristic"], 0)
+        self.assertEqual([edge["kind"] for edge in ring["edges"]], ["seam", "seam"])
+        tile = self.measure("tile", "--topology")
+        self.assertEqual([tile[key] for key in ("points", "sides", "triangles", "euler_characteristic", "closed")],
+                         [4, 5, 2, 1, False])
+
+    def test_against_a_table(self):
+        angles = [0.1 * k for k in range(63)]
+        rows = [[t, 2 * math.cos(t), 2 * math.sin(t), 0.0] for t in angles]
+        table = lambda: "t,x,y,z\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows)
+        self.write("rim.csv", table())
+        compared = self.measure("rim", "--against", "rim.csv", "--tolerance", "1e-14")
+        self.assertTrue(compared["passed"])
+        self.assertEqual(compared["samples"], 63)
+        self.assertLessEqual(compared["maximum_ulps"], 4)
+        rows[40][2] += 1e-6
+        self.write("rim.csv", table())
+        compared = self.json_of("measure", "scene.yaml", "rim", "--against", "rim.csv", "--tolerance", "1e-9",
+                                code=DIFFERS)
+        self.assertEqual(compared["worst"][0]["line"], 42)
+        self.assert_near(compared["maximum_distance"], 1e-6, 1e-12)
+        self.assert_near(compared["maximum_ulps"], 1e-6 / math.ulp(2.0), 1e-3 / math.ulp(2.0) * 1e-6)
+        self.run_program("measure", "scene.yaml", "rim", "--against", "rim.csv")
+        self.assertIn("u, v, x, y, z",
+                      self.run_program("measure", "scene.yaml", "tire", "--against", "rim.csv", code=USAGE)[1])
+
+    def test_evaluate(self):
+        point = self.json_of("evaluate", "scene.yaml", "rim", "--at", "90 deg", "--order", "2")
+        self.assert_near(point["point"], [0, 2, 0], 1e-15)
+        self.assert_near(point["derivatives"], [[-2, 0, 0], [0, -2, 0]], 1e-15)
+        self.assert_near(point["curvature"], 0.5, 1e-15)
+        torus = self.json_of("evaluate", "scene.yaml", "tire", "--at", "0,0")
+        self.assert_near(torus["point"], [2.5, 0, 0], 1e-15)
+        self.assert_near(torus["gaussian_curvature"], 1 / (0.5 * 2.5), 1e-14)
+        self.assert_near(sorted(map(abs, torus["principal_curvatures"])), [0.4, 2], 1e-14)
+        self.assertIn("z_max", str(self.json_of("measure", "scene.yaml", "block", "--topology")))
+        face = self.json_of("evaluate", "scene.yaml", "block", "--face", "z_max", "--at", "0.25,0.5")
+        self.assertEqual(face["point"], [0.25, 0.5, 3])
+        self.assertIn("--face 0 to 5", self.run_program("evaluate", "scene.yaml", "block", "--at", "0,0", code=USAGE)[1])
+
+    def test_trace_through_the_ball(self):
+        traced = self.json_of("trace", "scene.yaml", "--ray", "0,0,10,0,0,-2")
+        hits = traced["hits"]
+        self.assertEqual([hit["object"] for hit in hits], ["ball", "ball"])
+        self.assert_near([hit["t"] for hit in hits], [2.75, 4.25], 1e-14)
+        self.assert_near([hit["normal"] for hit in hits], [[0, 0, 1], [0, 0, -1]], 1e-14)
+        aside = 0.3
+        hit = self.json_of("trace", "scene.yaml", "--ray", f"{aside},0,10,0,0,-1")["hits"][0]
+        self.assert_near(hit["t"], 7 - math.sqrt(1.5**2 - aside**2), 1e-14)
+
+    def test_trace_names_objects_and_faces(self):
+        hits = self.json_of("trace", "scene.yaml", "--ray", "10.5,0.5,10,0,0,-1")["hits"]
+        self.assertEqual([(hit["object"], hit["face_name"], hit["t"]) for hit in hits],
+                         [("brick", "z_max", 7), ("brick", "z_min", 10)])
+
+    def test_trace_in_order_from_the_origin_on(self):
+        """A line in the torus' plane meets it at the distances 1.5 and 2.5 on both sides of the axis."""
+        hits = self.json_of("trace", "scene.yaml", "--ray", "-5,0,-10,1,0,0")["hits"]
+        self.assert_near([hit["t"] for hit in hits], [2.5, 3.5, 6.5, 7.5], 1e-12)
+        hits = self.json_of("trace", "scene.yaml", "--ray", "0,0,-10,1,0,0")["hits"]
+        self.assert_near([hit["t"] for hit in hits], [1.5, 2.5], 1e-12)
+
+    def test_trace_of_a_table_then_evaluate(self):
+        self.write("rays.csv", "# down on the patch\n" +
+                   "".join(f"{20.1 + 0.2 * k} {0.3 + 0.15 * k} 5 0.01 -0.02 -1\n" for k in range(9)))
+        rays = self.json_of("trace", "scene.yaml", "--rays", "rays.csv")["rays"]
+        self.assertEqual([len(ray["hits"]) for ray in rays], [1] * 9)
+        for ray in rays[::4]:
+            hit = ray["hits"][0]
+            on_line = [o + hit["t"] * d for o, d in zip(ray["origin"], ray["direction"])]
+            self.assert_near(hit["point"], on_line, 1e-12)
+            at = f"{hit['u']!r},{hit['v']!r}"
+            self.assert_near(self.json_of("evaluate", "scene.yaml", "patch", "--at", at)["point"], hit["point"], 1e-12)
+
+    def test_trace_without_rays(self):
+        self.assertIn("--ray", self.run_program("trace", "scene.yaml", code=USAGE)[1])
+        self.assertIn("zero", self.run_program("trace", "scene.yaml", "--ray", "0,0,0,0,0,0", code=USAGE)[1])
+        self.write("rays.csv", "0,0,1\n")
+        self.assertIn("six numbers", self.run_program("trace", "scene.yaml", "--rays", "rays.csv", code=USAGE)[1])
+
+
+if __name__ == "__main__":
+    unittest.main()

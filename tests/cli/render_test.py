@@ -1,0 +1,118 @@
+"""Pictures and meshes as files: the same bits for any number of threads and after an interruption, no half files."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import DONE, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest
+
+SCENE = """
+lekalo: 1
+geometry:
+  ring:  { type: torus_body, major_radius: 2, minor_radius: 0.6 }
+  ball:  { type: ball, radius: 1 }
+  block: { type: box, size: [1, 2, 3], center: [4, 0, 0] }
+materials:
+  shiny: { type: plastic, color: '#b5482a', roughness: 0.2 }
+objects:
+  - { shape: ring, material: shiny }
+  - { shape: ball }
+  - { shape: block }
+image: { size: [64, 48], samples: 4 }
+"""
+
+
+class Pictures(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.yaml", SCENE)
+
+    def render(self, *arguments, code=DONE):
+        return self.run_program("render", "scene.yaml", "--quiet", *arguments, code=code)
+
+    def test_any_number_of_threads(self):
+        for threads in 1, 2:
+            self.render("--threads", threads, "-o", f"{threads}.exr", "-o", f"{threads}.png")
+        self.assertEqual(self.bytes_of("1.exr"), self.bytes_of("2.exr"))
+        self.assertEqual(self.bytes_of("1.png"), self.bytes_of("2.png"))
+        self.assertTrue(self.bytes_of("1.exr").startswith(b"\x76\x2f\x31\x01"))
+        self.assertTrue(self.bytes_of("1.png").startswith(b"\x89PNG"))
+
+    def test_direct_and_mesh_agree(self):
+        """At a sag of 0.05 pixels; of the mean FLIP error over the picture."""
+        self.render("-o", "direct.exr")
+        self.write("scene.yaml", SCENE.replace(" }\n  - {", ", mesh: { sag_pixels: 0.05 } }\n  - {"))
+        self.render("--representation", "mesh", "-o", "mesh.exr")
+        self.assertLess(self.json_of("compare", "direct.exr", "mesh.exr", "--threshold", "1")["value"], 0.01)
+
+    def test_default_output(self):
+        _, notes = self.run_program("render", "scene.yaml")
+        self.assertIn("default: ", notes)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["scene.png", "scene.yaml"])
+
+    def test_outputs_are_atomic(self):
+        """What cannot be written leaves nothing behind; an older file stays as it was."""
+        self.assertIn("nowhere", self.render("-o", "nowhere/a.exr", code=FILE_ERROR)[1])
+        self.write("old.png", "precious")
+        self.write("bad.yaml", SCENE.replace("roughness: 0.2", "roughness: 'x'"))
+        subprocess.run([LEKALO, "render", "bad.yaml", "-o", "old.png"], cwd=self.folder, capture_output=True)
+        self.assertEqual(self.bytes_of("old.png"), b"precious")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["bad.yaml", "old.png", "scene.yaml"])
+        self.render("-o", "old.png")
+        self.assertTrue(self.bytes_of("old.png").startswith(b"\x89PNG"))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["bad.yaml", "old.png", "scene.yaml"])
+
+    def test_interrupted_and_resumed(self):
+        """SIGINT in the middle of a rendering; when is found from the time that all of it takes."""
+        samples = ["--samples", "100", "--threads", "2"]
+        begin = time.perf_counter()
+        self.render(*samples, "-o", "whole.exr")
+        wait = 0.6 * (time.perf_counter() - begin)
+        for _ in range(6):
+            process = subprocess.Popen([LEKALO, "render", "scene.yaml", *samples, "-o", "part.exr"], cwd=self.folder,
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            _, notes = process.communicate()
+            if process.returncode == INTERRUPTED:
+                break
+            wait *= 0.8 if process.returncode == DONE else 1.4
+        self.assertEqual(process.returncode, INTERRUPTED)
+        self.assertIn("--resume part.exr.partial", notes)
+        self.assertNotEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
+        self.render(*samples, "-o", "part.exr", "--resume", "part.exr.partial")
+        self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
+
+    def test_resume_of_another_scene_is_refused(self):
+        self.write("nonsense.partial", "not a partial rendering")
+        _, errors = self.render("-o", "a.exr", "--resume", "nonsense.partial", code=FILE_ERROR)
+        self.assertIn("nonsense.partial", errors)
+        self.assertFalse((self.folder / "a.exr").exists())
+
+    def test_exported_meshes(self):
+        """Closed bodies stay closed; the mesh's volume comes near that of the bodies; PLY and OBJ keep all digits."""
+        for format in "obj", "ply", "stl":
+            self.run_program("export", "scene.yaml", "ball", "--sag", "1e-3", "-o", f"ball.{format}")
+            self.write("back.yaml", f"lekalo: 1\ngeometry: {{ ball: {{ type: mesh, file: ball.{format} }} }}\n")
+            volume = self.json_of("measure", "back.yaml", "ball")
+            self.assert_near(volume["area"], 12.566370614359172, 0.03)
+            if format != "ply":  # a PLY file repeats points that have several normals or parameters
+                self.assertTrue(volume["closed"], format)
+                self.assert_near(volume["volume"], 4.1887902047863905, 0.02)
+        _, note = self.run_program("export", "scene.yaml", "--format", "stl", "--sag", "0.01")
+        triangles = int.from_bytes(self.bytes_of("scene.stl")[80:84], "little")
+        self.assertIn(f"{triangles} triangles", note)
+        self.assertEqual(len(self.bytes_of("scene.stl")), 84 + 50 * triangles)
+
+    def test_export_of_a_finer_mesh(self):
+        """Half the size of triangles costs about four times as many and a quarter of the sag."""
+        def triangles(sag):
+            note = self.run_program("export", "scene.yaml", "ring", "--sag", sag, "-o", "ring.stl")[1]
+            return int(note.split()[-2])
+        self.assertGreater(triangles("1e-3"), 2.5 * triangles("4e-3"))
+
+
+if __name__ == "__main__":
+    unittest.main()

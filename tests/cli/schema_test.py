@@ -1,0 +1,74 @@
+"""The JSON Schema against an independent validator (python3-jsonschema): it is a valid schema, every scene of the
+repository validates, typical slips do not. The pages of docs/reference are what the program writes."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import jsonschema
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LEKALO = os.environ["LEKALO"]
+
+
+def run(*arguments):
+    return subprocess.run([LEKALO, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+class Schema(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.schema = json.loads(run("schema"))
+        cls.validator = jsonschema.Draft202012Validator(cls.schema)
+
+    def valid(self, text):
+        return not list(self.validator.iter_errors({"lekalo": 1, **yaml.safe_load(text)}))
+
+    def test_is_a_schema(self):
+        jsonschema.Draft202012Validator.check_schema(self.schema)
+
+    def test_every_scene_validates(self):
+        scenes = [path for folder in ("scenes", "references") for path in sorted((ROOT / folder).rglob("*.yaml"))]
+        self.assertNotEqual(scenes, [])
+        for path in scenes:
+            scene = yaml.safe_load(path.read_text())
+            if "lekalo_suite" in scene:
+                continue
+            with self.subTest(scene=path.name):
+                self.assertEqual([f"{list(e.absolute_path)}: {e.message}" for e in self.validator.iter_errors(scene)], [])
+
+    def test_every_example_of_a_type_validates(self):
+        sections = {"curves": "geometry", "surfaces": "geometry", "bodies": "geometry", "meshes": "geometry",
+                    "materials": "materials", "lights": "lights"}
+        for page, section in sections.items():
+            for line in (ROOT / "docs/reference" / f"{page}.md").read_text().splitlines():
+                if line.startswith("    { type: "):
+                    self.assertTrue(self.valid(f"{section}: {{ a: {line.strip()} }}"), line)
+
+    def test_slips_do_not(self):
+        self.assertTrue(self.valid("geometry: { a: { type: circle, radius: 2*r, center: [1, 0, 0], normal: -y } }"))
+        self.assertTrue(self.valid("materials: { a: { type: diffuse }, b: { like: a, color: red } }"))
+        for text in ["geometry: { a: { type: circle, raduis: 1 } }", "geometry: { a: { type: circle } }",
+                     "geometry: { a: { type: circl, radius: 1 } }", "geometry: { a: { type: ball, radius: -1 } }",
+                     "geometry: { a: { radius: 1 } }", "geometry: { a: { type: diffuse } }", "geometri: {}",
+                     "image: { filter: boxx }", "objects: [{ material: steel }]", "camera: { type: fisheye }"]:
+            self.assertFalse(self.valid(text), text)
+
+
+class Reference(unittest.TestCase):
+    def test_pages_are_what_the_program_writes(self):
+        committed = {path.name: path.read_text() for path in (ROOT / "docs/reference").glob("*.md")}
+        with tempfile.TemporaryDirectory() as folder:
+            run("types", "--markdown", folder)
+            written = {path.name: path.read_text() for path in pathlib.Path(folder).glob("*.md")}
+        self.assertEqual(sorted(committed), sorted(written))
+        for name, text in written.items():
+            self.assertEqual(committed[name], text, f"{name}: run lekalo types --markdown docs/reference")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+"""Exit codes, messages, help and the time that --version takes."""
+
+import re
+import subprocess
+import time
+import unittest
+
+from program import DIFFERS, FILE_ERROR, LEKALO, ProgramTest, ROOT, SCENE_ERROR, USAGE
+
+BALL = "lekalo: 1\ngeometry: { ball: { type: ball, radius: 1 } }\n"
+
+
+class Usage(ProgramTest):
+    def test_version_is_quick(self):
+        """The best of several runs: other work on the machine says nothing about the program."""
+        times = []
+        for _ in range(10):
+            begin = time.perf_counter()
+            out, _ = self.run_program("--version")
+            times.append(time.perf_counter() - begin)
+        self.assertRegex(out, r"^lekalo \d+\.\d+")
+        self.assertLess(min(times), 0.1)
+
+    def test_help_begins_with_examples(self):
+        commands = re.findall(r"^  ([a-z]+)\b", self.run_program("--help")[0].split("Subcommands:")[1], flags=re.MULTILINE)
+        self.assertGreaterEqual(set(commands), {"render", "check", "evaluate", "compare", "measure", "trace", "export"})
+        for command in commands:
+            text, _ = self.run_program(command, "--help")
+            self.assertIn(f"  lekalo {command} ", text)
+            self.assertLess(text.index(f"  lekalo {command} "), text.index("Usage:"), command)
+
+    def test_wrong_usage(self):
+        for arguments in [], ["paint"], ["render"], ["check", "a.yaml", "--nonsense"], ["measure", "a.yaml"]:
+            self.assertIn("--help", self.run_program(*arguments, code=USAGE)[1])
+        self.write("ball.yaml", BALL)
+        for arguments in ["--size", "12"], ["--set", "novalue"], ["-o", "ball.tiff"], ["--crop", "0,0,1"]:
+            self.assertIn(arguments[0].replace("-o", "ball.tiff"),
+                          self.run_program("render", "ball.yaml", *arguments, code=USAGE)[1])
+
+    def test_errors_of_a_scene(self):
+        """All in one run, each with file, line and column, the line itself and a suggestion."""
+        self.write("wrong.yaml", "lekalo: 1\ngeometry:\n  ball: { type: ball, radius: -1 }\n"
+                   "  ring: { type: torus_body, major_radius: 2, minor_radius: 1, minor_radios: 3 }\n"
+                   "objects:\n  - { shape: bal }\n")
+        for command in ["check", "wrong.yaml"], ["measure", "wrong.yaml", "ball"], ["render", "wrong.yaml"]:
+            _, errors = self.run_program(*command, code=SCENE_ERROR)
+            for place in "wrong.yaml:3:31: ", "wrong.yaml:4:63: ", "wrong.yaml:6:14: ":
+                self.assertIn(place, errors)
+            self.assertIn("did you mean 'ball'?", errors)
+            self.assertIn("  - { shape: bal }", errors)
+        self.assertFalse((self.folder / "wrong.png").exists())
+
+    def test_unreadable_files(self):
+        self.assertIn("none.yaml", self.run_program("check", "none.yaml", code=FILE_ERROR)[1])
+        self.write("ball.yaml", BALL)
+        self.assertIn("none.csv", self.run_program("trace", "ball.yaml", "--rays", "none.csv", code=FILE_ERROR)[1])
+        self.write("bad.csv", "0,0,1,0,0,x1\n")
+        self.assertIn("bad.csv:1:11", self.run_program("trace", "ball.yaml", "--rays", "bad.csv", code=SCENE_ERROR)[1])
+        self.assertIn("none.png", self.run_program("compare", "none.png", "none.png", code=FILE_ERROR)[1])
+
+    def test_unknown_parameter(self):
+        self.write("ball.yaml", "lekalo: 1\nparameters: { width: 1 }\ngeometry: { ball: { type: ball, radius: width } }\n")
+        self.run_program("check", "ball.yaml", "--set", "width=2")
+        self.assertIn("did you mean 'width'?",
+                      self.run_program("check", "ball.yaml", "--set", "widht=2", code=SCENE_ERROR)[1])
+
+    def test_compare(self):
+        pair = [ROOT / "tests/data/flip/ldr1_reference.png", ROOT / "tests/data/flip/ldr1_test.png"]
+        same = self.json_of("compare", pair[0], pair[0], "--metric", "max")
+        self.assertEqual((same["value"], same["passed"]), (0, True))
+        self.assertFalse(self.json_of("compare", *pair, "--metric", "rmse", code=DIFFERS)["passed"])
+        self.assertTrue(self.json_of("compare", *pair, "--metric", "rmse", "--threshold", "2")["passed"])
+        self.run_program("compare", *pair, "--metric", "rmse", "--report", "report", code=DIFFERS)
+        self.assertIn("<html", (self.folder / "report/index.html").read_text())
+
+    def test_output_to_a_closed_pipe_does_not_hang(self):
+        self.write("ball.yaml", BALL)
+        done = subprocess.run(f"'{LEKALO}' measure ball.yaml ball --json | head -c 1", shell=True, cwd=self.folder,
+                              capture_output=True, timeout=20)
+        self.assertEqual(done.stdout, b"{")
+
+
+if __name__ == "__main__":
+    unittest.main()

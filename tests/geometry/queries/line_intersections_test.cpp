@@ -1,0 +1,210 @@
+// Lines against whole surfaces and bodies: completeness against the halving oracle, parity of closed bodies, far
+// origins. Counts follow the tier.
+#include "geometry/queries/line_intersections.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/surfaces/nurbs_surface.h"
+#include "geometry/surfaces/patches.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/torus.h"
+#include "support/line_oracle.h"
+#include "support/tier.h"
+
+namespace lekalo::geometry {
+namespace {
+
+struct RandomLines {
+  std::mt19937_64 random;
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit{0, 1};
+  Box3 box;
+  double distance;  // of the origin from the target, in diameters
+
+  RandomLines(unsigned seed, const Box3& b, double d) : random(seed), box(b), distance(d) {}
+  Line next() {
+    const Vec3 target = box.lo + Vec3(unit(random), unit(random), unit(random)) * box.size();
+    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    return {target - distance * box.diameter() * unit(random) * d, d};
+  }
+};
+
+// Compares all hits with the oracle's, patch by patch; lines in the tangency band or on a border shared by two patches
+// are told by shifts of 1e-9 of the size.
+struct Report {
+  int lines = 0, hits = 0, missing_or_extra = 0, band = 0;
+  double largest_error = 0;
+};
+
+Report compare(const Surface& surface, const SurfacePtr& owner, int count, unsigned seed, double distance) {
+  std::vector<oracle::PatchOracle> patches;
+  std::vector<Box3> boxes;
+  for (const SurfacePiece& piece : surface.pieces()) {
+    patches.emplace_back(piece.points, piece.degree_u, piece.degree_v);
+    boxes.push_back(bounds(surface, piece));
+  }
+  const Box3 box = bounds(surface);
+  const double size = box.diameter();
+  const auto roots_of = [&](const Line& line) {
+    std::vector<double> t;
+    for (const oracle::PatchOracle& patch : patches)
+      for (const oracle::Root& root : patch.roots(line)) t.push_back(root.t);
+    std::sort(t.begin(), t.end());
+    // A root on the border of two patches is found by both.
+    t.erase(std::unique(t.begin(), t.end(), [&](double a, double b) { return std::abs(a - b) <= 1e-9 * size; }),
+            t.end());
+    return t;
+  };
+  const LineIntersector intersector(owner);
+  RandomLines lines(seed, box, distance);
+  Report report;
+  for (int k = 0; k < count; ++k) {
+    const Line line = lines.next();
+    const std::vector<SurfaceHit> hits = intersector.all_hits(line);
+    // The oracle's own arithmetic starts near the surface.
+    const double foot = glm::dot(box.center() - line.origin, line.direction);
+    const Line near{line.at(foot), line.direction};
+    const std::vector<double> truth = roots_of(near);
+    ++report.lines;
+    report.hits += static_cast<int>(truth.size());
+    bool same = truth.size() == hits.size();
+    for (size_t i = 0; same && i < truth.size(); ++i) {
+      const double error = std::abs(hits[i].t - (foot + truth[i])) / size;
+      same = error <= 1e-9;
+      report.largest_error = std::max(report.largest_error, error);
+    }
+    if (same) continue;
+    bool band = false;
+    for (int copy = 0; copy < 8 && !band; ++copy) {
+      Line shifted = near;
+      shifted.origin += 1e-9 * size * Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1);
+      band = roots_of(shifted).size() != truth.size();
+    }
+    (band ? report.band : report.missing_or_extra) += 1;
+  }
+  return report;
+}
+
+void expect_complete(const SurfacePtr& surface, const char* name, int full_count, double distance) {
+  const Report r = compare(*surface, surface, tests::tier_count(full_count), 7, distance);
+  EXPECT_EQ(r.missing_or_extra, 0) << name << ": " << r.lines << " lines, " << r.hits << " hits, band " << r.band
+                                   << ", largest error " << r.largest_error;
+  EXPECT_LE(r.band, 1 + r.lines / 1000) << name;
+  EXPECT_GT(r.hits, r.lines / 4) << name;
+  tests::report_figure(std::string(name) + "_wrong", r.missing_or_extra);
+  tests::report_figure(std::string(name) + "_in_band", r.band);
+}
+
+SurfacePtr as_spline(const Surface& surface) { return std::make_shared<NurbsSurface>(*surface.as_nurbs()); }
+
+TEST(LineIntersections, NurbsSphere) {
+  const auto sphere = as_spline(SphereSurface(Frame(), 1.0, SphereSurface::kFull));
+  expect_complete(sphere, "nurbs_sphere", 20000, 2);
+  expect_complete(sphere, "nurbs_sphere_from_1000_radii", 5000, 500);
+}
+
+TEST(LineIntersections, NurbsTorus) {
+  const TorusSurface ring(Frame(), 3, 1, {{0, kTwoPi}, {-kPi, kPi}});
+  expect_complete(as_spline(ring), "nurbs_torus", 20000, 2);
+}
+
+TEST(LineIntersections, RandomRationalBiquintic) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  NurbsSurfaceForm form;
+  form.degree_u = form.degree_v = 5;
+  form.knots_u = form.knots_v = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double w = std::exp(3 * (unit(random) - 0.5));
+      form.points.push_back(Vec4(w * Vec3(i / 5.0, j / 5.0, unit(random)), w));
+    }
+  form.maps_u = form.maps_v = {ParameterMap{}};
+  expect_complete(std::make_shared<NurbsSurface>(form), "rational_biquintic", 20000, 2);
+}
+
+TEST(LineIntersections, TeapotPatches) {
+  std::ifstream file(LEKALO_SOURCE_DIR "/scenes/data/newell_teapot.txt");
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::vector<SurfacePtr> patches = parse_patches(text.str());
+  Report all;
+  for (const SurfacePtr& patch : patches) {
+    const Report r = compare(*patch, patch, tests::tier_count(3000), 11, 2);
+    all.lines += r.lines;
+    all.hits += r.hits;
+    all.missing_or_extra += r.missing_or_extra;
+    all.band += r.band;
+  }
+  EXPECT_EQ(all.missing_or_extra, 0) << all.lines << " lines, band " << all.band;
+  tests::report_figure("teapot_patches_wrong", all.missing_or_extra);
+}
+
+// Every line meets a closed body an even number of times, alternately entering and leaving.
+void expect_even(const Body& body, const char* name, const Vec3& moved_by = Vec3(0)) {
+  const Body placed = transformed(body, Affine::translation(moved_by));
+  const LineIntersector intersector(placed);
+  RandomLines lines(3, bounds(placed), 2);
+  int odd = 0, disordered = 0, hits = 0;
+  const int count = tests::tier_count(200000);
+  for (int k = 0; k < count; ++k) {
+    const Line line = lines.next();
+    const std::vector<SurfaceHit> found = intersector.all_hits(line);
+    hits += static_cast<int>(found.size());
+    odd += found.size() % 2;
+    double sign = -1;  // outward normals look against a line that enters
+    for (const SurfaceHit& hit : found) {
+      disordered += glm::dot(placed.normal(hit.face, hit.u, hit.v), line.direction) * sign < 0;
+      sign = -sign;
+    }
+  }
+  EXPECT_EQ(odd, 0) << name << " of " << count;
+  EXPECT_EQ(disordered, 0) << name;
+  EXPECT_GT(hits, count / 2) << name;
+  tests::report_figure(std::string(name) + "_odd", odd);
+}
+
+TEST(LineIntersections, BodiesAreMetAnEvenNumberOfTimes) {
+  expect_even(box(Frame(), {1, 2, 3}), "box");
+  expect_even(ball(Frame(), 1.5), "ball");
+  expect_even(cylinder_body(Frame(), 1, 2), "cylinder");
+  expect_even(frustum(Frame(), 2, 0, 3), "cone");
+  expect_even(frustum(Frame(), 2, 1, 3), "frustum");
+  expect_even(torus_body(Frame(), 3, 1), "torus");
+  expect_even(prism(Frame(), {{0, 0}, {2, 0}, {2.5, 1}, {1, 2}, {-0.5, 1}}, 2), "prism");
+  expect_even(pyramid(Frame(), {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0, 2}), "pyramid");
+}
+
+TEST(LineIntersections, FarFromTheOriginToo) {
+  expect_even(box(Frame(), {1, 2, 3}), "box_moved", {1000, -700, 300});
+  expect_even(frustum(Frame(), 2, 0, 3), "cone_moved", {1000, -700, 300});
+  expect_even(torus_body(Frame(), 3, 1), "torus_moved", {1000, -700, 300});
+}
+
+// Lines aimed exactly at vertices, edges and the apex: one crossing for each of the two sides, or a graze of both.
+TEST(LineIntersections, LinesThroughEdgesAndVerticesStayEven) {
+  const Body cube = box(Frame(), {1, 1, 1});
+  const LineIntersector intersector(cube);
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  int odd = 0;
+  const int count = tests::tier_count(100000);
+  for (int k = 0; k < count; ++k) {
+    const Edge& edge = cube.edges[k % cube.edges.size()];
+    const double t =
+        k % 7 == 0 ? edge.curve->domain().lo : edge.curve->domain().lo + unit(random) * edge.curve->domain().width();
+    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    odd += intersector.all_hits({edge.curve->point(t) - 3.0 * d, d}).size() % 2;
+  }
+  EXPECT_EQ(odd, 0) << "of " << count;
+  tests::report_figure("edge_aimed_odd", odd);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry

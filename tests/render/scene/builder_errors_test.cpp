@@ -1,0 +1,232 @@
+// What is said about wrong scenes, and where. The wordings are the product's own; that nothing else is said beside them
+// is what these tests are for.
+#include <gtest/gtest.h>
+
+#include "render/scene/scene_text.h"
+
+namespace lekalo::render {
+namespace {
+
+std::string said(const std::string& text) { return build_text(text).said; }
+std::string hints(const std::string& text) { return build_text(text).hints; }
+
+// One thing in `geometry`, in line 3; its map begins in column 6.
+std::string about(const std::string& map) { return said("geometry:\n  a: " + map + "\n"); }
+
+TEST(BuilderErrors, UnknownFieldsAreNamedWithTheNearest) {
+  EXPECT_EQ(about("{ type: circle, radius: 1, raduis: 2 }"),
+            "3:33 unknown field 'raduis' of 'circle' (did you mean 'radius'?)\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1, wobble: 2 }"), "3:31 unknown field 'wobble' of 'ball'\n");
+  EXPECT_EQ(hints("geometry: { a: { type: ball, radius: 1, wobble: 2 } }"),
+            "it has frame, radius, center, normal, axis, type, like, repeat, transform\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1, reversed: true }"), "3:31 unknown field 'reversed' of 'ball'\n");
+  EXPECT_EQ(said("geometry: { p: [0, 0] }\nobjects:\n  - { shape: p, clips: 3 }"),
+            "4:17 unknown field 'clips' of an object (did you mean 'clip'?)\n");
+}
+
+TEST(BuilderErrors, UnknownSections) {
+  EXPECT_EQ(said("geometri: {}"), "2:1 unknown section 'geometri' (did you mean 'geometry'?)\n");
+  EXPECT_EQ(said("image: 7\nparameters: 9\ninfo: [a]\ngeometry: 3\nlayout: []\nobjects: 5"),
+            "2:8 'image' is a map of fields, found a single value\n"
+            "3:13 'parameters' is a map of fields, found a single value\n"
+            "4:7 'info' is a map of fields, found a list\n"
+            "5:11 'geometry' is a map of named things\n"
+            "6:9 'layout' is a map, found a list\n"
+            "7:10 'objects' is a list of maps\n");
+}
+
+TEST(BuilderErrors, WrongKinds) {
+  EXPECT_EQ(about("{ type: circle, radius: [1, 2] }"), "3:30 expected a number or a formula, found a list\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1, center: [1] }"), "3:39 a point has 2 or 3 coordinates, found 1\n");
+  EXPECT_EQ(about("{ type: circle, radius: 1, normal: w }"), "3:41 expected a direction, found 'w'\n");
+  EXPECT_EQ(about("{ type: circle, radius: 1, normal: [0, 0, 0] }"), "3:41 this direction has no length\n");
+  EXPECT_EQ(about("{ type: nurbs_curve, degree: 1.5, points: [[0, 0], [0, 1]] }"),
+            "3:35 expected a whole number, found 1.5\n");
+  EXPECT_EQ(about("{ type: torus_surface, major_radius: 1 < 2, minor_radius: 1 }"),
+            "3:43 expected a number, found a condition\n");
+  EXPECT_EQ(about("5"),
+            "3:6 expected a curve, a surface, a body, a mesh or a point as a map with a type, found a single value\n");
+  EXPECT_EQ(about("{ type: sphere_surface, radius: 1, reversed: yes }"), "3:51 expected true or false, found 'yes'\n");
+  EXPECT_EQ(said("image: { filter: boxx }"), "2:18 unknown word 'boxx' (did you mean 'box'?)\n");
+}
+
+TEST(BuilderErrors, ValuesOutOfRange) {
+  EXPECT_EQ(about("{ type: circle, radius: -1 }"), "3:30 expected a value greater than 0, found -1\n");
+  EXPECT_EQ(said("image: { samples: 0 }"), "2:19 expected a value between 1 and 1048576, found 0\n");
+  EXPECT_EQ(said("camera: { type: perspective, field_of_view: 200 }"),
+            "2:45 expected a value greater than 0 and at most 170 degrees, found 200\n");
+  EXPECT_EQ(about("{ type: circle, radius: 1, arc: [0, 400] }"), "3:38 the arc is longer than one turn\n");
+  EXPECT_EQ(about("{ type: circle, radius: 1, arc: [90, 0] }"), "3:38 a range must begin below its end\n");
+  EXPECT_EQ(about("{ type: torus_surface, major_radius: -2, minor_radius: 1 }"),
+            "3:43 the sheet is empty: major_radius must be greater than -minor_radius\n");
+}
+
+TEST(BuilderErrors, AbsurdSizes) {
+  EXPECT_EQ(about("{ type: nurbs_curve, degree: 1000, points: [[0, 0], [1, 1]] }"),
+            "3:35 expected a value between 1 and 25, found 1000\n");
+  EXPECT_EQ(said("image: { size: [1000000000, 1] }"), "2:17 a side of a picture is between 1 and 65536 pixels\n");
+  EXPECT_EQ(said("image: { size: [32000, 32000] }"), "2:16 a picture of 32000 x 32000 pixels is too large\n");
+  EXPECT_EQ(hints("image: { size: [32000, 32000] }"), "at most 100 million pixels\n");
+  EXPECT_EQ(said("geometry:\n  a: { repeat: { i: 0..1e8 }, type: ball, radius: 1 }\n"),
+            "3:21 more than 1000000 repetitions\n");
+}
+
+TEST(BuilderErrors, MissingFields) {
+  EXPECT_EQ(about("{ type: bezier_curve }"), "3:6 missing field 'points' of 'bezier_curve'\n");
+  EXPECT_EQ(about("{ radius: 1 }"), "3:6 missing 'type' of a curve, a surface, a body, a mesh or a point\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1, center: { of: { type: segment, from: x0, to: [1, 0] } } }"),
+            "3:68 there is no geometry called 'x0'\n");
+  EXPECT_EQ(said("geometry: { l: { type: segment, from: [0, 0], to: [1, 0] }, b: { type: ball, radius: 1, center: "
+                 "{ of: l } } }"),
+            "2:97 missing 't' of a place on a curve\n");
+}
+
+TEST(BuilderErrors, DanglingReferences) {
+  EXPECT_EQ(said("geometry:\n  section: { type: circle, radius: 1 }\n"
+                 "  a: { type: revolution_surface, of: secton, axis: x }\n"
+                 "objects:\n  - { shape: b, material: steel }\n"),
+            "4:38 there is no geometry called 'secton' (did you mean 'section'?)\n"
+            "6:14 there is no geometry called 'b'\n"
+            "6:27 there is no material called 'steel'\n");
+  EXPECT_EQ(about("{ type: ball, radius: R }"), "3:28 unknown name 'R'\n");
+  EXPECT_EQ(said("parameters: { radius: 2 }\ngeometry: { a: { type: ball, radius: radus } }"),
+            "3:38 unknown name 'radus'\n");
+  EXPECT_EQ(hints("parameters: { radius: 2 }\ngeometry: { a: { type: ball, radius: radus } }"),
+            "did you mean 'radius'?\n");
+  EXPECT_EQ(about("{ type: mesh, file: none.obj }"), "3:26 there is no file 'none.obj'\n");
+}
+
+TEST(BuilderErrors, ThingsOfTheWrongCategory) {
+  EXPECT_EQ(about("{ type: revolution_surface, of: { type: ball, radius: 1 }, axis: z }"),
+            "3:46 'ball' makes a body, but a curve is wanted here\n");
+  EXPECT_EQ(said("geometry:\n  b: { type: ball, radius: 1 }\n  a: { type: revolution_surface, of: b, axis: z }\n"),
+            "4:38 'b' is a body, but a curve is wanted here\n");
+  EXPECT_EQ(about("{ type: diffuse }"),
+            "3:14 'diffuse' makes a material, but a curve, a surface, a body, a mesh or a point is wanted here\n");
+}
+
+TEST(BuilderErrors, UnknownTypes) {
+  EXPECT_EQ(about("{ type: circl, radius: 1 }"), "3:14 unknown type 'circl' (did you mean 'circle'?)\n");
+  EXPECT_EQ(about("{ type: sphere, radius: 1 }"), "3:14 'sphere' exists for several kinds\n");
+  EXPECT_EQ(hints("geometry: { a: { type: sphere, radius: 1 } }"), "say which: ball, sphere_surface\n");
+  EXPECT_EQ(hints("lights: { a: { type: sphere } }"), "say which: sphere_light\n");
+  EXPECT_EQ(said("integrator: { type: clasic }"), "2:21 unknown type 'clasic' (did you mean 'classic'?)\n");
+}
+
+TEST(BuilderErrors, FormulasWithoutAFiniteValue) {
+  EXPECT_EQ(about("{ type: circle, radius: 0/0 }"), "3:30 the formula has no finite value (not a number)\n");
+  EXPECT_EQ(about("{ type: circle, radius: sqrt(-1) }"), "3:30 the formula has no finite value (not a number)\n");
+  EXPECT_EQ(said("parameters: { w: 1/0 }"), "2:18 the formula has no finite value (infinite)\n");
+  EXPECT_EQ(about("{ type: ball, radius: .inf }"), "3:28 '.inf' is not a number here\n");
+  EXPECT_EQ(about("{ type: ball, radius: nan }"), "3:28 'nan' is not a number here\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1e400 }"), "3:28 the number 1e400 is outside the range of double precision\n");
+}
+
+TEST(BuilderErrors, LengthsAndAngles) {
+  EXPECT_EQ(about("{ type: circle, radius: 5 mm }"), "3:30 a length of the model has no unit, found '5 mm'\n");
+  EXPECT_EQ(about("{ type: ball, radius: 1, transform: { rotate: pi/2, axis: z } }"),
+            "3:52 pi without a unit: a plain number means degrees here\n");
+  EXPECT_EQ(about("{ type: circle, radius: 1, arc: [0, pi] }"),
+            "3:42 pi without a unit: a plain number means degrees here\n");
+}
+
+TEST(BuilderErrors, Circles) {
+  EXPECT_EQ(said("parameters: { a: b + 1, b: 2*a }"), "2:28 the parameter 'a' is defined by itself\n");
+  EXPECT_EQ(said("geometry:\n  a: { type: revolution_surface, of: { type: segment, from: p, to: [1, 0] }, axis: z }\n"
+                 "  p: { type: revolution_surface, of: a, axis: z }\n"),
+            "3:6 'a' is built from itself\n");
+  EXPECT_EQ(said("materials:\n  a: { like: b }\n  b: { like: a }\n"), "3:14 'b' is like itself in the end\n");
+  EXPECT_EQ(said("materials:\n  a: { like: a }\n"), "3:14 'a' is like itself in the end\n");
+}
+
+TEST(BuilderErrors, Names) {
+  EXPECT_EQ(said("parameters: { pi: 3, t: 1, sin: 2, n: 4 }"),
+            "2:15 a parameter may not be called 'pi'\n2:22 a parameter may not be called 't'\n"
+            "2:28 a parameter may not be called 'sin'\n");
+  EXPECT_EQ(about("{ repeat: { t: 0..2 }, type: ball, radius: 1 }"), "3:18 a counter may not be called 't'\n");
+  EXPECT_EQ(said("parameters: { i: 1 }\ngeometry:\n  a: { repeat: { i: 0..2 }, type: ball, radius: 1 }\n"),
+            "4:18 the counter 'i' is also a parameter\n");
+}
+
+TEST(BuilderErrors, RepeatsAndFamilies) {
+  const std::string family = "geometry:\n  f: { repeat: { i: 0..2 }, type: circle, radius: i + 1 }\n";
+  EXPECT_EQ(said(family + "  a: { type: revolution_surface, of: f, axis: x }\n"),
+            "4:38 'f' is a family of 3; one thing is wanted here\n");
+  EXPECT_EQ(said(family + "  a: { type: revolution_surface, of: f.7, axis: x }\n"), "4:38 'f' has no member '7'\n");
+  EXPECT_EQ(said(family + "  a: { like: f, radius: 1 }\n"), "4:14 'f' is a family: its fields need its counters\n");
+  EXPECT_EQ(about("{ repeat: 5, type: ball, radius: 1 }"), "3:16 'repeat' names a counter and its values\n");
+  EXPECT_EQ(about("{ repeat: { i: 0.5..2 }, type: ball, radius: 1 }"), "3:21 a range of whole numbers, found 0.5..2\n");
+  EXPECT_EQ(said("materials:\n  a: { like: nobody }\n"), "3:14 there is nothing called 'nobody' to be like\n");
+}
+
+TEST(BuilderErrors, Transforms) {
+  const auto step = [](const std::string& text) { return about("{ type: ball, radius: 1, transform: " + text + " }"); };
+  EXPECT_EQ(step("[{ translate: [1, 0, 0], rotate: 30 }]"), "3:67 one step does one thing\n");
+  EXPECT_EQ(step("{ transalte: [1, 0, 0] }"),
+            "3:44 unknown step 'transalte' of a transform (did you mean 'translate'?)\n");
+  EXPECT_EQ(step("{ scale: 0 }"), "3:51 a scale factor of 0 flattens everything\n");
+  EXPECT_EQ(step("{ scale: 2, axis: z }"), "3:60 'axis' goes with 'rotate', not with 'scale'\n");
+  EXPECT_EQ(step("3"), "3:42 expected a step of a transform, found a single value\n");
+  EXPECT_EQ(step("{ matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]] }"),
+            "3:52 this matrix flattens everything: its determinant is 0\n");
+}
+
+TEST(BuilderErrors, FramesPlacesAndNets) {
+  EXPECT_EQ(about("{ type: ball, frame: { z: x }, center: [1, 1], radius: 1 }"),
+            "3:45 a placement is given by 'frame' or by 'center' and 'normal', not by both\n");
+  EXPECT_EQ(about("{ type: ball, frame: { z: x, x: x }, radius: 1 }"), "3:27 x is parallel to z\n");
+  EXPECT_EQ(about("{ type: nurbs_surface, degree: { u: 3 }, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }"),
+            "3:37 'degree' takes one value for both directions, or { u: ..., v: ... }\n");
+  EXPECT_EQ(about("{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0]]] }"),
+            "3:67 this row has 1 points, the rows before it 2\n");
+  EXPECT_EQ(about("{ type: nurbs_curve, degree: 1, knots: clmped, points: [[0, 0], [0, 1]] }"),
+            "3:45 unknown rule for knots 'clmped' (did you mean 'clamped'?)\n");
+  EXPECT_EQ(about("{ type: nurbs_curve, degree: 1, knots: [0, 1], points: [[0, 0], [0, 1]] }"),
+            "3:45 2 points of degree 1 need 4 knots, not 2\n");
+}
+
+TEST(BuilderErrors, Colors) {
+  const auto color = [](const std::string& text) {
+    return said("materials:\n  m: { type: diffuse, color: " + text + " }");
+  };
+  EXPECT_EQ(color("steelblu"), "3:30 unknown colour 'steelblu' (did you mean 'steelblue'?)\n");
+  EXPECT_EQ(color("'#12'"), "3:30 '#12' is no colour\n");
+  EXPECT_EQ(color("[1, 2]"), "3:30 expected 3 values, found 2\n");
+  EXPECT_EQ(color("1.5"), "3:30 the values of this colour must be between 0 and 1\n");
+  EXPECT_EQ(color("{ srgb: [0, 0, 2] }"), "3:45 expected a value between 0 and 1, found 2\n");
+}
+
+TEST(BuilderErrors, CameraPictureAndOutputs) {
+  EXPECT_EQ(said("camera: { type: perspective, from: [0, 0, 5], at: [0, 0, 5] }"),
+            "2:51 the camera stands at the point that it looks at\n");
+  EXPECT_EQ(said("image: { crop: [1, 2, 3] }"), "2:16 expected 4 values, found 3\n");
+  EXPECT_EQ(said("image: { size: [10, 10], crop: [0, 0, 20, 5] }"),
+            "2:32 this part does not lie inside the picture of 10 x 10 pixels\n");
+  EXPECT_EQ(said("image: { size: [10 mm, 10] }"), "2:16 width and height are both in pixels or both on paper\n");
+  EXPECT_EQ(said("outputs: [a.jpg, { file: b.png, exposre: 1 }, c.png]"),
+            "2:11 'a.jpg' has an unknown ending\n"
+            "2:33 unknown field 'exposre' of an output (did you mean 'exposure'?)\n");
+}
+
+TEST(BuilderErrors, AllErrorsOfAFileInOneRun) {
+  EXPECT_EQ(said("parameters: { n: 1/0 }\n"
+                 "geometry:\n"
+                 "  a: { type: circle, radius: -1, colour: red }\n"
+                 "  b: { type: box, size: [1, m, 2] }\n"
+                 "  unused: { type: ball }\n"
+                 "materials:\n"
+                 "  unused: { type: plastic, color: redd }\n"
+                 "camera: { type: fisheye }\n"
+                 "image: { samples: many }\n"),
+            "2:18 the formula has no finite value (infinite)\n"
+            "4:30 expected a value greater than 0, found -1\n"
+            "4:34 unknown field 'colour' of 'circle'\n"
+            "5:29 unknown name 'm'\n"
+            "6:11 missing field 'radius' of 'ball'\n"
+            "8:35 unknown colour 'redd' (did you mean 'red'?)\n"
+            "9:17 unknown type 'fisheye'\n"
+            "10:19 unknown name 'many'\n");
+}
+
+}  // namespace
+}  // namespace lekalo::render

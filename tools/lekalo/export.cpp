@@ -1,0 +1,202 @@
+// lekalo export: what a scene shows as one triangle mesh for another program, or the whole scene for POV-Ray.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "command.h"
+#include "geometry/tessellation/tessellate.h"
+#include "render/image/atomic_file.h"
+#include "render/scene/mesh_files.h"
+#include "render/scene/pov_export.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::Affine;
+using geometry::Mesh;
+
+// Sag of an object that has none of its own, in parts of its size.
+constexpr double kDefaultSag = 1e-3;
+
+struct Options {
+  SceneOptions scene;
+  std::vector<std::string> names;
+  std::string format, output;
+  double sag = 0;
+  render::PovOptions pov;
+  bool quiet = false;
+};
+
+// Meshes collected into one; faces are numbered on, so that a file keeps them apart.
+class Collection {
+ public:
+  explicit Collection(double sag) : sag_(sag) {}
+
+  void add(const render::Entity& entity, const Affine& to_world, double own_sag, const std::string& name) {
+    const double size = bounds(entity).diameter();
+    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
+      add_surface(**surface, to_world, tolerance(own_sag, size, to_world), name);
+    } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
+      for (const geometry::SurfacePtr& one : *set)
+        add_surface(*one, to_world, tolerance(own_sag, size, to_world), name);
+    } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
+      append(tessellate(**body, tolerance(own_sag, size, to_world)), to_world);
+    } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
+      append(**mesh, to_world);
+    } else if (const auto* group = std::get_if<render::GroupPtr>(&entity)) {
+      for (const render::Object& object : (*group)->objects) add(object, to_world);
+    } else {
+      left_out_.insert(fmt::format("'{}' is a point or a curve and has no triangles", name));
+    }
+  }
+
+  void add(const render::Object& object, const Affine& to_world) {
+    if (!object.clips.empty())
+      left_out_.insert(fmt::format("'{}' is written whole: its clip planes are not applied", object.name));
+    add(object.shape, to_world * object.transform, object.sag, object.name);
+  }
+
+  // Corners without normals or parameters get them where others have some: a file has them for all or none.
+  Mesh finish() {
+    if (with_normals_ && without_normals_) {
+      for (Mesh::Triangle& triangle : all_.triangles) {
+        if (triangle.normal[0] >= 0) continue;
+        const auto& p = triangle.point;
+        const geometry::Vec3 area =
+            glm::cross(all_.points[p[1]] - all_.points[p[0]], all_.points[p[2]] - all_.points[p[0]]);
+        const double length = glm::length(area);
+        triangle.normal.fill(static_cast<int32_t>(all_.normals.size()));
+        all_.normals.push_back(length > 0 ? area / length : geometry::Vec3(0, 0, 1));
+      }
+    }
+    if (without_parameters_) {
+      all_.parameters.clear();
+      for (Mesh::Triangle& triangle : all_.triangles) triangle.parameter.fill(-1);
+    }
+    return std::move(all_);
+  }
+
+  const std::set<std::string>& left_out() const { return left_out_; }
+
+ private:
+  geometry::TessellationTolerance tolerance(double own_sag, double size, const Affine& to_world) const {
+    const geometry::Mat3& a = to_world.linear;
+    const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2]), 1e-300});
+    geometry::TessellationTolerance result;
+    result.sag = sag_ > 0 ? sag_ / scale : own_sag > 0 ? own_sag / scale : kDefaultSag * size;
+    return result;
+  }
+
+  void add_surface(const geometry::Surface& surface, const Affine& to_world,
+                   const geometry::TessellationTolerance& tolerance, const std::string& name) {
+    if (surface.bounded())
+      append(tessellate(surface, tolerance), to_world);
+    else
+      left_out_.insert(fmt::format("'{}' is left out: it has no bounds; give it a domain", name));
+  }
+
+  void append(const Mesh& given, const Affine& to_world) {
+    const Mesh part = to_world.is_identity() ? given : transformed(given, to_world);
+    int32_t faces = 0;
+    const auto shift = [](std::array<int32_t, 3>& index, size_t by) {
+      for (int32_t& i : index)
+        if (i >= 0) i += static_cast<int32_t>(by);
+    };
+    for (Mesh::Triangle triangle : part.triangles) {
+      shift(triangle.point, all_.points.size());
+      shift(triangle.normal, all_.normals.size());
+      shift(triangle.parameter, all_.parameters.size());
+      faces = std::max(faces, triangle.face + 1);
+      triangle.face += faces_;
+      all_.triangles.push_back(triangle);
+    }
+    faces_ += faces;
+    (part.normals.empty() ? without_normals_ : with_normals_) = true;
+    without_parameters_ = without_parameters_ || part.parameters.empty();
+    all_.points.insert(all_.points.end(), part.points.begin(), part.points.end());
+    all_.normals.insert(all_.normals.end(), part.normals.begin(), part.normals.end());
+    all_.parameters.insert(all_.parameters.end(), part.parameters.begin(), part.parameters.end());
+  }
+
+  double sag_;
+  Mesh all_;
+  int32_t faces_ = 0;
+  bool with_normals_ = false, without_normals_ = false, without_parameters_ = false;
+  std::set<std::string> left_out_;
+};
+
+int export_pov(const Options& options, const std::string& output) {
+  if (!options.names.empty()) throw UsageError("--format pov writes the whole scene; leave the names out");
+  render::PovOptions pov = options.pov;
+  pov.sag = options.sag;
+  const render::PovScene scene = render::pov_scene(*options.scene.load().model, pov);
+  render::write_file_atomically(output, scene.text);
+  if (!options.quiet)
+    for (const std::string& note : scene.notes) fmt::print(stderr, "not exact: {}\n", note);
+  return kDone;
+}
+
+int run(const Options& options) {
+  std::string output = options.output;
+  if (output.empty()) {
+    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|pov");
+    output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
+  }
+  if (options.format == "pov" || (options.format.empty() && output.ends_with(".pov")))
+    return export_pov(options, output);
+  render::MeshFormat format;
+  try {
+    format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
+  } catch (const render::MeshFileError& error) {
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|pov", error.what()));
+  }
+  const render::LoadedScene scene = options.scene.load();
+  Collection collection(options.sag);
+  if (options.names.empty())
+    for (const render::Object& object : scene.model->objects) collection.add(object, Affine());
+  for (const std::string& name : options.names) collection.add(find_geometry(scene, name), Affine(), 0, name);
+  const Mesh mesh = collection.finish();
+  for (const std::string& note : collection.left_out()) fmt::print(stderr, "note: {}\n", note);
+  if (mesh.triangles.empty()) throw UsageError("there is nothing to export: no surface, body or mesh is shown");
+  render::write_file_atomically(output, render::mesh_bytes(format, mesh));
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {} points, {} triangles\n", output, mesh.points.size(), mesh.triangles.size());
+  return kDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Action& action) {
+  auto* sub =
+      app.add_subcommand("export", "Write what a scene shows as triangles (OBJ, PLY, STL), or the scene for POV-Ray");
+  sub->footer(
+      "Examples:\n"
+      "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
+      "  lekalo export plate.yaml plate --format stl\n"
+      "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
+      "Without names everything that the scene's objects show is written, moved as they are. Triangles keep the sag "
+      "of\n"
+      "--sag in scene units, else of their object's mesh, else a thousandth of their shape's size. PLY has double\n"
+      "precision; OBJ has shared points and a group for every face; STL has corners in single precision.");
+  auto options = std::make_shared<Options>();
+  options->scene.add_to(*sub);
+  sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
+  sub->add_option("--format", options->format, "what to write; else the output's extension decides")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"obj", "ply", "stl", "pov"}));
+  sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
+  sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface")
+      ->type_name("LENGTH")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--flatness", options->pov.flatness, "pov: flatness of Bezier patches, in scene units")
+      ->type_name("LENGTH")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--patch-steps", options->pov.patch_steps, "pov: u_steps and v_steps of Bezier patches")
+      ->check(CLI::Range(1, 8));
+  sub->add_flag("--quiet", options->quiet, "print no summary");
+  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lekalo::command

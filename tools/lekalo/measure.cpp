@@ -1,0 +1,158 @@
+// lekalo measure: lengths, areas, volumes and moments with their errors; topology; comparison with a table.
+#include "measure.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "command.h"
+#include "geometry/queries/mass_properties.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::MassProperties;
+using geometry::Measured;
+using geometry::Vec3;
+
+void put(ordered_json& out, const char* key, const Measured& measured) {
+  out[key] = measured.value;
+  out[std::string(key) + "_error"] = measured.error;
+}
+
+void put(ordered_json& out, const MassProperties& mass) {
+  put(out, "area", mass.area);
+  out["closed"] = mass.closed;
+  // An open shell bounds nothing.
+  if (!mass.closed) return;
+  put(out, "volume", mass.volume);
+  out["centroid"] = to_json(mass.centroid);
+  out["centroid_error"] = mass.centroid_error;
+  out["inertia"] = to_json(mass.inertia);
+  out["inertia_error"] = mass.inertia_error;
+  out["principal_moments"] = to_json(mass.principal_moments);
+  out["principal_axes"] = to_json(glm::transpose(mass.principal_axes));
+}
+
+void put(ordered_json& out, const geometry::SurfaceMeasures& measures) {
+  put(out, "area", measures.area);
+  out["centroid"] = to_json(measures.centroid);
+}
+
+geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
+  geometry::SurfaceMeasures sum;
+  for (const geometry::SurfacePtr& surface : set) {
+    const geometry::SurfaceMeasures one = geometry::measure(*surface);
+    sum.area.value += one.area.value;
+    sum.area.error += one.area.error;
+    sum.centroid += one.area.value * one.centroid;
+  }
+  if (sum.area.value > 0) sum.centroid /= sum.area.value;
+  return sum;
+}
+
+struct Options {
+  SceneOptions scene;
+  std::string name, against;
+  std::optional<double> tolerance;
+  bool topology = false, json = false;
+};
+
+int run(const Options& options) {
+  if (options.tolerance && options.against.empty()) throw UsageError("--tolerance belongs to --against SAMPLES.csv");
+  const render::LoadedScene scene = options.scene.load();
+  const render::Entity& entity = find_geometry(scene, options.name);
+  ordered_json out;
+  void (*print)(const ordered_json&) = print_measures;
+  if (!options.against.empty()) {
+    out = compare_with_table(options.name, entity, load_table(options.against), options.against, options.tolerance);
+    print = print_comparison;
+  } else if (options.topology) {
+    out = topology(options.name, entity);
+    print = print_topology;
+  } else {
+    out = measures(options.name, entity);
+  }
+  if (options.json)
+    fmt::print("{}\n", out.dump(2));
+  else
+    print(out);
+  return out.value("passed", true) ? kDone : kDiffers;
+}
+
+}  // namespace
+
+ordered_json measures(const std::string& name, const render::Entity& entity) {
+  ordered_json out;
+  out["name"] = name;
+  try {
+    if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+      const geometry::CurveMeasures measured = geometry::measure(**curve);
+      out["kind"] = "curve";
+      put(out, "length", measured.length);
+      out["centroid"] = to_json(measured.centroid);
+    } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
+      out["kind"] = "surface";
+      put(out, geometry::measure(**surface));
+    } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
+      out["kind"] = "patches";
+      put(out, measure_set(*set));
+    } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
+      out["kind"] = "body";
+      put(out, geometry::measure(**body));
+    } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
+      out["kind"] = "mesh";
+      put(out, geometry::measure(**mesh));
+    } else {
+      throw UsageError(fmt::format("'{}' is a point or a group: there is nothing to measure", name));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("'{}': {}", name, error.what()));
+  }
+  return out;
+}
+
+void print_measures(const ordered_json& measured) {
+  const auto vector_text = [](const ordered_json& v) { return digits(Vec3(v[0], v[1], v[2])); };
+  fmt::print("{} '{}'{}\n", measured["kind"].get<std::string>(), measured["name"].get<std::string>(),
+             measured.value("closed", true) ? "" : ", not closed: it has no volume");
+  for (const auto& [key, value] : measured.items()) {
+    if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
+    const bool is_matrix = value.is_array() && value[0].is_array();
+    std::string label = key;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    fmt::print("{:<18} {}", label,
+               is_matrix          ? vector_text(value[0])
+               : value.is_array() ? vector_text(value)
+                                  : digits(value.get<double>()));
+    if (const auto error = measured.find(key + "_error"); error != measured.end())
+      fmt::print("   error {:.2g}", error->get<double>());
+    fmt::print("\n");
+    for (size_t row = 1; is_matrix && row < value.size(); ++row) fmt::print("{:<18} {}\n", "", vector_text(value[row]));
+  }
+}
+
+void add_measure(CLI::App& app, Action& action) {
+  auto* sub = app.add_subcommand("measure", "Length, area, volume, moments; topology; comparison with a table");
+  sub->footer(
+      "Examples:\n"
+      "  lekalo measure ring.yaml ring\n"
+      "  lekalo measure plate.yaml plate --topology\n"
+      "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n\n"
+      "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
+      "moments.\n"
+      "Exit code 1 if a sample is farther away than the tolerance.");
+  auto options = std::make_shared<Options>();
+  options->scene.add_to(*sub);
+  sub->add_option("name", options->name, "name of the curve, surface, body or mesh")->required();
+  auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
+  sub->add_option("--against", options->against, "table of points with columns t,x,y,z or u,v,x,y,z")
+      ->type_name("FILE")
+      ->excludes(topology);
+  sub->add_option("--tolerance", options->tolerance, "largest distance that passes")->type_name("X");
+  sub->add_flag("--json", options->json, "print JSON");
+  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lekalo::command

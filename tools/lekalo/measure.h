@@ -1,0 +1,27 @@
+// The parts of `lekalo measure`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "json.h"
+#include "render/scene/model.h"
+#include "render/scene/table.h"
+
+namespace lekalo::command {
+
+// Length, area, volume and moments of an entity with their errors. Throws UsageError for points.
+ordered_json measures(const std::string& name, const render::Entity& entity);
+void print_measures(const ordered_json& measured);
+
+// Faces, edges and vertices of a body with their names; counts of a mesh. Throws UsageError for anything else.
+ordered_json topology(const std::string& name, const render::Entity& entity);
+void print_topology(const ordered_json& found);
+
+// How far a curve or surface lies from a table of its points: columns t, x, y, z or u, v, x, y, z. "passed" tells
+// whether no distance is above the tolerance, if there is one.
+ordered_json compare_with_table(const std::string& name, const render::Entity& entity, const render::Table& table,
+                                const std::string& table_name, std::optional<double> tolerance);
+void print_comparison(const ordered_json& compared);
+
+}  // namespace lekalo::command

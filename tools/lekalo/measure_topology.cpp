@@ -1,0 +1,163 @@
+// The entities of a body by the names that they got from its construction, and what holds them together.
+#include <fmt/format.h>
+
+#include <set>
+#include <unordered_set>
+
+#include "command.h"
+#include "measure.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::Body;
+using geometry::Mesh;
+using geometry::Vec3;
+
+ordered_json name_or_null(const geometry::Origin& origin) {
+  const std::string text = origin.text();
+  return text.empty() ? ordered_json(nullptr) : ordered_json(text);
+}
+
+const char* kind_name(geometry::EdgeKind kind) {
+  return kind == geometry::EdgeKind::seam ? "seam" : kind == geometry::EdgeKind::pole ? "pole" : "regular";
+}
+
+ordered_json faces_of(const Body& body) {
+  ordered_json faces = ordered_json::array();
+  for (size_t i = 0; i < body.faces.size(); ++i) {
+    const geometry::Face& face = body.faces[i];
+    std::set<int> edges;
+    for (int loop : face.loops)
+      for (int coedge : body.loops[loop].coedges) edges.insert(body.coedges[coedge].edge);
+    faces.push_back({{"index", i},
+                     {"name", name_or_null(face.origin)},
+                     {"shell", face.shell},
+                     {"loops", face.loops.size()},
+                     {"edges", edges}});
+  }
+  return faces;
+}
+
+ordered_json edges_of(const Body& body) {
+  ordered_json edges = ordered_json::array();
+  for (size_t i = 0; i < body.edges.size(); ++i) {
+    const geometry::Edge& edge = body.edges[i];
+    std::set<int> faces;
+    for (int coedge : edge.coedges) faces.insert(body.loops[body.coedges[coedge].loop].face);
+    edges.push_back({{"index", i},
+                     {"name", name_or_null(edge.origin)},
+                     {"kind", kind_name(edge.kind)},
+                     {"start", edge.start},
+                     {"end", edge.end},
+                     {"faces", faces},
+                     {"tolerance", edge.tolerance}});
+  }
+  return edges;
+}
+
+ordered_json body_topology(const Body& body) {
+  ordered_json out;
+  const std::vector<geometry::Violation> violations = body.violations();
+  out["valid"] = violations.empty();
+  out["closed"] = body.is_closed();
+  out["euler_characteristic"] = body.euler_characteristic();
+  out["shells"] = body.shells.size();
+  out["loops"] = body.loops.size();
+  out["faces"] = faces_of(body);
+  out["edges"] = edges_of(body);
+  ordered_json vertices = ordered_json::array();
+  for (size_t i = 0; i < body.vertices.size(); ++i) {
+    const geometry::Vertex& vertex = body.vertices[i];
+    vertices.push_back({{"index", i},
+                        {"name", name_or_null(vertex.origin)},
+                        {"point", to_json(vertex.point)},
+                        {"tolerance", vertex.tolerance}});
+  }
+  out["vertices"] = std::move(vertices);
+  out["violations"] = ordered_json::array();
+  for (const geometry::Violation& violation : violations)
+    out["violations"].push_back({{"condition", violation.condition}, {"entity", violation.entity}});
+  return out;
+}
+
+ordered_json mesh_topology(const Mesh& mesh) {
+  std::unordered_set<int32_t> points;
+  std::unordered_set<uint64_t> sides;
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = triangle.point[k], b = triangle.point[(k + 1) % 3];
+      points.insert(triangle.point[k]);
+      sides.insert(static_cast<uint64_t>(std::min(a, b)) << 32 | std::max(a, b));
+    }
+  }
+  ordered_json out;
+  out["closed"] = geometry::is_closed(mesh);
+  out["euler_characteristic"] = static_cast<int64_t>(points.size()) - static_cast<int64_t>(sides.size()) +
+                                static_cast<int64_t>(mesh.triangles.size());
+  out["points"] = points.size();
+  out["sides"] = sides.size();
+  out["triangles"] = mesh.triangles.size();
+  return out;
+}
+
+std::string name_text(const ordered_json& entity) {
+  return entity["name"].is_null() ? "-" : entity["name"].get<std::string>();
+}
+
+std::string numbers_text(const ordered_json& numbers) {
+  std::string text;
+  for (const auto& number : numbers) text += fmt::format("{}{}", text.empty() ? "" : " ", number.get<int>());
+  return text;
+}
+
+}  // namespace
+
+ordered_json topology(const std::string& name, const render::Entity& entity) {
+  ordered_json out;
+  out["name"] = name;
+  if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
+    out["kind"] = "body";
+    out.update(body_topology(**body));
+  } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
+    out["kind"] = "mesh";
+    out.update(mesh_topology(**mesh));
+  } else {
+    throw UsageError(fmt::format("'{}' is neither a body nor a mesh: it has no topology", name));
+  }
+  return out;
+}
+
+void print_topology(const ordered_json& found) {
+  const bool is_body = found["kind"] == "body";
+  fmt::print("{} '{}': {}{}\n", found["kind"].get<std::string>(), found["name"].get<std::string>(),
+             found["closed"].get<bool>() ? "closed" : "not closed",
+             !is_body                     ? ""
+             : found["valid"].get<bool>() ? ", valid"
+                                          : ", NOT VALID");
+  fmt::print("Euler characteristic {}\n", found["euler_characteristic"].get<int>());
+  if (!is_body) {
+    fmt::print("{} points, {} sides, {} triangles\n", found["points"].get<size_t>(), found["sides"].get<size_t>(),
+               found["triangles"].get<size_t>());
+    return;
+  }
+  for (const auto& violation : found["violations"])
+    fmt::print("violated: {}: {}\n", violation["condition"].get<std::string>(), violation["entity"].get<std::string>());
+  fmt::print("{} shells, {} loops\n{} faces\n", found["shells"].get<size_t>(), found["loops"].get<size_t>(),
+             found["faces"].size());
+  for (const auto& face : found["faces"])
+    fmt::print("  {:<3} {:<16} edges {}\n", face["index"].get<int>(), name_text(face), numbers_text(face["edges"]));
+  fmt::print("{} edges\n", found["edges"].size());
+  for (const auto& edge : found["edges"])
+    fmt::print("  {:<3} {:<16} {:<8} vertices {} {}, faces {}\n", edge["index"].get<int>(), name_text(edge),
+               edge["kind"].get<std::string>(), edge["start"].get<int>(), edge["end"].get<int>(),
+               numbers_text(edge["faces"]));
+  fmt::print("{} vertices\n", found["vertices"].size());
+  for (const auto& vertex : found["vertices"]) {
+    const auto& p = vertex["point"];
+    fmt::print("  {:<3} {:<16} {}\n", vertex["index"].get<int>(), name_text(vertex), digits(Vec3(p[0], p[1], p[2])));
+  }
+}
+
+}  // namespace lekalo::command

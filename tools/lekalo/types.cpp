@@ -1,0 +1,70 @@
+// lekalo types: what scene files can name, from the declarations.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "command.h"
+#include "geometry/expression/nearest_name.h"
+#include "render/image/image_error.h"
+#include "render/scene/manual.h"
+
+namespace lekalo::command {
+
+namespace {
+
+struct Options {
+  std::string name, folder;
+};
+
+void write_reference(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const auto& [name, text] : render::reference_pages()) {
+    std::ofstream file(folder / name, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw render::ImageError(folder / name, "cannot be written", "name a folder that you may write to");
+  }
+}
+
+int describe_one(const std::string& name) {
+  bool found = false;
+  std::vector<std::string> known;
+  for (const render::TypeDeclaration& type : render::all_types()) {
+    known.push_back(type.name);
+    if (type.name != name) continue;
+    fmt::print("{}{}", found ? "\n" : "", render::description_of(type));
+    found = true;
+  }
+  if (found) return kDone;
+  const auto nearest = geometry::nearest_name(name, known);
+  throw UsageError(fmt::format("there is no type called '{}'{}; 'lekalo types' lists them", name,
+                               nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+}
+
+}  // namespace
+
+void add_types(CLI::App& app, Action& action) {
+  auto* sub = app.add_subcommand("types", "List the types that scene files can name, or explain one");
+  sub->footer("Examples:\n  lekalo types\n  lekalo types circle\n  lekalo types --markdown docs/reference");
+  auto options = std::make_shared<Options>();
+  auto* name = sub->add_option("type", options->name, "a type to explain");
+  sub->add_option("--markdown", options->folder, "write the reference manual into this folder")
+      ->type_name("DIR")
+      ->excludes(name);
+  sub->callback([&action, options] {
+    action = [options]() -> int {
+      if (!options->folder.empty()) {
+        write_reference(options->folder);
+        return kDone;
+      }
+      if (!options->name.empty()) return describe_one(options->name);
+      fmt::print("{}", render::list_of_types());
+      return kDone;
+    };
+  });
+}
+
+}  // namespace lekalo::command
