@@ -9,6 +9,7 @@
 
 #include "geometry/body.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/tessellation/triangulation.h"
 
 namespace lekalo::geometry {
 
@@ -22,10 +23,10 @@ constexpr double kParameterRounding = 1e-9;
 // Samples of every smooth piece of an edge.
 constexpr int kSamples = 8;
 
-std::vector<double> samples(const Curve& curve) {
+std::vector<double> samples(const Curve& curve, int count = kSamples) {
   std::vector<double> result{curve.domain().lo};
   for (const CurvePiece& piece : curve.pieces())
-    for (int k = 1; k <= kSamples; ++k) result.push_back(piece.domain.lo + piece.domain.width() * k / kSamples);
+    for (int k = 1; k <= count; ++k) result.push_back(piece.domain.lo + piece.domain.width() * k / count);
   result.back() = curve.domain().hi;
   return result;
 }
@@ -173,11 +174,11 @@ class Validation {
   }
 
   // The loop as a polygon in the parameter plane.
-  std::vector<Vec2> polygon(int loop) const {
+  std::vector<Vec2> polygon(int loop, int count = kSamples) const {
     std::vector<Vec2> result;
     for (int index : body_.loops[loop].coedges) {
       const Coedge& coedge = body_.coedges[index];
-      std::vector<double> ts = samples(*coedge.image);
+      std::vector<double> ts = samples(*coedge.image, count);
       if (!coedge.forward) std::reverse(ts.begin(), ts.end());
       ts.pop_back();
       for (double t : ts) result.push_back(Vec2(coedge.image->point(t)));
@@ -230,6 +231,28 @@ class Validation {
       if (!(side * signed_area(hole) < 0)) report("an inner loop has its face on the left", face_name(index));
       if (!contains(outer, hole[0])) report("inner loops lie within the outer loop", face_name(index));
     }
+    if (loops_cross(face)) report("the loops of a face do not cross", face_name(index));
+  }
+
+  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide.
+  bool loops_cross(const Face& face) const {
+    for (int count : {kSamples, 8 * kSamples, 64 * kSamples}) {
+      std::vector<Vec2> points;
+      std::vector<std::vector<int>> polygons;
+      for (int loop : face.loops) {
+        polygons.emplace_back();
+        for (const Vec2& p : polygon(loop, count)) {
+          polygons.back().push_back(static_cast<int>(points.size()));
+          points.push_back(p);
+        }
+      }
+      try {
+        triangulate(points, polygons);
+        return false;
+      } catch (const std::invalid_argument&) {
+      }
+    }
+    return true;
   }
 
   // The face corners at a vertex form one closed fan (one open fan at a border): corners are joined where they share an

@@ -150,9 +150,21 @@ TEST(BodyMesh, BlockWithAHole) {
   const MassProperties found = measure(body);
   EXPECT_NEAR(found.volume.value, 16 - kPi * 1.44, 1e-10);
   EXPECT_NEAR(found.area.value, 2 * (16 - kPi * 1.44) + 16 + kTwoPi * 1.2, 1e-10);
+  for (size_t i = 0; i < body.faces.size(); ++i) {
+    if (body.faces[i].origin.text() == "z_max") {
+      EXPECT_NEAR(measure_face(body, static_cast<int>(i)).area.value, 16 - kPi * 1.44, 1e-10);
+    }
+  }
   for (double sag : {0.5, 0.05, 0.005}) check(body, {sag, 0.5, {}});
   // Nearly the whole width: at this sag the hole's polygon first crosses nothing, then must be fine enough.
   check(drilled_block(1.9999), {0.01, 0.5, {}});
+}
+
+TEST(BodyMesh, AHoleThatBreaksOutIsNoBody) {
+  const std::vector<Violation> found = drilled_block(2.05).violations();
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const Violation& v) { return v.condition == "the loops of a face do not cross"; }));
+  EXPECT_TRUE(drilled_block(1.9999).is_valid());
 }
 
 // A cylinder with a curved, twisted top: a Bezier patch cut by the circle, so the top's rim is a space curve and the
