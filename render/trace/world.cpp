@@ -24,6 +24,10 @@ namespace {
 // Rounding of a hit's position in double, relative to the coordinates that went into it.
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
+// Largest turn of the normal along a side of a triangle, whatever the sag: at the tip of a cone the interpolated normal
+// is off by half of it, and facets show in highlights where it is much larger.
+constexpr double kMeshAngle = 2 * geometry::kPi / 180;
+
 // What one leaf is made from; equal keys share a compiled child.
 using ShareKey = std::tuple<const void*, int, double, double, bool>;
 
@@ -75,6 +79,7 @@ struct World::Compiled {
   // Sag of a mesh at a place of its own space, for the map that shows it largest among those given.
   geometry::TessellationTolerance tolerance_of(const Object& object, const Affine& to_world) const {
     geometry::TessellationTolerance tolerance;
+    tolerance.angle = kMeshAngle;
     const geometry::Mat3& a = to_world.linear;
     const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2]), 1e-300});
     if (object.sag > 0) {

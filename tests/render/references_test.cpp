@@ -94,15 +94,12 @@ class Reference : public testing::TestWithParam<std::string> {
 
 TEST_P(Reference, LooksAsInPovRay) { compare(GetParam(), load_scene(scene()).model, kDifference, kRelativeDifference); }
 
-// Scenes that as meshes do not keep to the limit, with the largest difference measured.
-const std::map<std::string, std::string> kMeshDiffers = {
-    {"cone", "0.062, worst near the top of the cone"},
-    {"glass", "0.15, worst seen through the sphere"},
-    {"nurbs_sphere", "not rendered: the tessellation would need about 2e8 triangles"},
-    {"teapot", "0.0103"}};
+// Not met yet: seen through the glass sphere a mesh differs by up to 0.15, 15 times the limit, because two refractions
+// magnify what the facets displace.
+constexpr const char* kMeshNotMet = "glass";
 
 TEST_P(Reference, LooksAsInPovRayAsMesh) {
-  if (const auto known = kMeshDiffers.find(GetParam()); known != kMeshDiffers.end()) GTEST_SKIP() << known->second;
+  if (GetParam() == kMeshNotMet) GTEST_SKIP() << "differs by up to 0.15 as a mesh; the limit is 0.01";
   auto model = std::make_shared<Model>(*load_scene(scene()).model);
   for (Object& object : model->objects) {
     object.representation = Representation::mesh;
