@@ -25,8 +25,8 @@ namespace {
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
 // Largest turn of the normal along a side of a triangle, whatever the sag: at the tip of a cone the interpolated normal
-// is off by half of it, and facets show in highlights where it is much larger.
-constexpr double kMeshAngle = 2 * geometry::kPi / 180;
+// is off by half of it, and highlights show where it is much larger.
+constexpr double kMeshAngle = 5 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
 using ShareKey = std::tuple<const void*, int, double, double, bool>;
