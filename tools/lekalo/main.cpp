@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* a, const CLI::Error& error) {
     return fmt::format("{}\n'{} --help' shows how to use it\n", error.what(),
-                       a->get_name().empty() ? "lekalo" : "lekalo " + a->get_name());
+                       a->get_parent() ? "lekalo " + a->get_name() : "lekalo");
   });
   command::Action action;
   command::add_render(app, action);
