@@ -17,7 +17,7 @@ using geometry::LineHits;
 namespace {
 
 // Boxes are larger than what they hold by this part of the bounding sphere's radius: it covers the rounding of the
-// ray's origin and direction to float and Embree's own arithmetic (docs/internals/rays.md has the measurement).
+// ray's origin and direction to float and Embree's own arithmetic (docs/internals/rays.md).
 constexpr double kBoxInflation = 4e-7;
 
 float round_down(double x) {

@@ -1,11 +1,13 @@
 // The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 
 #include "command.h"
+#include "geometry/expression/nearest_name.h"
 #include "render/image/image_error.h"
 
 using namespace lekalo;
@@ -46,6 +48,16 @@ int main(int argc, char** argv) {
   command::add_types(app, action);
   command::add_schema(app, action);
 
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+    if (std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+      const auto nearest = geometry::nearest_name(argv[1], names);
+      fmt::print(stderr, "there is no command '{}'{}\n'lekalo --help' lists them\n", argv[1],
+                 nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : "");
+      return command::kUsage;
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
