@@ -269,7 +269,7 @@ TEST(BodyMesh, SewnWholeSurfacesHaveSeamsAndPoles) {
 
 TEST(BodyMesh, SewnTeapotHasNoCracks) {
   std::ifstream file(LEKALO_SOURCE_DIR "/scenes/data/newell_teapot.txt");
-  if (!file) GTEST_SKIP() << "scenes/data/newell_teapot.txt is not there";
+  ASSERT_TRUE(file) << "scenes/data/newell_teapot.txt is not there";
   std::stringstream text;
   text << file.rdbuf();
   const std::vector<SurfacePtr> patches = parse_patches(text.str());
