@@ -181,22 +181,26 @@ struct Search {
   }
 };
 
-void search(Search& s, const PatchView& patch, const CellModel& m, double x0, double y0, double hx, double hy,
-            int used) {
-  if (++s.cells > kMostCells) return;
-  const PatchCells cells{patch};
+// Decides the cell if it can be: without a root, with one, or too small to be halved. False: to be halved.
+template <class Cells>
+bool is_settled(Search& s, const Cells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
+  if (++s.cells > kMostCells) return true;
   CellHit hit;
   const Verdict verdict = decide(cells, m, s.line, hit);
-  if (verdict == Verdict::none) return;
+  if (verdict == Verdict::none) return true;
   if (verdict == Verdict::one) {
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
-    return;
+    return true;
   }
-  if (s.is_smallest(m, hx, hy)) {
-    if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
-      s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
-    return;
-  }
+  if (!s.is_smallest(m, hx, hy)) return false;
+  if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
+    s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
+  return true;
+}
+
+void search(Search& s, const PatchView& patch, const CellModel& m, double x0, double y0, double hx, double hy,
+            int used) {
+  if (is_settled(s, PatchCells{patch}, m, x0, y0, hx, hy)) return;
   const int n = patch.count();
   std::vector<Vec4>& room = workspace().points;
   if (room.size() < static_cast<size_t>(used + 2 * n)) room.resize(std::max<size_t>(used + 2 * n, 2 * room.size()));
@@ -221,20 +225,7 @@ void search(Search& s, const PatchView& patch, const CellModel& m, double x0, do
 
 void search(Search& s, const Surface& surface, const Rectangle& box, const CellModel& m, double x0, double y0,
             double hx, double hy) {
-  if (++s.cells > kMostCells) return;
-  const SurfaceCells cells{&surface, box};
-  CellHit hit;
-  const Verdict verdict = decide(cells, m, s.line, hit);
-  if (verdict == Verdict::none) return;
-  if (verdict == Verdict::one) {
-    s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
-    return;
-  }
-  if (s.is_smallest(m, hx, hy)) {
-    if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
-      s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
-    return;
-  }
+  if (is_settled(s, SurfaceCells{&surface, box}, m, x0, y0, hx, hy)) return;
   const bool along_x = halve_across_x(m, hx, hy);
   for (int child = 0; child < 2; ++child) {
     Rectangle half = box;

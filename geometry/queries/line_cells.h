@@ -59,7 +59,7 @@ struct CellHit {
   double y = 0;
 };
 
-// Roots found in one cell; at most a few, fixed room, the rest is counted.
+// Roots found in one cell; no more than kRoom are kept.
 struct CellHits {
   static constexpr int kRoom = 32;
   CellHit hits[kRoom];

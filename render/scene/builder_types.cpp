@@ -418,16 +418,7 @@ std::optional<Built> Builder::transformed(Built built, const Affine& map, const 
     } else if (auto* body = std::any_cast<BodyPtr>(&built.value)) {
       built.value = BodyPtr(std::make_shared<geometry::Body>(geometry::transformed(**body, map)));
     } else if (auto* mesh = std::any_cast<MeshPtr>(&built.value)) {
-      auto moved = std::make_shared<geometry::Mesh>(**mesh);
-      for (Vec3& point : moved->points) point = map.point(point);
-      for (Vec3& normal : moved->normals) normal = glm::normalize(map.normal(normal));
-      if (map.determinant() < 0)
-        for (auto& triangle : moved->triangles) {
-          std::swap(triangle.point[1], triangle.point[2]);
-          std::swap(triangle.normal[1], triangle.normal[2]);
-          std::swap(triangle.parameter[1], triangle.parameter[2]);
-        }
-      built.value = MeshPtr(std::move(moved));
+      built.value = MeshPtr(std::make_shared<geometry::Mesh>(geometry::transformed(**mesh, map)));
     }
     return built;
   } catch (const std::invalid_argument& error) {
