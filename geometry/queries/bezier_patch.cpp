@@ -1,12 +1,14 @@
 #include "geometry/queries/bezier_patch.h"
 
+#include "geometry/curves/bspline_basis.h"
+
 namespace lekalo::geometry {
 
 namespace {
 
 // Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4).
 void bernstein(int n, double s, double* b, double* d) {
-  double lower[32] = {1};
+  double lower[kMaxDegree + 1] = {1};
   b[0] = 1;
   for (int k = 1; k <= n; ++k) {
     if (k == n)
@@ -30,7 +32,7 @@ void bernstein(int n, double s, double* b, double* d) {
 
 // Halves one row of n + 1 points that stand `stride` apart.
 void halve_row(const Vec4* row, int n, int stride, Vec4* first, Vec4* second) {
-  Vec4 work[32];
+  Vec4 work[kMaxDegree + 1];
   for (int i = 0; i <= n; ++i) work[i] = row[i * stride];
   for (int k = 0; k <= n; ++k) {
     first[k * stride] = work[0];
@@ -42,7 +44,7 @@ void halve_row(const Vec4* row, int n, int stride, Vec4* first, Vec4* second) {
 }  // namespace
 
 PatchPoint evaluate(const PatchView& patch, double s, double t) {
-  double bu[32], du[32], bv[32], dv[32];
+  double bu[kMaxDegree + 1], du[kMaxDegree + 1], bv[kMaxDegree + 1], dv[kMaxDegree + 1];
   bernstein(patch.degree_u, s, bu, du);
   bernstein(patch.degree_v, t, bv, dv);
   Vec4 p(0), ps(0), pt(0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/queries/line_net.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -17,7 +18,7 @@ constexpr double kContraction = 0.25;
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
 
-// Rational Bezier cells: control points, halved by de Casteljau.
+// A rational Bezier patch as a whole.
 struct PatchCells {
   PatchView patch;
 
@@ -26,27 +27,6 @@ struct PatchCells {
     p.ds *= 0.5;
     p.dt *= 0.5;
     return p;
-  }
-  CellModel model() const { return model_of(patch); }
-
-  // The line misses the convex hull: all control points on one side of one of its two planes.
-  bool excluded(const LineBasis& line) const {
-    const int n = patch.count();
-    bool above1 = true, below1 = true, above2 = true, below2 = true;
-    const double slack = 1e-15;
-    for (int k = 0; k < n; ++k) {
-      const Vec4& p = patch.points[k];
-      if (!(p.w > 0)) return false;
-      const Vec3 r = Vec3(p) - p.w * line.line.origin;
-      const double a = glm::dot(line.n1, r), b = glm::dot(line.n2, r);
-      const double e = slack * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
-      above1 = above1 && a > e;
-      below1 = below1 && a < -e;
-      above2 = above2 && b > e;
-      below2 = below2 && b < -e;
-      if (!(above1 || below1 || above2 || below2)) return false;
-    }
-    return above1 || below1 || above2 || below2;
   }
 };
 
@@ -144,15 +124,6 @@ bool halve_across_x(const CellModel& m, double hx, double hy) {
   return e.x >= e.y;
 }
 
-// Workspace for halving, kept by the thread so that tracing does not allocate once it is warm.
-struct Workspace {
-  std::vector<Vec4> points;
-};
-Workspace& workspace() {
-  thread_local Workspace w;
-  return w;
-}
-
 struct Search {
   const LineBasis& line;
   CellHits& hits;
@@ -161,17 +132,16 @@ struct Search {
 
   // A neighbour in the same piece may have found the same root on the common border.
   void add(const CellHit& hit) {
-    for (int i = 0; i < hits.count; ++i)
-      if (std::abs(hits.hits[i].x - hit.x) <= 4 * kBorderSlack && std::abs(hits.hits[i].y - hit.y) <= 4 * kBorderSlack)
-        return;
+    for (int i = 0; i < hits.size(); ++i)
+      if (std::abs(hits[i].x - hit.x) <= 4 * kBorderSlack && std::abs(hits[i].y - hit.y) <= 4 * kBorderSlack) return;
     hits.add(hit);
   }
   // The undecided remains of a singular point: cells around it differ in the parameter that does not matter.
   void add_singular(const CellHit& hit) {
     const double size = whole.x + whole.y;
     const double near = size < kInfinity ? 1e-9 * size * std::sqrt(line.inverse_length2) : 0;
-    for (int i = 0; i < hits.count; ++i)
-      if (std::abs(hits.hits[i].t - hit.t) <= near) return;
+    for (int i = 0; i < hits.size(); ++i)
+      if (std::abs(hits[i].t - hit.t) <= near) return;
     hits.add(hit);
   }
   bool is_smallest(const CellModel& m, double hx, double hy) const {
@@ -182,8 +152,7 @@ struct Search {
 };
 
 // Decides the cell if it can be: without a root, with one, or too small to be halved. False: to be halved.
-template <class Cells>
-bool is_settled(Search& s, const Cells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
+bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
   if (++s.cells > kMostCells) return true;
   CellHit hit;
   const Verdict verdict = decide(cells, m, s.line, hit);
@@ -196,31 +165,6 @@ bool is_settled(Search& s, const Cells& cells, const CellModel& m, double x0, do
   if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
     s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
   return true;
-}
-
-void search(Search& s, const PatchView& patch, const CellModel& m, double x0, double y0, double hx, double hy,
-            int used) {
-  if (is_settled(s, PatchCells{patch}, m, x0, y0, hx, hy)) return;
-  const int n = patch.count();
-  std::vector<Vec4>& room = workspace().points;
-  if (room.size() < static_cast<size_t>(used + 2 * n)) room.resize(std::max<size_t>(used + 2 * n, 2 * room.size()));
-  // The parent's points may stand in the same vector that has just moved: take its place anew.
-  PatchView parent = patch;
-  if (used > 0) parent.points = room.data() + used - n;
-  const bool along_x = halve_across_x(m, hx, hy);
-  if (along_x)
-    halve_u(parent, room.data() + used + n, room.data() + used);
-  else
-    halve_v(parent, room.data() + used + n, room.data() + used);
-  for (int child = 0; child < 2; ++child) {
-    // The child worked on stands last; the second half waits below it.
-    const int at = child == 0 ? used + n : used;
-    PatchView half{workspace().points.data() + at, patch.degree_u, patch.degree_v};
-    const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
-    const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
-    if (PatchCells{half}.excluded(s.line)) continue;
-    search(s, half, model_of(half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, at + n);
-  }
 }
 
 void search(Search& s, const Surface& surface, const Rectangle& box, const CellModel& m, double x0, double y0,
@@ -376,9 +320,8 @@ void intersect(const PatchView& patch, const CellModel& model, const LineBasis& 
     hits.add(hit);
     return;
   }
-  if (PatchCells{patch}.excluded(line)) return;
-  Search s{line, hits, extent(model)};
-  search(s, patch, model, 0, 0, 1, 1, 0);
+  const Vec2 reach = extent(model);
+  search_net(patch, reach.x, reach.y, line, hits);
 }
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,

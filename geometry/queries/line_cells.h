@@ -12,7 +12,8 @@
 //     at all for a line along the normal;
 //   - if |J^-1| r <= 1/4 there is at most one, and Newton's iteration projected to the cell converges to it, or to a
 //     point of the border with f != 0, and then there is none (contraction);
-//   - otherwise the cell is halved. Cells of parts of surfaces that a hull test excludes are dropped first.
+//   - otherwise the cell is halved (patches: in the plane across the line, line_net.h). Cells of parts of surfaces that
+//     a hull test excludes are dropped first.
 //
 // A cell smaller than kSmallestCell that is still undecided is a singular point of the surface (a pole), reported once,
 // or a tangency of the line, reported not at all: a tangent line has two hits or none.
@@ -54,19 +55,28 @@ struct LineBasis {
 
 // A root in local coordinates x, y in [-1, 1] of the cell that was asked.
 struct CellHit {
-  double t = 0;
-  double x = 0;
-  double y = 0;
+  double t, x, y;
 };
 
-// Roots found in one cell; no more than kRoom are kept.
-struct CellHits {
-  static constexpr int kRoom = 32;
-  CellHit hits[kRoom];
-  int count = 0;
+// Roots found in one cell: the usual few without allocation.
+class CellHits {
+ public:
   void add(const CellHit& hit) {
-    if (count < kRoom) hits[count++] = hit;
+    if (count_ < kInline)
+      few_[count_] = hit;
+    else
+      more_.push_back(hit);
+    ++count_;
   }
+  int size() const { return count_; }
+  CellHit& operator[](int i) { return i < kInline ? few_[i] : more_[i - kInline]; }
+  const CellHit& operator[](int i) const { return i < kInline ? few_[i] : more_[i - kInline]; }
+
+ private:
+  static constexpr int kInline = 8;
+  CellHit few_[kInline];  // not initialised: one of these is made for each candidate of each ray
+  int count_ = 0;
+  std::vector<CellHit> more_;
 };
 
 // All meetings of the line with a rational Bezier patch; `model` is model_of(patch), kept by the caller.

@@ -121,10 +121,10 @@ class PatchTarget final : public LineTarget {
     CellHits found;
     intersect(view_of(cell), cell.model, basis, found);
     const Patch& patch = patches_[cell.patch];
-    for (int k = 0; k < found.count; ++k) {
+    for (int k = 0; k < found.size(); ++k) {
       LineHit hit;
-      hit.t = foot + found.hits[k].t;
-      const double x = cell.x + cell.hx * found.hits[k].x, y = cell.y + cell.hy * found.hits[k].y;
+      hit.t = foot + found[k].t;
+      const double x = cell.x + cell.hx * found[k].x, y = cell.y + cell.hy * found[k].y;
       hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
       hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
       if (acceptance_.keeps(hit, t)) hits.add(hit);
@@ -211,11 +211,11 @@ class EnclosureTarget final : public LineTarget {
     const LineBasis basis({line.at(foot), line.direction});
     CellHits found;
     intersect(*surface_, cell.box, cell.model, basis, found);
-    for (int k = 0; k < found.count; ++k) {
+    for (int k = 0; k < found.size(); ++k) {
       LineHit hit;
-      hit.t = foot + found.hits[k].t;
-      hit.u = cell.box.u.clamp(cell.box.u.middle() + 0.5 * cell.box.u.width() * found.hits[k].x);
-      hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found.hits[k].y);
+      hit.t = foot + found[k].t;
+      hit.u = cell.box.u.clamp(cell.box.u.middle() + 0.5 * cell.box.u.width() * found[k].x);
+      hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found[k].y);
       if (acceptance_.keeps(hit, t)) hits.add(hit);
     }
   }

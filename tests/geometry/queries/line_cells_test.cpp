@@ -51,16 +51,18 @@ void compare(const RandomPatch& patch, std::mt19937_64& random, int count, doubl
     const Line line = random_line(random, distance);
     // As callers do: the line's foot near the patch.
     const double foot = glm::dot(model.point - line.origin, line.direction);
-    CellHits found;
-    intersect(patch.view(), model, LineBasis({line.at(foot), line.direction}), found);
-    std::sort(found.hits, found.hits + found.count, [](const CellHit& a, const CellHit& b) { return a.t < b.t; });
+    CellHits cell_hits;
+    intersect(patch.view(), model, LineBasis({line.at(foot), line.direction}), cell_hits);
+    std::vector<CellHit> found;
+    for (int i = 0; i < cell_hits.size(); ++i) found.push_back(cell_hits[i]);
+    std::sort(found.begin(), found.end(), [](const CellHit& a, const CellHit& b) { return a.t < b.t; });
     const std::vector<oracle::Root> roots = truth.roots(line);
     ++tally.lines;
-    bool same = static_cast<int>(roots.size()) == found.count;
-    for (int i = 0; same && i < found.count; ++i) {
+    bool same = roots.size() == found.size();
+    for (int i = 0; same && i < static_cast<int>(found.size()); ++i) {
       // The oracle says how many roots there are and roughly where (its plane equations lose digits with extreme
       // weights); a point of the patch on the line is a root whatever the oracle's last digits.
-      const CellHit& hit = found.hits[i];
+      const CellHit& hit = found[i];
       const Vec3 on_patch = truth.point((hit.x + 1) / 2, (hit.y + 1) / 2);
       const double residual = glm::length(line.at(foot + hit.t) - on_patch);
       tally.worst = std::max(tally.worst, residual);
@@ -114,7 +116,7 @@ TEST(LineCells, FindEveryRootNearACollapsedEdge) {
       const Vec3 past = Vec3(0.1, 0.5, 0.4) + off * Vec3(normal(random), normal(random), normal(random));
       CellHits found;
       intersect(patch.view(), model, LineBasis({past, d}), found);
-      EXPECT_EQ(found.count, static_cast<int>(oracle::PatchOracle(patch.points, 3, 3).roots({past, d}).size()));
+      EXPECT_EQ(found.size(), static_cast<int>(oracle::PatchOracle(patch.points, 3, 3).roots({past, d}).size()));
     }
   }
   EXPECT_EQ(tally.wrong, 0) << "of " << tally.lines << " lines, band " << tally.band << ", worst " << tally.worst;
@@ -126,7 +128,7 @@ TEST(LineCells, ALineThroughACollapsedEdgeHitsItOnce) {
   CellHits found;
   intersect(patch.view(), model_of(patch.view()), LineBasis({Vec3(0.1, 0.5, 2), Vec3(0, 0, -1)}), found);
   int at_the_pole = 0;
-  for (int i = 0; i < found.count; ++i) at_the_pole += std::abs(found.hits[i].t - 1.6) < 1e-9;
+  for (int i = 0; i < found.size(); ++i) at_the_pole += std::abs(found[i].t - 1.6) < 1e-9;
   EXPECT_EQ(at_the_pole, 1);
 }
 

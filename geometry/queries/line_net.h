@@ -1,0 +1,32 @@
+// All meetings of a line with a rational Bezier patch, in the plane across the line.
+//
+// With n1, n2 the unit vectors across the line and o its origin, the homogeneous functions
+//
+//   f(s, t) = n1 . (X - w o),  g(s, t) = n2 . (X - w o),  X, w the patch's numerators and denominator,
+//
+// are polynomials in Bernstein form whose common zeros are the meetings: two numbers a control point, whatever the
+// weights. A cell x, y in [-1, 1] of parameters is treated by F = J^-1 (f, g), J the derivatives at its centre, for
+// which the differences of the coefficients bound E = dF/d(x, y) - I over the cell:
+//
+//   - no coefficient of f, or of g, changes sign: no root (convex hull);
+//   - a root lies within -F(0) +- |E|(1, 1): the cell is clipped to that (mean value theorem), and without overlap
+//   there
+//     is no root;
+//   - the rows of |E| sum to at most 1/4: there is at most one root, and Newton's iteration projected to the cell
+//     converges to it, or to a point of the border, and then there is none (contraction);
+//   - otherwise the cell is halved.
+//
+// The bounds hold for the line as it lies: what curvature does along the line does not count. Cells smaller than
+// kSmallestCell are singular points of the surface, reported once, or tangencies, reported not at all.
+#pragma once
+
+#include "geometry/queries/bezier_patch.h"
+#include "geometry/queries/line_cells.h"
+
+namespace lekalo::geometry {
+
+// Adds the roots, in local coordinates x = 2 s - 1, y = 2 t - 1 of the patch. `reach_x`, `reach_y` bound the patch's
+// extent in space along x and y from its centre.
+void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits);
+
+}  // namespace lekalo::geometry
