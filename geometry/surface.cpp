@@ -29,6 +29,15 @@ Vec3 Surface::normal(double u, double v) const {
   return normal_sign() * parametric_normal(*this, u, v, evaluate(u, v, 1));
 }
 
+Vec3 Surface::normal(double u, double v, const SurfaceJet& jet) const {
+  // Well away from singular points the cross product is good to its last digits.
+  constexpr double kRegular = 1e-6;
+  const Vec3 across = glm::cross(jet.du(), jet.dv());
+  const double area2 = glm::dot(across, across);
+  if (!(area2 > kRegular * kRegular * glm::dot(jet.du(), jet.du()) * glm::dot(jet.dv(), jet.dv()))) return normal(u, v);
+  return (normal_sign() / std::sqrt(area2)) * across;
+}
+
 Box3 bounds(const Surface& surface, const SurfacePiece& piece) {
   Box3 box;
   if (piece.is_rational() && control_point_box(piece.points, box)) return box;

@@ -83,9 +83,9 @@ struct DegenerateEdges {
 
 // One meeting of a line with a surface.
 struct LineHit {
-  double t = 0;  // along the line, in units of its direction
-  double u = 0;
-  double v = 0;
+  double t;  // along the line, in units of its direction
+  double u;
+  double v;
 };
 
 // Hits found so far, in any order; fixed room first so that tracing does not allocate.
@@ -109,7 +109,7 @@ class LineHits {
  private:
   static constexpr int kInline = 16;
   int count_ = 0;
-  std::array<LineHit, kInline> few_;
+  std::array<LineHit, kInline> few_;  // not initialised: one of these is made for each candidate of each ray
   std::vector<LineHit> more_;
 };
 
@@ -144,6 +144,9 @@ class Surface {
   // Unit normal r_u x r_v / |r_u x r_v|, the limit from inside the domain at poles and collapsed edges
   // (Golovanov 2016, 3.1), turned round for a reversed surface.
   virtual Vec3 normal(double u, double v) const;
+
+  // The same where the point's jet of order 1 or more is at hand.
+  Vec3 normal(double u, double v, const SurfaceJet& jet) const;
 
   // A reversed surface keeps its parameters and has the opposite normal.
   bool reversed() const { return reversed_; }

@@ -6,8 +6,39 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4).
-void bernstein(int n, double s, double* b, double* d) {
+// Two doubles side by side; a homogeneous point is two of them.
+using Pair = double __attribute__((vector_size(16)));
+struct Quad {
+  Pair xy{}, zw{};
+};
+inline Quad load(const Vec4& p) { return {Pair{p.x, p.y}, Pair{p.z, p.w}}; }
+inline void add(Quad& sum, double factor, const Quad& c) {
+  sum.xy += factor * c.xy;
+  sum.zw += factor * c.zw;
+}
+
+// Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4); written out up
+// to degree 3.
+inline void bernstein(int n, double s, double* b, double* d) {
+  const double r = 1 - s;
+  switch (n) {
+    case 1:
+      b[0] = r, b[1] = s;
+      d[0] = -1, d[1] = 1;
+      return;
+    case 2:
+      b[0] = r * r, b[1] = 2 * r * s, b[2] = s * s;
+      d[0] = -2 * r, d[1] = 2 * (r - s), d[2] = 2 * s;
+      return;
+    case 3: {
+      const double rr = r * r, rs = 2 * r * s, ss = s * s;
+      b[0] = rr * r, b[1] = 3 * rr * s, b[2] = 3 * r * ss, b[3] = ss * s;
+      d[0] = -3 * rr, d[1] = 3 * (rr - rs), d[2] = 3 * (rs - ss), d[3] = 3 * ss;
+      return;
+    }
+    default:
+      break;
+  }
   double lower[kMaxDegree + 1] = {1};
   b[0] = 1;
   for (int k = 1; k <= n; ++k) {
@@ -43,28 +74,49 @@ void halve_row(const Vec4* row, int n, int stride, Vec4* first, Vec4* second) {
 
 }  // namespace
 
-PatchPoint evaluate(const PatchView& patch, double s, double t) {
+namespace {
+
+// The degrees that most models have get loops of known length.
+template <int kQ>
+PatchPoint evaluate_rows(const PatchView& patch, double s, double t) {
+  const int p = patch.degree_u, q = kQ > 0 ? kQ : patch.degree_v;
   double bu[kMaxDegree + 1], du[kMaxDegree + 1], bv[kMaxDegree + 1], dv[kMaxDegree + 1];
-  bernstein(patch.degree_u, s, bu, du);
-  bernstein(patch.degree_v, t, bv, dv);
-  Vec4 p(0), ps(0), pt(0);
+  bernstein(p, s, bu, du);
+  bernstein(q, t, bv, dv);
+  Quad sum, sum_s, sum_t;
   const Vec4* point = patch.points;
-  for (int i = 0; i <= patch.degree_u; ++i) {
-    Vec4 row(0), row_t(0);
-    for (int j = 0; j <= patch.degree_v; ++j, ++point) {
-      row += bv[j] * *point;
-      row_t += dv[j] * *point;
+  for (int i = 0; i <= p; ++i) {
+    Quad row, row_t;
+    for (int j = 0; j <= q; ++j, ++point) {
+      const Quad c = load(*point);
+      add(row, bv[j], c);
+      add(row_t, dv[j], c);
     }
-    p += bu[i] * row;
-    ps += du[i] * row;
-    pt += bu[i] * row_t;
+    add(sum, bu[i], row);
+    add(sum_s, du[i], row);
+    add(sum_t, bu[i], row_t);
   }
-  const double inverse = 1 / p.w;
+  const double inverse = 1 / sum.zw[1];
   PatchPoint result;
-  result.point = inverse * Vec3(p);
-  result.ds = inverse * (Vec3(ps) - ps.w * result.point);
-  result.dt = inverse * (Vec3(pt) - pt.w * result.point);
+  result.point = {inverse * sum.xy[0], inverse * sum.xy[1], inverse * sum.zw[0]};
+  result.ds = inverse * (Vec3(sum_s.xy[0], sum_s.xy[1], sum_s.zw[0]) - sum_s.zw[1] * result.point);
+  result.dt = inverse * (Vec3(sum_t.xy[0], sum_t.xy[1], sum_t.zw[0]) - sum_t.zw[1] * result.point);
   return result;
+}
+
+}  // namespace
+
+PatchPoint evaluate(const PatchView& patch, double s, double t) {
+  switch (patch.degree_v) {
+    case 1:
+      return evaluate_rows<1>(patch, s, t);
+    case 2:
+      return evaluate_rows<2>(patch, s, t);
+    case 3:
+      return evaluate_rows<3>(patch, s, t);
+    default:
+      return evaluate_rows<0>(patch, s, t);
+  }
 }
 
 void halve_u(const PatchView& patch, Vec4* first, Vec4* second) {

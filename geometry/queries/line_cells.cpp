@@ -14,6 +14,10 @@ namespace {
 // two places of the cell differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
 constexpr double kContraction = 0.25;
 
+// Row sums of |J^-1| r below 1 make the two functions one-to-one on the cell: a root that Newton's iteration finds
+// there is the only one. Where it finds none, nothing is known.
+constexpr double kInjective = 0.9;
+
 // Undecided cells along one line and piece after which the search gives up: only lines that run inside the surface
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
@@ -69,11 +73,13 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, Ce
   const double ey = m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend;
   const double reach = 1 + kBorderSlack;
   if (std::abs(x0) > reach + ex || std::abs(y0) > reach + ey) return Verdict::none;
-  if (!(ex <= kContraction && ey <= kContraction)) return Verdict::unsure;
+  if (!(ex <= kInjective && ey <= kInjective)) return Verdict::unsure;
+  const bool contracts = ex <= kContraction && ey <= kContraction;
 
   double x = std::clamp(x0, -1.0, 1.0), y = std::clamp(y0, -1.0, 1.0);
   bool settled = false;
-  for (int iteration = 0; iteration < 40; ++iteration) {
+  const int most = contracts ? 40 : 8;
+  for (int iteration = 0; iteration < most; ++iteration) {
     const PatchPoint p = cells.at(x, y);
     const Vec3 q = p.point - line.line.origin;
     a = glm::dot(line.n1, p.ds), b = glm::dot(line.n1, p.dt);
@@ -86,11 +92,12 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, Ce
     // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
     // end: a step that ends farther outside means none.
     constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction)) + kBorderSlack;
-    if (std::max(std::abs(x + sx), std::abs(y + sy)) > farthest) return Verdict::none;
+    if (std::max(std::abs(x + sx), std::abs(y + sy)) > farthest) return contracts ? Verdict::none : Verdict::unsure;
     const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
     if (moved < 1e-7) {
       // The remaining error is of the order of the square of the step. What the projection cut off must be rounding.
       if (std::max(std::abs(x + sx - nx), std::abs(y + sy - ny)) > kBorderSlack) {
+        if (!contracts) return Verdict::unsure;
         if (settled) return Verdict::none;
         settled = true;
       } else {
@@ -185,17 +192,6 @@ void search(Search& s, const Surface& surface, const Rectangle& box, const CellM
 }
 
 }  // namespace
-
-LineBasis::LineBasis(const Line& l) : line(l) {
-  const double length2 = glm::dot(l.direction, l.direction);
-  inverse_length2 = 1 / length2;
-  const Vec3 d = l.direction / std::sqrt(length2);
-  // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
-  const double sign = std::copysign(1.0, d.z);
-  const double a = -1 / (sign + d.z), b = d.x * d.y * a;
-  n1 = {1 + sign * d.x * d.x * a, sign * b, -sign * d.x};
-  n2 = {b, sign + d.y * d.y * a, -d.y};
-}
 
 namespace {
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "geometry/queries/bezier_patch.h"
+#include "geometry/queries/line_basis.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -43,15 +44,6 @@ struct CellModel {
 // The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. All bounds are infinite where a
 // weight is not positive.
 CellModel model_of(const PatchView& patch);
-
-// The two unit vectors across a line, computed once for a line.
-struct LineBasis {
-  Line line;
-  Vec3 n1{0};
-  Vec3 n2{0};
-  double inverse_length2 = 1;  // 1 / |direction|^2
-  explicit LineBasis(const Line& line);
-};
 
 // A root in local coordinates x, y in [-1, 1] of the cell that was asked.
 struct CellHit {

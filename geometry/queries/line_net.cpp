@@ -14,6 +14,10 @@ namespace {
 // differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
 constexpr double kContraction = 0.25;
 
+// Row sums of |E| below 1 make F one-to-one on the cell: a root that Newton's iteration finds there is the only one.
+// Where it finds none, nothing is known.
+constexpr double kInjective = 0.9;
+
 // Cells that one line may ask of one patch; only lines that run inside the surface (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
 
@@ -185,11 +189,14 @@ class NetSearch {
     return {p_ * largest_of(dx), q_ * largest_of(dy), p_ * (p_ - 1) * largest_of(dxx), q_ * (q_ - 1) * largest_of(dyy)};
   }
 
-  // Newton's iteration in a cell that has one root at most; false if it does not settle.
-  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, double slack) {
+  // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
+  // it known that there is no root if none is found.
+  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, double slack,
+              bool contracts) {
     double x = std::clamp(first[0], -1.0, 1.0), y = std::clamp(first[1], -1.0, 1.0);
     bool settled = false;
-    for (int iteration = 0; iteration < 40; ++iteration) {
+    const int most = contracts ? 40 : 8;
+    for (int iteration = 0; iteration < most; ++iteration) {
       Jacobian j;
       const Pair f = at(c, x, y, j);
       const double determinant = j.determinant();
@@ -200,7 +207,7 @@ class NetSearch {
       // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
       // end: a step that ends farther outside means none.
       constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
-      if (std::max(std::abs(ex), std::abs(ey)) > farthest + slack) return true;
+      if (std::max(std::abs(ex), std::abs(ey)) > farthest + slack) return contracts;
       const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
       if (moved < 1e-7) {
         // The remaining error is of the order of the square of the step. What the projection cut off must be rounding.
@@ -208,6 +215,7 @@ class NetSearch {
           add(x0 + hx * nx, y0 + hy * ny, 4 * slack * std::max(hx, hy));
           return true;
         }
+        if (!contracts) return false;
         if (settled) return true;
         settled = true;
       }
@@ -304,9 +312,11 @@ class NetSearch {
         const Pair lo = root - e - slack, hi = root + e + slack;
         if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return;
         const double worst = std::fmax(slack[0], slack[1]);
-        if (e[0] <= kContraction && e[1] <= kContraction && worst < 1e-3) {
-          if (newton(c, x0, y0, hx, hy, root, worst)) return;
-        } else {
+        const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
+        if (e[0] <= kInjective && e[1] <= kInjective && worst < 1e-3 &&
+            newton(c, x0, y0, hx, hy, root, worst, contracts))
+          return;
+        if (!contracts) {
           const double lo_x = std::fmax(lo[0], -1), hi_x = std::fmin(hi[0], 1);
           const double lo_y = std::fmax(lo[1], -1), hi_y = std::fmin(hi[1], 1);
           clip = 0.5 * std::fmin(hi_x - lo_x, hi_y - lo_y);

@@ -53,8 +53,12 @@ std::optional<NurbsSurfaceForm> Plane::as_nurbs() const {
 void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   const double speed = glm::dot(line.direction, frame_.z);
   if (std::abs(speed) <= 4 * std::numeric_limits<double>::epsilon() * glm::length(line.direction)) return;
-  // Anew from the point nearest to the rough hit.
   const double rough = glm::dot(frame_.origin - line.origin, frame_.z) / speed;
+  // Clearly behind the origin of a ray or beyond its end.
+  const double length = glm::length(line.direction);
+  const double slack = 1e-14 * (std::abs(rough) * length + glm::length(frame_.origin - line.origin)) / std::abs(speed);
+  if (rough < range.lo - slack || rough > range.hi + slack) return;
+  // Anew from the point nearest to the rough hit.
   const MovedLine moved = moved_near(line, line.at(rough), frame_);
   const double s = -moved.origin.z / moved.direction.z;
   const double t = moved.start + s;

@@ -93,7 +93,8 @@ class TileTracer {
             store(x, y, sample);
           }
         }
-        if (own) film_.image().channels[kSamples].values[pixel(x, y)] = static_cast<float>(counted);
+        if (Channel* kept = own ? film_.channel(kSamples) : nullptr)
+          kept->values[pixel(x, y)] = static_cast<float>(counted);
       }
     }
     result.values.assign(sums.begin(), sums.end());
@@ -108,25 +109,29 @@ class TileTracer {
 
   // The data layers of a sample.
   void store(int x, int y, const RaySample& sample) const {
-    std::vector<Channel>& channels = film_.image().channels;
     const size_t i = pixel(x, y);
-    const auto set = [&](int layer, double value) { channels[layer].values[i] = static_cast<float>(value); };
-    const auto set3 = [&](int layer, const Vec3& v) {
-      for (int k = 0; k < 3; ++k) set(layer + k, v[k]);
-    };
     const bool hit = sample.hit;
     const SurfacePoint& point = sample.point;
-    set(kZ, hit ? sample.depth : 0);
-    set3(kPX, hit ? point.position : Vec3(0));
-    set3(kNX, hit ? point.normal : Vec3(0));
-    set3(kNgX, hit ? point.geometric_normal : Vec3(0));
-    set(kU, hit ? point.u : 0);
-    set(kV, hit ? point.v : 0);
-    set3(kAlbedoR, hit ? rgb(sample.albedo) : Vec3(0));
-    const bool front = glm::dot(point.incoming, point.geometric_normal) < 0;
-    channels[kObject].ids[i] = hit ? static_cast<uint32_t>(point.object + 1) : 0;
-    channels[kMaterial].ids[i] = hit ? materials_(world_.material(point, front)) : 0;
-    if (channels.size() > kKey) channels[kKey].ids[i] = static_cast<uint32_t>(sample.key ^ (sample.key >> 32));
+    const auto set = [&](FilmChannel c, double value) {
+      if (Channel* kept = film_.channel(c)) kept->values[i] = hit ? static_cast<float>(value) : 0.0f;
+    };
+    const auto set3 = [&](FilmChannel first, const Vec3& v) {
+      if (!film_.channel(first)) return;
+      for (int k = 0; k < 3; ++k) set(static_cast<FilmChannel>(first + k), v[k]);
+    };
+    set(kZ, sample.depth);
+    set3(kPX, point.position);
+    set3(kNX, point.normal);
+    set3(kNgX, point.geometric_normal);
+    set(kU, point.u);
+    set(kV, point.v);
+    set3(kAlbedoR, rgb(sample.albedo));
+    if (Channel* object = film_.channel(kObject)) {
+      const bool front = glm::dot(point.incoming, point.geometric_normal) < 0;
+      object->ids[i] = hit ? static_cast<uint32_t>(point.object + 1) : 0;
+      film_.channel(kMaterial)->ids[i] = hit ? materials_(world_.material(point, front)) : 0;
+    }
+    if (Channel* key = film_.channel(kKey)) key->ids[i] = static_cast<uint32_t>(sample.key ^ (sample.key >> 32));
   }
 
   const World& world_;

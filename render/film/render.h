@@ -10,6 +10,10 @@
 
 namespace lekalo::render {
 
+// Names of the layers that a film can keep: color (R G B A), direct, depth (Z), position (P), normal (N),
+// geometric_normal (Ng), uv, id (id.object id.material), albedo, samples.
+const std::vector<std::string>& film_layers();
+
 struct RenderOptions {
   int threads = 0;  // 0: all
   // Called now and then, never from two threads at once, with the share done (0..1) and all rays traced so far.
@@ -33,11 +37,12 @@ struct RenderResult {
 
 // Renders the model's film as its camera sees the world.
 //
-// Filtered layers: R G B A (background included, alpha 0 there), direct.R .G .B. Layers of the sample nearest the
-// pixel's centre, 0 where it hits nothing: Z (distance from the eye, or from the picture plane of a parallel view),
-// P.X .Y .Z, N.* (shading normal), Ng.* (geometric normal), uv.U uv.V, id.object (number of the object in the order of
-// the model, groups before their members, from 1), id.material (in the order of first use, from 1), albedo.R .G .B.
-// `samples` counts the samples of the pixel. Pixels of an unfinished picture are 0 where no tile is done.
+// The film keeps the layers that Film::layers asks for. Filtered layers: R G B A (background included, alpha 0 there),
+// direct.R .G .B. Layers of the sample nearest the pixel's centre, 0 where it hits nothing: Z (distance from the eye,
+// or from the picture plane of a parallel view), P.X .Y .Z, N.* (shading normal), Ng.* (geometric normal), uv.U uv.V,
+// id.object (number of the object in the order of the model, groups before their members, from 1), id.material (in the
+// order of first use, from 1), albedo.R .G .B. `samples` counts the samples of the pixel. Pixels of an unfinished
+// picture are 0 where no tile is done.
 //
 // A picture is the same bits for any number of threads and after any number of stops and resumes. A crop gives the same
 // pixels as the full picture. Throws ImageError for an unreadable or foreign partial file and

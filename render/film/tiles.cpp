@@ -1,10 +1,14 @@
 #include "render/film/tiles.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 
+#include "render/film/render.h"
 #include "render/materials/textured_color.h"
 
 namespace lekalo::render {
@@ -13,10 +17,36 @@ namespace {
 
 constexpr int kTileSize = 32;
 
-const char* const kLayerNames[] = {
-    "R",    "G",         "B",           "A",        "direct.R", "direct.G", "direct.B", "Z",     "P.X",
-    "P.Y",  "P.Z",       "N.X",         "N.Y",      "N.Z",      "Ng.X",     "Ng.Y",     "Ng.Z",  "uv.U",
-    "uv.V", "id.object", "id.material", "albedo.R", "albedo.G", "albedo.B", "samples",  "id.key"};
+struct ChannelName {
+  const char* channel;
+  const char* layer;  // as film_layers() has it
+};
+constexpr ChannelName kChannels[kFilmChannels] = {{"R", "color"},
+                                                  {"G", "color"},
+                                                  {"B", "color"},
+                                                  {"A", "color"},
+                                                  {"direct.R", "direct"},
+                                                  {"direct.G", "direct"},
+                                                  {"direct.B", "direct"},
+                                                  {"Z", "depth"},
+                                                  {"P.X", "position"},
+                                                  {"P.Y", "position"},
+                                                  {"P.Z", "position"},
+                                                  {"N.X", "normal"},
+                                                  {"N.Y", "normal"},
+                                                  {"N.Z", "normal"},
+                                                  {"Ng.X", "geometric_normal"},
+                                                  {"Ng.Y", "geometric_normal"},
+                                                  {"Ng.Z", "geometric_normal"},
+                                                  {"uv.U", "uv"},
+                                                  {"uv.V", "uv"},
+                                                  {"id.object", "id"},
+                                                  {"id.material", "id"},
+                                                  {"albedo.R", "albedo"},
+                                                  {"albedo.G", "albedo"},
+                                                  {"albedo.B", "albedo"},
+                                                  {"samples", "samples"},
+                                                  {"id.key", "key"}};
 
 }  // namespace
 
@@ -56,9 +86,19 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
   image_.y = crop_.y0;
   image_.full_width = film.width;
   image_.full_height = film.height;
-  for (int layer = 0; layer < (key_layer ? kKey + 1 : kKey); ++layer) {
-    const std::string_view name = kLayerNames[layer];
+  for (const std::string& layer : film.layers)
+    if (std::find(film_layers().begin(), film_layers().end(), layer) == film_layers().end())
+      throw std::invalid_argument("a film has no layer '" + layer + "'");
+  channel_.fill(-1);
+  for (int c = 0; c < kFilmChannels; ++c) {
+    const std::string_view name = kChannels[c].channel;
+    const bool kept = c == kKey ? key_layer
+                                : film.layers.empty() || std::find(film.layers.begin(), film.layers.end(),
+                                                                   kChannels[c].layer) != film.layers.end();
+    if (!kept) continue;
+    channel_[c] = static_cast<int>(image_.channels.size());
     add_channel(image_, std::string(name), name.starts_with("id.") ? PixelType::uint32 : PixelType::float32);
+    if (c <= kDirectB) first_data_channel_ = channel_[c] + 1;
   }
 
   uint64_t hash = 0;
@@ -67,30 +107,46 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
     hash = hash_combine(hash, static_cast<uint64_t>(value));
   hash = hash_combine(hash, film.seed);
   hash = hash_combine(hash, std::bit_cast<uint64_t>(filter_->radius()));
+  for (const int channel : channel_) hash = hash_combine(hash, static_cast<uint64_t>(channel + 1));
   for (const char letter : film.filter) hash = hash_combine(hash, static_cast<unsigned char>(letter));
   settings_hash_ = hash;
 }
 
+const std::vector<std::string>& film_layers() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (int c = 0; c < kKey; ++c)
+      if (list.empty() || list.back() != kChannels[c].layer) list.push_back(kChannels[c].layer);
+    return list;
+  }();
+  return names;
+}
+
 void TiledFilm::develop() {
   constexpr int n = TileSums::kPlanes;
-  std::vector<double> row(static_cast<size_t>(crop_.width()) * n);
-  for (int y = crop_.y0; y < crop_.y1; ++y) {
-    std::fill(row.begin(), row.end(), 0.0);
-    for (const TileSums& tile : sums_) {
-      const Window& w = tile.window;
-      if (tile.values.empty() || y < w.y0 || y >= w.y1) continue;
-      const float* from = &tile.values[static_cast<size_t>(y - w.y0) * w.width() * n];
-      double* to = &row[static_cast<size_t>(w.x0 - crop_.x0) * n];
-      for (int i = 0; i < w.width() * n; ++i) to[i] += from[i];
+  std::vector<std::pair<int, float*>> planes;  // place among the sums, values
+  for (int c = kR; c <= kDirectB; ++c)
+    if (Channel* kept = channel(static_cast<FilmChannel>(c))) planes.push_back({c, kept->values.data()});
+  tbb::parallel_for(tbb::blocked_range<int>(crop_.y0, crop_.y1, 16), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<double> row(static_cast<size_t>(crop_.width()) * n);
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      std::fill(row.begin(), row.end(), 0.0);
+      for (const TileSums& tile : sums_) {
+        const Window& w = tile.window;
+        if (tile.values.empty() || y < w.y0 || y >= w.y1) continue;
+        const float* from = &tile.values[static_cast<size_t>(y - w.y0) * w.width() * n];
+        double* to = &row[static_cast<size_t>(w.x0 - crop_.x0) * n];
+        for (int i = 0; i < w.width() * n; ++i) to[i] += from[i];
+      }
+      const size_t first = static_cast<size_t>(y - crop_.y0) * crop_.width();
+      for (int x = 0; x < crop_.width(); ++x) {
+        const double* sum = &row[static_cast<size_t>(x) * n];
+        const double weight = sum[n - 1];
+        for (const auto& [place, values] : planes)
+          values[first + x] = weight > 0 ? static_cast<float>(sum[place] / weight) : 0.0f;
+      }
     }
-    for (int x = 0; x < crop_.width(); ++x) {
-      const double* sum = &row[static_cast<size_t>(x) * n];
-      const double weight = sum[n - 1];
-      const size_t pixel = static_cast<size_t>(y - crop_.y0) * crop_.width() + x;
-      for (int layer = kR; layer <= kDirectB; ++layer)
-        image_.channels[layer].values[pixel] = weight > 0 ? static_cast<float>(sum[layer] / weight) : 0.0f;
-    }
-  }
+  });
 }
 
 }  // namespace lekalo::render

@@ -6,6 +6,7 @@
 // crop.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,37 +40,8 @@ struct TileSums {
   std::vector<float> values;
 };
 
-class TiledFilm {
- public:
-  // Throws std::invalid_argument for an unknown filter or an empty crop.
-  explicit TiledFilm(const Film& film, bool key_layer);
-
-  int tile_count() const { return static_cast<int>(tiles_.size()); }
-  const Window& tile(int i) const { return tiles_[i]; }  // pixels whose samples the tile takes
-  const Window& crop() const { return crop_; }
-  const Filter& filter() const { return *filter_; }
-  int reach() const { return reach_; }  // pixels beyond its own that a sample counts for
-  Image& image() { return image_; }
-  std::vector<TileSums>& sums() { return sums_; }  // empty values: not done
-
-  // Hash of everything that decides the film's layout and contents but the scene.
-  uint64_t settings_hash() const { return settings_hash_; }
-
-  // Writes the filtered layers of the image from the sums of the tiles that are done.
-  void develop();
-
- private:
-  Window crop_;
-  std::unique_ptr<const Filter> filter_;
-  int reach_ = 0;
-  std::vector<Window> tiles_;
-  std::vector<TileSums> sums_;
-  Image image_;
-  uint64_t settings_hash_ = 0;
-};
-
-// Places of the layers among the image's channels.
-enum Layer : int {
+// Channels that a film may have, in the order of the image.
+enum FilmChannel : int {
   kR,
   kG,
   kB,
@@ -95,7 +67,42 @@ enum Layer : int {
   kAlbedoG,
   kAlbedoB,
   kSamples,
-  kKey
+  kKey,
+  kFilmChannels
+};
+
+class TiledFilm {
+ public:
+  // Throws std::invalid_argument for an unknown filter or an empty crop.
+  explicit TiledFilm(const Film& film, bool key_layer);
+
+  int tile_count() const { return static_cast<int>(tiles_.size()); }
+  const Window& tile(int i) const { return tiles_[i]; }  // pixels whose samples the tile takes
+  const Window& crop() const { return crop_; }
+  const Filter& filter() const { return *filter_; }
+  int reach() const { return reach_; }  // pixels beyond its own that a sample counts for
+  Image& image() { return image_; }
+  // A channel of the image, or nullptr if the film does not keep it.
+  Channel* channel(FilmChannel c) { return channel_[c] < 0 ? nullptr : &image_.channels[channel_[c]]; }
+  int first_data_channel() const { return first_data_channel_; }  // those before are filtered
+  std::vector<TileSums>& sums() { return sums_; }                 // empty values: not done
+
+  // Hash of everything that decides the film's layout and contents but the scene.
+  uint64_t settings_hash() const { return settings_hash_; }
+
+  // Writes the filtered layers of the image from the sums of the tiles that are done.
+  void develop();
+
+ private:
+  Window crop_;
+  std::unique_ptr<const Filter> filter_;
+  int reach_ = 0;
+  std::vector<Window> tiles_;
+  std::vector<TileSums> sums_;
+  Image image_;
+  std::array<int, kFilmChannels> channel_;
+  int first_data_channel_ = 0;
+  uint64_t settings_hash_ = 0;
 };
 
 // The file of a stopped picture (OUTPUT.partial): the tiles done so far and what they cost.

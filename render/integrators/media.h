@@ -11,6 +11,15 @@ namespace lekalo::render {
 
 class Media {
  public:
+  Media() : count_(0) {}
+  // Only what is entered is copied: rays through air carry none.
+  Media(const Media& other) : count_(other.count_) { copy(other); }
+  Media& operator=(const Media& other) {
+    count_ = other.count_;
+    copy(other);
+    return *this;
+  }
+
   // The medium that fills the place; air (index 1, no absorption) outside all bodies.
   Medium current() const { return count_ == 0 ? Medium{} : entries_[strongest()].medium; }
 
@@ -54,9 +63,15 @@ class Media {
     return best;
   }
 
+  void copy(const Media& other) {
+    for (int i = 0; i < count_; ++i) entries_[i] = other.entries_[i];
+  }
+
   static constexpr int kMost = 8;
-  std::array<Entry, kMost> entries_;
-  int count_ = 0;
+  union {
+    std::array<Entry, kMost> entries_;  // not initialised: nearly all of it is never used
+  };
+  int count_;
 };
 
 }  // namespace lekalo::render

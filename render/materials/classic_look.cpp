@@ -1,5 +1,7 @@
 // The classic light model as it stands (Golovanov 2016, 8.4.2-8.4.5): ambient, Lambert, Phong, mirror, refraction,
 // absorption and emission, each coefficient a number, a colour or a texture.
+#include <array>
+
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -10,21 +12,13 @@ namespace {
 
 class ClassicMaterial final : public Material {
  public:
-  explicit ClassicMaterial(const ClassicLook& look) : look_(look) {}
+  explicit ClassicMaterial(const ClassicLook& look) : look_(look) {
+    for (const TexturedColor* color : colors()) textured_ = textured_ || color->texture();
+    if (!textured_) same_everywhere_ = coefficients({});
+  }
 
   ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    ClassicCoefficients c;
-    const Spectrum color = look_.color.at(point);
-    c.emission = look_.emission.at(point);
-    c.ambient = color * look_.ambient.at(point);
-    c.diffuse = color * look_.diffuse.at(point);
-    c.specular = look_.specular.at(point);
-    c.exponent = static_cast<float>(look_.exponent);
-    c.mirror = look_.mirror.at(point);
-    c.transmission = look_.transmission.at(point);
-    c.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
-    c.two_sided = look_.two_sided;
-    return c;
+    return textured_ ? coefficients(point) : same_everywhere_;
   }
 
   std::optional<Medium> interior(const Wavelengths&) const override {
@@ -39,15 +33,36 @@ class ClassicMaterial final : public Material {
 
   uint64_t cell(const SurfacePoint& point) const override {
     uint64_t hash = deviation_cell(point, look_.normal_deviation);
-    for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
-                                       &look_.transmission, &look_.emission})
-      hash = hash_combine(hash, color->cell(point));
+    if (textured_)
+      for (const TexturedColor* color : colors()) hash = hash_combine(hash, color->cell(point));
     return hash;
   }
   std::any made_from() const override { return look_; }
 
  private:
+  ClassicCoefficients coefficients(const SurfacePoint& point) const {
+    ClassicCoefficients c;
+    const Spectrum color = look_.color.at(point);
+    c.emission = look_.emission.at(point);
+    c.ambient = color * look_.ambient.at(point);
+    c.diffuse = color * look_.diffuse.at(point);
+    c.specular = look_.specular.at(point);
+    c.exponent = static_cast<float>(look_.exponent);
+    c.mirror = look_.mirror.at(point);
+    c.transmission = look_.transmission.at(point);
+    c.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
+    c.two_sided = look_.two_sided;
+    return c;
+  }
+
+  std::array<const TexturedColor*, 7> colors() const {
+    return {&look_.color,  &look_.ambient,      &look_.diffuse, &look_.specular,
+            &look_.mirror, &look_.transmission, &look_.emission};
+  }
+
   ClassicLook look_;
+  bool textured_ = false;
+  ClassicCoefficients same_everywhere_;  // where no coefficient has a texture
 };
 
 }  // namespace

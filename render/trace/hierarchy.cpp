@@ -91,6 +91,12 @@ struct Hierarchy::Query {
   bool found = false;
   bool any = false;  // stop at the first hit
   std::vector<Hit>* all = nullptr;
+  std::optional<geometry::LineBasis> basis;  // made when the first piece asks for it
+
+  const geometry::LineBasis& line_basis() {
+    if (!basis) basis.emplace(line);
+    return *basis;
+  }
 
   void accept(const Hit& hit) {
     if (all) {
@@ -196,7 +202,7 @@ void test(const GeometryRecord& record, int primitive, Query& query) {
   hit.instance = query.leaf_offset + record.leaf_number;
   if (record.kind == GeometryRecord::Kind::target) {
     LineHits hits;
-    record.target->piece_hits(primitive, query.line, t, hits);
+    record.target->piece_hits(primitive, query.line_basis(), t, hits);
     for (int i = 0; i < hits.size(); ++i) {
       if (!leaf.clips.empty() && !keeps(leaf.clips, query.line.at(hits[i].t))) continue;
       hit.t = hits[i].t;

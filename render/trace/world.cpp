@@ -264,7 +264,7 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
     point.smooth_position = point.position;
     point.du = jet.du();
     point.dv = jet.dv();
-    geometric = sign * surface.normal(hit.u, hit.v);
+    geometric = sign * surface.normal(hit.u, hit.v, jet);
     shading = geometric;
   }
   if (place.moved) {

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -35,6 +36,7 @@ struct Options {
   int samples = 0;
   int threads = 0;
   std::string representation;
+  std::vector<std::string> layers;
   bool quiet = false, stats = false;
 };
 
@@ -145,6 +147,10 @@ int run(const Options& options) {
           fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", options.crop, f.width, f.height));
   }
   const std::vector<OutputFile> outputs = chosen_outputs(options, *model);
+  if (!options.layers.empty()) model->film.layers = options.layers;
+  // Only OpenEXR files have room for more than colour.
+  if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
+    model->film.layers = {"color"};
 
   const render::World world(model);
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -214,6 +220,10 @@ void add_render(CLI::App& app, Action& action) {
   sub->add_option("--crop", options->crop, "only this part, in pixels")->type_name("X0,Y0,X1,Y1");
   sub->add_option("--representation", options->representation, "of every object: direct or mesh")
       ->check(CLI::IsMember({"direct", "mesh"}));
+  sub->add_option("--layers", options->layers, "layers of OpenEXR files, separated by commas; all by default")
+      ->delimiter(',')
+      ->check(CLI::IsMember(render::film_layers()))
+      ->type_name("NAMES");
   sub->add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
   sub->add_flag("--quiet", options->quiet, "no progress, no notes");
   sub->add_flag("--stats", options->stats, "print times, counts and memory");
