@@ -97,7 +97,10 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
                                                                    kChannels[c].layer) != film.layers.end();
     if (!kept) continue;
     channel_[c] = static_cast<int>(image_.channels.size());
-    add_channel(image_, std::string(name), name.starts_with("id.") ? PixelType::uint32 : PixelType::float32);
+    const PixelType type = name.starts_with("id.")      ? PixelType::uint32
+                           : c <= kA && film.half_color ? PixelType::half
+                                                        : PixelType::float32;
+    add_channel(image_, std::string(name), type);
     if (c <= kDirectB) first_data_channel_ = channel_[c] + 1;
   }
 

@@ -32,6 +32,8 @@ std::vector<Field> image_fields() {
       {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
       {"seed", integer().non_negative(), "of the sample positions", false, "0"},
       {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
+      {"color_precision", choice({"half", "float"}),
+       "of R G B A in OpenEXR files; half: 11 bits and much smaller files", false, "float"},
       {"layers", words(film_layers()), "layers of OpenEXR files; all by default", false, {}},
       {"background", color().non_negative(), "behind everything", false, "white"}};
 }

@@ -37,7 +37,7 @@ struct Options {
   int threads = 0;
   std::string representation;
   std::vector<std::string> layers;
-  bool quiet = false, stats = false;
+  bool half = false, quiet = false, stats = false;
 };
 
 void parse_pair(const std::string& text, int& width, int& height) {
@@ -147,6 +147,7 @@ int run(const Options& options) {
           fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", options.crop, f.width, f.height));
   }
   const std::vector<OutputFile> outputs = chosen_outputs(options, *model);
+  if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
   // Only OpenEXR files have room for more than colour.
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
@@ -220,6 +221,7 @@ void add_render(CLI::App& app, Action& action) {
   sub->add_option("--crop", options->crop, "only this part, in pixels")->type_name("X0,Y0,X1,Y1");
   sub->add_option("--representation", options->representation, "of every object: direct or mesh")
       ->check(CLI::IsMember({"direct", "mesh"}));
+  sub->add_flag("--half", options->half, "R G B A of OpenEXR files as half (11 bits) in place of float");
   sub->add_option("--layers", options->layers, "layers of OpenEXR files, separated by commas; all by default")
       ->delimiter(',')
       ->check(CLI::IsMember(render::film_layers()))
