@@ -1,7 +1,8 @@
-// A line with what every piece asks of it, computed once for a line.
+// A line with what its pieces ask of it: the unit vectors across, computed once for a line.
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "geometry/vectors.h"
 
@@ -22,16 +23,28 @@ struct LineBasis {
     n1 = {1 + sign * d.x * d.x * a, sign * b, -sign * d.x};
     n2 = {b, sign + d.y * d.y * a, -d.y};
   }
+};
 
-  // The line's parameter nearest to a point.
-  double foot(const Vec3& point) const { return glm::dot(point - line.origin, line.direction) * inverse_length2; }
+// A line on its way through many pieces. Closed forms need the line alone; the first piece that needs the vectors
+// across makes them for all (not to be shared between threads).
+class PreparedLine {
+ public:
+  explicit PreparedLine(const Line& line) : line_(line) {}
+  const Line& line() const { return line_; }
 
-  // The same line measured from its own point at t, in coordinates relative to `center`.
-  LineBasis moved(double t, const Vec3& center) const {
-    LineBasis result = *this;
-    result.line.origin = line.at(t) - center;
+  // The same line measured from its point nearest to `center` (whose parameter goes to `foot`), in coordinates relative
+  // to `center`: what follows rounds at the size of things there.
+  LineBasis near(const Vec3& center, double& foot) const {
+    if (!basis_) basis_.emplace(line_);
+    foot = glm::dot(center - line_.origin, line_.direction) * basis_->inverse_length2;
+    LineBasis result = *basis_;
+    result.line.origin = line_.at(foot) - center;
     return result;
   }
+
+ private:
+  Line line_;
+  mutable std::optional<LineBasis> basis_;
 };
 
 }  // namespace lekalo::geometry

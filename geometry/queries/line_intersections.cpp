@@ -47,13 +47,13 @@ class FormulaTarget final : public LineTarget {
   }
   int piece_count() const override { return 1; }
   Box3 piece_bounds(int) const override { return box_; }
-  void piece_hits(int, const LineBasis& line, const Interval& t, LineHits& hits) const override {
+  void piece_hits(int, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     if (!acceptance_.trim()) {
-      surface_->line_hits(line.line, t, hits);
+      surface_->line_hits(line.line(), t, hits);
       return;
     }
     LineHits all;
-    surface_->line_hits(line.line, t, all);
+    surface_->line_hits(line.line(), t, all);
     for (int i = 0; i < all.size(); ++i)
       if (acceptance_.keeps(all[i], t)) hits.add(all[i]);
   }
@@ -112,11 +112,10 @@ class PatchTarget final : public LineTarget {
     return box.inflated(1e-15 * (size + glm::length(cell.center)));
   }
 
-  void piece_hits(int i, const LineBasis& line, const Interval& t, LineHits& hits) const override {
+  void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     const Cell& cell = cells_[i];
-    // The line's foot near the cell, so that what follows rounds at the cell's size.
-    const double foot = line.foot(cell.center);
-    const LineBasis basis = line.moved(foot, cell.center);
+    double foot;
+    const LineBasis basis = line.near(cell.center, foot);
     CellHits found;
     intersect(view_of(cell), cell.model, basis, found);
     const Patch& patch = patches_[cell.patch];
@@ -203,10 +202,11 @@ class EnclosureTarget final : public LineTarget {
   }
   int piece_count() const override { return static_cast<int>(cells_.size()); }
   Box3 piece_bounds(int i) const override { return surface_->enclose(cells_[i].box, 0).values[0]; }
-  void piece_hits(int i, const LineBasis& line, const Interval& t, LineHits& hits) const override {
+  void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     const Cell& cell = cells_[i];
-    const double foot = line.foot(cell.model.point);
-    const LineBasis basis = line.moved(foot, Vec3(0));
+    double foot;
+    LineBasis basis = line.near(cell.model.point, foot);
+    basis.line.origin += cell.model.point;
     CellHits found;
     intersect(*surface_, cell.box, cell.model, basis, found);
     for (int k = 0; k < found.size(); ++k) {
@@ -333,11 +333,11 @@ LineIntersector& LineIntersector::operator=(LineIntersector&&) noexcept = defaul
 std::vector<SurfaceHit> LineIntersector::all_hits(const Line& line, const Interval& t) const {
   std::vector<SurfaceHit> result;
   LineHits hits;
-  const LineBasis basis(line);
+  const PreparedLine prepared(line);
   parts_->tree.along(line, t, [&](int index) {
     const Parts::Piece& piece = parts_->pieces[index];
     hits.clear();
-    parts_->targets[piece.target]->piece_hits(piece.piece, basis, t, hits);
+    parts_->targets[piece.target]->piece_hits(piece.piece, prepared, t, hits);
     for (int i = 0; i < hits.size(); ++i)
       result.push_back({hits[i].t, hits[i].u, hits[i].v, piece.target, piece.piece});
   });

@@ -36,7 +36,7 @@ class LineTarget {
   virtual int piece_count() const = 0;
   virtual Box3 piece_bounds(int piece) const = 0;
   // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
-  virtual void piece_hits(int piece, const LineBasis& line, const Interval& t, LineHits& hits) const = 0;
+  virtual void piece_hits(int piece, const PreparedLine& line, const Interval& t, LineHits& hits) const = 0;
   virtual const Surface& surface() const = 0;
   virtual size_t memory() const = 0;  // bytes
 };

@@ -80,7 +80,8 @@ bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hi
 // A query in the space of one hierarchy. Embree hands its address back to the callbacks.
 struct Hierarchy::Query {
   RTCIntersectContext context;
-  Line line;
+  geometry::PreparedLine prepared;
+  const Line& line;
   double t_min = 0;
   double t_max = kInfinity;  // of the nearest hit so far
   double start = 0;          // the float ray begins here
@@ -91,12 +92,8 @@ struct Hierarchy::Query {
   bool found = false;
   bool any = false;  // stop at the first hit
   std::vector<Hit>* all = nullptr;
-  std::optional<geometry::LineBasis> basis;  // made when the first piece asks for it
 
-  const geometry::LineBasis& line_basis() {
-    if (!basis) basis.emplace(line);
-    return *basis;
-  }
+  explicit Query(const Line& l) : prepared(l), line(prepared.line()) {}
 
   void accept(const Hit& hit) {
     if (all) {
@@ -177,8 +174,7 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
 // Tests one primitive of a record in double and passes its hits on.
 void test(const GeometryRecord& record, int primitive, Query& query) {
   if (record.kind == GeometryRecord::Kind::instance) {
-    Query inner;
-    inner.line = {record.to_child.point(query.line.origin), record.to_child.direction(query.line.direction)};
+    Query inner({record.to_child.point(query.line.origin), record.to_child.direction(query.line.direction)});
     inner.t_min = query.t_min;
     inner.t_max = query.t_max;
     inner.kind = query.kind;
@@ -202,7 +198,7 @@ void test(const GeometryRecord& record, int primitive, Query& query) {
   hit.instance = query.leaf_offset + record.leaf_number;
   if (record.kind == GeometryRecord::Kind::target) {
     LineHits hits;
-    record.target->piece_hits(primitive, query.line_basis(), t, hits);
+    record.target->piece_hits(primitive, query.prepared, t, hits);
     for (int i = 0; i < hits.size(); ++i) {
       if (!leaf.clips.empty() && !keeps(leaf.clips, query.line.at(hits[i].t))) continue;
       hit.t = hits[i].t;
@@ -468,7 +464,6 @@ void Hierarchy::commit() {
 namespace {
 
 void begin(Query& query, const Ray& ray) {
-  query.line = {ray.origin, ray.direction};
   query.t_min = ray.t_min;
   query.t_max = ray.t_max;
   query.kind = static_cast<uint32_t>(ray.kind);
@@ -477,7 +472,7 @@ void begin(Query& query, const Ray& ray) {
 }  // namespace
 
 bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
-  Query query;
+  Query query({ray.origin, ray.direction});
   begin(query, ray);
   run(query);
   if (query.found) hit = query.best;
@@ -485,7 +480,7 @@ bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
 }
 
 bool Hierarchy::occluded(const Ray& ray) const {
-  Query query;
+  Query query({ray.origin, ray.direction});
   begin(query, ray);
   query.any = true;
   run(query);
@@ -494,7 +489,7 @@ bool Hierarchy::occluded(const Ray& ray) const {
 
 std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
   std::vector<Hit> found;
-  Query query;
+  Query query({ray.origin, ray.direction});
   begin(query, ray);
   query.all = &found;
   run(query);
