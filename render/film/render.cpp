@@ -40,6 +40,17 @@ class MaterialNumbers {
   std::unordered_map<const Material*, uint32_t> numbers_;
 };
 
+// Largest difference of two samples as displayed.
+float difference(const RaySample& a, const RaySample& b) {
+  float largest = std::fabs(a.alpha - b.alpha);
+  for (int i = 0; i < 3; ++i)
+    largest = std::fmax(
+        largest, std::fabs(std::sqrt(std::fmax(a.radiance[i], 0.0f)) - std::sqrt(std::fmax(b.radiance[i], 0.0f))));
+  return largest;
+}
+
+bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.is_finite() && std::isfinite(s.alpha); }
+
 // Traces the pixels of one tile.
 class TileTracer {
  public:
@@ -50,58 +61,131 @@ class TileTracer {
         materials_(world.model().objects) {}
 
   Tally trace(int number) const {
-    constexpr int n = TileSums::kPlanes;
-    const Window tile = film_.tile(number);
-    TileSums& result = film_.sums()[number];
-    const Window w = result.window;
-    std::vector<double> sums(static_cast<size_t>(w.width()) * w.height() * n);
-    const int reach = film_.reach();
-    std::vector<double> weights(2 * reach + 1);
+    Exposure exposure(film_, number);
+    const double contrast = world_.model().film.contrast;
+    if (contrast > 0 && sampler_->samples_per_pixel() > kFewSamples)
+      trace_adaptively(film_.tile(number), static_cast<float>(contrast), exposure);
+    else
+      trace_evenly(film_.tile(number), exposure);
+    exposure.finish(film_.sums()[number]);
+    return exposure.tally;
+  }
+
+ private:
+  // Samples after which a pixel may be found to be even; a picture with no more than these takes all of them.
+  static constexpr int kFewSamples = 4;
+
+  // The sums of a tile while it is traced.
+  struct Exposure {
+    Exposure(const TiledFilm& film, int number)
+        : film(film),
+          window(film.sums_window(number)),
+          sums(static_cast<size_t>(window.width()) * window.height() * TileSums::kPlanes),
+          weights(2 * film.reach() + 1) {}
+
+    // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
+    void add(int x, int y, const Vec2& place, const RaySample& sample, double share) {
+      constexpr int n = TileSums::kPlanes;
+      const int reach = film.reach();
+      const double values[n] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
+                                sample.direct[0],   sample.direct[1],   sample.direct[2],   1};
+      for (int i = -reach; i <= reach; ++i) weights[i + reach] = share * film.filter().weight(place.x - i - 0.5);
+      for (int qy = std::max(y - reach, window.y0); qy <= std::min(y + reach, window.y1 - 1); ++qy) {
+        const double weight_y = film.filter().weight(place.y - (qy - y) - 0.5);
+        for (int qx = std::max(x - reach, window.x0); qx <= std::min(x + reach, window.x1 - 1); ++qx) {
+          const double weight = weight_y * weights[qx - x + reach];
+          double* sum = &sums[(static_cast<size_t>(qy - window.y0) * window.width() + (qx - window.x0)) * n];
+          for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
+        }
+      }
+    }
+    void finish(TileSums& result) const { result.values.assign(sums.begin(), sums.end()); }
+
+    const TiledFilm& film;
+    Window window;
+    std::vector<double> sums, weights;
     Tally tally;
-    for (int y = tile.y0; y < tile.y1; ++y) {
+  };
+
+  RaySample sample_at(int x, int y, const Vec2& place, int number, Tally& tally) const {
+    SampleStream random = sampler_->stream(x, y, number);
+    const Ray ray = world_.model().camera->ray(x + place.x, y + place.y);
+    RaySample sample = world_.model().integrator->trace(world_, ray, random);
+    ++tally.camera_rays;
+    tally.shadow_rays += sample.shadow_rays;
+    tally.other_rays += sample.other_rays;
+    if (!is_finite(sample)) ++tally.not_finite;
+    return sample;
+  }
+
+  void trace_evenly(const Window& tile, Exposure& exposure) const {
+    for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         double nearest = geometry::kInfinity;
-        uint32_t counted = 0;
-        const bool own = film_.crop().contains(x, y);
+        int counted = 0;
         for (int s = 0; s < sampler_->samples_per_pixel(); ++s) {
           const Vec2 place = sampler_->pixel_position(x, y, s);
-          SampleStream random = sampler_->stream(x, y, s);
-          const Ray ray = world_.model().camera->ray(x + place.x, y + place.y);
-          const RaySample sample = world_.model().integrator->trace(world_, ray, random);
-          ++tally.camera_rays;
-          tally.shadow_rays += sample.shadow_rays;
-          tally.other_rays += sample.other_rays;
-          if (!sample.radiance.is_finite() || !sample.direct.is_finite() || !std::isfinite(sample.alpha)) {
-            ++tally.not_finite;
-            continue;
-          }
+          const RaySample sample = sample_at(x, y, place, s, exposure.tally);
+          if (!is_finite(sample)) continue;
           ++counted;
-          const double values[n] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
-                                    sample.direct[0],   sample.direct[1],   sample.direct[2],   1};
-          for (int i = -reach; i <= reach; ++i) weights[i + reach] = film_.filter().weight(place.x - i - 0.5);
-          for (int qy = std::max(y - reach, w.y0); qy <= std::min(y + reach, w.y1 - 1); ++qy) {
-            const double weight_y = film_.filter().weight(place.y - (qy - y) - 0.5);
-            for (int qx = std::max(x - reach, w.x0); qx <= std::min(x + reach, w.x1 - 1); ++qx) {
-              const double weight = weight_y * weights[qx - x + reach];
-              double* sum = &sums[(static_cast<size_t>(qy - w.y0) * w.width() + (qx - w.x0)) * n];
-              for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
-            }
-          }
+          exposure.add(x, y, place, sample, 1);
           const Vec2 off = place - 0.5;
-          if (own && glm::dot(off, off) < nearest) {
+          if (glm::dot(off, off) < nearest && film_.crop().contains(x, y)) {
             nearest = glm::dot(off, off);
             store(x, y, sample);
           }
         }
-        if (Channel* kept = own ? film_.channel(kSamples) : nullptr)
-          kept->values[pixel(x, y)] = static_cast<float>(counted);
+        count(x, y, counted);
       }
-    }
-    result.values.assign(sums.begin(), sums.end());
-    return tally;
   }
 
- private:
+  void trace_adaptively(const Window& tile, float contrast, Exposure& exposure) const {
+    // The centres, with those of the neighbours around the tile.
+    const Film& settings = world_.model().film;
+    const Window around = intersection(tile.grown(1), {0, 0, settings.width, settings.height});
+    const int all = sampler_->samples_per_pixel();
+    std::vector<RaySample> centers;
+    centers.reserve(static_cast<size_t>(around.width()) * around.height());
+    for (int y = around.y0; y < around.y1; ++y)
+      for (int x = around.x0; x < around.x1; ++x) centers.push_back(sample_at(x, y, Vec2(0.5), all, exposure.tally));
+    const auto center = [&](int x, int y) -> const RaySample& {
+      return centers[static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0)];
+    };
+    std::vector<RaySample> taken;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const RaySample& own = center(x, y);
+        if (is_finite(own) && film_.crop().contains(x, y)) store(x, y, own);
+        bool even = is_finite(own);
+        for (int ny = std::max(y - 1, around.y0); even && ny <= std::min(y + 1, around.y1 - 1); ++ny)
+          for (int nx = std::max(x - 1, around.x0); even && nx <= std::min(x + 1, around.x1 - 1); ++nx)
+            even = difference(own, center(nx, ny)) <= contrast;
+        if (even) {
+          exposure.add(x, y, Vec2(0.5), own, all);
+          count(x, y, 1);
+          continue;
+        }
+        taken.clear();
+        bool alike = true;
+        int s = 0;
+        for (; s < all && (s < kFewSamples || !alike); ++s) {
+          taken.push_back(sample_at(x, y, sampler_->pixel_position(x, y, s), s, exposure.tally));
+          alike = alike && is_finite(own) && is_finite(taken.back()) && difference(own, taken.back()) <= contrast;
+        }
+        int counted = 0;
+        for (const RaySample& sample : taken) counted += is_finite(sample);
+        for (int i = 0; i < s; ++i)
+          if (is_finite(taken[i]))
+            exposure.add(x, y, sampler_->pixel_position(x, y, i), taken[i], static_cast<double>(all) / counted);
+        count(x, y, counted);
+      }
+  }
+
+  void count(int x, int y, int samples) const {
+    if (!film_.crop().contains(x, y)) return;
+    if (Channel* kept = film_.channel(kSamples)) kept->values[pixel(x, y)] = static_cast<float>(samples);
+  }
+
   size_t pixel(int x, int y) const {
     const Window& crop = film_.crop();
     return static_cast<size_t>(y - crop.y0) * crop.width() + (x - crop.x0);

@@ -110,6 +110,7 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
     hash = hash_combine(hash, static_cast<uint64_t>(value));
   hash = hash_combine(hash, film.seed);
   hash = hash_combine(hash, std::bit_cast<uint64_t>(filter_->radius()));
+  hash = hash_combine(hash, std::bit_cast<uint64_t>(film.contrast));
   for (const int channel : channel_) hash = hash_combine(hash, static_cast<uint64_t>(channel + 1));
   for (const char letter : film.filter) hash = hash_combine(hash, static_cast<unsigned char>(letter));
   settings_hash_ = hash;

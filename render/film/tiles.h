@@ -87,6 +87,8 @@ class TiledFilm {
   int first_data_channel() const { return first_data_channel_; }  // those before are filtered
   std::vector<TileSums>& sums() { return sums_; }                 // empty values: not done
 
+  const Window& sums_window(int i) const { return sums_[i].window; }
+
   // Hash of everything that decides the film's layout and contents but the scene.
   uint64_t settings_hash() const { return settings_hash_; }
 

@@ -197,8 +197,21 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   shadow_ray.origin = world_.leave(seen.point, seen.geometric_normal);
   for (const LightPtr& light : world_.lights()) {
     const int count = light->sample_count();
+    const bool jittered = light->is_jittered();
+    // Where the whole source is above the horizon its mean stands for it, and the samples only take away what is
+    // hidden: without a shadow there is no noise.
+    std::optional<MeanLight> mean;
+    if (diffuse && jittered) mean = light->mean(seen.point.position);
+    if (mean && std::min(glm::dot(seen.normal, mean->direction), glm::dot(seen.smooth_normal, mean->direction)) <
+                    mean->least_cosine)
+      mean.reset();
+    if (mean) {
+      const Spectrum all = static_cast<float>(glm::dot(seen.normal, mean->direction)) * kOverPi * mean->irradiance;
+      sum.unobstructed += all;
+      sum.diffuse += all;
+    }
     for (int i = 0; i < count; ++i) {
-      const Vec2 r = random_.next_pair();
+      const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
       const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
       const double cosine = glm::dot(seen.normal, sample.direction);
       if (cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero()) {
@@ -210,7 +223,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       const double lobe = specular ? phong_lobe(cos_alpha, c.exponent) : 0;
       if (!diffuse && lobe == 0) continue;
       const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
-      sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
+      if (!mean) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
       if (light->casts_shadows() && options_.shadows != ShadowMode::none) {
         shadow_ray.direction = sample.direction;
@@ -218,7 +231,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         visible = passing(shadow_ray, media);
       }
       mix(visible.is_zero() ? 5 : 6);
-      sum.diffuse += static_cast<float>(cosine) * (visible * light_per_pi);
+      sum.diffuse += static_cast<float>(cosine) * ((mean ? visible - kWhite : visible) * light_per_pi);
       sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
     }
   }

@@ -27,6 +27,7 @@ class FlatLamp : public Light {
     const float share = one_sided_ ? static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z))) : 1.0f;
     return {direction, distance, share * irradiance_of(lamp_, distance), 1.0 / sample_count()};
   }
+  bool is_jittered() const override { return !sampling_.grid; }
   bool casts_shadows() const override { return lamp_.shadows; }
 
  protected:

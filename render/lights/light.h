@@ -9,6 +9,7 @@
 
 #include <any>
 #include <memory>
+#include <optional>
 
 #include "render/spectrum.h"
 
@@ -22,6 +23,14 @@ struct LightSample {
   double weight = 1;    // of this sample among those of the light; sums to 1 over all samples
 };
 
+// All the light of a source of some extent as one sample: what a matt surface receives that sees all of the source,
+// exactly. It sees all where its normal makes an angle with `direction` whose cosine is at least `least_cosine`.
+struct MeanLight {
+  Vec3 direction{0, 0, 1};
+  Spectrum irradiance;
+  double least_cosine = 1;
+};
+
 class Light {
  public:
   virtual ~Light() = default;
@@ -32,6 +41,10 @@ class Light {
   // Sample `index` of sample_count() at the point; (r1, r2) in [0, 1)^2 jitters it within its stratum and is not used
   // where `sampling: grid` asks for fixed places.
   virtual LightSample sample(const Vec3& point, int index, double r1, double r2) const = 0;
+  // True if r1 and r2 matter.
+  virtual bool is_jittered() const { return false; }
+  // For sources of some extent that have it in closed form: takes the noise away where nothing is in the way.
+  virtual std::optional<MeanLight> mean(const Vec3&) const { return std::nullopt; }
   virtual bool casts_shadows() const { return true; }
   // The plain value of lights.h that it was made from, for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }

@@ -44,46 +44,51 @@ uint32_t permuted(uint32_t i, uint32_t length, uint64_t key) {
   return i;
 }
 
+// Sample `i` of `count` >= 2 of a correlated multi-jittered pattern (Kensler 2013): one sample in each of `count`
+// strips either way, and one in each cell of a near-square grid.
+Vec2 multi_jittered(uint32_t i, uint32_t count, uint64_t key) {
+  constexpr double kBelowOne = 1 - 0x1p-53;
+  const uint32_t columns = static_cast<uint32_t>(std::sqrt(static_cast<double>(count)));
+  const uint32_t rows = (count + columns - 1) / columns;
+  const uint32_t s = permuted(i, count, mix(key + 1));
+  const uint32_t column = permuted(s % columns, columns, mix(key + 2));
+  const uint32_t row = permuted(s / columns, rows, mix(key + 3));
+  const double jitter_x = unit(mix(mix(key + 4) + s * kGolden));
+  const double jitter_y = unit(mix(mix(key + 5) + s * kGolden));
+  return {std::fmin((column + (row + jitter_x) / rows) / columns, kBelowOne),
+          std::fmin((s + jitter_y) / count, kBelowOne)};
+}
+
 class StratifiedSampler final : public Sampler {
  public:
-  StratifiedSampler(int samples, uint32_t seed)
-      : samples_(samples),
-        seed_(seed),
-        columns_(static_cast<uint32_t>(std::sqrt(static_cast<double>(samples)))),
-        rows_((samples + columns_ - 1) / columns_) {}
+  StratifiedSampler(int samples, uint32_t seed) : samples_(samples), seed_(seed) {}
 
   int samples_per_pixel() const override { return samples_; }
 
   Vec2 pixel_position(uint32_t x, uint32_t y, int sample) const override {
     if (samples_ == 1) return {0.5, 0.5};
-    const uint64_t key = pixel_key(x, y, seed_);
-    const uint32_t s = permuted(sample, samples_, mix(key + 1));
-    const uint32_t column = permuted(s % columns_, columns_, mix(key + 2));
-    const uint32_t row = permuted(s / columns_, rows_, mix(key + 3));
-    const double jitter_x = unit(mix(mix(key + 4) + s * kGolden));
-    const double jitter_y = unit(mix(mix(key + 5) + s * kGolden));
-    return {std::fmin((column + (row + jitter_x) / rows_) / columns_, kBelowOne),
-            std::fmin((s + jitter_y) / samples_, kBelowOne)};
+    return multi_jittered(sample, samples_, pixel_key(x, y, seed_));
   }
 
-  SampleStream stream(uint32_t x, uint32_t y, int sample) const override { return SampleStream(x, y, sample, seed_); }
+  SampleStream stream(uint32_t x, uint32_t y, int sample) const override {
+    return SampleStream(x, y, sample, samples_, seed_);
+  }
 
  private:
-  static constexpr double kBelowOne = 1 - 0x1p-53;
   int samples_;
-  uint32_t seed_, columns_, rows_;
+  uint32_t seed_;
 };
 
 }  // namespace
 
-SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed)
-    : key_(mix(pixel_key(x, y, seed) + (static_cast<uint64_t>(sample) + 1) * kGolden)) {}
-
-double SampleStream::next() { return unit(mix(key_ + ++dimension_ * kGolden)); }
+SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed)
+    : pixel_(mix(pixel_key(x, y, seed) + kGolden)), sample_(sample), count_(count) {}
 
 Vec2 SampleStream::next_pair() {
-  const double first = next();
-  return {first, next()};
+  const uint64_t key = mix(pixel_ + ++dimension_ * kGolden);
+  if (count_ > 1 && sample_ < count_) return multi_jittered(sample_, count_, key);
+  return {unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 1) * kGolden)),
+          unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 2) * kGolden))};
 }
 
 SamplerPtr make_stratified_sampler(int samples, uint32_t seed) {

@@ -8,15 +8,17 @@
 
 namespace lekalo::render {
 
-// Random numbers of one sample of one pixel: a function of (pixel, sample, dimension) and nothing else.
+// Random numbers of one sample of one pixel: a function of (pixel, sample, dimension) and nothing else. The pairs that
+// the samples 0..count-1 of a pixel draw in the same place of their paths are stratified together, like the positions
+// in the pixel: penumbras get smooth with as many samples.
 class SampleStream {
  public:
-  SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed);
-  double next();  // uniform in [0, 1)
-  Vec2 next_pair();
+  SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed);
+  Vec2 next_pair();  // uniform in [0, 1)^2
 
  private:
-  uint64_t key_;
+  uint64_t pixel_;
+  uint32_t sample_, count_;
   uint32_t dimension_ = 0;
 };
 
@@ -24,8 +26,9 @@ class Sampler {
  public:
   virtual ~Sampler() = default;
   virtual int samples_per_pixel() const = 0;
-  // Position of a sample in its pixel, in [0, 1)^2; sample counts of 1 give the centre (0.5, 0.5).
+  // Position of a sample (below samples_per_pixel) in its pixel, in [0, 1)^2; sample counts of 1 give the centre (0.5, 0.5).
   virtual Vec2 pixel_position(uint32_t x, uint32_t y, int sample) const = 0;
+  // Also for a sample beyond the pixel's own, which is drawn apart from them.
   virtual SampleStream stream(uint32_t x, uint32_t y, int sample) const = 0;
 };
 using SamplerPtr = std::shared_ptr<const Sampler>;

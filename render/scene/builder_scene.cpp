@@ -269,6 +269,7 @@ void Builder::build_camera(Model& model) {
   film.samples = fields->integer("samples");
   film.filter = fields->text("filter");
   film.filter_radius = fields->number("filter_radius");
+  film.contrast = fields->number("contrast");
   film.half_color = fields->text("color_precision") == "half";
   if (fields->has("layers")) film.layers = fields->get<std::vector<std::string>>("layers");
   film.seed = static_cast<uint32_t>(fields->integer("seed"));

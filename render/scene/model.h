@@ -65,6 +65,7 @@ struct Film {
   std::string filter = "box";  // box, gaussian, mitchell
   double filter_radius = 0;    // pixels; 0: the filter's own
   uint32_t seed = 0;
+  double contrast = 0;              // adaptive sampling, see film/render.h; 0: all pixels take all samples
   bool half_color = false;          // R G B A are written as half (11 bits) in place of float
   std::vector<std::string> layers;  // to keep, of film_layers() (film/render.h); empty: all
   struct Crop {

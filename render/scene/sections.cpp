@@ -28,6 +28,11 @@ std::vector<Field> image_fields() {
       {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
       {"margin", page_length(), "free border of a drawing", false, {}},
       {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
+      {"contrast", number().between(0, 1),
+       "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "
+       "0: "
+       "all pixels take all samples",
+       false, "0.02"},
       {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
       {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
       {"seed", integer().non_negative(), "of the sample positions", false, "0"},

@@ -24,10 +24,9 @@ float round_down(double x) {
   const float f = static_cast<float>(x);
   return f > x ? std::nextafter(f, -INFINITY) : f;
 }
-float round_up(double x) {
-  const float f = static_cast<float>(x);
-  return f < x ? std::nextafter(f, INFINITY) : f;
-}
+float round_up(double x) { return -round_down(-x); }
+// The same for the ends of rays, once for each of them: a rounding of 2^-24 of x outward is enough there.
+float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
 
 // One device for the process; Embree's scenes share its thread pool.
 RTCDevice device() {
@@ -235,7 +234,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   test(*static_cast<const GeometryRecord*>(args->geometryUserPtr), static_cast<int>(args->primID), query);
   if (query.t_max < before) {
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-    ray.tfar = std::min(ray.tfar, round_up(query.t_max - query.start + query.slack));
+    ray.tfar = std::min(ray.tfar, ray_end(query.t_max - query.start + query.slack));
   }
 }
 
@@ -296,7 +295,7 @@ void Hierarchy::run(Query& query) const {
     ray.dir_y = static_cast<float>(query.line.direction.y);
     ray.dir_z = static_cast<float>(query.line.direction.z);
     ray.tnear = 0;
-    ray.tfar = round_up(end - query.start + query.slack);
+    ray.tfar = ray_end(end - query.start + query.slack);
     ray.time = 0;
     ray.mask = ~0u;
     ray.id = 0;

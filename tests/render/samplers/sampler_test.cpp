@@ -53,7 +53,7 @@ TEST(SampleStream, IsUniformAndUncorrelatedBetweenNeighbours) {
   const int n = 100;
   for (uint32_t y = 0; y < n; ++y)
     for (uint32_t x = 0; x < n; ++x) {
-      const double r = SampleStream(x, y, 0, 0).next();
+      const double r = SampleStream(x, y, 0, 1, 0).next_pair().x;
       ASSERT_TRUE(r >= 0 && r < 1);
       sum += r - 0.5;
       square += (r - 0.5) * (r - 0.5);
@@ -67,11 +67,11 @@ TEST(SampleStream, IsUniformAndUncorrelatedBetweenNeighbours) {
 }
 
 TEST(SampleStream, DimensionsDiffer) {
-  SampleStream stream(1, 2, 3, 4);
+  SampleStream stream(1, 2, 3, 4, 5);
   const Vec2 first = stream.next_pair(), second = stream.next_pair();
   EXPECT_NE(first.x, first.y);
   EXPECT_NE(first, second);
-  EXPECT_EQ(SampleStream(1, 2, 3, 4).next_pair(), first);
+  EXPECT_EQ(SampleStream(1, 2, 3, 4, 5).next_pair(), first);
 }
 
 }  // namespace
