@@ -2,6 +2,7 @@
 // has at most one root, which a bracketed Newton iteration finds; the extrema are the roots of the derivative, found
 // the same way, down to the quadratic formula. Each value's sign is decided against its own error bound, so that an
 // extremum within rounding of zero is seen and reported as a tangent root instead of being lost between two signs.
+// Roots that the signs of Bernstein coefficients tell apart, which is most of them, need no extrema.
 #include <cmath>
 #include <numbers>
 
@@ -174,11 +175,77 @@ Roots<2> quadratic_roots(const std::array<double, 3>& c, double relative_error) 
   return roots;
 }
 
+namespace {
+
+// Isolates the roots in a finite domain by the signs of the Bernstein coefficients: the number of roots is that of the
+// sign changes or an even number less (Descartes), so none means none and one means one; more are told apart by
+// halving.
+class Isolation {
+ public:
+  Isolation(const std::array<double, 5>& c, double relative_error) : c_(c), relative_error_(relative_error) {}
+
+  // False where rounding or nearly equal roots leave the count open.
+  bool run(const Interval& domain, Roots<4>& roots) {
+    const double a = domain.lo, w = domain.hi - domain.lo;
+    std::array<double, 5> shifted = c_;  // about a, by Horner's scheme
+    for (int i = 0; i < 4; ++i)
+      for (int k = 3; k >= i; --k) shifted[k] += a * shifted[k + 1];
+    double power = 1, size = 0, reach = 1;
+    for (int i = 0; i <= 4; ++i) {
+      shifted[i] *= power;
+      power *= w;
+      size += std::fabs(c_[i]) * reach;
+      reach *= std::fabs(a) + w;
+    }
+    error_ = (64 * kUnitRoundoff + relative_error_) * size;
+    if (!std::isfinite(error_)) return false;
+    // b_j = sum over i of (j over i) / (4 over i) c_i; every intermediate is at most `size`.
+    const double c1 = shifted[1] / 4, c2 = shifted[2] / 6, c3 = shifted[3] / 4;
+    return split({shifted[0], shifted[0] + c1, shifted[0] + 2 * c1 + c2, shifted[0] + 3 * c1 + 3 * c2 + c3,
+                  shifted[0] + 4 * c1 + 6 * c2 + 4 * c3 + shifted[4]},
+                 domain.lo, domain.hi, 0, roots);
+  }
+
+ private:
+  static constexpr int kDeepest = 6;
+
+  bool split(const std::array<double, 5>& b, double lo, double hi, int depth, Roots<4>& roots) const {
+    int changes = 0;
+    bool sure = true;
+    for (int j = 0; j < 5; ++j) {
+      sure = sure && std::fabs(b[j]) > error_;
+      if (j > 0 && (b[j] < 0) != (b[j - 1] < 0)) ++changes;
+    }
+    if (sure && changes == 0) return true;
+    if (sure && changes == 1) {
+      roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0), false);
+      return true;
+    }
+    if (depth == kDeepest) return false;
+    std::array<double, 5> left = b, right = b;
+    for (int level = 1; level < 5; ++level) {
+      for (int i = 0; i < 5 - level; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
+      left[level] = right[0];
+    }
+    const double middle = 0.5 * (lo + hi);
+    return split(left, lo, middle, depth + 1, roots) && split(right, middle, hi, depth + 1, roots);
+  }
+
+  const std::array<double, 5>& c_;
+  double relative_error_, error_ = 0;
+};
+
+}  // namespace
+
 Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain, double relative_error) {
   for (const double x : c) {
     if (!std::isfinite(x)) return {};
   }
   if (domain.empty()) return {};
+  if (std::isfinite(domain.lo) && std::isfinite(domain.hi)) {
+    Roots<4> roots;
+    if (Isolation(c, relative_error).run(domain, roots)) return roots;
+  }
   return roots_between<4>(c.data(), domain, relative_error);
 }
 

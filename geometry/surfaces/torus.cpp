@@ -84,7 +84,7 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     // Newton on (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic.
     for (int step = 0; step < 2; ++step) {
       const Vec3 p = o + s * d;
-      const double rho = std::hypot(p.x, p.y), across = rho - major;
+      const double rho = std::sqrt(p.x * p.x + p.y * p.y), across = rho - major;
       const double f = across * across + (p.z - minor) * (p.z + minor);
       const double change = -0.5 * f / (across * (p.x * d.x + p.y * d.y) / rho + p.z * d.z);
       if (!(std::abs(change) <= 1e-6)) break;
@@ -94,7 +94,7 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     if (!range.contains(t)) return;
     const Vec3 p = o + s * d;
     const auto u = angle_within(domain_.u, std::atan2(p.y, p.x));
-    const auto v = angle_within(domain_.v, std::atan2(p.z, std::hypot(p.x, p.y) - major));
+    const auto v = angle_within(domain_.v, std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y) - major));
     if (u && v) hits.add({t, *u, *v});
   };
   const auto add_all = [&](const Crossings& found) {
@@ -103,7 +103,19 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
 
   const double discriminant = b * b - k;
   if (major >= minor || !(discriminant > 0)) {  // g >= 0 everywhere: no lemon
-    if (major > 0) add_all(crossings(quartic, {-reach, reach}));
+    if (!(major > 0)) return;
+    // Only in the tube's slab |z| <= r. (Not only in the range: the same hit is the same number whatever the range.)
+    constexpr double kRoom = 1e-6;
+    Interval stretch{-reach, reach};
+    const auto keep = [&](double from, double to) {
+      stretch.lo = std::max(stretch.lo, std::min(from, to) - kRoom);
+      stretch.hi = std::min(stretch.hi, std::max(from, to) + kRoom);
+    };
+    if (std::abs(d.z) > 1e-3)
+      keep((-minor - o.z) / d.z, (minor - o.z) / d.z);
+    else if (std::abs(o.z) > minor + 2 * std::abs(d.z) + kRoom)
+      return;
+    if (stretch.lo < stretch.hi) add_all(crossings(quartic, stretch));
     return;
   }
   const double first = -b - std::sqrt(discriminant), second = -b + std::sqrt(discriminant);
