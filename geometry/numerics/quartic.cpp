@@ -45,10 +45,10 @@ Evaluation evaluate(const double* c, double x, double relative_error) {
   return {p, p > error ? 1 : p < -error ? -1 : 0};
 }
 
-// The root between a and b, where p has different signs and is monotone (up to rounding).
+// The only root between a and b, where p has different signs (up to rounding); `start` lies between them.
 template <int N>
-double crossing(const double* c, double a, double b, bool rising) {
-  double x = 0.5 * a + 0.5 * b, previous = kInfinity;
+double crossing(const double* c, double a, double b, bool rising, double start) {
+  double x = start, previous = kInfinity;
   for (int step = 0; step < 2000; ++step) {
     double p = c[N], slope = 0;
     for (int i = N - 1; i >= 0; --i) {
@@ -111,7 +111,7 @@ Roots<N> roots_between(const double* c, Interval domain, double relative_error) 
   for (int i = 0; i < count; ++i) {
     if (at[i].sign != 0) {
       if (i + 1 < count && at[i + 1].sign == -at[i].sign) {
-        roots.add(crossing<N>(c, x[i], x[i + 1], at[i].sign < 0), false);
+        roots.add(crossing<N>(c, x[i], x[i + 1], at[i].sign < 0, 0.5 * x[i] + 0.5 * x[i + 1]), false);
       }
       continue;
     }
@@ -218,7 +218,8 @@ class Isolation {
     }
     if (sure && changes == 0) return true;
     if (sure && changes == 1) {
-      roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0), false);
+      // From the chord's root.
+      roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0, lo + (hi - lo) * (b[0] / (b[0] - b[4]))), false);
       return true;
     }
     if (depth == kDeepest) return false;

@@ -40,13 +40,18 @@ class MaterialNumbers {
   std::unordered_map<const Material*, uint32_t> numbers_;
 };
 
-// Largest difference of two samples as displayed.
-float difference(const RaySample& a, const RaySample& b) {
-  float largest = std::fabs(a.alpha - b.alpha);
-  for (int i = 0; i < 3; ++i)
-    largest = std::fmax(
-        largest, std::fabs(std::sqrt(std::fmax(a.radiance[i], 0.0f)) - std::sqrt(std::fmax(b.radiance[i], 0.0f))));
-  return largest;
+// A sample as displayed.
+struct Shown {
+  float lanes[4];
+  explicit Shown(const RaySample& s) {
+    for (int i = 0; i < 3; ++i) lanes[i] = s.radiance[i] > 0 ? std::sqrt(s.radiance[i]) : 0;
+    lanes[3] = s.alpha;
+  }
+};
+bool differ(const Shown& a, const Shown& b, float contrast) {
+  bool result = false;
+  for (int i = 0; i < 4; ++i) result = result || !(std::fabs(a.lanes[i] - b.lanes[i]) <= contrast);
+  return result;
 }
 
 bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.is_finite() && std::isfinite(s.alpha); }
@@ -148,29 +153,31 @@ class TileTracer {
     centers.reserve(static_cast<size_t>(around.width()) * around.height());
     for (int y = around.y0; y < around.y1; ++y)
       for (int x = around.x0; x < around.x1; ++x) centers.push_back(sample_at(x, y, Vec2(0.5), all, exposure.tally));
-    const auto center = [&](int x, int y) -> const RaySample& {
-      return centers[static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0)];
+    const auto index = [&](int x, int y) {
+      return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
     };
+    std::vector<Shown> shown(centers.begin(), centers.end());
     std::vector<RaySample> taken;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        const RaySample& own = center(x, y);
+        const RaySample& own = centers[index(x, y)];
+        const Shown& own_shown = shown[index(x, y)];
         if (is_finite(own) && film_.crop().contains(x, y)) store(x, y, own);
-        bool even = is_finite(own);
+        bool even = is_finite(own) && !own.noisy;
         for (int ny = std::max(y - 1, around.y0); even && ny <= std::min(y + 1, around.y1 - 1); ++ny)
           for (int nx = std::max(x - 1, around.x0); even && nx <= std::min(x + 1, around.x1 - 1); ++nx)
-            even = difference(own, center(nx, ny)) <= contrast;
+            even = !differ(own_shown, shown[index(nx, ny)], contrast);
         if (even) {
           exposure.add(x, y, Vec2(0.5), own, all);
           count(x, y, 1);
           continue;
         }
         taken.clear();
-        bool alike = true;
+        bool alike = is_finite(own) && !own.noisy;
         int s = 0;
         for (; s < all && (s < kFewSamples || !alike); ++s) {
           taken.push_back(sample_at(x, y, sampler_->pixel_position(x, y, s), s, exposure.tally));
-          alike = alike && is_finite(own) && is_finite(taken.back()) && difference(own, taken.back()) <= contrast;
+          alike = alike && !taken.back().noisy && !differ(own_shown, Shown(taken.back()), contrast);
         }
         int counted = 0;
         for (const RaySample& sample : taken) counted += is_finite(sample);

@@ -198,15 +198,13 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   for (const LightPtr& light : world_.lights()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
-    // Where the whole source is above the horizon its mean stands for it, and the samples only take away what is
-    // hidden: without a shadow there is no noise.
-    std::optional<MeanLight> mean;
-    if (diffuse && jittered) mean = light->mean(seen.point.position);
-    if (mean && std::min(glm::dot(seen.normal, mean->direction), glm::dot(seen.smooth_normal, mean->direction)) <
-                    mean->least_cosine)
-      mean.reset();
-    if (mean) {
-      const Spectrum all = static_cast<float>(glm::dot(seen.normal, mean->direction)) * kOverPi * mean->irradiance;
+    // What a cone of light brings is known; the samples only take away what is hidden. Without a shadow there is no
+    // noise.
+    std::optional<ConeLight> cone;
+    if (diffuse && jittered && seen.normal == seen.smooth_normal) cone = light->cone(seen.point.position);
+    if (cone) {
+      const Spectrum all =
+          static_cast<float>(cone->mean_cosine(glm::dot(seen.normal, cone->axis))) * kOverPi * cone->irradiance;
       sum.unobstructed += all;
       sum.diffuse += all;
     }
@@ -223,15 +221,16 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       const double lobe = specular ? phong_lobe(cos_alpha, c.exponent) : 0;
       if (!diffuse && lobe == 0) continue;
       const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
-      if (!mean) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
+      if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
       if (light->casts_shadows() && options_.shadows != ShadowMode::none) {
         shadow_ray.direction = sample.direction;
         shadow_ray.t_max = sample.distance;
         visible = passing(shadow_ray, media);
       }
+      if (jittered && (!cone || visible != kWhite)) sample_.noisy = true;
       mix(visible.is_zero() ? 5 : 6);
-      sum.diffuse += static_cast<float>(cosine) * ((mean ? visible - kWhite : visible) * light_per_pi);
+      sum.diffuse += static_cast<float>(cosine) * ((cone ? visible - kWhite : visible) * light_per_pi);
       sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
     }
   }

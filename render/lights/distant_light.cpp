@@ -32,12 +32,9 @@ class DistantLamp final : public Light {
     return sample;
   }
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
-  std::optional<MeanLight> mean(const Vec3&) const override {
+  std::optional<ConeLight> cone(const Vec3&) const override {
     if (!is_jittered()) return std::nullopt;
-    // The mean direction of a cone of directions of half angle a is its axis times (1 + cos a) / 2.
-    const float length = static_cast<float>(1 - 0.5 * one_minus_cosine_);
-    const double cosine = 1 - one_minus_cosine_;
-    return MeanLight{frame_.z, length * irradiance_of(light_.lamp, 1), std::sqrt(1 - cosine * cosine)};
+    return ConeLight{frame_.z, 0.5 * light_.angular_diameter, irradiance_of(light_.lamp, 1)};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }

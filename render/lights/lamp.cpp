@@ -61,4 +61,20 @@ AreaSampling area_sampling(const Fields& fields) {
   return {fields.integer("samples"), fields.text("sampling") == "grid"};
 }
 
+double ConeLight::mean_cosine(double axis_cosine) const {
+  const double c = std::clamp(axis_cosine, -1.0, 1.0), sine = std::sqrt(1 - c * c);
+  const double cone_sine = std::sin(half_angle), cone_cosine = std::cos(half_angle);
+  if (c <= -cone_sine) return 0;  // all of the cone below the horizon
+  if (half_angle == 0) return c;
+  const double solid_angle = 2 * kPi * 2 * std::pow(std::sin(0.5 * half_angle), 2);
+  const double square = cone_sine * cone_sine;
+  if (c >= cone_sine) return kPi * square * c / solid_angle;  // all of it above
+  const double gamma = std::asin(std::min(1.0, cone_cosine / sine));
+  const double cos_gamma = std::cos(gamma), sin_gamma = std::sin(gamma);
+  const double g = -2 * sine * cone_cosine * cos_gamma + 0.5 * kPi - gamma + sin_gamma * cos_gamma;
+  const double h = c * (cos_gamma * std::sqrt(std::max(0.0, square - cos_gamma * cos_gamma)) +
+                        square * std::asin(std::min(1.0, cos_gamma / cone_sine)));
+  return std::max(0.0, (c >= 0 ? kPi * c * square + g - h : g + h) / solid_angle);
+}
+
 }  // namespace lekalo::render

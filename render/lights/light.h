@@ -23,12 +23,15 @@ struct LightSample {
   double weight = 1;    // of this sample among those of the light; sums to 1 over all samples
 };
 
-// All the light of a source of some extent as one sample: what a matt surface receives that sees all of the source,
-// exactly. It sees all where its normal makes an angle with `direction` whose cosine is at least `least_cosine`.
-struct MeanLight {
-  Vec3 direction{0, 0, 1};
-  Spectrum irradiance;
-  double least_cosine = 1;
+// The light of a source that fills a round cone of directions evenly, as a matt surface receives it if nothing is in
+// the way: without the noise of samples.
+struct ConeLight {
+  Vec3 axis{0, 0, 1};     // unit, towards the middle of the source
+  double half_angle = 0;  // below pi/2
+  Spectrum irradiance;    // of LightSample, the same for all directions of the cone
+  // Mean over the cone of max(0, cosine of the angle from the normal), the angle between axis and normal having the
+  // given cosine (Snyder, "Area light sources for real-time graphics", 1996).
+  double mean_cosine(double axis_cosine) const;
 };
 
 class Light {
@@ -43,8 +46,8 @@ class Light {
   virtual LightSample sample(const Vec3& point, int index, double r1, double r2) const = 0;
   // True if r1 and r2 matter.
   virtual bool is_jittered() const { return false; }
-  // For sources of some extent that have it in closed form: takes the noise away where nothing is in the way.
-  virtual std::optional<MeanLight> mean(const Vec3&) const { return std::nullopt; }
+  // What the source is from the point, for jittered sources that are a cone of directions.
+  virtual std::optional<ConeLight> cone(const Vec3&) const { return std::nullopt; }
   virtual bool casts_shadows() const { return true; }
   // The plain value of lights.h that it was made from, for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }

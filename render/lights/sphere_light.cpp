@@ -34,14 +34,11 @@ class SphereLamp final : public Light {
     return sample;
   }
   bool is_jittered() const override { return !light_.sampling.grid; }
-  std::optional<MeanLight> mean(const Vec3& point) const override {
+  std::optional<ConeLight> cone(const Vec3& point) const override {
     const Vec3 to_center = light_.center - point;
     const double distance = glm::length(to_center);
     if (distance <= light_.radius || !is_jittered()) return std::nullopt;
-    // As the light of a distant source: the mean direction of a cone of half angle a is its axis times (1 + cos a) / 2.
-    const double sine = light_.radius / distance;
-    const float length = static_cast<float>(0.5 * (1 + std::sqrt(1 - sine * sine)));
-    return MeanLight{to_center / distance, length * irradiance_of(light_.lamp, distance), sine};
+    return ConeLight{to_center / distance, std::asin(light_.radius / distance), irradiance_of(light_.lamp, distance)};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }

@@ -32,7 +32,7 @@ std::vector<Field> image_fields() {
        "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "
        "0: "
        "all pixels take all samples",
-       false, "0.02"},
+       false, "0.03"},
       {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
       {"filter_radius", number().non_negative().at_most(16), "in pixels; 0: the filter's own", false, "0"},
       {"seed", integer().non_negative(), "of the sample positions", false, "0"},

@@ -62,7 +62,7 @@ inline RaySample trace(const World& world, const Vec3& origin, const Vec3& direc
   Ray ray;
   ray.origin = origin;
   ray.direction = glm::normalize(direction);
-  SampleStream random(0, 0, 0, 0);
+  SampleStream random(0, 0, 0, 1, 0);
   return world.model().integrator->trace(world, ray, random);
 }
 

@@ -71,6 +71,61 @@ TEST(Render, CropShowsThePixelsOfTheFullPicture) {
       }
 }
 
+TEST(Render, AdaptiveSamplesGoWhereNeighboursDiffer) {
+  for (const char* filter : {"box", "mitchell"}) {
+    SmallScene scene = ball_on_ground(filter);
+    scene.model.film.samples = 64;
+    const RenderResult even = render(*scene.world(), {});
+    scene.model.film.contrast = 0.03;
+    const RenderResult adaptive = render(*scene.world(), {.threads = 3});
+    EXPECT_TRUE(same(adaptive.image, render(*scene.world(), {.threads = 1}).image));
+    EXPECT_LT(adaptive.camera_rays, even.camera_rays * 3 / 4);
+    const Channel& samples = *find_channel(adaptive.image, "samples");
+    double square = 0;
+    int worse = 0;
+    for (size_t i = 0; i < samples.values.size(); ++i) {
+      EXPECT_TRUE(samples.values[i] == 1 || samples.values[i] == 4 || samples.values[i] > 4) << samples.values[i];
+      EXPECT_LE(samples.values[i], 64);
+      for (const char* name : {"R", "G", "B"}) {
+        const double difference = std::sqrt(find_channel(adaptive.image, name)->values[i]) -
+                                  std::sqrt(find_channel(even.image, name)->values[i]);
+        square += difference * difference / 3;
+        worse += std::fabs(difference) > 0.06;
+      }
+    }
+    // Below the contrast everywhere but on thin things between the centres.
+    EXPECT_LT(std::sqrt(square / samples.values.size()), 0.015) << filter;
+    EXPECT_LT(worse, 0.01 * 3 * samples.values.size()) << filter;
+    // The layers of data come from the pixel's centre.
+    scene.model.film.crop = {20, 11, 53, 37};
+    const Image crop = render(*scene.world(), {}).image;
+    for (int y = 0; y < crop.height; ++y)
+      for (int x = 0; x < crop.width; ++x)
+        for (const char* name : {"R", "Z", "N.X", "samples"})
+          ASSERT_EQ(find_channel(crop, name)->values[y * crop.width + x],
+                    find_channel(adaptive.image, name)->values[(y + 11) * 70 + x + 20])
+              << name;
+  }
+}
+
+TEST(Render, FilmKeepsTheLayersAskedFor) {
+  SmallScene scene = ball_on_ground();
+  const Image all = render(*scene.world(), {}).image;
+  scene.model.film.layers = {"color", "depth", "id"};
+  scene.model.film.half_color = true;
+  const Image some = render(*scene.world(), {}).image;
+  std::vector<std::string> names;
+  for (const Channel& channel : some.channels) {
+    names.push_back(channel.name);
+    EXPECT_EQ(channel.values, find_channel(all, channel.name)->values);
+    EXPECT_EQ(channel.ids, find_channel(all, channel.name)->ids);
+    EXPECT_EQ(channel.type == PixelType::half, channel.name.size() == 1 && channel.name != "Z") << channel.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"R", "G", "B", "A", "Z", "id.object", "id.material"}));
+  scene.model.film.layers = {"colour"};
+  EXPECT_THROW(render(*scene.world(), {}), std::invalid_argument);
+}
+
 TEST(Render, ResumedPictureIsTheSameBits) {
   const std::string file = (std::filesystem::temp_directory_path() / "lekalo_render_test.partial").string();
   const auto world = ball_on_ground("gaussian").world();

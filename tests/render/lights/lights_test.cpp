@@ -128,6 +128,24 @@ TEST(Lights, DistantDiscGivesLessThanItsMiddleByTheMeanCosine) {
   EXPECT_NEAR(irradiance(*make_light(light)) / kPi, 1, 1e-6);
 }
 
+TEST(Lights, ConeAboveAndBelowTheHorizonBringsTheMeanOfItsSamples) {
+  // The closed form against the midpoint rule over the cone, rings of equal solid angle.
+  for (const double half : {0.05, 0.3, 1.0, 1.4})
+    for (const double angle : {0.0, 0.4, 1.2, 1.5, kPi / 2, 1.65, 1.9, 2.5}) {
+      double sum = 0;
+      const int n = 400;
+      for (int i = 0; i < n; ++i) {
+        const double c = 1 - (i + 0.5) / n * (1 - std::cos(half)), s = std::sqrt(1 - c * c);
+        for (int j = 0; j < n; ++j) {
+          const double azimuth = 2 * kPi * (j + 0.5) / n;
+          sum += std::fmax(0.0, std::cos(angle) * c + std::sin(angle) * s * std::cos(azimuth));
+        }
+      }
+      const ConeLight cone{{0, 0, 1}, half, {}};
+      EXPECT_NEAR(cone.mean_cosine(std::cos(angle)), sum / (n * n), 2e-5) << half << " " << angle;
+    }
+}
+
 TEST(Lights, AmbientLightIsTakenOnce) {
   const LightPtr ambient = make_light(AmbientLight{{1, 0.5, 0.25}, 2});
   EXPECT_EQ(ambient->sample_count(), 0);
