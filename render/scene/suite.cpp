@@ -66,6 +66,14 @@ std::vector<Field> test_fields() {
   return fields;
 }
 
+// The fields of a group or groups field.
+const std::vector<Field>& fields_of(const char* name) {
+  static const std::vector<Field> fields = test_fields();
+  for (const Field& field : fields)
+    if (field.name == name) return *field.type.fields;
+  throw std::logic_error(std::string("tests have no field ") + name);
+}
+
 constexpr const char* kFigures[] = {"length", "area", "volume"};
 
 class SuiteReader {
@@ -83,8 +91,8 @@ class SuiteReader {
   Value completed(const Value& test) const;
   void check_name(const Value& name);
   void read_settings(const Value& test, const Counters& counters, SuiteTest& into);
-  std::optional<PictureLimits> limits_of(const Fields& compare, const Value* place);
-  std::vector<Expectation> expectations_of(const Fields& test, const Value& place);
+  PictureLimits limits_of(const Value& compare);
+  std::vector<Expectation> expectations_of(const Value& expect, const Counters& counters);
   void check_against();
 
   const fs::path path_;
@@ -93,7 +101,7 @@ class SuiteReader {
   Builder builder_;
   Suite suite_;
   std::map<std::string, Place> names_;
-  std::vector<std::pair<std::string, Place>> against_;  // of each test
+  std::map<std::string, Value> against_;  // of each test by its name
 };
 
 fs::path SuiteReader::folder(const char* key, const char* otherwise) {
@@ -126,9 +134,12 @@ void SuiteReader::check_sections() {
 Value SuiteReader::completed(const Value& test) const {
   Value all = test;
   const Value* defaults = file_.root.find("defaults");
-  if (defaults && defaults->is_map())
-    for (const Entry& entry : defaults->entries)
-      if (!test.find(entry.key.name)) all.entries.push_back(entry);
+  if (!defaults || !defaults->is_map()) return all;
+  static const std::vector<Field> known = picture_fields();
+  for (const Entry& entry : defaults->entries)
+    if (!test.find(entry.key.name) &&
+        std::any_of(known.begin(), known.end(), [&](const Field& field) { return field.name == entry.key.name; }))
+      all.entries.push_back(entry);
   return all;
 }
 
@@ -160,46 +171,48 @@ void SuiteReader::read_settings(const Value& test, const Counters& counters, Sui
     if (const auto text = builder_.setting(entry.value, counters)) into.set.emplace_back(entry.key.name, *text);
 }
 
-std::optional<PictureLimits> SuiteReader::limits_of(const Fields& compare, const Value* place) {
+PictureLimits SuiteReader::limits_of(const Value& compare) {
   PictureLimits limits;
-  limits.metric = *metric_from_name(compare.text("metric"));
+  if (!compare.is_map()) return limits;
+  const auto fields = builder_.read_fields(fields_of("compare"), compare, {}, "'compare'");
+  if (!fields) return limits;
+  limits.metric = *metric_from_name(fields->text("metric"));
   const bool flip = limits.metric == Metric::flip, least = larger_is_better(limits.metric);
-  bool good = true;
   const auto take = [&](const char* key, bool fits, std::optional<double>& into) {
-    if (!compare.has(key)) return;
-    into = compare.number(key);
+    if (!fields->has(key)) return;
+    into = fields->number(key);
     if (fits) return;
-    const Value* given = place ? place->find(key) : nullptr;
-    diagnostics_.error(given ? given->place : file_.root.place,
-                       fmt::format("'{}' is no limit of {}", key, metric_name(limits.metric)),
+    diagnostics_.error(compare.find(key)->place, fmt::format("'{}' is no limit of {}", key, metric_name(limits.metric)),
                        flip    ? "limits of flip are mean and maximum"
                        : least ? fmt::format("write minimum: the smallest {} that passes", metric_name(limits.metric))
                                : fmt::format("write maximum: the largest {} that passes", metric_name(limits.metric)));
-    good = false;
   };
   take("mean", flip, limits.mean);
   take("maximum", !least, limits.maximum);
   take("minimum", least, limits.minimum);
-  return good ? std::optional(limits) : std::nullopt;
+  return limits;
 }
 
-std::vector<Expectation> SuiteReader::expectations_of(const Fields& test, const Value& place) {
+std::vector<Expectation> SuiteReader::expectations_of(const Value& expect, const Counters& counters) {
   std::vector<Expectation> all;
-  if (!test.has("expect")) return all;
-  for (const Fields& fields : test.groups("expect")) {
+  for (const Scoped& item : builder_.items(expect, counters)) {
+    if (!item.value->is_map()) continue;
+    const auto fields =
+        builder_.read_fields(fields_of("expect"), *item.value, item.counters, "an expectation", {"repeat"});
+    if (!fields) continue;
     Expectation one;
-    one.tolerance = fields.number("tolerance");
+    one.tolerance = fields->number("tolerance");
     for (const char* figure : kFigures)
-      if (fields.has(figure)) one.measures[figure] = fields.number(figure);
-    const bool measure = fields.has("measure"), evaluate = fields.has("evaluate"), samples = fields.has("samples");
+      if (fields->has(figure)) one.measures[figure] = fields->number(figure);
+    const bool measure = fields->has("measure"), evaluate = fields->has("evaluate"), samples = fields->has("samples");
     if (measure == evaluate || measure == samples || measure == one.measures.empty()) {
-      diagnostics_.error(place.place, "an expectation measures or evaluates one thing",
+      diagnostics_.error(item.value->place, "an expectation measures or evaluates one thing",
                          "write { measure: ring, area: 12.5, tolerance: 1e-9 } (length, area, volume) or "
                          "{ evaluate: patch, samples: patch.csv, tolerance: 1e-9 }");
       continue;
     }
-    one.name = fields.text(measure ? "measure" : "evaluate");
-    if (samples) one.samples = path_.parent_path() / fields.text("samples");
+    one.name = fields->text(measure ? "measure" : "evaluate");
+    if (samples) one.samples = path_.parent_path() / fields->text("samples");
     all.push_back(std::move(one));
   }
   return all;
@@ -214,10 +227,18 @@ void SuiteReader::read_test(const Value& given, const Counters& counters) {
   }
   const auto filled = builder_.fill_templates(completed(given), counters);
   if (!filled) return;
+  // Everything is looked at, whatever else is wrong: all errors in one run.
   const auto fields = builder_.read_fields(test_fields(), *filled, counters, "a test", {"repeat", "set"});
-  if (const Value* name = filled->find("name"); name && name->is_scalar() && !name->invalid) check_name(*name);
   SuiteTest test;
+  const Value* name = filled->find("name");
+  if (name && name->is_scalar() && !name->invalid) check_name(*name);
   read_settings(*filled, counters, test);
+  if (const Value* compare = filled->find("compare")) test.limits = limits_of(*compare);
+  if (const Value* expect = filled->find("expect")) test.expectations = expectations_of(*expect, counters);
+  if (const Value* command = filled->find("command"); command && command->text == "draw")
+    diagnostics_.error(command->place, "this version makes no drawings and cannot test them",
+                       "leave the test out until it does");
+  if (const Value* against = filled->find("against"); against && name) against_[name->text] = *against;
   if (!fields) return;
   test.name = fields->text("name");
   test.scene = fields->text("scene");
@@ -234,17 +255,9 @@ void SuiteReader::read_test(const Value& given, const Counters& counters) {
   if (fields->has("representation"))
     test.representation = fields->text("representation") == "mesh" ? Representation::mesh : Representation::direct;
   if (fields->has("integrator")) test.integrator = fields->get<IntegratorPtr>("integrator");
-  if (fields->text("command") == "draw")
-    diagnostics_.error(filled->find("command")->place, "this version makes no drawings and cannot test them",
-                       "leave the test out until it does");
   test.layer = fields->text("layer");
-  if (const auto limits = limits_of(fields->group("compare"), filled->find("compare"))) test.limits = *limits;
   test.time_limit = fields->number("time_limit");
-  if (const Value* expect = filled->find("expect")) test.expectations = expectations_of(*fields, *expect);
-  if (fields->has("against")) {
-    test.against = fields->text("against");
-    against_.emplace_back(test.name, filled->find("against")->place);
-  }
+  if (fields->has("against")) test.against = fields->text("against");
   suite_.tests.push_back(std::move(test));
 }
 
@@ -256,19 +269,18 @@ void SuiteReader::read_tests(const Value& tests) {
 void SuiteReader::check_against() {
   std::vector<std::string> known;
   for (const auto& [name, place] : names_) known.push_back(name);
-  for (const auto& [name, place] : against_) {
-    std::set<std::string> seen;
-    const SuiteTest* test = suite_.find(name);
-    while (test && !test->against.empty() && seen.insert(test->name).second) {
-      if (test->name == name && !names_.count(test->against)) {
-        const auto nearest = geometry::nearest_name(test->against, known);
-        diagnostics_.error(place, fmt::format("there is no test called '{}'{}", test->against,
-                                              nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
-      }
-      test = suite_.find(test->against);
+  for (const auto& [name, against] : against_) {
+    if (!names_.count(against.text)) {
+      const auto nearest = geometry::nearest_name(against.text, known);
+      diagnostics_.error(against.place, fmt::format("there is no test called '{}'{}", against.text,
+                                                    nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+      continue;
     }
-    if (test && test->name == name && !test->against.empty())
-      diagnostics_.error(place, fmt::format("'{}' is compared with itself in the end", name),
+    std::set<std::string> seen;
+    std::string at = name;
+    while (against_.count(at) && seen.insert(at).second) at = against_[at].text;
+    if (at == name)
+      diagnostics_.error(against.place, fmt::format("'{}' is compared with itself in the end", name),
                          "one of the tests in this circle needs a golden picture");
   }
 }
