@@ -5,6 +5,8 @@
 
 #include "json.h"
 #include "render/image/atomic_file.h"
+#include "render/image/exr.h"
+#include "render/image/layers.h"
 #include "render/image/report.h"
 #include "render/scene/include.h"
 #include "suite.h"
@@ -50,6 +52,13 @@ std::string last_reason(const Suite& suite, const std::string& test) {
   return text->substr(first, end + 1 - first);
 }
 
+// The compared layer of a test's picture, as a display shows it.
+render::DisplayImage shown(const Suite& suite, const render::SuiteTest& test) {
+  const fs::path file = result_file(suite, test.name);
+  const render::Layer layer = render::select_layer(render::read_exr(file), test.layer, file);
+  return render::quantize(render::display_values(layer, render::finite_range(layer.image)));
+}
+
 // XML 1.0 has no control characters but tab and line feed.
 std::string escaped(const std::string& text) {
   std::string result;
@@ -79,12 +88,16 @@ void write_suite_report(const fs::path& folder, const Suite& suite, const std::v
     render::ReportEntry entry{.name = result.name,
                               .passed = result.verdict == Verdict::passed,
                               .note = joined(result.messages),
-                              .comparison = {}};
+                              .comparison = {},
+                              .picture = {}};
     if (entry.note.empty()) entry.note = result.figures;
     if (test.against.empty())
       if (const std::string reason = last_reason(suite, result.name); !reason.empty())
         entry.note += fmt::format("{}golden picture: {}", entry.note.empty() ? "" : "\n", reason);
-    if (!result.figures.empty()) entry.comparison = judge_picture(suite, test).comparison;
+    if (!result.figures.empty())
+      entry.comparison = judge_picture(suite, test).comparison;
+    else if (result.has_picture)
+      entry.picture = shown(suite, test);
     entries.push_back(std::move(entry));
   }
   render::write_report(folder, suite.file.string(), entries);
