@@ -8,6 +8,7 @@ _lekalo() {
     --representation) words='direct mesh' ;;
     --metric) words='flip rmse psnr ssim max' ;;
     --isa) words='sse2 avx2 avx512 native' ;;
+    --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
     --format) words='pov obj ply stl' ;;
     --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --ray | --filter | --jobs | --accept | --reason)
       return ;;
@@ -19,7 +20,7 @@ _lekalo() {
       words='render make compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render | make) words='-o --output --size --samples --threads --isa --crop --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
+        render | make) words='-o --output --size --samples --threads --isa --crop --layers --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --accept --reason --report --junit --json --quiet' ;;
         check) words='--set' ;;
