@@ -20,7 +20,7 @@ _lekalo() {
       words='render make compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render | make) words='-o --output --size --samples --threads --isa --crop --layers --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
+        render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --accept --reason --report --junit --json --quiet' ;;
         check) words='--set' ;;

@@ -19,6 +19,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from render make test' -l threads 
 complete -c lekalo -n '__fish_seen_subcommand_from render make test' -l isa -x -a 'sse2 avx2 avx512 native' -d 'instruction set'
 complete -c lekalo -n $picture -l crop -x -d 'X0,Y0,X1,Y1 in pixels'
 complete -c lekalo -n $picture -l layers -x -d 'layers of EXR files'
+complete -c lekalo -n $picture -l half -d 'colour of EXR files as half'
 complete -c lekalo -n $picture -l frames -x -d 'name=a..b:n'
 complete -c lekalo -n $picture -l watch -d 'render again when a file changes'
 complete -c lekalo -n $picture -l representation -x -a 'direct mesh' -d 'of every object'

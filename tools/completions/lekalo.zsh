@@ -19,7 +19,7 @@ scene=('*--set[set a parameter]:name=value' '--help[show help]')
 picture=(
   '*'{-o,--output}'[output file]:file:_files' '--representation[of every object]:kind:(direct mesh)'
   '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)'
-  '--crop[window in pixels]:X0,Y0,X1,Y1' '--layers[layers of EXR files]:names' '--frames[sequence over a parameter]:name=a..b\:n'
+  '--crop[window in pixels]:X0,Y0,X1,Y1' '--layers[layers of EXR files]:names' '--half[colour of EXR files as half]' '--frames[sequence over a parameter]:name=a..b\:n'
   '--watch[render again when a file changes]' '--resume[go on with an interrupted rendering]:file:_files -g "*.partial"'
   '--quiet[print errors only]' '--stats[print rays, times, memory]' '--stamp[put date, machine and path into outputs]'
 )

@@ -149,6 +149,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const int code = drawings == outputs.end() ? kDone : kFileError;
   outputs.erase(drawings, outputs.end());
   if (outputs.empty()) return code;
+  if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
   // Only OpenEXR files have room for more than colour.
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
