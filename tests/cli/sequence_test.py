@@ -109,6 +109,19 @@ class Sequences(ProgramTest):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(20), DONE)
 
+    def test_watch_begins_anew_when_the_scene_changes_meanwhile(self):
+        self.write("ring.yaml", SCENE.replace("size: [32, 24], samples: 1", "size: [960, 720], samples: 1000"))
+        process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--watch", "--quiet"], cwd=self.folder)
+        self.addCleanup(process.kill)
+        time.sleep(1)
+        self.write("ring.yaml", SCENE)
+        end = time.monotonic() + 20
+        while "out.exr" not in self.names() and time.monotonic() < end:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), DONE)
+        self.assertEqual(self.names(), ["out.exr", "ring.png"])  # nothing of the one that was given up
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,10 +3,13 @@
 import os
 import pathlib
 import re
+import signal
+import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
-from program import DIFFERS, FILE_ERROR, ProgramTest, SCENE_ERROR, USAGE
+from program import DIFFERS, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest, SCENE_ERROR, USAGE
 
 # Golovanov 2016, 2.5: area 4 pi^2 R r, volume 2 pi^2 R r^2 of a torus with R = 3, r = 1.
 SCENE = """lekalo: 1
@@ -120,6 +123,32 @@ class Suites(ProgramTest):
         self.assertIn("not done after 0.3 s, its time_limit", out)
         self.assertIn("'slow', which it is compared with, made no picture", out)
         self.assertEqual(sorted(os.listdir(self.folder / "out")), ["quick.exr"])
+
+    def start_slow(self, *more):
+        """A suite under way whose first test takes for ever: the program and the process of that test."""
+        self.suite("name: slow, scene: ring.yaml, samples: 1000000", *more)
+        process = subprocess.Popen([LEKALO, "test", "suite.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        end = time.monotonic() + 20
+        while not children.read_text() and time.monotonic() < end:
+            time.sleep(0.02)
+        return process, int(children.read_text())
+
+    def test_a_crash_fails_one_test_only(self):
+        process, child = self.start_slow("name: quick, scene: ring.yaml")
+        os.kill(child, signal.SIGSEGV)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, DIFFERS)
+        self.assertIn("crashed: Segmentation fault", out)
+        self.assertTrue((self.folder / "out/quick.exr").exists())
+
+    def test_interrupted(self):
+        process, child = self.start_slow()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, errors), (INTERRUPTED, "interrupted\n"))
+        self.assertFalse(pathlib.Path(f"/proc/{child}").exists())
 
     def test_outputs_for_people_and_programs(self):
         self.suite("name: ring, scene: ring.yaml", "name: mesh, scene: ring.yaml, set: { r: 0.5 }, against: ring")
