@@ -63,25 +63,40 @@ std::string layer_names(const Image& image) {
   return list;
 }
 
+// Whether a channel belongs to a layer, given by its name in files; empty: colour.
+bool belongs(const Channel& channel, const std::string& layer) {
+  if (layer.empty()) return is_color_channel(channel.name);
+  return channel.name == layer || channel.name.starts_with(layer + ".");
+}
+
+// The OpenEXR layer or channel that a user's name means; empty: colour.
+std::string channels_of(const std::string& name) {
+  if (name.empty() || name == "color") return {};
+  for (const NamedLayer& known : kNamedLayers)
+    if (name == known.name) return known.channels;
+  return name;
+}
+
 }  // namespace
+
+Image keep_layer(Image image, const std::string& name, const std::filesystem::path& file) {
+  select_layer(image, name, file);  // complains if it is missing
+  std::erase_if(image.channels, [&](const Channel& channel) { return !belongs(channel, channels_of(name)); });
+  return image;
+}
 
 Layer select_layer(const Image& image, const std::string& name, const std::filesystem::path& file) {
   const bool color = name.empty() || name == "color";
   Layer layer;
   layer.kind = color ? LayerKind::color : LayerKind::measure;
-  std::string channels = name;
+  const std::string channels = channels_of(name);
   for (const NamedLayer& known : kNamedLayers) {
-    if (name == known.name || name == known.channels) {
-      channels = known.channels;
-      layer.kind = known.kind;
-    }
+    if (channels == known.channels) layer.kind = known.kind;
   }
   layer.image = make_image(image.width, image.height);
   std::vector<Channel>& found = layer.image.channels;
-  std::copy_if(image.channels.begin(), image.channels.end(), std::back_inserter(found), [&](const Channel& channel) {
-    if (color) return is_color_channel(channel.name);
-    return channel.name == channels || channel.name.starts_with(channels + ".");
-  });
+  std::copy_if(image.channels.begin(), image.channels.end(), std::back_inserter(found),
+               [&](const Channel& channel) { return belongs(channel, channels); });
   if (found.empty() || (color && !has_color(layer.image))) {
     throw ImageError(file, "has no layer '" + (color ? "color" : name) + "'", "it has: " + layer_names(image));
   }

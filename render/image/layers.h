@@ -28,6 +28,10 @@ struct Layer {
 // layers that there are.
 Layer select_layer(const Image& image, const std::string& name, const std::filesystem::path& file);
 
+// The picture with the channels of one layer only, under their own names, with window and metadata: what a golden
+// picture keeps. `name` and errors as for select_layer.
+Image keep_layer(Image image, const std::string& name, const std::filesystem::path& file);
+
 // The finite values of a layer; (0, 1) if there are none, never an empty range.
 struct ValueRange {
   double low = 0, high = 1;

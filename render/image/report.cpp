@@ -211,12 +211,12 @@ std::string figures(const ComparisonResult& result) {
   return html + "</dl>\n";
 }
 
-std::string panel(const ComparisonResult& result, std::string_view label, std::string_view file, std::string_view png,
+std::string panel(int width, int height, std::string_view label, std::string_view file, std::string_view png,
                   std::string_view below) {
   return fmt::format(
       "<figure><figcaption><b>{0}</b> <span>{1}</span></figcaption><div class=\"frame\"><img src=\"{2}\" width=\"{3}\" "
       "height=\"{4}\" alt=\"{0}\"></div>{5}</figure>\n",
-      label, escaped(file), png, result.width, result.height, below);
+      label, escaped(file), png, width, height, below);
 }
 
 // The panels of entry number `i`, whose three pictures are written beside the page.
@@ -228,9 +228,10 @@ std::string panels(const std::filesystem::path& folder, std::size_t i, const Com
   write_png(folder / png("error"), heat_map(result.error, brightest));
   const std::string scale =
       fmt::format("<div class=\"scale\"><span>0</span><i></i><span>{}</span></div>", number(brightest));
-  return "<div class=\"panels\">\n" + panel(result, "A", result.path_a, png("a"), "") +
-         panel(result, "B", result.path_b, png("b"), "") +
-         panel(result, error_label(result.metric), "", png("error"), scale) + "</div>\n";
+  const int width = result.width, height = result.height;
+  return "<div class=\"panels\">\n" + panel(width, height, "A", result.path_a, png("a"), "") +
+         panel(width, height, "B", result.path_b, png("b"), "") +
+         panel(width, height, error_label(result.metric), "", png("error"), scale) + "</div>\n";
 }
 
 std::string section(const std::filesystem::path& folder, std::size_t i, const ReportEntry& entry) {
@@ -244,6 +245,12 @@ std::string section(const std::filesystem::path& folder, std::size_t i, const Re
   html += "</div>\n";
   if (!entry.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(entry.note));
   if (entry.comparison) html += panels(folder, i, *entry.comparison) + figures(*entry.comparison);
+  if (!entry.comparison && entry.picture) {
+    const std::string png = fmt::format("{:04}-b.png", i);
+    write_png(folder / png, *entry.picture);
+    html += fmt::format("<div class=\"panels\">\n{}</div>\n",
+                        panel(entry.picture->width, entry.picture->height, "B", "", png, ""));
+  }
   return html + "</section>\n";
 }
 

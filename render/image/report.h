@@ -16,11 +16,12 @@ struct ReportEntry {
   std::string name;
   bool passed = false;
   std::string note;                            // shown as text: why the golden changed, what failed; may be empty
-  std::optional<ComparisonResult> comparison;  // without one there are no pictures
+  std::optional<ComparisonResult> comparison;  // without one there are no pictures but `picture`
+  std::optional<DisplayImage> picture;         // of a test that has nothing to be compared with yet
 };
 
-// Writes folder/index.html and, for entry number i from 1, folder/iiii-{a,b,error}.png. Makes the folder. Failed
-// entries come first. The same entries give the same bytes. Throws ImageError.
+// Writes folder/index.html and, for entry number i from 1, folder/iiii-{a,b,error}.png, or iiii-b.png for a single
+// picture. Makes the folder. Failed entries come first. The same entries give the same bytes. Throws ImageError.
 void write_report(const std::filesystem::path& folder, const std::string& title,
                   const std::vector<ReportEntry>& entries);
 

@@ -65,6 +65,19 @@ class Builder {
   // Lines for stderr: which defaults were taken.
   const std::vector<std::string>& defaults_taken() const { return defaults_; }
 
+  // Every file that a field named, in the order of reading.
+  const std::vector<std::filesystem::path>& files_named() const { return files_named_; }
+
+  // For other kinds of files, which have fields, lists and repeats as scenes have (suite.cpp); nothing after an error.
+  std::optional<Fields> read_fields(const std::vector<Field>& declared, const Value& map, const Counters& counters,
+                                    const std::string& what, const std::vector<std::string>& also_allowed = {});
+  // Items of a list, repeats expanded; a single value stands for a list of one.
+  std::vector<Scoped> items(const Value& value, const Counters& counters);
+  // A copy in which every text has its templates filled: %k, %02k, %.3r, %(k+1); %% is a percent sign (templates.cpp).
+  std::optional<Value> fill_templates(const Value& value, const Counters& counters);
+  // A formula as --set takes it: as written, or its value if it speaks of counters.
+  std::optional<std::string> setting(const Value& value, const Counters& counters);
+
  private:
   // --- builder_values.cpp: one value by a field's type; nothing after an error has been reported.
   std::optional<std::any> read(const FieldType& type, const Value& value, const Counters& counters);
@@ -78,8 +91,6 @@ class Builder {
                                                          const Counters& counters);
   std::optional<geometry::PictureSize> read_picture_size(const Value& value, const Counters& counters);
   bool check_count(const FieldType& type, const Value& value, size_t count);
-  // Items of a list, repeats expanded; a single value stands for a list of one.
-  std::vector<Scoped> items(const Value& value, const Counters& counters);
 
   // --- builder_places.cpp: points, directions, frames, transforms.
   std::optional<Vec3> read_point(const Value& value, const Counters& counters);
@@ -96,8 +107,6 @@ class Builder {
 
   // --- builder_types.cpp: maps with a `type`, references, families.
   void declare_section(const char* section);
-  std::optional<Fields> read_fields(const std::vector<Field>& declared, const Value& map, const Counters& counters,
-                                    const std::string& what, const std::vector<std::string>& also_allowed = {});
   bool read_field(const Field& field, const Value& value, const Counters& counters, Fields& fields);
   const Value& default_value(const std::string& text);
   bool check(const TypeDeclaration& type, const Fields& fields, const Value& map);
@@ -138,6 +147,7 @@ class Builder {
   std::deque<Value> made_;  // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
+  std::vector<std::filesystem::path> files_named_;
   MaterialPtr default_material_;
   std::set<std::string> like_in_work_;
   int depth_ = 0;

@@ -369,6 +369,7 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
                            "looked for beside the scene file and in the shipped scenes");
         return std::nullopt;
       }
+      files_named_.push_back(*path);
       return std::any(path->string());
     }
     case Kind::point:

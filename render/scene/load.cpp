@@ -1,5 +1,7 @@
 #include "render/scene/load.h"
 
+#include <limits>
+
 #include "render/scene/builder.h"
 #include "render/scene/data_path.h"
 
@@ -29,7 +31,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   LoadedScene result;
   result.hash = 14695981039346656037u;
   for (const auto& file : scene.files) {
-    if (!file->path.empty()) result.files.push_back(file->path);
+    if (options.files_read && !file->path.empty()) options.files_read->push_back(file->path);
     mix(result.hash, file->text);
   }
   for (const auto& [name, value] : options.set_parameters) {
@@ -45,7 +47,14 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   build.search_path = read.search_path;
   Builder builder(scene, build, diagnostics);
   result.model = std::make_shared<const Model>(builder.build());
+  const std::vector<std::filesystem::path>& data = builder.files_named();
+  if (options.files_read) options.files_read->insert(options.files_read->end(), data.begin(), data.end());
   if (diagnostics.has_errors()) throw SceneError(diagnostics);
+  for (const std::filesystem::path& file : data) {
+    std::string reason;
+    if (const auto bytes = read_file(file, std::numeric_limits<std::uint32_t>::max(), true, reason))
+      mix(result.hash, *bytes);
+  }
   result.defaults_taken = builder.defaults_taken();
   return result;
 }

@@ -15,13 +15,14 @@ namespace lekalo::render {
 struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> set_parameters;  // --set NAME=VALUE
   std::vector<std::filesystem::path> includes;
+  // Filled with every file that was read, also if the scene has errors: what to watch for changes.
+  std::vector<std::filesystem::path>* files_read = nullptr;
 };
 
 struct LoadedScene {
   std::shared_ptr<const Model> model;
   std::vector<std::string> defaults_taken;
-  std::vector<std::filesystem::path> files;  // everything that was read, for --watch
-  uint64_t hash = 0;                         // of all texts and --set values
+  uint64_t hash = 0;  // of all texts, data files and --set values
 };
 
 // Throws SceneError with all errors of the scene.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/scene/sections.h"
+#include "render/scene/suite.h"
 
 namespace lekalo::render {
 
@@ -286,6 +287,23 @@ std::string page_of_sections() {
   return text;
 }
 
+std::string page_of_suites() {
+  std::string text =
+      "# Regression suites\n\nMade by `lekalo types --markdown`. A suite is a map of these sections, run by `lekalo "
+      "test`; "
+      "its first key is `lekalo_suite: 1`. [Regression](../regression.md) tells how to work with it.\n";
+  for (const SuiteSection& section : suite_sections()) {
+    text += fmt::format("\n## {}\n\n{}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
+                        section.description.substr(1));
+    if (section.name == "tests")
+      text +=
+          "\nA list of maps. `repeat` makes many of one; `%k`, `%02k`, `%(k+1)` in texts stand for its counters. "
+          "`set` is a map of parameters of the scene, formulas may use the counters.\n";
+    if (!section.fields.empty()) text += fmt::format("\n{}", table(section.fields));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string value_text(const FieldType& type) {
@@ -364,7 +382,8 @@ std::string description_of(const TypeDeclaration& type) {
 }
 
 std::vector<std::pair<std::string, std::string>> reference_pages() {
-  std::vector<std::pair<std::string, std::string>> pages{{"sections.md", page_of_sections()}};
+  std::vector<std::pair<std::string, std::string>> pages{{"sections.md", page_of_sections()},
+                                                         {"suites.md", page_of_suites()}};
   for (const Category category : categories_of_manual()) pages.push_back({plural(category) + ".md", page_of(category)});
   return pages;
 }

@@ -8,6 +8,7 @@
 
 #include "render/scene/manual.h"
 #include "render/scene/sections.h"
+#include "render/scene/suite.h"
 
 namespace lekalo::render {
 
@@ -58,6 +59,7 @@ std::string category_key(std::span<const Category> categories) {
 class SchemaWriter {
  public:
   Json write();
+  Json write_suite();
 
  private:
   Json value(const FieldType& type);
@@ -347,7 +349,35 @@ Json SchemaWriter::write() {
           {"$defs", definitions_}};
 }
 
+// Fields of `defaults` and of each test; what a test needs may come from the defaults.
+Json SchemaWriter::write_suite() {
+  add_common_definitions();
+  Json all = {{"lekalo_suite", {{"const", 1}, {"description", "version of the language of suites: 1; the first key"}}}};
+  for (const SuiteSection& section : suite_sections()) {
+    Json one = {{"type", "string"}};
+    if (section.name == "defaults") one = map_of(section.fields);
+    if (section.name == "tests") {
+      Json test = map_of(section.fields, {"repeat", "set"});
+      test["properties"]["set"] = {{"type", "object"},
+                                   {"additionalProperties", ref("formula")},
+                                   {"description", "parameters of the scene; formulas may use the counters of repeat"}};
+      one = one_or_list(test);
+    }
+    one["description"] = section.description;
+    all[section.name] = std::move(one);
+  }
+  return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+          {"title", "Lekalo regression suite"},
+          {"type", "object"},
+          {"properties", all},
+          {"required", {"lekalo_suite", "tests"}},
+          {"additionalProperties", false},
+          {"$defs", definitions_}};
+}
+
 }  // namespace
+
+std::string suite_schema() { return SchemaWriter().write_suite().dump(2) + "\n"; }
 
 std::string scene_schema() { return SchemaWriter().write().dump(2) + "\n"; }
 

@@ -9,5 +9,7 @@ namespace lekalo::render {
 
 // The schema, indented, with a line break at the end.
 std::string scene_schema();
+// The same for regression suites.
+std::string suite_schema();
 
 }  // namespace lekalo::render

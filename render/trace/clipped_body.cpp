@@ -10,10 +10,15 @@ using geometry::Interval;
 using geometry::Line;
 using geometry::SurfaceHit;
 
-ClippedBody::ClippedBody(geometry::BodyPtr body, std::vector<HalfSpace> planes)
-    : body_(std::move(body)), planes_(std::move(planes)), intersector_(*body_), box_(geometry::bounds(*body_)) {
-  for (const HalfSpace& plane : planes_)
-    caps_.push_back(std::make_shared<geometry::Plane>(geometry::frame_about(plane.through, plane.normal)));
+ClippedBody::ClippedBody(geometry::BodyPtr body, std::vector<CutPlane> planes, bool caps_only)
+    : body_(std::move(body)),
+      planes_(std::move(planes)),
+      caps_only_(caps_only),
+      intersector_(*body_),
+      box_(geometry::bounds(*body_)) {
+  for (const CutPlane& plane : planes_)
+    caps_.push_back(
+        std::make_shared<geometry::Plane>(geometry::frame_about(plane.half_space.through, plane.half_space.normal)));
 }
 
 void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const {
@@ -21,8 +26,9 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
   double enter = -geometry::kInfinity, leave = geometry::kInfinity;
   int enter_plane = -1, leave_plane = -1;
   for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
-    const double slope = glm::dot(planes_[k].normal, line.direction);
-    const double height = glm::dot(planes_[k].normal, line.origin - planes_[k].through);
+    const HalfSpace& half_space = planes_[k].half_space;
+    const double slope = glm::dot(half_space.normal, line.direction);
+    const double height = glm::dot(half_space.normal, line.origin - half_space.through);
     if (slope == 0) {
       if (height > 0) return;
       continue;
@@ -33,7 +39,7 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
   }
   if (!(enter < leave)) return;
   const auto cap_hit = [&](double at, int plane) {
-    const Vec3 p = line.at(at) - planes_[plane].through;
+    const Vec3 p = line.at(at) - planes_[plane].half_space.through;
     const geometry::SurfaceJet jet = caps_[plane]->evaluate(0, 0, 1);
     SurfaceHit hit;
     hit.t = at;
@@ -47,10 +53,13 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
     const SurfaceHit& in = crossings[k];
     const SurfaceHit& out = crossings[k + 1];
     if (!(std::max(in.t, enter) < std::min(out.t, leave))) continue;
-    const SurfaceHit first = in.t >= enter ? in : cap_hit(enter, enter_plane);
-    const SurfaceHit last = out.t <= leave ? out : cap_hit(leave, leave_plane);
-    if (t.contains(first.t)) hits.push_back(first);
-    if (t.contains(last.t)) hits.push_back(last);
+    const auto add = [&](bool on_body, const SurfaceHit& crossing, double at, int plane) {
+      if (on_body ? caps_only_ : !planes_[plane].cap) return;
+      const SurfaceHit hit = on_body ? crossing : cap_hit(at, plane);
+      if (t.contains(hit.t)) hits.push_back(hit);
+    };
+    add(in.t >= enter, in, enter, enter_plane);
+    add(out.t <= leave, out, leave, leave_plane);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/trace/device.h"
+
 namespace lekalo::render {
 
 using geometry::Interval;
@@ -28,11 +30,19 @@ float round_up(double x) { return -round_down(-x); }
 // The same for the ends of rays, once for each of them: a rounding of 2^-24 of x outward is enough there.
 float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
 
+DeviceOptions device_options;
+bool device_exists = false;
+
 // One device for the process; Embree's scenes share its thread pool.
 RTCDevice device() {
   static const RTCDevice shared = [] {
-    const RTCDevice d = rtcNewDevice(nullptr);
+    std::string configuration;
+    if (device_options.threads > 0) configuration += "threads=" + std::to_string(device_options.threads);
+    if (!device_options.instruction_set.empty())
+      configuration += (configuration.empty() ? "isa=" : ",isa=") + device_options.instruction_set;
+    const RTCDevice d = rtcNewDevice(configuration.empty() ? nullptr : configuration.c_str());
     if (!d) throw std::runtime_error("Embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    device_exists = true;
     return d;
   }();
   return shared;
@@ -75,6 +85,21 @@ bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hi
 }
 
 }  // namespace
+
+void set_device_options(const DeviceOptions& options) {
+  if (device_exists) throw std::logic_error("Embree runs already");
+  const std::string& set = options.instruction_set;
+  const bool known = set.empty() || set == "sse2" || set == "avx2" || set == "avx512";
+  if (!known) throw std::invalid_argument("there is no instruction set '" + set + "'; take sse2, avx2 or avx512");
+  // What Embree compiles its kernels for.
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512cd");
+  if ((set == "avx2" && !avx2) || (set == "avx512" && !avx512))
+    throw std::invalid_argument("this processor has no " + set + "; every one has sse2");
+  device_options = options;
+}
 
 // A query in the space of one hierarchy. Embree hands its address back to the callbacks.
 struct Hierarchy::Query {

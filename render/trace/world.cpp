@@ -1,5 +1,6 @@
 #include "render/trace/world.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -95,18 +96,39 @@ struct World::Compiled {
     return tolerance;
   }
 
+  // The planes that cut an object, in the space of its leaf.
+  static std::vector<CutPlane> cuts_of(const Object& object, const Affine& to_world) {
+    const Affine to_leaf = to_world.inverse();
+    std::vector<CutPlane> cuts;
+    // A plane's normal maps with the transpose of the map from the leaf to the world.
+    for (const ClipPlane& clip : object.clips)
+      cuts.push_back({{to_leaf.point(clip.through), glm::transpose(to_world.linear) * clip.normal}, clip.cap});
+    return cuts;
+  }
+
+  static bool has_caps(const Object& object) {
+    return std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; });
+  }
+
+  void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) const {
+    into.add(compile(object, number, to_world));
+    const auto* body = std::get_if<BodyPtr>(&object.shape);
+    if (!body || object.representation != Representation::mesh || !has_caps(object)) return;
+    // A mesh knows no inside: its caps are those of the exact body.
+    Leaf caps;
+    caps.object = number;
+    caps.visible_to = object.visible_to;
+    caps.shape = std::make_unique<ClippedBody>(*body, cuts_of(object, to_world), true);
+    into.add(std::move(caps));
+  }
+
   Leaf compile(const Object& object, int number, const Affine& to_world) const {
     Leaf leaf;
     leaf.object = number;
     leaf.visible_to = object.visible_to;
     leaf.flat = object.flat_shading;
-    const Affine to_leaf = to_world.inverse();
-    bool capped = false;
-    for (const ClipPlane& clip : object.clips) {
-      // A plane's normal maps with the transpose of the map from the leaf to the world.
-      leaf.clips.push_back({to_leaf.point(clip.through), glm::transpose(to_world.linear) * clip.normal});
-      capped = capped || clip.cap;
-    }
+    for (const CutPlane& plane : cuts_of(object, to_world)) leaf.clips.push_back(plane.half_space);
+    const bool capped = has_caps(object);
     const bool as_mesh = object.representation == Representation::mesh;
     std::visit(
         [&](const auto& shape) {
@@ -131,9 +153,8 @@ struct World::Compiled {
             if (as_mesh) {
               leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(*shape, tolerance_of(object, to_world)));
             } else if (capped) {
-              std::vector<HalfSpace> planes = std::move(leaf.clips);
               leaf.clips.clear();
-              leaf.shape = std::make_unique<ClippedBody>(shape, std::move(planes));
+              leaf.shape = std::make_unique<ClippedBody>(shape, cuts_of(object, to_world), false);
             } else {
               leaf.targets = geometry::make_line_targets(*shape);
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
@@ -170,13 +191,13 @@ struct World::Compiled {
       const ShareKey key = key_of(object);
       const bool share = plain && uses[key] > 1;
       if (!share && object.transform.is_identity()) {
-        into.add(compile(object, number, to_world));
+        add_leaves(into, object, number, to_world);
         continue;
       }
       std::shared_ptr<Hierarchy> child = share ? shared[key] : nullptr;
       if (!child) {
         child = std::make_shared<Hierarchy>();
-        child->add(compile(object, number, to_world * object.transform));
+        add_leaves(*child, object, number, to_world * object.transform);
         child->commit();
         if (share) shared[key] = child;
       }

@@ -24,22 +24,24 @@ class Schema(unittest.TestCase):
     def setUpClass(cls):
         cls.schema = json.loads(run("schema"))
         cls.validator = jsonschema.Draft202012Validator(cls.schema)
+        cls.suite_schema = json.loads(run("schema", "--suite"))
+        cls.suites = jsonschema.Draft202012Validator(cls.suite_schema)
 
     def valid(self, text):
         return not list(self.validator.iter_errors({"lekalo": 1, **yaml.safe_load(text)}))
 
     def test_is_a_schema(self):
         jsonschema.Draft202012Validator.check_schema(self.schema)
+        jsonschema.Draft202012Validator.check_schema(self.suite_schema)
 
     def test_every_scene_validates(self):
-        scenes = [path for folder in ("scenes", "references") for path in sorted((ROOT / folder).rglob("*.yaml"))]
+        scenes = [path for folder in ("scenes", "references", "tests/images") for path in sorted((ROOT / folder).rglob("*.yaml"))]
         self.assertNotEqual(scenes, [])
         for path in scenes:
             scene = yaml.safe_load(path.read_text())
-            if "lekalo_suite" in scene:
-                continue
+            validator = self.suites if "lekalo_suite" in scene else self.validator
             with self.subTest(scene=path.name):
-                self.assertEqual([f"{list(e.absolute_path)}: {e.message}" for e in self.validator.iter_errors(scene)], [])
+                self.assertEqual([f"{list(e.absolute_path)}: {e.message}" for e in validator.iter_errors(scene)], [])
 
     def test_every_example_of_a_type_validates(self):
         sections = {"curves": "geometry", "surfaces": "geometry", "bodies": "geometry", "meshes": "geometry",
@@ -57,6 +59,17 @@ class Schema(unittest.TestCase):
                      "geometry: { a: { radius: 1 } }", "geometry: { a: { type: diffuse } }", "geometri: {}",
                      "image: { filter: boxx }", "objects: [{ material: steel }]", "camera: { type: fisheye }"]:
             self.assertFalse(self.valid(text), text)
+
+
+    def test_suites(self):
+        def valid(test):
+            return not list(self.suites.iter_errors({"lekalo_suite": 1, "tests": [yaml.safe_load(test)]}))
+
+        good = "name: a_%02k, scene: a.yaml, repeat: { k: 1..3 }, set: { r: k/2 }"
+        for more in "", ", compare: { metric: ssim, minimum: 0.99 }", ", expect: { measure: a, area: 1, tolerance: 1e-9 }":
+            self.assertTrue(valid(f"{{ {good}{more} }}"), more)
+        for bad in "{ name: a }", f"{{ {good}, colour: red }}", f"{{ {good}, compare: {{ metric: taste }} }}", f"{{ {good}, samples: 0 }}":
+            self.assertFalse(valid(bad), bad)
 
 
 class Reference(unittest.TestCase):

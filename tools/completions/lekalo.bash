@@ -7,26 +7,29 @@ _lekalo() {
   case $previous in
     --representation) words='direct mesh' ;;
     --metric) words='flip rmse psnr ssim max' ;;
+    --isa) words='sse2 avx2 avx512 native' ;;
+    --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
     --format) words='pov obj ply stl' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --ray | --filter | --jobs | --accept | --reason | --isa)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --ray | --filter | --jobs | --accept | --reason)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render compare test check measure evaluate trace export schema types --help --version'
+      words='render make compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render) words='-o --output --size --samples --threads --isa --crop --representation --set --frames --watch --resume --json --quiet --stats --stamp' ;;
+        render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
-        test) words='--filter --jobs --accept --reason --report --junit --json --quiet' ;;
-        check) words='--set --json --quiet' ;;
+        test) words='--filter --jobs --threads --isa --accept --reason --report --junit --json --quiet' ;;
+        check) words='--set' ;;
         measure) words='--topology --against --tolerance --set --json' ;;
         evaluate) words='--at --face --order --set --json' ;;
         trace) words='--ray --rays --set --json' ;;
         export) words='--format --sag --patch-steps --flatness -o --output --set --quiet' ;;
         types) words='--markdown' ;;
+        schema) words='--suite' ;;
       esac
       words+=' --help'
     fi

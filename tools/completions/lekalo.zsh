@@ -4,8 +4,9 @@
 local -a commands scene picture
 commands=(
   'render:render the pictures of a scene'
+  'make:write all outputs of a scene'
   'compare:compare two images'
-  'test:run an image regression suite'
+  'test:run a regression suite'
   'check:report all errors of a scene file'
   'measure:lengths, areas, volumes, topology'
   'evaluate:a point with derivatives and curvatures'
@@ -17,10 +18,10 @@ commands=(
 scene=('*--set[set a parameter]:name=value' '--help[show help]')
 picture=(
   '*'{-o,--output}'[output file]:file:_files' '--representation[of every object]:kind:(direct mesh)'
-  '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name'
-  '--crop[window in pixels]:X0,Y0,X1,Y1' '--frames[sequence over a parameter]:name=a..b\:n'
+  '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)'
+  '--crop[window in pixels]:X0,Y0,X1,Y1' '--layers[layers of EXR files]:names' '--half[colour of EXR files as half]' '--frames[sequence over a parameter]:name=a..b\:n'
   '--watch[render again when a file changes]' '--resume[go on with an interrupted rendering]:file:_files -g "*.partial"'
-  '--json[print JSON]' '--quiet[print errors only]' '--stats[print rays, times, memory]' '--stamp[put the date into outputs]'
+  '--quiet[print errors only]' '--stats[print rays, times, memory]' '--stamp[put date, machine and path into outputs]'
 )
 
 if (( CURRENT == 2 )); then
@@ -33,14 +34,14 @@ local command=$words[2]
 shift words
 (( CURRENT-- ))
 case $command in
-  render) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
+  render | make) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   compare) _arguments '--metric[what to measure]:metric:(flip rmse psnr ssim max)' '--threshold[largest difference]:number' \
     '--layer[layer of EXR files]:name' '--report[HTML report]:folder:_files -/' '--json[print JSON]' '--quiet[print errors only]' \
     '--help[show help]' '*:image:_files -g "*.(exr|png)"' ;;
-  test) _arguments '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--accept[new golden image]:name' \
+  test) _arguments '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)' '--accept[new golden image]:name' \
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
-  check) _arguments $scene '--json[print JSON]' '--quiet[print errors only]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
+  check) _arguments $scene '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples]:file:_files' '--tolerance[largest distance that passes]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
@@ -48,6 +49,6 @@ case $command in
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  schema) _arguments '--help[show help]' ;;
+  schema) _arguments '--suite[of regression suites]' '--help[show help]' ;;
   types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;
 esac

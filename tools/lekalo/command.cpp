@@ -13,7 +13,7 @@ void SceneOptions::add_to(CLI::App& app) {
   app.add_option("--set", set, "value of a parameter, e.g. --set w=4; repeatable")->type_name("NAME=VALUE");
 }
 
-render::LoadedScene SceneOptions::load() const {
+render::LoadOptions SceneOptions::load_options() const {
   render::LoadOptions options;
   for (const std::string& one : set) {
     const size_t equals = one.find('=');
@@ -21,8 +21,10 @@ render::LoadedScene SceneOptions::load() const {
       throw UsageError(fmt::format("--set takes NAME=VALUE, found '{}'", one));
     options.set_parameters.emplace_back(one.substr(0, equals), one.substr(equals + 1));
   }
-  return render::load_scene(file, options);
+  return options;
 }
+
+render::LoadedScene SceneOptions::load() const { return render::load_scene(file, load_options()); }
 
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name) {
   const auto& geometry = scene.model->geometry;

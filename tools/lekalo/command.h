@@ -20,6 +20,7 @@ struct SceneOptions {
   std::vector<std::string> set;  // name=value
 
   void add_to(CLI::App& app);
+  render::LoadOptions load_options() const;
   render::LoadedScene load() const;
 };
 
@@ -33,6 +34,8 @@ render::Table load_table(const std::string& path);
 using Action = std::function<int()>;
 
 void add_render(CLI::App& app, Action& action);
+void add_make(CLI::App& app, Action& action);
+void add_test(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);

@@ -71,8 +71,9 @@ int run(const Options& options) {
       options.a, options.b,
       {.metric = *render::metric_from_name(options.metric), .threshold = options.threshold, .layer = options.layer});
   if (!options.report.empty()) {
-    render::write_report(options.report, fmt::format("{} and {}", options.a, options.b),
-                         {{.name = result.layer, .passed = result.passed, .note = "", .comparison = result}});
+    render::write_report(
+        options.report, fmt::format("{} and {}", options.a, options.b),
+        {{.name = result.layer, .passed = result.passed, .note = "", .comparison = result, .picture = {}}});
   }
   if (options.json) {
     fmt::print("{}\n", to_json(result).dump(2));

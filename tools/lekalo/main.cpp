@@ -39,9 +39,11 @@ int main(int argc, char** argv) {
   });
   command::Action action;
   command::add_render(app, action);
+  command::add_make(app, action);
   command::add_check(app, action);
   command::add_evaluate(app, action);
   command::add_compare(app, action);
+  command::add_test(app, action);
   command::add_measure(app, action);
   command::add_trace(app, action);
   command::add_export(app, action);

@@ -1,22 +1,21 @@
-// lekalo render: a scene's pictures.
+// lekalo render and make: a scene's pictures, once, as a sequence, or again whenever the scene changes.
 #include <fmt/format.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "command.h"
-#include "render/film/render.h"
-#include "render/image/display.h"
-#include "render/image/exr.h"
-#include "render/image/png.h"
-#include "render/scene/data_path.h"
+#include "engine.h"
+#include "frames.h"
+#include "picture.h"
+#include "progress.h"
+#include "render/image/image_error.h"
 #include "render/trace/world.h"
+#include "watch.h"
 
 namespace lekalo::command {
 
@@ -25,59 +24,41 @@ namespace {
 using render::Model;
 using render::OutputFile;
 
-std::atomic<bool> stop_requested{false};
+std::atomic<bool> interrupted{false};   // by Ctrl-C
+std::atomic<bool> stop_tracing{false};  // by Ctrl-C, or because a watched file has changed
 
-void request_stop(int) { stop_requested = true; }
+void interrupt(int) { interrupted = stop_tracing = true; }
 
 struct Options {
   SceneOptions scene;
+  EngineOptions engine;
   std::vector<std::string> outputs;
-  std::string size, crop, resume;
+  std::string size, crop, resume, frames;
   int samples = 0;
-  int threads = 0;
   std::string representation;
   std::vector<std::string> layers;
-  bool half = false, quiet = false, stats = false;
+  bool make_drawings = false;  // make: the scene's drawings too
+  bool half = false, watch = false, stamp = false, quiet = false, stats = false;
 };
 
-void parse_pair(const std::string& text, int& width, int& height) {
-  int used = 0;
+std::pair<int, int> parse_size(const std::string& text) {
+  int used = 0, width = 0, height = 0;
   if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 || used != static_cast<int>(text.size()) ||
       width < 1 || height < 1 || width > 65536 || height > 65536 || 1.0 * width * height > 1e8)
     throw UsageError(fmt::format("--size takes WIDTHxHEIGHT in pixels, found '{}'", text));
+  return {width, height};
 }
 
-// One line, rewritten on a terminal, printed now and then when not.
-class Progress {
- public:
-  explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-  void operator()(double done, uint64_t rays) {
-    if (quiet_) return;
-    const auto now = std::chrono::steady_clock::now();
-    const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    const double since = std::chrono::duration<double>(now - last_).count();
-    if (since < (terminal_ ? 0.2 : 10.0)) return;
-    last_ = now;
-    const double left = done > 0 ? elapsed * (1 - done) / done : 0;
-    fmt::print(stderr, "{}{:3.0f}%  {:.2f} Mrays/s  {} left{}", terminal_ ? "\r" : "", 100 * done,
-               static_cast<double>(rays) / std::max(elapsed, 1e-9) / 1e6, duration(left), terminal_ ? "   " : "\n");
-    std::fflush(stderr);
-    shown_ = true;
-  }
-  void end() const {
-    if (shown_ && terminal_) fmt::print(stderr, "\r{:60}\r", "");
-  }
-  static std::string duration(double seconds) {
-    const int s = static_cast<int>(std::ceil(seconds));
-    return s < 60     ? fmt::format("{} s", s)
-           : s < 3600 ? fmt::format("{} min {} s", s / 60, s % 60)
-                      : fmt::format("{} h {} min", s / 3600, s / 60 % 60);
-  }
-
- private:
-  bool quiet_, terminal_, shown_ = false;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), last_ = begin_;
-};
+void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
+  const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
+  fmt::print(stderr,
+             "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB)\n"
+             "trace            {:.3f} s\n"
+             "rays             {} camera, {} shadow, {} other: {:.3f} Mrays/s\n",
+             built, world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576,
+             result.seconds, result.camera_rays, result.shadow_rays, result.other_rays,
+             static_cast<double>(rays) / std::max(result.seconds, 1e-9) / 1e6);
+}
 
 std::vector<OutputFile> chosen_outputs(const Options& options, const Model& model) {
   std::vector<OutputFile> outputs;
@@ -96,7 +77,7 @@ std::vector<OutputFile> chosen_outputs(const Options& options, const Model& mode
     return outputs;
   }
   for (const OutputFile& file : model.outputs)
-    if (file.kind == "render") outputs.push_back(file);
+    if (file.kind == "render" || options.make_drawings) outputs.push_back(file);
   if (outputs.empty()) {
     OutputFile file;
     file.path = std::filesystem::path(options.scene.file).stem().string() + ".png";
@@ -106,47 +87,68 @@ std::vector<OutputFile> chosen_outputs(const Options& options, const Model& mode
   return outputs;
 }
 
-void write(const OutputFile& file, const render::Image& image) {
-  if (file.path.ends_with(".exr")) {
-    render::write_exr(file.path, image);
-    return;
-  }
-  render::DisplayTransform transform;
-  transform.exposure = file.exposure;
-  transform.curve = file.filmic ? render::ToneCurve::filmic : render::ToneCurve::none;
-  const render::DisplayResult shown = render::to_display(image, transform);
-  if (shown.non_finite > 0) fmt::print(stderr, "{}: {} pixels are not finite\n", file.path, shown.non_finite);
-  render::write_png(file.path, shown.image);
+// What one run of the command keeps while it goes through frames and changes of the scene.
+struct Run {
+  const Options& options;
+  std::optional<FileWatch> watch;
+  bool restart = false;  // a file changed while its picture was made
+};
+
+PictureOverrides overrides_of(const Options& options) {
+  PictureOverrides overrides;
+  if (!options.size.empty()) overrides.size = parse_size(options.size);
+  if (options.samples > 0) overrides.samples = options.samples;
+  if (!options.representation.empty())
+    overrides.representation =
+        options.representation == "mesh" ? render::Representation::mesh : render::Representation::direct;
+  return overrides;
 }
 
-int run(const Options& options) {
+void set_crop(const std::string& text, Model& model) {
+  const std::vector<double> c = parse_numbers(text, 4, "--crop");
+  auto& f = model.film;
+  f.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
+  if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&
+        f.crop.y1 <= f.height))
+    throw UsageError(
+        fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", text, f.width, f.height));
+}
+
+render::LoadedScene load(Run& run, const Frame& frame) {
+  std::vector<std::filesystem::path> files;
+  render::LoadOptions load = run.options.scene.load_options();
+  if (!frame.parameter.empty()) load.set_parameters.emplace_back(frame.parameter, frame.value);
+  load.files_read = &files;
+  const auto watch = [&] {
+    if (run.watch) run.watch->include(files);
+  };
+  try {
+    render::LoadedScene scene = render::load_scene(run.options.scene.file, load);
+    watch();
+    return scene;
+  } catch (const render::SceneError&) {
+    watch();
+    throw;
+  }
+}
+
+int render_frame(Run& run, const Frame& frame, bool first) {
+  const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
-  const render::LoadedScene scene = options.scene.load();
-  auto model = std::make_shared<Model>(*scene.model);
-  if (!options.quiet)
+  const render::LoadedScene scene = load(run, frame);
+  const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
+  if (!options.quiet && first)
     for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
-  if (!options.size.empty()) {
-    int width = 0, height = 0;
-    parse_pair(options.size, width, height);
-    model->film.width = width;
-    model->film.height = height;
-    model->camera = scene.model->make_camera(width, height);
-  }
-  if (options.samples > 0) model->film.samples = options.samples;
-  if (!options.representation.empty())
-    for (render::Object& object : model->objects)
-      object.representation =
-          options.representation == "mesh" ? render::Representation::mesh : render::Representation::direct;
-  if (!options.crop.empty()) {
-    const std::vector<double> c = parse_numbers(options.crop, 4, "--crop");
-    model->film.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
-    const auto& f = model->film;
-    if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&
-          f.crop.y1 <= f.height))
-      throw UsageError(
-          fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", options.crop, f.width, f.height));
-  }
-  const std::vector<OutputFile> outputs = chosen_outputs(options, *model);
+  if (!options.crop.empty()) set_crop(options.crop, *model);
+  std::vector<OutputFile> outputs = chosen_outputs(options, *model);
+  for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
+  const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
+                                              [](const OutputFile& file) { return file.kind == "render"; });
+  for (auto file = drawings; file != outputs.end(); ++file)
+    fmt::print(stderr, "{}: not made: this version makes pictures (exr, png) and no drawings\n", file->path);
+  const int code = drawings == outputs.end() ? kDone : kFileError;
+  outputs.erase(drawings, outputs.end());
+  if (outputs.empty()) return code;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
   // Only OpenEXR files have room for more than colour.
@@ -155,52 +157,108 @@ int run(const Options& options) {
 
   const render::World world(model);
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-
-  struct sigaction action = {};
-  action.sa_handler = request_stop;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-
   Progress progress(options.quiet);
+  stop_tracing = interrupted.load();
   render::RenderOptions settings;
-  settings.threads = options.threads;
-  settings.stop = &stop_requested;
-  settings.progress = [&](double done, uint64_t rays) { progress(done, rays); };
+  settings.threads = options.engine.threads;
+  settings.stop = &stop_tracing;
+  settings.progress = [&](double done, uint64_t rays) {
+    run.restart = run.watch && run.watch->changed();
+    if (run.restart) stop_tracing = true;
+    progress(done, rays);
+  };
   settings.identity = scene.hash;
   settings.partial_file = outputs.front().path + ".partial";
   settings.resume_file = options.resume;
   render::RenderResult result = render::render(world, settings);
   progress.end();
-
-  result.image.metadata["lekalo.version"] = std::string(LEKALO_VERSION);
-  result.image.metadata["lekalo.scene"] = std::filesystem::path(options.scene.file).filename().string();
-  result.image.metadata["lekalo.samples"] = model->film.samples;
-  if (!model->title.empty()) result.image.metadata["lekalo.title"] = model->title;
-  for (const auto& [name, value] : model->parameters) result.image.metadata["lekalo.parameter." + name] = value;
-  if (!result.complete) result.image.metadata["lekalo.incomplete"] = 1;
+  if (run.restart && !result.complete && !interrupted) {
+    std::error_code ignored;
+    std::filesystem::remove(settings.partial_file, ignored);
+    return kDone;
+  }
+  add_metadata(result, *model, options.scene.file, options.stamp);
   for (const OutputFile& file : outputs) {
-    write(file, result.image);
+    write_picture(file, result.image);
     if (!options.quiet) fmt::print(stderr, "{}\n", file.path);
   }
   if (result.not_finite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
-  if (options.stats) {
-    const render::WorldStatistics s = world.statistics();
-    const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
-    fmt::print(stderr,
-               "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB)\n"
-               "trace            {:.3f} s\n"
-               "rays             {} camera, {} shadow, {} other: {:.3f} Mrays/s\n",
-               built, s.pieces, s.triangles, s.instances, static_cast<double>(s.bytes) / 1048576, result.seconds,
-               result.camera_rays, result.shadow_rays, result.other_rays,
-               static_cast<double>(rays) / std::max(result.seconds, 1e-9) / 1e6);
-  }
+  if (options.stats) print_statistics(world.statistics(), result, built);
   if (!result.complete) {
     fmt::print(stderr, "interrupted: what was done is in {}; go on with --resume {}\n", outputs.front().path,
                settings.partial_file);
     return kInterrupted;
   }
-  return kDone;
+  return code;
+}
+
+int render_frames(Run& run, const std::vector<Frame>& frames) {
+  int worst = kDone;
+  for (const Frame& frame : frames) {
+    if (interrupted) return kInterrupted;
+    const int code = render_frame(run, frame, &frame == &frames.front());
+    if (code == kInterrupted || run.restart) return code;
+    worst = std::max(worst, code);
+  }
+  return worst;
+}
+
+// Again whenever a file changes, until Ctrl-C.
+int render_and_watch(Run& run, const std::vector<Frame>& frames) {
+  run.watch.emplace();
+  run.watch->include({run.options.scene.file});
+  for (;;) {
+    run.watch->refresh();
+    run.restart = false;
+    try {
+      if (render_frames(run, frames) == kInterrupted) return kInterrupted;
+    } catch (const render::SceneError& error) {
+      std::fputs(error.what(), stderr);
+    } catch (const render::ImageError& error) {
+      fmt::print(stderr, "lekalo: {}\n", error.what());
+    }
+    if (run.restart) continue;
+    if (!run.options.quiet)
+      fmt::print(stderr, "watching {} file{}; Ctrl-C ends\n", run.watch->count(), run.watch->count() == 1 ? "" : "s");
+    if (!run.watch->wait(interrupted)) return kDone;
+  }
+}
+
+int run(const Options& options) {
+  const std::vector<Frame> frames = parse_frames(options.frames);
+  if (!options.resume.empty() && (!options.frames.empty() || options.watch))
+    throw UsageError("--resume continues one picture: it does not go with --frames or --watch");
+  options.engine.apply();
+  struct sigaction action = {};
+  action.sa_handler = interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  Run run{options, {}};
+  return options.watch ? render_and_watch(run, frames) : render_frames(run, frames);
+}
+
+void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
+  options->scene.add_to(sub);
+  sub.add_option("-o,--output", options->outputs, "file to write (exr, png); repeatable")->type_name("FILE");
+  sub.add_option("--size", options->size, "picture size in pixels")->type_name("WxH");
+  sub.add_option("--samples", options->samples, "samples per pixel")->check(CLI::Range(1, 1 << 20));
+  options->engine.add_to(sub);
+  sub.add_option("--crop", options->crop, "only this part, in pixels")->type_name("X0,Y0,X1,Y1");
+  sub.add_option("--representation", options->representation, "of every object: direct or mesh")
+      ->check(CLI::IsMember({"direct", "mesh"}));
+  sub.add_option("--layers", options->layers, "layers of OpenEXR files, separated by commas; all by default")
+      ->delimiter(',')
+      ->check(CLI::IsMember(render::film_layers()))
+      ->type_name("NAMES");
+  sub.add_flag("--half", options->half, "R G B A of OpenEXR files as half (11 bits) in place of float");
+  sub.add_option("--frames", options->frames, "N numbered pictures while a parameter runs from A to B")
+      ->type_name("NAME=A..B:N");
+  sub.add_flag("--watch", options->watch, "again when the scene or a file that it reads changes, until Ctrl-C");
+  sub.add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
+  sub.add_flag("--stamp", options->stamp, "put date, machine and the scene's path into the pictures");
+  sub.add_flag("--quiet", options->quiet, "no progress, no notes");
+  sub.add_flag("--stats", options->stats, "print times, counts and memory");
 }
 
 }  // namespace
@@ -211,24 +269,24 @@ void add_render(CLI::App& app, Action& action) {
       "Examples:\n"
       "  lekalo render scenes/primer/teapot.yaml\n"
       "  lekalo render ring.yaml --set tube=0.3 --size 1920x1080 --samples 256 -o ring.exr -o ring.png\n"
+      "  lekalo render ring.yaml --frames tube=0.1..0.5:24     (ring_0001.png to ring_0024.png)\n"
+      "  lekalo render ring.yaml --watch                       (again whenever the scene changes)\n"
       "Without -o the scene's own outputs are written, or SCENE.png.");
   auto options = std::make_shared<Options>();
-  options->scene.add_to(*sub);
-  sub->add_option("-o,--output", options->outputs, "file to write (exr, png); repeatable")->type_name("FILE");
-  sub->add_option("--size", options->size, "picture size in pixels")->type_name("WxH");
-  sub->add_option("--samples", options->samples, "samples per pixel")->check(CLI::Range(1, 1 << 20));
-  sub->add_option("--threads", options->threads, "threads; all cores by default")->check(CLI::Range(1, 1024));
-  sub->add_option("--crop", options->crop, "only this part, in pixels")->type_name("X0,Y0,X1,Y1");
-  sub->add_option("--representation", options->representation, "of every object: direct or mesh")
-      ->check(CLI::IsMember({"direct", "mesh"}));
-  sub->add_flag("--half", options->half, "R G B A of OpenEXR files as half (11 bits) in place of float");
-  sub->add_option("--layers", options->layers, "layers of OpenEXR files, separated by commas; all by default")
-      ->delimiter(',')
-      ->check(CLI::IsMember(render::film_layers()))
-      ->type_name("NAMES");
-  sub->add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
-  sub->add_flag("--quiet", options->quiet, "no progress, no notes");
-  sub->add_flag("--stats", options->stats, "print times, counts and memory");
+  add_options(*sub, options);
+  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+void add_make(CLI::App& app, Action& action) {
+  auto* sub = app.add_subcommand("make", "Write everything that a scene lists under outputs");
+  sub->footer(
+      "Examples:\n"
+      "  lekalo make figure.yaml\n"
+      "  lekalo make figure.yaml --watch\n"
+      "Drawings (pdf, svg) are named and left out by this version; the exit code is 4 then.");
+  auto options = std::make_shared<Options>();
+  options->make_drawings = true;
+  add_options(*sub, options);
   sub->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 

@@ -1,4 +1,4 @@
-// lekalo schema: the JSON Schema of scene files, for editors and validators.
+// lekalo schema: the JSON Schema of scene files and suites, for editors and validators.
 #include "render/scene/schema.h"
 
 #include <cstdio>
@@ -8,14 +8,16 @@
 namespace lekalo::command {
 
 void add_schema(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("schema", "Print the JSON Schema of scene files, for editors");
+  auto* sub = app.add_subcommand("schema", "Print the JSON Schema of scene files or suites, for editors");
   sub->footer(
-      "Example:\n  lekalo schema > lekalo.schema.json\n\n"
+      "Examples:\n  lekalo schema > lekalo.schema.json\n  lekalo schema --suite > suite.schema.json\n\n"
       "An editor with YAML support completes and checks a scene that begins with the line\n"
       "  # yaml-language-server: $schema=lekalo.schema.json");
-  sub->callback([&action] {
-    action = []() -> int {
-      std::fputs(render::scene_schema().c_str(), stdout);
+  auto suite = std::make_shared<bool>(false);
+  sub->add_flag("--suite", *suite, "of regression suites");
+  sub->callback([&action, suite] {
+    action = [suite]() -> int {
+      std::fputs((*suite ? render::suite_schema() : render::scene_schema()).c_str(), stdout);
       return kDone;
     };
   });

@@ -1,0 +1,127 @@
+"""Pictures over and over: --frames, --watch, make; and what goes into them: --stamp, --isa."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import DONE, FILE_ERROR, LEKALO, ProgramTest, SCENE_ERROR, USAGE
+
+SCENE = """lekalo: 1
+parameters: { tube: 0.4, lean: 0 }
+geometry: { ring: { type: torus_body, major_radius: 2, minor_radius: tube, transform: { rotate: lean, axis: x } } }
+image: { size: [32, 24], samples: 1 }
+outputs: [ring.png, { file: out.exr }]
+"""
+
+
+class Sequences(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("ring.yaml", SCENE)
+
+    def render(self, *arguments, code=DONE):
+        return self.run_program("render", "ring.yaml", "--quiet", *arguments, code=code)
+
+    def names(self):
+        return sorted(set(os.listdir(self.folder)) - {"ring.yaml"})
+
+    def test_frames(self):
+        """Each frame is the picture of its own value, the first and the last of the ends; angles keep their unit."""
+        self.render("--frames", "tube=0.1..0.5:3")
+        self.assertEqual(self.names(), [f"{name}_000{k}.{kind}" for name, kind in (("out", "exr"), ("ring", "png")) for k in (1, 2, 3)])
+        for k, value in enumerate(("0.1", "0.3", "0.5"), 1):
+            self.render("--set", f"tube={value}", "-o", "one.png")
+            self.assertEqual(self.bytes_of("one.png"), self.bytes_of(f"ring_000{k}.png"))
+        self.render("--frames", "lean=0 deg..90 deg:3", "-o", "turned.png")
+        self.render("--set", "lean=90", "-o", "one.png")
+        self.assertEqual(self.bytes_of("one.png"), self.bytes_of("turned_0003.png"))
+
+    def test_wrong_frames(self):
+        for frames in "tube", "tube=1:3", "tube=0.1..0.5", "tube=0.1..0.5:0", "tube=0.1..0.5:x", "=0.1..0.5:3", "tube=..1:3", "tube=(..1:3":
+            self.assertIn("--frames", self.render("--frames", frames, code=USAGE)[1])
+        self.assertIn("did you mean 'tube'?", self.render("--frames", "tub=0.1..0.5:3", code=SCENE_ERROR)[1])
+        self.assertIn("--resume", self.render("--frames", "tube=0.1..0.5:3", "--resume", "x", code=USAGE)[1])
+        self.assertEqual(self.names(), [])
+
+    def test_make_writes_all_outputs(self):
+        self.run_program("make", "ring.yaml", "--quiet")
+        self.assertEqual(self.names(), ["out.exr", "ring.png"])
+        self.write("ring.yaml", SCENE.replace("ring.png,", "ring.png, ring.svg, { file: draft.png, kind: drawing },"))
+        _, errors = self.run_program("make", "ring.yaml", "--quiet", code=FILE_ERROR)
+        self.assertIn("ring.svg: not made", errors)
+        self.assertIn("draft.png: not made", errors)
+        self.assertEqual(self.names(), ["out.exr", "ring.png"])
+        self.render()  # pictures only: nothing to complain about
+
+    def test_stamp(self):
+        """Without it no clock, host or path; SOURCE_DATE_EPOCH gives the date and leaves host and path out."""
+        self.render("-o", "plain.exr")
+        self.render("--stamp", "-o", "stamped.exr")
+        self.assertNotIn(b"lekalo.date", self.bytes_of("plain.exr"))
+        for what in b"lekalo.date", b"lekalo.host", str(self.folder).encode():
+            self.assertIn(what, self.bytes_of("stamped.exr"))
+        os.environ["SOURCE_DATE_EPOCH"] = "0"
+        self.addCleanup(lambda: os.environ.pop("SOURCE_DATE_EPOCH"))
+        for name in "a.exr", "b.exr":
+            self.render("--stamp", "-o", name)
+        self.assertIn(b"1970-01-01T00:00:00Z", self.bytes_of("a.exr"))
+        self.assertNotIn(b"lekalo.host", self.bytes_of("a.exr"))
+        self.assertEqual(self.bytes_of("a.exr"), self.bytes_of("b.exr"))
+
+    def test_instruction_sets(self):
+        """The same bits again; and between two sets nearly the same picture."""
+        for name in "a.exr", "b.exr":
+            self.render("--isa", "sse2", "--threads", 2, "-o", name)
+        self.assertEqual(self.bytes_of("a.exr"), self.bytes_of("b.exr"))
+        self.render("--isa", "native", "-o", "native.exr")
+        self.run_program("compare", "a.exr", "native.exr", "--metric", "max", "--threshold", "1e-5")
+        self.assertIn("sse3", self.render("--isa", "sse3", code=USAGE)[1])
+
+    def test_watch(self):
+        """The picture is made again when the scene, an included file or a table changes, and errors do not end it."""
+        self.write("points.csv", "0,0,0\n1,1,0\n2,0,1\n")
+        self.write("part.yaml", "lekalo: 1\ngeometry: { line: { type: polyline, points: { file: points.csv } } }\n")
+        self.write("ring.yaml", SCENE.replace("parameters", "include: part.yaml\nparameters"))
+        with open(self.folder / "notes", "w") as notes:
+            process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--watch", "-o", "watched.exr"], cwd=self.folder, stderr=notes)
+        self.addCleanup(process.kill)
+
+        def rounds(count):
+            end = time.monotonic() + 20
+            while (self.folder / "notes").read_text().count("Ctrl-C ends") < count and time.monotonic() < end:
+                self.assertIsNone(process.poll())
+                time.sleep(0.05)
+            self.assertEqual((self.folder / "notes").read_text().count("Ctrl-C ends"), count)
+
+        rounds(1)
+        self.assertIn("watching 3 files", (self.folder / "notes").read_text())
+        first = self.bytes_of("watched.exr")
+        self.write("ring.yaml", SCENE.replace("tube: 0.4", "tube: 0.8").replace("parameters", "include: part.yaml\nparameters"))
+        rounds(2)
+        self.assertNotEqual(self.bytes_of("watched.exr"), first)
+        self.write("points.csv", "0,0,0\n1,1,0\n2,x,1\n")
+        rounds(3)
+        self.assertIn("points.csv:3:", (self.folder / "notes").read_text())
+        self.write("points.csv", "0,0,0\n1,1,0\n")
+        rounds(4)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), DONE)
+
+    def test_watch_begins_anew_when_the_scene_changes_meanwhile(self):
+        self.write("ring.yaml", SCENE.replace("size: [32, 24], samples: 1", "size: [960, 720], samples: 1000"))
+        process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--watch", "--quiet"], cwd=self.folder)
+        self.addCleanup(process.kill)
+        time.sleep(1)
+        self.write("ring.yaml", SCENE)
+        end = time.monotonic() + 20
+        while "out.exr" not in self.names() and time.monotonic() < end:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), DONE)
+        self.assertEqual(self.names(), ["out.exr", "ring.png"])  # nothing of the one that was given up
+
+
+if __name__ == "__main__":
+    unittest.main()

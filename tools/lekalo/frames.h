@@ -1,0 +1,21 @@
+// `--frames tube=0.1..0.5:12`: a sequence of pictures over a parameter.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lekalo::command {
+
+struct Frame {
+  std::string parameter, value;  // as --set takes them; no parameter: the scene as it is
+  std::string suffix;            // of the file's name: _0001, _0002, ...; empty without a sequence
+};
+
+// The frames of NAME=A..B:N, N values from A to B, both included; A and B are formulas and may be angles. Without a
+// text the one frame of the scene as it is. Throws UsageError.
+std::vector<Frame> parse_frames(const std::string& text);
+
+// The name of a frame's file: ring.png is ring_0001.png.
+std::string numbered(const std::string& path, const Frame& frame);
+
+}  // namespace lekalo::command

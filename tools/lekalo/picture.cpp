@@ -1,0 +1,77 @@
+#include "picture.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <climits>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "render/image/display.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
+
+namespace lekalo::command {
+
+namespace {
+
+std::optional<std::time_t> source_date() {
+  const char* text = std::getenv("SOURCE_DATE_EPOCH");
+  if (!text || !*text) return std::nullopt;
+  char* end = nullptr;
+  const long long seconds = std::strtoll(text, &end, 10);
+  return *end == '\0' && seconds >= 0 ? std::optional(static_cast<std::time_t>(seconds)) : std::nullopt;
+}
+
+}  // namespace
+
+std::shared_ptr<render::Model> with_overrides(const render::Model& scene, const PictureOverrides& overrides) {
+  auto model = std::make_shared<render::Model>(scene);
+  if (overrides.size) {
+    std::tie(model->film.width, model->film.height) = *overrides.size;
+    model->camera = scene.make_camera(model->film.width, model->film.height);
+  }
+  if (overrides.samples) model->film.samples = *overrides.samples;
+  if (overrides.representation)
+    for (render::Object& object : model->objects) object.representation = *overrides.representation;
+  if (overrides.integrator) model->integrator = overrides.integrator;
+  return model;
+}
+
+void add_metadata(render::RenderResult& result, const render::Model& model, const std::string& scene_file, bool stamp) {
+  auto& metadata = result.image.metadata;
+  metadata["lekalo.version"] = std::string(LEKALO_VERSION);
+  metadata["lekalo.scene"] = std::filesystem::path(scene_file).filename().string();
+  metadata["lekalo.samples"] = model.film.samples;
+  if (!model.title.empty()) metadata["lekalo.title"] = model.title;
+  for (const auto& [name, value] : model.parameters) metadata["lekalo.parameter." + name] = value;
+  if (!result.complete) metadata["lekalo.incomplete"] = 1;
+  if (!stamp) return;
+  metadata["lekalo.date"] = date_text(true);
+  if (source_date()) return;
+  char host[HOST_NAME_MAX + 1] = {};
+  if (gethostname(host, HOST_NAME_MAX) == 0) metadata["lekalo.host"] = std::string(host);
+  metadata["lekalo.path"] = std::filesystem::absolute(scene_file).string();
+}
+
+void write_picture(const render::OutputFile& file, const render::Image& image) {
+  if (file.path.ends_with(".exr")) {
+    render::write_exr(file.path, image);
+    return;
+  }
+  render::DisplayTransform transform;
+  transform.exposure = file.exposure;
+  transform.curve = file.filmic ? render::ToneCurve::filmic : render::ToneCurve::none;
+  const render::DisplayResult shown = render::to_display(image, transform);
+  if (shown.non_finite > 0) fmt::print(stderr, "{}: {} pixels are not finite\n", file.path, shown.non_finite);
+  render::write_png(file.path, shown.image);
+}
+
+std::string date_text(bool with_time) {
+  const std::time_t now = source_date().value_or(std::time(nullptr));
+  return fmt::format(fmt::runtime(with_time ? "{:%Y-%m-%dT%H:%M:%SZ}" : "{:%Y-%m-%d}"), fmt::gmtime(now));
+}
+
+}  // namespace lekalo::command

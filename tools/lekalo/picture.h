@@ -1,0 +1,33 @@
+// From a loaded scene to picture files: what render, make and test share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "render/film/render.h"
+#include "render/scene/load.h"
+
+namespace lekalo::command {
+
+// What a command asks for instead of what the scene says.
+struct PictureOverrides {
+  std::optional<std::pair<int, int>> size;  // pixels
+  std::optional<int> samples;
+  std::optional<render::Representation> representation;
+  render::IntegratorPtr integrator;
+};
+
+std::shared_ptr<render::Model> with_overrides(const render::Model& model, const PictureOverrides& overrides);
+
+// Version, scene (its name without folders), samples, title and parameters; with `stamp` also the date, and the
+// machine and the scene's full path unless SOURCE_DATE_EPOCH gives the date.
+void add_metadata(render::RenderResult& result, const render::Model& model, const std::string& scene_file, bool stamp);
+
+// EXR, or PNG by the output's display transform. Atomic. Throws ImageError.
+void write_picture(const render::OutputFile& file, const render::Image& image);
+
+// The moment of the run in UTC, or that of SOURCE_DATE_EPOCH: "2026-11-21", "2026-11-21T20:05:17Z".
+std::string date_text(bool with_time);
+
+}  // namespace lekalo::command

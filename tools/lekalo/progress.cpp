@@ -1,0 +1,43 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lekalo::command {
+
+namespace {
+
+std::string duration(double seconds) {
+  const int s = static_cast<int>(std::ceil(seconds));
+  return s < 60     ? fmt::format("{} s", s)
+         : s < 3600 ? fmt::format("{} min {} s", s / 60, s % 60)
+                    : fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void Progress::operator()(double done, uint64_t rays) {
+  if (quiet_) return;
+  const auto now = std::chrono::steady_clock::now();
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  const double since = std::chrono::duration<double>(now - last_).count();
+  if (since < (terminal_ ? 0.2 : 10.0)) return;
+  last_ = now;
+  const double left = done > 0 ? elapsed * (1 - done) / done : 0;
+  fmt::print(stderr, "{}{:3.0f}%  {:.2f} Mrays/s  {} left{}", terminal_ ? "\r" : "", 100 * done,
+             static_cast<double>(rays) / std::max(elapsed, 1e-9) / 1e6, duration(left), terminal_ ? "   " : "\n");
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void Progress::end() const {
+  if (shown_ && terminal_) fmt::print(stderr, "\r{:60}\r", "");
+}
+
+}  // namespace lekalo::command

@@ -1,0 +1,22 @@
+// How far a rendering is: one line, rewritten on a terminal, printed now and then when not.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace lekalo::command {
+
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  void operator()(double done, uint64_t rays);
+  // Clears the line.
+  void end() const;
+
+ private:
+  bool quiet_, terminal_, shown_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), last_ = begin_;
+};
+
+}  // namespace lekalo::command
