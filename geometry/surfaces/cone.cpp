@@ -36,6 +36,7 @@ void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits)
   const Quadric quadric = cylinder ? Quadric{{1, 1, 0}, 0, -1} : Quadric{{1, 1, -1}, 0, 0};
   const QuadricHits found = quadric_hits(quadric, o, d);
   const auto add = [&](int i, double nappe) {
+    if (!t.contains(moved.start + found.s[i])) return;
     // Is there anything of this nappe in the domain?
     const double lo = radius_ + widening_ * domain_.v.lo, hi = radius_ + widening_ * domain_.v.hi;
     if (!cylinder && !(std::max(nappe * lo, nappe * hi) > 0)) return;

@@ -113,6 +113,7 @@ void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale
   const QuadricHits found = quadric_hits(quadric, moved.origin / scale, moved.direction / scale);
   for (int i = 0; i < found.count; ++i) {
     const Vec3& p = found.point[i];
+    if (!range.contains(moved.start + found.s[i])) continue;
     if (const auto v = parameter(p)) add_hit(hits, range, moved.start + found.s[i], std::atan2(p.y, p.x), *v);
   }
 }

@@ -57,7 +57,7 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
   // Clearly behind the origin of a ray or beyond its end.
   const double length = glm::length(line.direction);
   const double slack =
-      1e-14 * (std::abs(rough) * length + glm::length(frame_.origin) + glm::length(line.origin)) / std::abs(speed);
+      2e-15 * (std::abs(rough) * length + glm::length(frame_.origin) + glm::length(line.origin)) / std::abs(speed);
   if (rough < range.lo - slack || rough > range.hi + slack) return;
   // Anew from the point nearest to the rough hit.
   const MovedLine moved = moved_near(line, line.at(rough), frame_);

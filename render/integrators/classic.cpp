@@ -274,7 +274,7 @@ Spectrum Tracer::caught_shadow(const Illumination& light, const ClassicCoefficie
   Spectrum missing;  // share of the light that does not arrive, times the strength of shadows
   for (int i = 0; i < 4; ++i) {
     const float open = ambient_[i] + light.unobstructed[i];
-    if (open > 0) missing[i] = c.diffuse[i] * (light.unobstructed[i] - light.diffuse[i]) / open;
+    if (open > 0) missing.set(i, c.diffuse[i] * (light.unobstructed[i] - light.diffuse[i]) / open);
   }
   if (first) sample_.alpha = missing.largest();
   return (kWhite - missing) * world_.model().background;

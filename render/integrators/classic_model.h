@@ -29,8 +29,9 @@ inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& m, double n0, do
 
 // Bouguer: e^(-mu l); without absorption light comes from infinity as well.
 inline Spectrum transmittance(const Spectrum& mu, double length) {
-  Spectrum result;
-  for (int i = 0; i < 4; ++i) result[i] = mu[i] == 0 ? 1.0f : static_cast<float>(std::exp(-mu[i] * length));
+  Spectrum result(1.0f);
+  if (mu.is_zero()) return result;
+  for (int i = 0; i < 4; ++i) result.set(i, mu[i] == 0 ? 1.0f : static_cast<float>(std::exp(-mu[i] * length)));
   return result;
 }
 

@@ -21,9 +21,9 @@ struct RaySample {
   SurfacePoint point;  // valid when hit
   double depth = 0;    // distance along the ray
   Spectrum albedo;
-  Spectrum direct;   // light of sources (ambient ones too) on the first hit, without reflections and refractions
+  Spectrum direct;     // light of sources (ambient ones too) on the first hit, without reflections and refractions
   bool noisy = false;  // another sample of the same place might have shown another colour: a penumbra
-  uint64_t key = 0;  // identifies the tree of objects, shadows and texture cells behind this sample
+  uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample
   uint32_t shadow_rays = 0;
   uint32_t other_rays = 0;  // reflected and refracted
 };

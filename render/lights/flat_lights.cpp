@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vector>
+
 #include "render/lights/lights.h"
 
 namespace lekalo::render {
@@ -20,8 +22,7 @@ class FlatLamp : public Light {
   int sample_count() const override { return sampling_.n * sampling_.n; }
 
   LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
-    const Vec2 place = on_area(area_sample(sampling_, index, r1, r2));
-    const Vec3 to_light = frame_.point(Vec3(place, 0)) - point;
+    const Vec3 to_light = (sampling_.grid ? grid_[index] : place(index, r1, r2)) - point;
     const double distance = glm::length(to_light);
     const Vec3 direction = to_light / distance;
     const float share = one_sided_ ? static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z))) : 1.0f;
@@ -31,10 +32,20 @@ class FlatLamp : public Light {
   bool casts_shadows() const override { return lamp_.shadows; }
 
  protected:
+  // To be called when on_area knows the light's shape.
+  void lay_grid() {
+    if (!sampling_.grid) return;
+    for (int i = 0; i < sample_count(); ++i) grid_.push_back(place(i, 0, 0));
+  }
   // Place in the frame's xy plane of a place in the unit square, area preserving up to a factor.
   virtual Vec2 on_area(const Vec2& square) const = 0;
 
  private:
+  Vec3 place(int index, double r1, double r2) const {
+    return frame_.point(Vec3(on_area(area_sample(sampling_, index, r1, r2)), 0));
+  }
+
+  std::vector<Vec3> grid_;  // the fixed places
   Frame frame_;
   bool one_sided_;
   AreaSampling sampling_;
@@ -44,7 +55,9 @@ class FlatLamp : public Light {
 class RectangleLamp final : public FlatLamp {
  public:
   explicit RectangleLamp(const RectangleLight& light)
-      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {}
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {
+    lay_grid();
+  }
   Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * light_.size; }
   std::any made_from() const override { return light_; }
 
@@ -55,7 +68,9 @@ class RectangleLamp final : public FlatLamp {
 class DiscLamp final : public FlatLamp {
  public:
   explicit DiscLamp(const DiscLight& light)
-      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {}
+      : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {
+    lay_grid();
+  }
   Vec2 on_area(const Vec2& square) const override { return light_.radius * concentric_disc(square); }
   std::any made_from() const override { return light_; }
 

@@ -29,13 +29,13 @@ double fresnel_conductor(double cos_incident, double n, double k) {
 
 Spectrum fresnel_dielectric(double cos_incident, const Spectrum& n1) {
   Spectrum result;
-  for (int i = 0; i < 4; ++i) result[i] = static_cast<float>(fresnel_dielectric(cos_incident, 1.0, n1[i]));
+  for (int i = 0; i < 4; ++i) result.set(i, static_cast<float>(fresnel_dielectric(cos_incident, 1.0, n1[i])));
   return result;
 }
 
 Spectrum fresnel_conductor(double cos_incident, const Spectrum& n, const Spectrum& k) {
   Spectrum result;
-  for (int i = 0; i < 4; ++i) result[i] = static_cast<float>(fresnel_conductor(cos_incident, n[i], k[i]));
+  for (int i = 0; i < 4; ++i) result.set(i, static_cast<float>(fresnel_conductor(cos_incident, n[i], k[i])));
   return result;
 }
 

@@ -121,8 +121,8 @@ ComplexIndex metal_index(std::string_view name, const Wavelengths& wavelengths) 
   ComplexIndex index;
   for (int i = 0; i < 4; ++i) {
     const double micrometres = wavelengths.nanometres[i] / 1000.0;
-    index.n[i] = static_cast<float>(interpolate(metal.micrometres, metal.n, micrometres));
-    index.k[i] = static_cast<float>(interpolate(metal.micrometres, metal.k, micrometres));
+    index.n.set(i, static_cast<float>(interpolate(metal.micrometres, metal.n, micrometres)));
+    index.k.set(i, static_cast<float>(interpolate(metal.micrometres, metal.k, micrometres)));
   }
   return index;
 }

@@ -10,7 +10,7 @@ namespace lekalo::render {
 
 class TexturedColor {
  public:
-  TexturedColor(double grey) : constant_(static_cast<float>(grey)) { constant_[3] = 0; }
+  TexturedColor(double grey) : constant_(static_cast<float>(grey)) { constant_.set(3, 0); }
   TexturedColor(const Vec3& linear_rec709) : constant_(rgb(linear_rec709)) {}
   TexturedColor(TexturePtr texture) : texture_(std::move(texture)) {}
 

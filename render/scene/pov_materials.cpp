@@ -28,7 +28,7 @@ bool is_grey(const Spectrum& s) { return s[0] == s[1] && s[1] == s[2]; }
 
 Spectrum divided(const Spectrum& s, const Spectrum& by) {
   Spectrum q;
-  for (int i = 0; i < 3; ++i) q[i] = by[i] != 0 ? s[i] / by[i] : 0;
+  for (int i = 0; i < 3; ++i) q.set(i, by[i] != 0 ? s[i] / by[i] : 0);
   return q;
 }
 

@@ -33,6 +33,9 @@ float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); 
 DeviceOptions device_options;
 bool device_exists = false;
 
+// Pieces that are tested one after the other; an Embree scene of as many takes longer.
+constexpr size_t kFew = 6;
+
 // One device for the process; Embree's scenes share its thread pool.
 RTCDevice device() {
   static const RTCDevice shared = [] {
@@ -147,6 +150,15 @@ struct Hierarchy::Parts {
   std::vector<std::unique_ptr<Leaf>> leaves;
   std::vector<std::unique_ptr<GeometryRecord>> records;  // by Embree geometry number, then the unbounded ones
   std::vector<const GeometryRecord*> unbounded;
+  // The pieces of a scene of few, in place of an Embree scene, whose overhead would be most of its time.
+  struct Piece {
+    const GeometryRecord* record;
+    int number;
+    Box3 box;
+  };
+  std::vector<Piece> few;
+  bool list_few();
+  void build_scene();
   struct Numbered {
     int first;
     const GeometryRecord* record;
@@ -193,6 +205,10 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
       return bounds(*record.leaf->mesh);
   }
   return {};
+}
+
+int primitive_count(const GeometryRecord& record) {
+  return record.kind == GeometryRecord::Kind::target ? record.target->piece_count() : 1;
 }
 
 // Tests one primitive of a record in double and passes its hits on.
@@ -289,12 +305,35 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
 
 }  // namespace
 
+namespace {
+
+// True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
+bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
+  for (int k = 0; k < 3; ++k) {
+    const double a = (box.lo[k] - line.origin[k]) * inverse[k], b = (box.hi[k] - line.origin[k]) * inverse[k];
+    // In this order: a NaN, of a line that runs in the plane of a side, changes nothing.
+    t_min = std::max(t_min, std::min(a, b));
+    t_max = std::min(t_max, std::max(a, b));
+  }
+  return t_min <= t_max;
+}
+
+}  // namespace
+
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
   for (const GeometryRecord* record : p.unbounded) {
-    const int count = record->kind == GeometryRecord::Kind::target ? record->target->piece_count() : 1;
+    const int count = primitive_count(*record);
     for (int i = 0; i < count; ++i) test(*record, i, query);
     if (query.any && query.found) return;
+  }
+  if (!p.few.empty()) {
+    const Vec3 inverse = 1.0 / query.line.direction;
+    for (const Parts::Piece& piece : p.few) {
+      if (!may_enter(piece.box, query.line, inverse, query.t_min, query.t_max)) continue;
+      test(*piece.record, piece.number, query);
+      if (query.any && query.found) return;
+    }
   }
   if (!p.scene) return;
   // Enter the bounding sphere in double.
@@ -403,13 +442,84 @@ void Hierarchy::add_instance(std::shared_ptr<const Hierarchy> child, const Affin
   p.numbers.push_back({r.leaf_number, &r});
 }
 
+// Lists the pieces beside each other if they are few and none is a mesh.
+bool Hierarchy::Parts::list_few() {
+  size_t count = 0;
+  for (const auto& record : records) {
+    if (record->kind == GeometryRecord::Kind::mesh) return false;
+    count += primitive_count(*record);
+  }
+  if (count > kFew) return false;
+  for (const auto& record : records)
+    for (int i = 0; i < primitive_count(*record); ++i)
+      few.push_back({record.get(), i, box_of(*record, i).inflated(kBoxInflation * radius)});
+  for (const auto& record : records)
+    if (record->kind == GeometryRecord::Kind::target) {
+      pieces += primitive_count(*record);
+      bytes += record->target->memory();
+    }
+  return true;
+}
+
+void Hierarchy::Parts::build_scene() {
+  scene = rtcNewScene(device());
+  int flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  for (auto& record : records) {
+    RTCGeometry geometry;
+    if (record->kind == GeometryRecord::Kind::mesh) {
+      const geometry::Mesh& mesh = *record->leaf->mesh;
+      geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+      auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 3 * sizeof(float), mesh.points.size()));
+      for (const Vec3& point : mesh.points) {
+        const Vec3 q = point - center;
+        for (int k = 0; k < 3; ++k) *points++ = static_cast<float>(q[k]);
+      }
+      auto* corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+          geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), mesh.triangles.size()));
+      for (const auto& triangle : mesh.triangles)
+        for (int k = 0; k < 3; ++k) *corners++ = static_cast<uint32_t>(triangle.point[k]);
+      // Triangles that some rays do not see, or that are clipped, are looked at one by one.
+      if (record->leaf->visible_to != kVisibleToAll || !record->leaf->clips.empty()) {
+        rtcSetGeometryIntersectFilterFunction(geometry, triangle_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, triangle_filter);
+      }
+      triangles += mesh.triangles.size();
+      bytes += mesh.points.size() * 12 + mesh.triangles.size() * 12;
+      meshes = true;
+    } else {
+      geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
+      const int count = primitive_count(*record);
+      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
+      rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+      rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+      rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+      if (record->kind == GeometryRecord::Kind::target) {
+        pieces += static_cast<size_t>(count);
+        bytes += record->target->memory();
+      }
+    }
+    rtcSetGeometryUserData(geometry, record.get());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene);
+  const RTCError error = rtcGetDeviceError(device());
+  if (error != RTC_ERROR_NONE)
+    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory for the scene's hierarchy"
+                                                              : "Embree reports error " + std::to_string(error));
+}
+
 void Hierarchy::commit() {
   Parts& p = *parts_;
   // Unbounded things (planes, half-spaces, infinite cylinders) stand in a list beside the hierarchy.
   std::vector<std::unique_ptr<GeometryRecord>> bounded, others;
   for (auto& record : p.records) {
     Box3 box;
-    const int count = record->kind == GeometryRecord::Kind::target ? record->target->piece_count() : 1;
+    const int count = primitive_count(*record);
     for (int i = 0; i < count; ++i) box.include(box_of(*record, i));
     const bool child_has_unbounded =
         record->kind == GeometryRecord::Kind::instance && !record->child->parts_->unbounded.empty();
@@ -426,55 +536,7 @@ void Hierarchy::commit() {
     p.center = p.box.center();
     p.radius = 0.5 * p.box.diameter();
     if (!(p.radius > 0)) p.radius = 1e-30 + 1e-12 * glm::length(p.center);
-    p.scene = rtcNewScene(device());
-    int flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
-    rtcSetSceneFlags(p.scene, static_cast<RTCSceneFlags>(flags));
-    rtcSetSceneBuildQuality(p.scene, RTC_BUILD_QUALITY_HIGH);
-    for (auto& record : p.records) {
-      RTCGeometry geometry;
-      if (record->kind == GeometryRecord::Kind::mesh) {
-        const geometry::Mesh& mesh = *record->leaf->mesh;
-        geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.points.size()));
-        for (const Vec3& point : mesh.points) {
-          const Vec3 q = point - p.center;
-          for (int k = 0; k < 3; ++k) *points++ = static_cast<float>(q[k]);
-        }
-        auto* corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), mesh.triangles.size()));
-        for (const auto& triangle : mesh.triangles)
-          for (int k = 0; k < 3; ++k) *corners++ = static_cast<uint32_t>(triangle.point[k]);
-        // Triangles that some rays do not see, or that are clipped, are looked at one by one.
-        if (record->leaf->visible_to != kVisibleToAll || !record->leaf->clips.empty()) {
-          rtcSetGeometryIntersectFilterFunction(geometry, triangle_filter);
-          rtcSetGeometryOccludedFilterFunction(geometry, triangle_filter);
-        }
-        p.triangles += mesh.triangles.size();
-        p.bytes += mesh.points.size() * 12 + mesh.triangles.size() * 12;
-        p.meshes = true;
-      } else {
-        geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
-        const int count = record->kind == GeometryRecord::Kind::target ? record->target->piece_count() : 1;
-        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
-        rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-        rtcSetGeometryOccludedFunction(geometry, occluded_callback);
-        if (record->kind == GeometryRecord::Kind::target) {
-          p.pieces += static_cast<size_t>(count);
-          p.bytes += record->target->memory();
-        }
-      }
-      rtcSetGeometryUserData(geometry, record.get());
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometry(p.scene, geometry);
-      rtcReleaseGeometry(geometry);
-    }
-    rtcCommitScene(p.scene);
-    const RTCError error = rtcGetDeviceError(device());
-    if (error != RTC_ERROR_NONE)
-      throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory for the scene's hierarchy"
-                                                                : "Embree reports error " + std::to_string(error));
+    if (!p.list_few()) p.build_scene();
   }
   // Unbounded records live on behind the bounded ones, whose places are Embree's numbers.
   for (auto& record : others) p.records.push_back(std::move(record));
