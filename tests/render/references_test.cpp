@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 #include "render/film/render.h"
@@ -94,13 +93,7 @@ class Reference : public testing::TestWithParam<std::string> {
 
 TEST_P(Reference, LooksAsInPovRay) { compare(GetParam(), load_scene(scene()).model, kDifference, kRelativeDifference); }
 
-// Not met yet, with the largest difference measured. Near the tip of a cone the triangles of a fan have one normal;
-// seen through the glass sphere two refractions magnify what the facets displace.
-const std::map<std::string, std::string> kMeshNotMet = {{"cone", "0.018"}, {"glass", "0.15"}};
-
 TEST_P(Reference, LooksAsInPovRayAsMesh) {
-  if (const auto known = kMeshNotMet.find(GetParam()); known != kMeshNotMet.end())
-    GTEST_SKIP() << "differs by up to " << known->second << " as a mesh; the limit is 0.01";
   auto model = std::make_shared<Model>(*load_scene(scene()).model);
   for (Object& object : model->objects) {
     object.representation = Representation::mesh;
