@@ -1,10 +1,10 @@
 // The ray oracle: all meetings of a line with a rational Bezier patch, found by halving alone.
 //
 // It shares nothing with the product's solver. The two plane equations of the line are put in Bernstein form over the
-// patch; a rectangle is discarded only if all coefficients of one of them have one strict sign beyond the rounding of
-// the arithmetic; rectangles narrower than 1e-11 that remain are gathered into clusters, and each cluster is a root. No
-// Newton iteration, no derivative. Patch and line are first moved near the origin in long double, so that a scene far
-// away loses no digits here.
+// patch; a rectangle is discarded only if all coefficients of one of them, or of a sum of multiples of the two, have
+// one strict sign beyond the rounding of the arithmetic; rectangles narrower than 1e-11 that remain are gathered into
+// clusters, and each cluster is a root. No Newton iteration, no derivative. Patch and line are first moved near the
+// origin in long double, so that a scene far away loses no digits here.
 #pragma once
 
 #include <algorithm>
@@ -91,7 +91,8 @@ class PatchOracle {
     std::array<double, kMostPoints> f, g;
   };
   struct Cell {
-    double u, v;  // the middle
+    double u, v;    // the middle
+    double hu, hv;  // half widths
   };
   struct Search {
     double slack;  // bound on the rounding of a coefficient
@@ -138,15 +139,35 @@ class PatchOracle {
     }
   }
 
+  // True if the hull of the coefficients (f, g), points of a plane, does not hold the origin: seen along either axis,
+  // or along either side of the rectangle's image, which may be a sliver.
+  bool excludes_line(const Net& net, double slack) const {
+    if (one_sign(net.f.data(), slack) || one_sign(net.g.data(), slack)) return true;
+    const size_t along_u = static_cast<size_t>(p_) * (q_ + 1), along_v = static_cast<size_t>(q_);
+    for (const size_t end : {along_u, along_v}) {
+      double f = net.f[end] - net.f[0], g = net.g[end] - net.g[0];
+      const double length = std::hypot(f, g);
+      if (!(length > slack)) continue;
+      f /= length;
+      g /= length;
+      std::array<double, kMostPoints> across{};
+      for (size_t k = 0; k < points_.size(); ++k) across[k] = f * net.g[k] - g * net.f[k];
+      if (one_sign(across.data(), 2 * slack)) return true;
+    }
+    return false;
+  }
+
   void halve(const Net& net, double u, double v, double hu, double hv, Search& search) const {
-    if (search.full || one_sign(net.f.data(), search.slack) || one_sign(net.g.data(), search.slack)) return;
-    if (hu < 5e-12 && hv < 5e-12) {
-      search.cells.push_back({u, v});
+    if (search.full || excludes_line(net, search.slack)) return;
+    const double extent_u = extent(net, true), extent_v = extent(net, false);
+    // Near a collapsed edge one direction is far shorter in space than the other, down to what the arithmetic can tell.
+    const bool done_u = hu < 5e-12 || extent_u <= search.slack, done_v = hv < 5e-12 || extent_v <= search.slack;
+    if (done_u && done_v) {
+      search.cells.push_back({u, v, hu, hv});
       search.full = search.cells.size() >= kMostCells;
       return;
     }
-    // Across the longer side in space: near a collapsed edge one direction is far shorter than the other.
-    const bool along_u = hv < 5e-12 || (hu >= 5e-12 && extent(net, true) >= extent(net, false));
+    const bool along_u = done_v || (!done_u && extent_u >= extent_v);
     Net a, b;
     split(net.f.data(), along_u, a.f.data(), b.f.data());
     split(net.g.data(), along_u, a.g.data(), b.g.data());
@@ -164,7 +185,8 @@ class PatchOracle {
     };
     for (size_t i = 0; i < cells.size(); ++i)
       for (size_t j = i + 1; j < cells.size(); ++j)
-        if (std::abs(cells[i].u - cells[j].u) < 1e-9 && std::abs(cells[i].v - cells[j].v) < 1e-9)
+        if (std::abs(cells[i].u - cells[j].u) < 1e-9 + cells[i].hu + cells[j].hu &&
+            std::abs(cells[i].v - cells[j].v) < 1e-9 + cells[i].hv + cells[j].hv)
           group[find(static_cast<int>(i))] = find(static_cast<int>(j));
     std::vector<Root> roots;
     for (size_t i = 0; i < cells.size(); ++i) {
