@@ -29,10 +29,11 @@ using namespace geometry;
 
 constexpr double kSame = 1e-9;  // of the size
 
-std::shared_ptr<const Model> model_of(Entity shape) {
+std::shared_ptr<const Model> model_of(Entity shape, const Affine& transform = {}) {
   auto model = std::make_shared<Model>();
   Object object;
   object.shape = std::move(shape);
+  object.transform = transform;
   model->objects.push_back(std::move(object));
   return model;
 }
@@ -41,6 +42,7 @@ struct Subject {
   SurfaceSet surfaces;
   Vec3 singular{0};  // aimed at, where there is such a point
   bool has_singular = false;
+  Affine transform;  // of the object that shows the surfaces
 };
 
 class WorldRays : public testing::Test {
@@ -76,7 +78,7 @@ class WorldRays : public testing::Test {
       const Surface& surface = *subject.surfaces[static_cast<size_t>(unit_(random_) * subject.surfaces.size())];
       const Rectangle d = surface.domain();
       const double u = d.u.lo + unit_(random_) * d.u.width(), v = d.v.lo + unit_(random_) * d.v.width();
-      ray.origin = surface.point(u, v);
+      ray.origin = subject.transform.point(surface.point(u, v));
       ray.t_min = 1e-4 * size;
       target = any_point(box);  // at the singular point such a ray would run along the surface
       if (glm::length(target - ray.origin) > 1e-3 * size) ray.direction = glm::normalize(target - ray.origin);
@@ -99,9 +101,11 @@ class WorldRays : public testing::Test {
     std::vector<oracle::PatchOracle> patches;
     Box3 box;
     for (const SurfacePtr& surface : subject.surfaces) {
-      for (const SurfacePiece& piece : surface->pieces())
+      for (SurfacePiece piece : surface->pieces()) {
+        for (Vec4& h : piece.points) h = Vec4(h.w * subject.transform.point(Vec3(h) / h.w), h.w);
         patches.emplace_back(piece.points, piece.degree_u, piece.degree_v);
-      box.include(bounds(*surface));
+      }
+      box.include(transformed(bounds(*surface), subject.transform));
     }
     const double size = box.diameter();
     bool undecided = false;
@@ -118,7 +122,8 @@ class WorldRays : public testing::Test {
       std::erase_if(t, [&](double x) { return x < ray.t_min; });
       return t;
     };
-    const World world(model_of(subject.surfaces.size() == 1 ? Entity(subject.surfaces[0]) : Entity(subject.surfaces)));
+    const World world(model_of(subject.surfaces.size() == 1 ? Entity(subject.surfaces[0]) : Entity(subject.surfaces),
+                               subject.transform));
 
     const int count = tests::tier_count(1000000, 2000);
     int hits = 0, wrong = 0, tangent = 0, nearest_wrong = 0, occlusion_wrong = 0;
@@ -230,6 +235,15 @@ TEST_F(WorldRays, HornTorus) {
     const Frame frame = frame_at(offset);
     return Subject{{std::make_shared<TorusSurface>(frame, 1, 1)}, frame.origin, true};
   });
+}
+
+// The surface stays near the origin; its object is stretched, turned, mirrored and moved.
+TEST_F(WorldRays, TransformedTorus) {
+  Subject subject{{as_spline(TorusSurface(frame_at(Vec3(0)), 3, 1), Vec3(0))}};
+  subject.transform = Affine::translation({50, -20, 10}) * Affine::rotation(0.7, glm::normalize(Vec3(1, 2, 0.5))) *
+                      Affine::scaling({2, -0.5, 0.3});
+  expect_complete(subject, "near");
+  expect_complete(subject, "from_1000_radii", 500);
 }
 
 class MeshRays : public WorldRays {
