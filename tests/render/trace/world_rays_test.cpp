@@ -246,6 +246,38 @@ TEST_F(WorldRays, TransformedTorus) {
   expect_complete(subject, "from_1000_radii", 500);
 }
 
+// Every ray that begins outside a closed body meets it an even number of times, entering and leaving in turn.
+TEST_F(WorldRays, ClosedBodiesAreMetInPairs) {
+  const Vec3 away(600, -700, 387);
+  const std::pair<const char*, Body> bodies[] = {{"box", box(frame_at(Vec3(0)), {1, 2, 3})},
+                                                 {"ball", ball(frame_at(Vec3(0)), 1.5)},
+                                                 {"cone", frustum(frame_at(Vec3(0)), 2, 0, 3)},
+                                                 {"moved_frustum", frustum(frame_at(away), 2, 1, 3)},
+                                                 {"moved_torus", torus_body(frame_at(away), 3, 1)}};
+  for (const auto& [name, body] : bodies) {
+    const Box3 room = bounds(body);
+    const World world(model_of(std::make_shared<const Body>(body)));
+    const int count = tests::tier_count(1000000);
+    int unpaired = 0, hits = 0;
+    for (int k = 0; k < count; ++k) {
+      Ray ray;
+      ray.direction = any_direction();
+      ray.origin = any_point(room) - 1.1 * room.diameter() * ray.direction;
+      const std::vector<Hit> found = world.all_hits(ray);
+      bool in_turn = found.size() % 2 == 0;
+      for (size_t i = 0; i < found.size(); ++i)
+        in_turn = in_turn &&
+                  (glm::dot(body.normal(found[i].face, found[i].u, found[i].v), ray.direction) < 0) == (i % 2 == 0);
+      unpaired += !in_turn;
+      hits += static_cast<int>(found.size());
+    }
+    EXPECT_EQ(unpaired, 0) << name << ": of " << count << " rays";
+    EXPECT_GT(hits, count / 4) << name;
+    tests::report_figure(std::string(name) + "_rays", count);
+    tests::report_figure(std::string(name) + "_unpaired", unpaired);
+  }
+}
+
 class MeshRays : public WorldRays {
  protected:
   // Inside: anywhere near `inside` up to `reach`. Random rays, and a tenth as many aimed at edges.
