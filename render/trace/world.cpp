@@ -26,9 +26,9 @@ namespace {
 // Rounding of a hit's position in double, relative to the coordinates that went into it.
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
-// Largest turn of the normal along a side of a triangle, whatever the sag: at the tip of a cone the interpolated normal
-// is off by half of it, and highlights show where it is much larger.
-constexpr double kMeshAngle = 5 * geometry::kPi / 180;
+// Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
+// this only keeps shapes of a few pixels round and the way from a facet to its surface short enough for one step.
+constexpr double kMeshAngle = 20 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
 using ShareKey = std::tuple<const void*, int, double, double, bool>;
