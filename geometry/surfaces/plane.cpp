@@ -65,7 +65,9 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
   const double t = moved.start + s;
   if (!range.contains(t)) return;
   const Vec3 p = moved.at(s);
-  const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y);
+  // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
+  const double shallow = kShallowSlack * (glm::length(line.origin) + std::abs(t) * length) * length / std::abs(speed);
+  const auto u = within(domain_.u, p.x, shallow), v = within(domain_.v, p.y, shallow);
   if (u && v) hits.add({t, *u, *v});
 }
 
