@@ -12,6 +12,11 @@ inline constexpr double kBorderSlack = 1e-11;
 // much may lie between it and the line.
 inline constexpr double kHitSlack = 5e-13;
 
+// The same where a line meets a surface at a small angle, relative to the coordinates that went into the line and over
+// the sine of the angle: two units of their last place. At most the reach, relative to the width of the range.
+inline constexpr double kShallowSlack = 4.5e-16;
+inline constexpr double kShallowReach = 1e-7;
+
 // Two hits of one surface or closed body closer than this, crossing in the same direction, are one crossing reported by
 // two neighbours: the border slack seen from the line, with a factor for the angle.
 inline constexpr double kSameHit = 1e-10;

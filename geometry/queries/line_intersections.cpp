@@ -26,9 +26,25 @@ class Acceptance {
   explicit Acceptance(std::shared_ptr<const TrimRegion> trim) : trim_(std::move(trim)) {
     if (trim_) slack_ = kTrimSlack * std::max(trim_->u_range().width(), trim_->v_range().width());
   }
-  bool keeps(const LineHit& hit, const Interval& t) const {
+  bool keeps(const LineHit& hit, const Interval& t, const Line& line, const Surface& surface) const {
     if (!(hit.t >= t.lo && hit.t <= t.hi)) return false;
-    return !trim_ || trim_->contains(hit.u, hit.v, slack_);
+    if (!trim_ || trim_->contains(hit.u, hit.v, slack_)) return true;
+    // The rounding of a line moves its hit with a surface that it hardly crosses much further than the slack, and the
+    // neighbour across the edge, which it may cross steeply, has accepted it.
+    const Interval &u = trim_->u_range(), &v = trim_->v_range();
+    const double beyond = std::max({u.lo - hit.u, hit.u - u.hi, v.lo - hit.v, hit.v - v.hi});
+    if (beyond > kShallowReach * std::max(u.width(), v.width())) return false;
+    const SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
+    const Vec3 normal = glm::cross(jet.du(), jet.dv());
+    const double area = glm::length(normal), length = glm::length(line.direction);
+    if (!(area > 0)) return false;
+    const double rounding = kShallowSlack * (glm::length(line.origin) + std::abs(hit.t) * length);
+    const double sine = std::abs(glm::dot(normal, line.direction)) / (area * length);
+    // The least length of a unit of parameters.
+    const double stretch = area / std::max(glm::length(jet.du()), glm::length(jet.dv()));
+    const double moved = rounding / (sine * stretch);
+    return moved > slack_ &&
+           trim_->contains(hit.u, hit.v, std::min(moved, kShallowReach * std::max(u.width(), v.width())));
   }
   const TrimRegion* trim() const { return trim_.get(); }
 
@@ -55,7 +71,7 @@ class FormulaTarget final : public LineTarget {
     LineHits all;
     surface_->line_hits(line.line(), t, all);
     for (int i = 0; i < all.size(); ++i)
-      if (acceptance_.keeps(all[i], t)) hits.add(all[i]);
+      if (acceptance_.keeps(all[i], t, line.line(), *surface_)) hits.add(all[i]);
   }
   const Surface& surface() const override { return *surface_; }
   size_t memory() const override { return sizeof *this; }
@@ -125,7 +141,7 @@ class PatchTarget final : public LineTarget {
       const double x = cell.x + cell.hx * found[k].x, y = cell.y + cell.hy * found[k].y;
       hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
       hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
-      if (acceptance_.keeps(hit, t)) hits.add(hit);
+      if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
     }
   }
   const Surface& surface() const override { return *surface_; }
@@ -214,7 +230,7 @@ class EnclosureTarget final : public LineTarget {
       hit.t = foot + found[k].t;
       hit.u = cell.box.u.clamp(cell.box.u.middle() + 0.5 * cell.box.u.width() * found[k].x);
       hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found[k].y);
-      if (acceptance_.keeps(hit, t)) hits.add(hit);
+      if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
     }
   }
   const Surface& surface() const override { return *surface_; }

@@ -41,7 +41,8 @@ void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits)
     const double lo = radius_ + widening_ * domain_.v.lo, hi = radius_ + widening_ * domain_.v.hi;
     if (!cylinder && !(std::max(nappe * lo, nappe * hi) > 0)) return;
     const Vec3& p = found.point[i];
-    add_hit(hits, t, moved.start + found.s[i], std::atan2(nappe * p.y, nappe * p.x), moved.at(found.s[i]).z / height_);
+    add_hit(hits, t, line, moved.start + found.s[i], std::atan2(nappe * p.y, nappe * p.x),
+            moved.at(found.s[i]).z / height_);
   };
   if (cylinder) {
     for (int i = 0; i < found.count; ++i) add(i, radius_ < 0 ? -1 : 1);

@@ -114,13 +114,23 @@ void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale
   for (int i = 0; i < found.count; ++i) {
     const Vec3& p = found.point[i];
     if (!range.contains(moved.start + found.s[i])) continue;
-    if (const auto v = parameter(p)) add_hit(hits, range, moved.start + found.s[i], std::atan2(p.y, p.x), *v);
+    if (const auto v = parameter(p)) add_hit(hits, range, line, moved.start + found.s[i], std::atan2(p.y, p.x), *v);
   }
 }
 
-void MeridianSurface::add_hit(LineHits& hits, const Interval& range, double t, double u, double v) const {
+void MeridianSurface::add_hit(LineHits& hits, const Interval& range, const Line& line, double t, double u,
+                              double v) const {
   if (!range.contains(t)) return;
-  const auto in_v = within(domain_.v, v);
+  auto in_v = within(domain_.v, v);
+  if (!in_v && std::max(domain_.v.lo - v, v - domain_.v.hi) < kShallowReach * domain_.v.width()) {
+    // Rounding of a line that hardly crosses the surface moves the hit far: through an edge it must meet both faces.
+    const SurfaceJet jet = evaluate(u, v, 1);
+    const Vec3 normal = glm::cross(jet.du(), jet.dv());
+    const double length = glm::length(line.direction);
+    const double sine = std::abs(glm::dot(normal, line.direction)) / (glm::length(normal) * length);
+    const double rounding = kShallowSlack * (glm::length(line.origin) + std::abs(t) * length);
+    in_v = within(domain_.v, v, std::min(rounding / (sine * glm::length(jet.dv())), kShallowReach * domain_.v.width()));
+  }
   if (!in_v) return;
   const auto in_u = angle_within(domain_.u, u);
   if (in_u) hits.add({t, *in_u, *in_v});

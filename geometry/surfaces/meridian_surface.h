@@ -51,7 +51,7 @@ class MeridianSurface : public Surface {
   virtual NurbsCurveForm meridian_form() const = 0;
 
   // Adds the hit at angle u (of atan2) and v if t and both parameters lie in their ranges.
-  void add_hit(LineHits& hits, const Interval& range, double t, double u, double v) const;
+  void add_hit(LineHits& hits, const Interval& range, const Line& line, double t, double u, double v) const;
 
   // Adds the hits of a line with the quadric, whose coordinates are those of the frame divided by `scale`.
   // `parameter` is v of a scaled point on it, or nothing where the point belongs to another sheet.

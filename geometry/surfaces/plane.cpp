@@ -50,14 +50,18 @@ std::optional<NurbsSurfaceForm> Plane::as_nurbs() const {
   return form;
 }
 
+namespace {
+// A bound on the length that needs no root.
+double taxicab(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+}  // namespace
+
 void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   const double speed = glm::dot(line.direction, frame_.z);
   if (std::abs(speed) <= 4 * std::numeric_limits<double>::epsilon() * glm::length(line.direction)) return;
   const double rough = glm::dot(frame_.origin - line.origin, frame_.z) / speed;
   // Clearly behind the origin of a ray or beyond its end.
-  const double length = glm::length(line.direction);
-  const double slack =
-      2e-15 * (std::abs(rough) * length + glm::length(frame_.origin) + glm::length(line.origin)) / std::abs(speed);
+  const double length = taxicab(line.direction), distance = taxicab(line.origin);
+  const double slack = 2e-15 * (std::abs(rough) * length + taxicab(frame_.origin) + distance) / std::abs(speed);
   if (rough < range.lo - slack || rough > range.hi + slack) return;
   // Anew from the point nearest to the rough hit.
   const MovedLine moved = moved_near(line, line.at(rough), frame_);
@@ -65,7 +69,13 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
   const double t = moved.start + s;
   if (!range.contains(t)) return;
   const Vec3 p = moved.at(s);
-  const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y);
+  if (!bounded()) {
+    if (const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y); u && v) hits.add({t, *u, *v});
+    return;
+  }
+  // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
+  const double shallow = kShallowSlack * (distance + std::abs(t) * length) * length / std::abs(speed);
+  const auto u = within(domain_.u, p.x, shallow), v = within(domain_.v, p.y, shallow);
   if (u && v) hits.add({t, *u, *v});
 }
 

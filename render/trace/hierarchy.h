@@ -24,8 +24,9 @@ struct HalfSpace {
 // One thing in a hierarchy: surfaces or a body (line targets, one for each face), a mesh, or a shape.
 struct Leaf {
   std::vector<std::unique_ptr<geometry::LineTarget>> targets;
-  std::vector<double> signs;  // of each target's outward normal
+  std::vector<double> signs;  // of the outward normal of each target, or of each surface behind a mesh
   geometry::MeshPtr mesh;
+  std::vector<geometry::SurfacePtr> mesh_surfaces;  // by Triangle::face, of a mesh that stands for surfaces
   bool flat = false;
   std::unique_ptr<Shape> shape;
   std::vector<HalfSpace> clips;

@@ -18,16 +18,18 @@ namespace lekalo::render {
 using geometry::Affine;
 using geometry::BodyPtr;
 using geometry::MeshPtr;
+using geometry::Surface;
 using geometry::SurfacePtr;
+using geometry::Vec2;
 
 namespace {
 
 // Rounding of a hit's position in double, relative to the coordinates that went into it.
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
-// Largest turn of the normal along a side of a triangle, whatever the sag: at the tip of a cone the interpolated normal
-// is off by half of it, and highlights show where it is much larger.
-constexpr double kMeshAngle = 5 * geometry::kPi / 180;
+// Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
+// this only keeps shapes of a few pixels round and the way from a facet to its surface short enough for one step.
+constexpr double kMeshAngle = 20 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
 using ShareKey = std::tuple<const void*, int, double, double, bool>;
@@ -49,6 +51,22 @@ const void* identity(const Entity& entity) {
 ShareKey key_of(const Object& object) {
   return {identity(object.shape), static_cast<int>(object.representation), object.sag, object.sag_pixels,
           object.flat_shading};
+}
+
+// The foot of a facet's point on the surface that the facet stands for: one Gauss-Newton step from the interpolated
+// parameters, within the triangle's own, so that it stays on its side of a crease or pole.
+Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const Vec2 (&corner)[3]) {
+  const geometry::SurfaceJet at = surface.evaluate(start.x, start.y, 1);
+  const Vec3 off = point - at.point();
+  const double e = glm::dot(at.du(), at.du()), f = glm::dot(at.du(), at.dv()), g = glm::dot(at.dv(), at.dv());
+  const double det = e * g - f * f;
+  if (!(det > 1e-14 * e * g)) return start;
+  const double a = glm::dot(at.du(), off), b = glm::dot(at.dv(), off);
+  const Vec2 foot = start + Vec2(g * a - f * b, e * b - f * a) / det;
+  const Vec2 lo = glm::min(glm::min(corner[0], corner[1]), corner[2]),
+             hi = glm::max(glm::max(corner[0], corner[1]), corner[2]);
+  const Vec2 inside = 1e-9 * (hi - lo);
+  return glm::clamp(foot, lo + inside, hi - inside);
 }
 
 bool is_drawn_only(const Entity& entity) {
@@ -122,6 +140,14 @@ struct World::Compiled {
     into.add(std::move(caps));
   }
 
+  static void use_mesh_of(const geometry::Body& body, const geometry::TessellationTolerance& tolerance, Leaf& leaf) {
+    leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(body, tolerance));
+    for (const geometry::Face& face : body.faces) {
+      leaf.mesh_surfaces.push_back(face.surface);
+      leaf.signs.push_back(face.forward ? 1 : -1);
+    }
+  }
+
   Leaf compile(const Object& object, int number, const Affine& to_world) const {
     Leaf leaf;
     leaf.object = number;
@@ -141,8 +167,13 @@ struct World::Compiled {
               set = shape;
             if (as_mesh && set.front()->bounded()) {
               const auto tolerance = tolerance_of(object, to_world);
-              leaf.mesh = std::make_shared<geometry::Mesh>(set.size() == 1 ? tessellate(*set.front(), tolerance)
-                                                                           : tessellate(geometry::sew(set), tolerance));
+              if (set.size() > 1) {
+                use_mesh_of(geometry::sew(set), tolerance, leaf);
+                return;
+              }
+              leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(*set.front(), tolerance));
+              leaf.mesh_surfaces = {set.front()};
+              leaf.signs = {1};
               return;
             }
             for (const SurfacePtr& surface : set) {
@@ -151,7 +182,7 @@ struct World::Compiled {
             }
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
             if (as_mesh) {
-              leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(*shape, tolerance_of(object, to_world)));
+              use_mesh_of(*shape, tolerance_of(object, to_world), leaf);
             } else if (capped) {
               leaf.clips.clear();
               leaf.shape = std::make_unique<ClippedBody>(shape, cuts_of(object, to_world), false);
@@ -253,25 +284,40 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
     geometric = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
     shading = geometric;
     point.smooth_position = point.position;
-    if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
-      const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
-                         mesh.normals[triangle.normal[2]]};
-      const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
-      if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
+    const bool has_parameters = !mesh.parameters.empty() && triangle.parameter[0] >= 0;
+    Vec2 q[3];
+    for (int k = 0; has_parameters && k < 3; ++k) q[k] = mesh.parameters[triangle.parameter[k]];
+    if (has_parameters && !leaf.mesh_surfaces.empty() && !leaf.flat) {
+      // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
+      const Surface& surface = *leaf.mesh_surfaces[hit.face];
+      const Vec2 foot = foot_on(surface, point.position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
+      const geometry::SurfaceJet jet = surface.evaluate(foot.x, foot.y, 1);
+      point.u = foot.x;
+      point.v = foot.y;
+      point.du = jet.du();
+      point.dv = jet.dv();
+      shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, foot.x, foot.y, jet);
       if (glm::dot(shading, geometric) < 0) geometric = -geometric;
-      // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
-      // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-      for (int k = 0; k < 3; ++k) {
-        const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
-        point.smooth_position -= w[k] * above * n[k];
+      // Rays to lights start on the surface itself where it stands above the facet: no terminator along the facets.
+      const double above = glm::dot(jet.point() - point.position, geometric);
+      if (above > 0) point.smooth_position = jet.point();
+    } else {
+      if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
+        const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
+                           mesh.normals[triangle.normal[2]]};
+        const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+        if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
+        if (glm::dot(shading, geometric) < 0) geometric = -geometric;
+        // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
+        // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
+        for (int k = 0; k < 3; ++k) {
+          const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
+          point.smooth_position -= w[k] * above * n[k];
+        }
       }
-    }
-    // Texture directions of the facet, where it has parameters.
-    if (!mesh.parameters.empty() && triangle.parameter[0] >= 0) {
-      const geometry::Vec2 q0 = mesh.parameters[triangle.parameter[0]];
-      const geometry::Vec2 a = mesh.parameters[triangle.parameter[1]] - q0;
-      const geometry::Vec2 b = mesh.parameters[triangle.parameter[2]] - q0;
-      const double det = a.x * b.y - a.y * b.x;
+      // Texture directions of the facet.
+      const Vec2 a = q[1] - q[0], b = q[2] - q[0];
+      const double det = has_parameters ? a.x * b.y - a.y * b.x : 0;
       if (det != 0) {
         point.du = (b.y * (p[1] - p[0]) - a.y * (p[2] - p[0])) / det;
         point.dv = (a.x * (p[2] - p[0]) - b.x * (p[1] - p[0])) / det;

@@ -1,13 +1,16 @@
 // The ray oracle: all meetings of a line with a rational Bezier patch, found by halving alone.
 //
 // It shares nothing with the product's solver. The two plane equations of the line are put in Bernstein form over the
-// patch; a rectangle is discarded only if all coefficients of one of them have one strict sign; rectangles narrower
-// than 1e-11 that remain are gathered into clusters, and each cluster is a root. No Newton iteration, no derivative.
+// patch; a rectangle is discarded only if all coefficients of one of them, or of a sum of multiples of the two, have
+// one strict sign beyond the rounding of the arithmetic; rectangles narrower than 1e-11 that remain are gathered into
+// clusters, and each cluster is a root. No Newton iteration, no derivative. Patch and line are first moved near the
+// origin in long double, so that a scene far away loses no digits here.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "geometry/vectors.h"
@@ -26,27 +29,78 @@ class PatchOracle {
  public:
   // Control point (i, j) at points[i * (degree_v + 1) + j].
   PatchOracle(std::vector<Vec4> points, int degree_u, int degree_v)
-      : points_(std::move(points)), p_(degree_u), q_(degree_v) {}
+      : points_(std::move(points)), p_(degree_u), q_(degree_v) {
+    if (points_.size() > kMostPoints || p_ > kMostDegree || q_ > kMostDegree)
+      throw std::invalid_argument("the oracle has no room for such degrees");
+    bool convex = true;
+    for (const Vec4& h : points_) {
+      center_ += Vec3(h) / h.w / double(points_.size());
+      convex = convex && h.w > 0;
+    }
+    for (Vec4& h : points_) {
+      for (int axis = 0; axis < 3; ++axis)
+        h[axis] =
+            static_cast<double>(static_cast<long double>(h[axis]) - static_cast<long double>(h.w) * center_[axis]);
+      radius_ = std::max(radius_, glm::length(Vec3(h) / h.w));
+    }
+    if (!convex) radius_ = geometry::kInfinity;
+  }
 
-  std::vector<Root> roots(const Line& line) const {
-    Vec3 across = std::abs(line.direction.x) < 0.6 * glm::length(line.direction) ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  // In order of t. `undecided` tells that there were more rectangles than room: the line runs along the patch, or
+  // through a collapsed edge.
+  std::vector<Root> roots(const Line& given, bool* undecided = nullptr) const {
+    // The line with its origin at its foot near the patch.
+    long double along = 0, square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      along += (static_cast<long double>(center_[axis]) - given.origin[axis]) * given.direction[axis];
+      square += static_cast<long double>(given.direction[axis]) * given.direction[axis];
+    }
+    const long double foot = along / square;
+    Line line{Vec3(0), given.direction};
+    for (int axis = 0; axis < 3; ++axis)
+      line.origin[axis] = static_cast<double>(given.origin[axis] + foot * given.direction[axis] -
+                                              static_cast<long double>(center_[axis]));
+    if (glm::length(line.origin) > radius_ * (1 + 1e-9)) return {};
+
+    const Vec3 across = std::abs(line.direction.x) < 0.6 * glm::length(line.direction) ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 n1 = glm::normalize(glm::cross(line.direction, across));
     const Vec3 n2 = glm::normalize(glm::cross(line.direction, n1));
     Net net;
-    net.f.resize(points_.size());
-    net.g.resize(points_.size());
+    double largest = 0;
     for (size_t k = 0; k < points_.size(); ++k) {
       const Vec3 r = Vec3(points_[k]) - points_[k].w * line.origin;
       net.f[k] = glm::dot(n1, r);
       net.g[k] = glm::dot(n2, r);
+      largest = std::max(largest, glm::length(Vec3(points_[k])) + std::abs(points_[k].w) * glm::length(line.origin));
     }
-    std::vector<std::array<double, 4>> cells;  // u, v of the middle, half widths
-    halve(net, 0.5, 0.5, 0.5, 0.5, cells);
-    return cluster(cells, line);
+    Search search{4 * 2.3e-16 * largest, {}, false};
+    halve(net, 0.5, 0.5, 0.5, 0.5, search);
+    if (undecided) *undecided = search.full;
+    std::vector<Root> found = cluster(search.cells, line);
+    for (Root& root : found) root.t = static_cast<double>(foot + root.t);
+    return found;
   }
 
   // Point of the patch by de Casteljau's algorithm.
-  Vec3 point(double u, double v) const {
+  Vec3 point(double u, double v) const { return local_point(u, v) + center_; }
+
+ private:
+  static constexpr int kMostDegree = 15;
+  static constexpr size_t kMostPoints = 64, kMostCells = 4096;
+  struct Net {
+    std::array<double, kMostPoints> f, g;
+  };
+  struct Cell {
+    double u, v;    // the middle
+    double hu, hv;  // half widths
+  };
+  struct Search {
+    double slack;  // bound on the rounding of a coefficient
+    std::vector<Cell> cells;
+    bool full;
+  };
+
+  Vec3 local_point(double u, double v) const {
     std::vector<Vec4> row(p_ + 1);
     for (int i = 0; i <= p_; ++i)
       row[i] = casteljau({points_.begin() + i * (q_ + 1), points_.begin() + (i + 1) * (q_ + 1)}, v);
@@ -54,62 +108,75 @@ class PatchOracle {
     return Vec3(h) / h.w;
   }
 
- private:
-  struct Net {
-    std::vector<double> f, g;
-  };
-
-  static bool one_sign(const std::vector<double>& c) {
+  bool one_sign(const double* c, double slack) const {
     double lo = c[0], hi = c[0];
-    for (double x : c) lo = std::min(lo, x), hi = std::max(hi, x);
-    return lo > 0 || hi < 0;
+    for (size_t k = 1; k < points_.size(); ++k) lo = std::min(lo, c[k]), hi = std::max(hi, c[k]);
+    return lo > slack || hi < -slack;
   }
 
   // Largest step of the two coefficients between neighbours in one direction, times the number of steps.
   double extent(const Net& net, bool along_u) const {
     double largest = 0;
-    for (int i = 0; i <= p_; ++i)
-      for (int j = 0; j <= q_; ++j) {
-        if (along_u ? i == p_ : j == q_) continue;
+    for (int i = 0; i <= p_ - along_u; ++i)
+      for (int j = 0; j <= q_ - !along_u; ++j) {
         const int k = i * (q_ + 1) + j, next = along_u ? k + q_ + 1 : k + 1;
         largest = std::max({largest, std::abs(net.f[next] - net.f[k]), std::abs(net.g[next] - net.g[k])});
       }
     return largest * (along_u ? p_ : q_);
   }
 
-  void split(const std::vector<double>& c, bool along_u, std::vector<double>& a, std::vector<double>& b) const {
-    a.resize(c.size());
-    b.resize(c.size());
+  void split(const double* c, bool along_u, double* a, double* b) const {
     const int n = along_u ? p_ : q_, rows = along_u ? q_ + 1 : p_ + 1, stride = along_u ? q_ + 1 : 1;
     for (int r = 0; r < rows; ++r) {
       const int base = along_u ? r : r * (q_ + 1);
-      double work[32];
+      double work[kMostDegree + 1];
       for (int i = 0; i <= n; ++i) work[i] = c[base + i * stride];
       for (int k = 0; k <= n; ++k) {
         a[base + k * stride] = work[0];
         b[base + (n - k) * stride] = work[n - k];
-        for (int i = 0; i < n - k; ++i) work[i] = (work[i] + work[i + 1]) / 2;
+        for (int i = 0; i < n - k; ++i) work[i] = 0.5 * (work[i] + work[i + 1]);
       }
     }
   }
 
-  void halve(const Net& net, double u, double v, double hu, double hv, std::vector<std::array<double, 4>>& out) const {
-    if (one_sign(net.f) || one_sign(net.g)) return;
-    if (hu < 5e-12 && hv < 5e-12) {
-      if (out.size() < 4096) out.push_back({u, v, hu, hv});
-      return;
+  // True if the hull of the coefficients (f, g), points of a plane, does not hold the origin: seen along either axis,
+  // or along either side of the rectangle's image, which may be a sliver.
+  bool excludes_line(const Net& net, double slack) const {
+    if (one_sign(net.f.data(), slack) || one_sign(net.g.data(), slack)) return true;
+    const size_t along_u = static_cast<size_t>(p_) * (q_ + 1), along_v = static_cast<size_t>(q_);
+    for (const size_t end : {along_u, along_v}) {
+      double f = net.f[end] - net.f[0], g = net.g[end] - net.g[0];
+      const double length = std::hypot(f, g);
+      if (!(length > slack)) continue;
+      f /= length;
+      g /= length;
+      std::array<double, kMostPoints> across{};
+      for (size_t k = 0; k < points_.size(); ++k) across[k] = f * net.g[k] - g * net.f[k];
+      if (one_sign(across.data(), 2 * slack)) return true;
     }
-    // Across the longer side in space: near a collapsed edge one direction is far shorter than the other.
-    const bool along_u = hv < 5e-12 || (hu >= 5e-12 && extent(net, true) >= extent(net, false));
-    Net a, b;
-    split(net.f, along_u, a.f, b.f);
-    split(net.g, along_u, a.g, b.g);
-    const double du = along_u ? hu / 2 : 0, dv = along_u ? 0 : hv / 2;
-    halve(a, u - du, v - dv, along_u ? hu / 2 : hu, along_u ? hv : hv / 2, out);
-    halve(b, u + du, v + dv, along_u ? hu / 2 : hu, along_u ? hv : hv / 2, out);
+    return false;
   }
 
-  std::vector<Root> cluster(const std::vector<std::array<double, 4>>& cells, const Line& line) const {
+  void halve(const Net& net, double u, double v, double hu, double hv, Search& search) const {
+    if (search.full || excludes_line(net, search.slack)) return;
+    const double extent_u = extent(net, true), extent_v = extent(net, false);
+    // Near a collapsed edge one direction is far shorter in space than the other, down to what the arithmetic can tell.
+    const bool done_u = hu < 5e-12 || extent_u <= search.slack, done_v = hv < 5e-12 || extent_v <= search.slack;
+    if (done_u && done_v) {
+      search.cells.push_back({u, v, hu, hv});
+      search.full = search.cells.size() >= kMostCells;
+      return;
+    }
+    const bool along_u = done_v || (!done_u && extent_u >= extent_v);
+    Net a, b;
+    split(net.f.data(), along_u, a.f.data(), b.f.data());
+    split(net.g.data(), along_u, a.g.data(), b.g.data());
+    const double du = along_u ? hu / 2 : 0, dv = along_u ? 0 : hv / 2;
+    halve(a, u - du, v - dv, along_u ? hu / 2 : hu, along_u ? hv : hv / 2, search);
+    halve(b, u + du, v + dv, along_u ? hu / 2 : hu, along_u ? hv : hv / 2, search);
+  }
+
+  std::vector<Root> cluster(const std::vector<Cell>& cells, const Line& line) const {
     std::vector<int> group(cells.size());
     for (size_t i = 0; i < cells.size(); ++i) group[i] = static_cast<int>(i);
     const auto find = [&](int i) {
@@ -118,17 +185,18 @@ class PatchOracle {
     };
     for (size_t i = 0; i < cells.size(); ++i)
       for (size_t j = i + 1; j < cells.size(); ++j)
-        if (std::abs(cells[i][0] - cells[j][0]) < 1e-9 && std::abs(cells[i][1] - cells[j][1]) < 1e-9)
+        if (std::abs(cells[i].u - cells[j].u) < 1e-9 + cells[i].hu + cells[j].hu &&
+            std::abs(cells[i].v - cells[j].v) < 1e-9 + cells[i].hv + cells[j].hv)
           group[find(static_cast<int>(i))] = find(static_cast<int>(j));
     std::vector<Root> roots;
     for (size_t i = 0; i < cells.size(); ++i) {
       if (find(static_cast<int>(i)) != static_cast<int>(i)) continue;
       double u = 0, v = 0, n = 0;
       for (size_t j = 0; j < cells.size(); ++j)
-        if (find(static_cast<int>(j)) == static_cast<int>(i)) u += cells[j][0], v += cells[j][1], n += 1;
+        if (find(static_cast<int>(j)) == static_cast<int>(i)) u += cells[j].u, v += cells[j].v, n += 1;
       u /= n;
       v /= n;
-      const Vec3 x = point(u, v);
+      const Vec3 x = local_point(u, v);
       roots.push_back({glm::dot(x - line.origin, line.direction) / glm::dot(line.direction, line.direction), u, v});
     }
     std::sort(roots.begin(), roots.end(), [](const Root& a, const Root& b) { return a.t < b.t; });
@@ -141,8 +209,10 @@ class PatchOracle {
     return c[0];
   }
 
-  std::vector<Vec4> points_;
+  std::vector<Vec4> points_;  // about center_
   int p_, q_;
+  Vec3 center_{0};
+  double radius_ = 0;  // of a ball about center_ around the convex hull; infinite where there is none
 };
 
 }  // namespace lekalo::oracle

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/line_oracle.h"
+#include "support/tier.h"
 
 namespace lekalo::geometry {
 namespace {
@@ -41,6 +42,11 @@ Line random_line(std::mt19937_64& random, double distance) {
 struct Tally {
   int lines = 0, hits = 0, wrong = 0, band = 0;
   double worst = 0;
+  ~Tally() {
+    tests::report_figure("lines", lines);
+    tests::report_figure("wrong", wrong);
+    tests::report_figure("in_band", band);
+  }
 };
 
 // Lines whose oracle count changes under shifts of 1e-9 of the size are in the tangency band and not counted.
@@ -90,7 +96,8 @@ TEST(LineCells, FindEveryRootOfRandomPatches) {
   std::mt19937_64 random(1);
   Tally tally;
   for (int degree = 1; degree <= 7; ++degree)
-    for (int n = 0; n < 3; ++n) compare(random_patch(random, degree, 8 - degree, 1, false), random, 30, 2, tally);
+    for (int n = 0; n < tests::tier_count(300, 3); ++n)
+      compare(random_patch(random, degree, 8 - degree, 1, false), random, 30, 2, tally);
   EXPECT_EQ(tally.wrong, 0) << "of " << tally.lines << " lines, band " << tally.band << ", worst " << tally.worst;
   EXPECT_GT(tally.hits, tally.lines / 2);
 }
@@ -98,14 +105,15 @@ TEST(LineCells, FindEveryRootOfRandomPatches) {
 TEST(LineCells, FindEveryRootWithExtremeWeights) {
   std::mt19937_64 random(2);
   Tally tally;
-  for (int n = 0; n < 10; ++n) compare(random_patch(random, 3, 3, 1e6, false), random, 40, 2, tally);
+  for (int n = 0; n < tests::tier_count(1000); ++n)
+    compare(random_patch(random, 3, 3, 1e6, false), random, 40, 2, tally);
   EXPECT_EQ(tally.wrong, 0) << "of " << tally.lines << " lines, band " << tally.band << ", worst " << tally.worst;
 }
 
 TEST(LineCells, FindEveryRootNearACollapsedEdge) {
   std::mt19937_64 random(3);
   Tally tally;
-  for (int n = 0; n < 10; ++n) {
+  for (int n = 0; n < tests::tier_count(1000); ++n) {
     const RandomPatch patch = random_patch(random, 3, 3, 1, true);
     compare(patch, random, 30, 2, tally);
     // Lines that pass the collapsed edge at small distances.

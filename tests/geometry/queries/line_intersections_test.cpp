@@ -188,22 +188,37 @@ TEST(LineIntersections, FarFromTheOriginToo) {
 
 // Lines aimed exactly at vertices, edges and the apex: one crossing for each of the two sides, or a graze of both.
 TEST(LineIntersections, LinesThroughEdgesAndVerticesStayEven) {
-  const Body cube = box(Frame(), {1, 1, 1});
-  const LineIntersector intersector(cube);
-  std::mt19937_64 random(9);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> unit(0, 1);
-  int odd = 0;
-  const int count = tests::tier_count(100000);
-  for (int k = 0; k < count; ++k) {
-    const Edge& edge = cube.edges[k % cube.edges.size()];
-    const double t =
-        k % 7 == 0 ? edge.curve->domain().lo : edge.curve->domain().lo + unit(random) * edge.curve->domain().width();
-    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
-    odd += intersector.all_hits({edge.curve->point(t) - 3.0 * d, d}).size() % 2;
+  const Frame skew = frame_from({0.3, -1.2, 2.5}, {1, 2, 2}, {1, 0.2, -0.4});
+  Frame moved = skew;
+  moved.origin = {600, -700, 387};
+  const std::pair<const char*, Body> bodies[] = {
+      {"box", box(Frame(), {1, 1, 1})},
+      {"moved_box", box(moved, {1, 2, 3})},
+      {"prism", prism(skew, {{0, 0}, {2, 0}, {2.5, 1}, {1, 2}, {-0.5, 1}}, 2)},
+      {"pyramid", pyramid(skew, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0, 2})},
+      {"wedge", wedge(skew, {3, 2, 1.5}, 1)},
+      {"cylinder", cylinder_body(skew, 1, 2)},
+      {"frustum", frustum(skew, 2, 1, 3)},
+      {"cone", frustum(skew, 2, 0, 3)},
+      {"torus", torus_body(skew, 3, 1)}};
+  for (const auto& [name, body] : bodies) {
+    const LineIntersector intersector(body);
+    const double away = 1.5 * bounds(body).diameter();
+    std::mt19937_64 random(9);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> unit(0, 1);
+    int odd = 0;
+    const int count = tests::tier_count(100000);
+    for (int k = 0; k < count; ++k) {
+      const Edge& edge = body.edges[k % body.edges.size()];
+      const Interval range = edge.curve->domain();
+      const double t = k % 7 == 0 ? range.lo : range.lo + unit(random) * range.width();
+      const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+      odd += intersector.all_hits({edge.curve->point(t) - away * d, d}).size() % 2;
+    }
+    EXPECT_EQ(odd, 0) << name << " of " << count;
+    tests::report_figure(std::string(name) + "_edge_aimed_odd", odd);
   }
-  EXPECT_EQ(odd, 0) << "of " << count;
-  tests::report_figure("edge_aimed_odd", odd);
 }
 
 }  // namespace

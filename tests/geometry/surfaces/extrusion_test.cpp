@@ -20,8 +20,6 @@ class Wave final : public Curve {
   CurveEnclosure enclose(const Interval& t, int order) const override {
     return enclose_curve_formula([](const auto& x) { return at(x); }, t, order);
   }
-
- private:
   template <class T>
   static Triple<T> at(const T& t) {
     using std::sin;
@@ -35,6 +33,16 @@ TEST(ExtrusionSurface, MeetsTheGeneralChecks) {
   checks::check_surface(ExtrusionSurface(circle, {1, 0.5, 3}, {{1, 2}, {-2, 0.5}}));
   checks::check_surface(ExtrusionSurface(std::make_shared<Wave>(), {0, -1, 2}));
   checks::check_surface(ExtrusionSurface(std::make_shared<Wave>(), {0, -1, 2}, {{0, 1}, {1, 2}}));
+}
+
+TEST(ExtrusionSurface, DerivativesAgreeWithHigherPrecision) {
+  const Vec3 along(0.3, -1, 2);
+  checks::check_derivatives(ExtrusionSurface(std::make_shared<Wave>(), along),
+                            [&](const auto& u, const auto& v) {
+                              const auto c = Wave::at(u);
+                              return Triple{c.x + v * Quad(along.x), c.y + v * Quad(along.y), c.z + v * Quad(along.z)};
+                            },
+                            {{-1, 2}, {-1, 3}});
 }
 
 // An extruded circle is a cylinder; the normal c' x d points outward for a vector along z.

@@ -21,8 +21,6 @@ class Vase final : public Curve {
   CurveEnclosure enclose(const Interval& t, int order) const override {
     return enclose_curve_formula([](const auto& x) { return at(x); }, t, order);
   }
-
- private:
   template <class T>
   static Triple<T> at(const T& t) {
     using std::cos;
@@ -49,6 +47,23 @@ TEST(RevolutionSurface, MeetsTheGeneralChecks) {
   checks::check_surface(RevolutionSurface(section(0, 2, {-kPi / 2, kPi / 2}), kAxis));
   checks::check_surface(RevolutionSurface(std::make_shared<Vase>(), Axis()));
   checks::check_surface(RevolutionSurface(std::make_shared<Vase>(), Axis(), Rectangle{{0.5, 2}, {-1, 1}}));
+}
+
+TEST(RevolutionSurface, DerivativesAgreeWithHigherPrecision) {
+  const Axis axis{{0.5, -0.2, 0.1}, glm::normalize(Vec3(0.2, 0.3, 1))};
+  const Frame frame = frame_about(axis.through, axis.along);
+  const auto formula = [&](const auto& u, const auto& v) {
+    auto c = Vase::at(u);
+    c.x -= Quad(frame.origin.x), c.y -= Quad(frame.origin.y), c.z -= Quad(frame.origin.z);
+    const auto along = [&](const Vec3& e) { return c.x * Quad(e.x) + c.y * Quad(e.y) + c.z * Quad(e.z); };
+    const auto x = along(frame.x), y = along(frame.y), z = along(frame.z);
+    const auto across_x = x * cos(v) - y * sin(v), across_y = x * sin(v) + y * cos(v);
+    const auto coordinate = [&](int i) {
+      return across_x * Quad(frame.x[i]) + across_y * Quad(frame.y[i]) + z * Quad(frame.z[i]) + Quad(frame.origin[i]);
+    };
+    return Triple{coordinate(0), coordinate(1), coordinate(2)};
+  };
+  checks::check_derivatives(RevolutionSurface(std::make_shared<Vase>(), axis), formula, {{0, kPi}, {-4, 7}});
 }
 
 // The torus with the parameters exchanged and the normal turned round.
