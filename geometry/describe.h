@@ -30,12 +30,12 @@ using MeshPtr = std::shared_ptr<const Mesh>;
 // What kind of thing a type builds; a reference field asks for one or more of these. The std::any that a builder
 // returns holds the named C++ type.
 enum class Category {
-  point,     // Vec3
-  curve,     // CurvePtr
-  surface,   // SurfacePtr
-  body,      // BodyPtr
-  mesh,      // MeshPtr
-  group,     // the categories below are built by lekalo::render
+  point,    // Vec3
+  curve,    // CurvePtr
+  surface,  // SurfacePtr
+  body,     // BodyPtr
+  mesh,     // MeshPtr
+  group,    // the categories below are built by lekalo::render
   object,
   material,
   texture,
@@ -86,7 +86,7 @@ struct Anchor {
 
 // Values of a parameter: so many, evenly spaced over its range, or these.
 struct ParameterValues {
-  int count = 0;               // 0 when `values` are given
+  int count = 0;  // 0 when `values` are given
   std::vector<double> values;
 };
 

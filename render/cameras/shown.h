@@ -13,7 +13,7 @@ struct Object;
 
 struct Shown {
   geometry::Box3 box;
-  std::vector<geometry::Vec3> points;  // on the shapes, dense enough to stand for them in the picture
+  std::vector<geometry::Vec3> points;                  // on the shapes, dense enough to stand for them in the picture
   std::shared_ptr<const std::vector<Object>> objects;  // of the scene, where a camera frames some by name; else null
 
   Shown() = default;

@@ -32,8 +32,7 @@ void declare_view(TypeDeclaration& type, std::string default_view) {
              {"elevation", angle().between(-kPi / 2, kPi / 2), "of the viewer's place above the xy plane", true, {}}});
   type.field("view", view.or_word(view_names()), "from where all is seen when `from` is not given",
              std::move(default_view))
-      .field("frame",
-             references({geometry_categories().begin(), geometry_categories().end()}).or_word({"all"}),
+      .field("frame", references({geometry_categories().begin(), geometry_categories().end()}).or_word({"all"}),
              "what must be in the picture", "all")
       .field("margin", number().between(0, 0.45), "left free on each side, as a share of the picture's shorter side",
              "0.06");

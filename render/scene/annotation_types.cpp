@@ -12,7 +12,8 @@ namespace {
 
 // As TikZ calls them.
 FieldType side() {
-  return choice({"above", "below", "left", "right", "above left", "above right", "below left", "below right", "center"});
+  return choice(
+      {"above", "below", "left", "right", "above left", "above right", "below left", "below right", "center"});
 }
 
 TypeDeclaration annotation(const char* name, const char* description, const char* default_style) {

@@ -118,6 +118,8 @@ class Builder {
   // --- builder_fields.cpp: maps of declared fields.
   std::optional<Fields> read_fields(const std::vector<Field>& declared, const Value& map, const Counters& counters,
                                     const std::string& what, const std::vector<std::string>& also_allowed = {});
+  std::optional<std::any> read_group(const FieldType& type, const Value& map, const Counters& counters,
+                                     const std::string& what);
   bool read_field(const Field& field, const Value& value, const Counters& counters, Fields& fields);
   const Value& default_value(const std::string& text);
   bool check(const TypeDeclaration& type, const Fields& fields, const Value& map);
@@ -201,7 +203,7 @@ class Builder {
   std::map<const void*, const TypeDeclaration*> types_;  // of built geometry, by identity()
   std::map<std::pair<const Group*, const Material*>, GroupPtr> groups_in_material_;
   std::vector<GroupPtr> kept_groups_;  // so that no address of theirs is used again
-  std::deque<Value> made_;  // maps that `like` made
+  std::deque<Value> made_;             // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
   MaterialPtr default_material_;

@@ -101,7 +101,8 @@ bool Builder::check_panel(const Value& name) {
     for (const NamedThing::Member& one : thing.members)
       known.push_back(one.name.empty() ? panel : panel + "." + one.name);
   if (std::find(known.begin(), known.end(), name.text) != known.end()) return true;
-  diagnostics_.error(name.place, fmt::format("there is no panel called '{}'{}", name.text, suggestion(name.text, known)),
+  diagnostics_.error(name.place,
+                     fmt::format("there is no panel called '{}'{}", name.text, suggestion(name.text, known)),
                      known.empty() ? "the scene has no panels" : "there are " + listed(known, 20));
   return false;
 }

@@ -34,9 +34,17 @@ const Place& Builder::place_of_field(const Value& map, std::string_view path) {
   return place->place;
 }
 
+std::optional<std::any> Builder::read_group(const FieldType& type, const Value& map, const Counters& counters,
+                                            const std::string& what) {
+  auto fields = read_fields(*type.fields, map, counters, what);
+  return fields ? std::optional<std::any>(*std::move(fields)) : std::nullopt;
+}
+
 bool Builder::read_field(const Field& field, const Value& value, const Counters& counters, Fields& fields) {
   if (!field.type.per_direction) {
-    auto result = read(field.type, value, counters);
+    auto result = field.type.kind == Kind::group && value.is_map()
+                      ? read_group(field.type, value, counters, "'" + field.name + "'")
+                      : read(field.type, value, counters);
     if (!result) return false;
     // An inline style changes the one that the field has by default.
     if (std::any_cast<StyleChanges>(&*result) && value.is_map() && !value.find("like") && !field.default_text.empty()) {

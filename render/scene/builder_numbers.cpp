@@ -51,7 +51,8 @@ std::optional<double> Builder::read_number_by(const FieldType& type, const Value
 // Nanometres, with their unit or without.
 std::optional<double> Builder::read_wavelength(const Value& value, const Counters& counters) {
   if (!value.is_scalar() || !value.text.ends_with("nm")) return parameters_.number(value, counters);
-  const auto expression = parameters_.bind(value, std::string_view(value.text).substr(0, value.text.size() - 2), 0, counters);
+  const auto expression =
+      parameters_.bind(value, std::string_view(value.text).substr(0, value.text.size() - 2), 0, counters);
   if (!expression) return std::nullopt;
   const double length = (*expression)();
   if (!std::isfinite(length)) diagnostics_.error(value.place, "the formula has no finite value");
@@ -90,7 +91,8 @@ std::optional<std::vector<double>> Builder::read_numbers(const FieldType& type, 
         if (!some) return std::nullopt;
         for (const double x : *some) {
           if (is_outside(type, x)) {
-            diagnostics_.error(item.value->place, fmt::format("expected values {}, found {:.12g}", range_text(type, 1), x));
+            diagnostics_.error(item.value->place,
+                               fmt::format("expected values {}, found {:.12g}", range_text(type, 1), x));
             return std::nullopt;
           }
           numbers.push_back(x);

@@ -38,8 +38,10 @@ std::optional<std::any> Builder::read_color(const FieldType& type, const Value& 
           const auto grey = read_number_by(geometry::number().non_negative(), value, counters);
           if (grey) color = Vec3(*grey);
         } else {
+          std::vector<std::string> known = color_names();
+          known.insert(known.end(), type.choices.begin(), type.choices.end());
           diagnostics_.error(value.place,
-                             fmt::format("unknown colour '{}'{}", value.text, suggestion(value.text, color_names())),
+                             fmt::format("unknown colour '{}'{}", value.text, suggestion(value.text, known)),
                              "a CSS colour name, '#rrggbb' in quotes, or three linear values [r, g, b]");
         }
       }
@@ -118,7 +120,6 @@ std::optional<geometry::PictureSize> Builder::read_picture_size(const Value& val
   return size;
 }
 
-
 std::optional<double> Builder::read_page_length_by(const FieldType& type, const Value& value) {
   const auto length = read_page_length(value);
   if (!length) {
@@ -161,9 +162,11 @@ std::optional<TextTemplate> Builder::read_label(const FieldType& type, const Val
       continue;
     }
     if (part.is_name && std::find(names.begin(), names.end(), part.text) == names.end()) {
-      const std::string known = type.variables.empty() ? "there is no counter here"
-                                                       : "counters here are %" + fmt::format("{}", fmt::join(type.variables, ", %"));
-      return fail({part.offset, fmt::format("unknown counter '%{}' of a text{}", part.text, suggestion(part.text, names)),
+      const std::string known = type.variables.empty()
+                                    ? "there is no counter here"
+                                    : "counters here are %" + fmt::format("{}", fmt::join(type.variables, ", %"));
+      return fail({part.offset,
+                   fmt::format("unknown counter '%{}' of a text{}", part.text, suggestion(part.text, names)),
                    known + "; a percent sign is written %%"});
     }
     auto expression = parameters_.bind(value, part.text, part.offset, counters, variables);

@@ -114,10 +114,11 @@ std::optional<Builder::Located> Builder::locate(const Value& map, const Counters
   known.push_back(direction ? "vector" : "point");
   for (const Entry& entry : map.entries)
     if (entry.key.name != "repeat" && std::find(known.begin(), known.end(), entry.key.name) == known.end()) {
-      diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of {}{}", entry.key.name, what,
-                                                      suggestion(entry.key.name, known)),
-                         "{ of: curve, t: ... }, { of: curve, s: 0.5 }, { of: surface, u: ..., v: ... } or { of: "
-                         "surface, point: [i, j] }");
+      diagnostics_.error(
+          entry.key.place,
+          fmt::format("unknown field '{}' of {}{}", entry.key.name, what, suggestion(entry.key.name, known)),
+          "{ of: curve, t: ... }, { of: curve, s: 0.5 }, { of: surface, u: ..., v: ... } or { of: "
+          "surface, point: [i, j] }");
       return std::nullopt;
     }
   const auto built = refer(*map.find("of"), counters, kCurveOrSurface);
@@ -181,7 +182,8 @@ std::optional<Vec3> Builder::read_control_point(const Value& map, const Counters
   int columns = 0;  // 0: a curve
   if (const auto* curve = std::any_cast<CurvePtr>(&built->value)) {
     if (const auto* spline = spline_behind<geometry::NurbsCurve, geometry::TransformedCurve>(*curve, placed))
-      for (int i = 0; i < spline->axis().distinct(); ++i) points.push_back(cartesian(spline->points()[static_cast<size_t>(i)]));
+      for (int i = 0; i < spline->axis().distinct(); ++i)
+        points.push_back(cartesian(spline->points()[static_cast<size_t>(i)]));
   } else if (const auto* surface = std::any_cast<SurfacePtr>(&built->value)) {
     if (const auto* spline = spline_behind<geometry::NurbsSurface, geometry::TransformedSurface>(*surface, placed)) {
       columns = spline->axis_v().distinct();
@@ -199,16 +201,20 @@ std::optional<Vec3> Builder::read_control_point(const Value& map, const Counters
   const auto indices = read_list<int>(geometry::integer(), point, counters);
   if (!indices) return std::nullopt;
   if (indices->size() != (columns ? 2u : 1u)) {
-    diagnostics_.error(point.place, columns ? "a control point of a surface has two indices"
-                                            : "a control point of a curve has one index",
-                       columns ? "point: [i, j], i along u, j along v, from 0" : "point: i, from 0");
+    diagnostics_.error(
+        point.place,
+        columns ? "a control point of a surface has two indices" : "a control point of a curve has one index",
+        columns ? "point: [i, j], i along u, j along v, from 0" : "point: i, from 0");
     return std::nullopt;
   }
   for (size_t k = 0; k < indices->size(); ++k)
     if ((*indices)[k] < 0 || (*indices)[k] >= counts[k]) {
       const Place& place = point.is_sequence() && k < point.items.size() ? point.items[k].place : point.place;
       diagnostics_.error(place, fmt::format("there is no control point {}: {} goes from 0 to {}", (*indices)[k],
-                                            columns == 0 ? "the index" : k == 0 ? "i" : "j", counts[k] - 1));
+                                            columns == 0 ? "the index"
+                                            : k == 0     ? "i"
+                                                         : "j",
+                                            counts[k] - 1));
       return std::nullopt;
     }
   const int index = columns ? (*indices)[0] * columns + (*indices)[1] : (*indices)[0];
@@ -265,10 +271,10 @@ std::optional<Vec3> Builder::read_vector_on(const Value& map, const Counters& co
   }
   const std::vector<std::string> known = place->curve ? std::vector<std::string>{"tangent", "normal", "binormal"}
                                                       : std::vector<std::string>{"normal", "du", "dv"};
-  diagnostics_.error(which->place,
-                     fmt::format("'{}' is no vector of a {}{}", word, place->curve ? "curve" : "surface",
-                                 suggestion(word, known)),
-                     "it has " + listed(known));
+  diagnostics_.error(
+      which->place,
+      fmt::format("'{}' is no vector of a {}{}", word, place->curve ? "curve" : "surface", suggestion(word, known)),
+      "it has " + listed(known));
   return std::nullopt;
 }
 

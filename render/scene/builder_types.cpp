@@ -25,8 +25,7 @@ bool contains(std::span<const Category> categories, Category category) {
 
 // The builder's own surface is not shared yet: it may still be turned.
 void reverse(std::any& value) {
-  if (auto* surface = std::any_cast<SurfacePtr>(&value))
-    const_cast<geometry::Surface&>(**surface).set_reversed(true);
+  if (auto* surface = std::any_cast<SurfacePtr>(&value)) const_cast<geometry::Surface&>(**surface).set_reversed(true);
   if (auto* set = std::any_cast<SurfaceSet>(&value))
     for (SurfacePtr& surface : *set) const_cast<geometry::Surface&>(*surface).set_reversed(true);
 }
@@ -80,10 +79,10 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
     return nullptr;
   }
   if (!contains(wanted, type->category)) {
-    diagnostics_.error(place,
-                       fmt::format("'{}' makes {}, but {} is wanted here", name, describe({&type->category, 1}),
-                                   describe(wanted)),
-                       "one of " + listed(known, 40));
+    diagnostics_.error(
+        place,
+        fmt::format("'{}' makes {}, but {} is wanted here", name, describe({&type->category, 1}), describe(wanted)),
+        "one of " + listed(known, 40));
     return nullptr;
   }
   return type;
@@ -221,7 +220,8 @@ bool Builder::check_helpers(const Value& object, const Fields& fields) {
     const auto found = types_.find(identity(entity));
     const TypeDeclaration* type = found == types_.end() ? nullptr : found->second;
     if (!seen.insert(type).second) continue;
-    const bool is_curve = std::holds_alternative<CurvePtr>(entity), is_surface = std::holds_alternative<SurfacePtr>(entity);
+    const bool is_curve = std::holds_alternative<CurvePtr>(entity),
+               is_surface = std::holds_alternative<SurfacePtr>(entity);
     std::vector<std::string> offered;
     std::string name = "this shape";
     if (type) {

@@ -86,6 +86,14 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     report(diagnostics_, value, reading.slip());
     return std::nullopt;
   };
+  const auto unknown_word = [&]() -> std::optional<std::any> {
+    diagnostics_.error(value.place,
+                       value.is_scalar()
+                           ? fmt::format("unknown word '{}'{}", value.text, suggestion(value.text, type.choices))
+                           : fmt::format("expected a word, found {}", kind_name(value)),
+                       fmt::format("one of {}", listed(type.choices)));
+    return std::nullopt;
+  };
   if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots &&
       is_word(type, value))
     return std::any(value.text);
@@ -105,12 +113,7 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       return wrap_reading(read_boolean(value));
     case Kind::choice:
       if (is_word(type, value)) return std::any(value.text);
-      diagnostics_.error(value.place,
-                         value.is_scalar()
-                             ? fmt::format("unknown word '{}'{}", value.text, suggestion(value.text, type.choices))
-                             : fmt::format("expected a word, found {}", kind_name(value)),
-                         fmt::format("one of {}", listed(type.choices)));
-      return std::nullopt;
+      return unknown_word();
     case Kind::text:
       return wrap_reading(read_text(value));
     case Kind::name:
@@ -186,6 +189,12 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       return std::any(all);
     }
     case Kind::reference: {
+      // A slip in one of the words, where nothing has that name.
+      if (value.is_scalar() && !suggestion(value.text, type.choices).empty()) {
+        const Value* names = section(section_of(type.categories.front()));
+        if (!names || !find_named(*names, value.text, value.place.file ? value.place.file->scope : "").entry)
+          return unknown_word();
+      }
       auto built = refer(value, counters, type.categories);
       if (!built) return std::nullopt;
       return built->value;
@@ -195,13 +204,11 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       if (!all || !check_count(type, value, all->size())) return std::nullopt;
       return std::any(*std::move(all));
     }
-    case Kind::group: {
-      if (!value.is_map()) {
-        diagnostics_.error(value.place, fmt::format("expected a map of fields, found {}", kind_name(value)));
-        return std::nullopt;
-      }
-      return wrap(read_fields(*type.fields, value, counters, "this map"));
-    }
+    case Kind::group:
+      if (value.is_map()) return read_group(type, value, counters, "this map");
+      if (value.is_scalar() && !type.choices.empty()) return unknown_word();
+      diagnostics_.error(value.place, fmt::format("expected a map of fields, found {}", kind_name(value)));
+      return std::nullopt;
     case Kind::groups: {
       std::vector<Fields> all;
       for (const Scoped& item : items(value, counters)) {

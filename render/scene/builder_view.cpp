@@ -72,8 +72,8 @@ void Builder::build_camera(Model& model) {
   static const Category camera_wanted[] = {Category::camera};
   static const Category integrator_wanted[] = {Category::integrator};
   const Value* given = section("image");
-  const auto image = read_fields(section_declaration("image").fields, given && given->is_map() ? *given : kEmptyMap, {},
-                                 "'image'");
+  const auto image =
+      read_fields(section_declaration("image").fields, given && given->is_map() ? *given : kEmptyMap, {}, "'image'");
   const Value* camera = section("camera");
   Shown all = shown(model);
   all.objects = std::make_shared<const std::vector<Object>>(names_frames() ? model.objects : std::vector<Object>());
@@ -146,9 +146,10 @@ void Builder::check_crop(const Fields& image, const Value* given, Film& film) {
   if (film.crop.x0 < film.crop.x1 && film.crop.y0 < film.crop.y1 && film.crop.x1 <= film.width &&
       film.crop.y1 <= film.height)
     return;
-  diagnostics_.error(given->find("crop")->place,
-                     fmt::format("this part does not lie inside the picture of {} x {} pixels", film.width, film.height),
-                     "x0, y0, x1, y1 with x0 < x1 and y0 < y1");
+  diagnostics_.error(
+      given->find("crop")->place,
+      fmt::format("this part does not lie inside the picture of {} x {} pixels", film.width, film.height),
+      "x0, y0, x1, y1 with x0 < x1 and y0 < y1");
 }
 
 // Whether a camera says `frame: [names]`, and so must know the objects.

@@ -41,8 +41,8 @@ TypeDeclaration control_polygon() {
 }
 
 TypeDeclaration control_net() {
-  TypeDeclaration type = helper("control_net", "The control points of a surface, joined in rows and columns.",
-                                "construction");
+  TypeDeclaration type =
+      helper("control_net", "The control points of a surface, joined in rows and columns.", "construction");
   type.field("marker", marker(), "sign at the points", "dot")
       .optional("label", label({"i", "j"}), "text at each point; %i is its index along u, %j along v")
       .field("label_points", choice({"all", "corners"}), "which points have the label", "all");
@@ -87,8 +87,7 @@ TypeDeclaration frames() {
       .field("label", choice({"none", "first", "last", "all"}), "which frames have names at their vectors", "none");
   finish(type);
   return type.built_by([build = type.build](const Fields& f) -> std::any {
-    if (f.given("count") && f.given("at"))
-      throw FieldError("count", "'at' and 'count' say the same: leave one out");
+    if (f.given("count") && f.given("at")) throw FieldError("count", "'at' and 'count' say the same: leave one out");
     return build(f);
   });
 }

@@ -42,7 +42,7 @@ struct Lines {
 
 // A helper of a geometry type, drawn beside it: control polygon, frames, comb, ...
 struct Helper {
-  std::string type;         // as declared in helper_types.cpp
+  std::string type;  // as declared in helper_types.cpp
   Style style;
   HiddenLines hidden;
   geometry::Fields values;  // its other fields as declared

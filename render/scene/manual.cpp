@@ -132,7 +132,8 @@ std::string plain_value_text(const FieldType& type) {
     case Kind::counts:
       return "count, list, or range 0..6";
     case Kind::label:
-      return type.variables.empty() ? "TeX text" : "TeX text with %" + fmt::format("{}", fmt::join(type.variables, ", %"));
+      return type.variables.empty() ? "TeX text"
+                                    : "TeX text with %" + fmt::format("{}", fmt::join(type.variables, ", %"));
     case Kind::labels:
       return "TeX texts" + count_text(type);
     case Kind::name_rows:
@@ -305,7 +306,8 @@ std::string page_of_sections() {
         if (type_names({&category, 1}).empty()) continue;
         pages += fmt::format("{}[{}]({}.md)", pages.empty() ? "" : ", ", plural(category), plural(category));
       }
-      text += fmt::format("\n{}: {}.\n", section.shape == Shape::named    ? "A map of names to things"
+      text += fmt::format("\n{}: {}.\n",
+                          section.shape == Shape::named    ? "A map of names to things"
                           : section.shape == Shape::things ? "A list of"
                                                            : "One of",
                           pages);

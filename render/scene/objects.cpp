@@ -71,7 +71,8 @@ Objects objects_of(const Fields& fields) {
   for (const std::any& one : fields.references("shape")) {
     object.shape = entity_of(one);
     if (std::holds_alternative<GroupPtr>(object.shape))
-      for (const char* field : {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show"})
+      for (const char* field :
+           {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show"})
         if (fields.given(field))
           throw FieldError(field, "'" + std::string(field) + "' is for single shapes, and this is a group",
                            "give it to the objects inside the group");
@@ -122,8 +123,7 @@ TypeDeclaration object_type() {
 TypeDeclaration group_type() {
   TypeDeclaration type = declare(Category::group, "group",
                                  "Objects placed together as one. Shown more than once, the group is stored once.");
-  return type
-      .field("of", references({Category::object}), "the objects: { shape, material, transform, ... }")
+  return type.field("of", references({Category::object}), "the objects: { shape, material, transform, ... }")
       .built_by([](const Fields& f) -> std::any {
         auto group = std::make_shared<Group>();
         for (const std::any& one : f.references("of")) {

@@ -7,10 +7,10 @@ using namespace geometry;
 namespace {
 
 std::vector<Field> axis_fields() {
-  return {{"label", label(), "what is measured along it", false, {}},
-          {"ticks", numbers().or_word({"auto", "none"}), "where there are marks: a list, or a range 0..6", false,
-           "auto"},
-          {"grid", boolean(), "lines across the graph at the marks", false, "false"}};
+  return {
+      {"label", label(), "what is measured along it", false, {}},
+      {"ticks", numbers().or_word({"auto", "none"}), "where there are marks: a list, or a range 0..6", false, "auto"},
+      {"grid", boolean(), "lines across the graph at the marks", false, "false"}};
 }
 
 GraphAxis axis_of(const Fields& fields) {
@@ -26,30 +26,30 @@ GraphAxis axis_of(const Fields& fields) {
 
 std::vector<Field> drawing_fields() {
   const FieldType style = reference({Category::style});
-  return {{"ground", choice({"none", "fill", "shaded"}),
-           "under the lines: nothing, plain areas, or the picture as rendered", false, "none"},
-          {"fill", color().between(0, 1), "of areas of `ground: fill`", false, "'#e6e6e6'"},
-          {"paper", color().between(0, 1), "of the sheet", false, "white"},
-          {"lines", group(lines_fields()), "of objects that do not say which lines they have", false, kUsualLines},
-          {"axes",
-           group({{"x", group(axis_fields()), "the axis below a graph", false, {}},
-                  {"y", group(axis_fields()), "the axis left of a graph", false, {}},
-                  {"style", style, "of the axes, their marks and texts", false, "thin"},
-                  {"grid_style", style, "of the lines across the graph", false, "hairline"}}),
-           "axes of a graph (camera: { type: graph })",
-           false,
-           {}},
-          {"legend",
-           group({{"side",
-                   choice({"above", "below", "left", "right", "above left", "above right", "below left",
-                           "below right"}),
-                   "beside the picture, or in a corner of it", false, "right"},
-                  {"title", label(), "above the entries", false, {}},
-                  {"style", style, "of its texts", false, "label"}}),
-           "list of the objects that have a `legend`",
-           false,
-           {}},
-          {"annotations", references({Category::annotation}).count(0), "labels, arrows, dimensions, ...", false, {}}};
+  return {
+      {"ground", choice({"none", "fill", "shaded"}),
+       "under the lines: nothing, plain areas, or the picture as rendered", false, "none"},
+      {"fill", color().between(0, 1), "of areas of `ground: fill`", false, "'#e6e6e6'"},
+      {"paper", color().between(0, 1), "of the sheet", false, "white"},
+      {"lines", group(lines_fields()), "of objects that do not say which lines they have", false, kUsualLines},
+      {"axes",
+       group({{"x", group(axis_fields()), "the axis below a graph", false, {}},
+              {"y", group(axis_fields()), "the axis left of a graph", false, {}},
+              {"style", style, "of the axes, their marks and texts", false, "thin"},
+              {"grid_style", style, "of the lines across the graph", false, "hairline"}}),
+       "axes of a graph (camera: { type: graph })",
+       false,
+       {}},
+      {"legend",
+       group({{"side",
+               choice({"above", "below", "left", "right", "above left", "above right", "below left", "below right"}),
+               "beside the picture, or in a corner of it", false, "right"},
+              {"title", label(), "above the entries", false, {}},
+              {"style", style, "of its texts", false, "label"}}),
+       "list of the objects that have a `legend`",
+       false,
+       {}},
+      {"annotations", references({Category::annotation}).count(0), "labels, arrows, dimensions, ...", false, {}}};
 }
 
 DrawingChoices drawing_of(const Fields& fields) {

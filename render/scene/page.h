@@ -20,9 +20,9 @@ struct Annotation {
 // One axis of a graph.
 struct GraphAxis {
   TextTemplate label;
-  std::string ticks = "auto";       // auto, none, or empty: `tick_values`
+  std::string ticks = "auto";  // auto, none, or empty: `tick_values`
   std::vector<double> tick_values;
-  bool grid = false;                // lines across the graph at the ticks
+  bool grid = false;  // lines across the graph at the ticks
 };
 
 struct GraphAxes {
@@ -42,7 +42,7 @@ struct DrawingChoices {
   Ground ground = Ground::none;
   geometry::Vec3 fill{0.85};  // of ground fill, where an object's material has no colour of its own
   geometry::Vec3 paper{1};
-  Lines lines;                // of objects without their own
+  Lines lines;  // of objects without their own
   std::optional<GraphAxes> axes;
   std::optional<Legend> legend;
   std::vector<Annotation> annotations;

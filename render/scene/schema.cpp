@@ -139,8 +139,9 @@ void SchemaWriter::add_common_definitions() {
                         {"required", {"page"}},
                         {"additionalProperties", false}};
   definitions_["anchor"] = any_of({ref("place"), on_page});
-  definitions_["label"] = {{"type", {"string", "number"}},
-                           {"description", "TeX in single quotes; %i a counter, %(n + 1) a formula, %% a percent sign"}};
+  definitions_["label"] = {
+      {"type", {"string", "number"}},
+      {"description", "TeX in single quotes; %i a counter, %(n + 1) a formula, %% a percent sign"}};
   definitions_["page_length"] = {{"type", {"string", "number"}}, {"description", "with unit: 5 mm, 2 pt, 10 px"}};
 }
 

@@ -33,10 +33,10 @@ struct TextTemplate {
 
 // One place or stretch of text of a template as written, before its formula is understood.
 struct TemplatePart {
-  std::string text;         // literal text, or the formula
+  std::string text;  // literal text, or the formula
   bool is_value = false;
-  bool is_name = false;     // of a value: a bare name without parentheses
-  std::size_t offset = 0;   // of the formula in the template, bytes
+  bool is_name = false;    // of a value: a bare name without parentheses
+  std::size_t offset = 0;  // of the formula in the template, bytes
   int width = 0;
   bool zeros = false;
 };
