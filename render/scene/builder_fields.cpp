@@ -50,7 +50,7 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
     if (std::any_cast<StyleChanges>(&*result) && value.is_map() && !value.find("like") && !field.default_text.empty()) {
       const auto base = read(field.type, default_value(field.default_text), {});
       if (const auto* style = base ? std::any_cast<StyleChanges>(&*base) : nullptr) {
-        StyleChanges changed = *style;
+        StyleChanges changed{{}, style->fields};
         changed.fields.override_by(std::any_cast<const StyleChanges&>(*result).fields);
         result = changed;
       }

@@ -241,6 +241,7 @@ std::optional<Built> Builder::refer(const Value& value, const Counters& counters
                        fmt::format("name a member, for example {}.0", value.text));
     return std::nullopt;
   }
+  if (auto* style = std::any_cast<StyleChanges>(&all->front().value)) style->name = value.text;
   return std::move(all->front());
 }
 

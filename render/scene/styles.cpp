@@ -34,6 +34,7 @@ bool is_built_in_style(std::string_view name) { return std::find(kNames.begin(),
 Style complete(const StyleChanges& changes) {
   const Fields& f = changes.fields;
   Style style;
+  style.name = changes.name;
   const auto number = [&](const char* field, double& value) {
     if (f.has(field)) value = f.number(field);
   };
@@ -60,9 +61,7 @@ Style complete(const StyleChanges& changes) {
 }
 
 Style style_of(const Fields& fields, std::string_view field) {
-  Style style = complete(fields.get<StyleChanges>(field));
-  style.name = fields.written(field);
-  return style;
+  return complete(fields.get<StyleChanges>(field));
 }
 
 TypeDeclaration style_type() {
@@ -92,7 +91,7 @@ TypeDeclaration style_type() {
           if (f.numbers("dash").size() % 2 != 0)
             throw FieldError("dash", "lengths drawn and left out come in pairs", "for example [1.5 mm, 0.75 mm]");
         }
-        return StyleChanges{f};
+        return StyleChanges{{}, f};
       });
 }
 

@@ -38,12 +38,13 @@ struct Style {
 
 // What a scene says about a style: only the fields that were given.
 struct StyleChanges {
+  std::string name;  // by which it was referred to
   geometry::Fields fields;
 };
 
 // The plain style with these changes.
 Style complete(const StyleChanges& changes);
-// The style that a declared field of the kind reference({style}) holds, with the name that stands there.
+// The style that a declared field of the kind reference({style}) holds.
 Style style_of(const geometry::Fields& fields, std::string_view field);
 
 // The built-in styles as the section of a scene file.

@@ -114,8 +114,8 @@ TEST(Annotations, Errors) {
   EXPECT_EQ(about("{ type: label, at: [0, 0], text: a, side: abve }"),
             "6:49 unknown word 'abve' (did you mean 'above'?)\n");
   EXPECT_EQ(about("{ type: label, at: { page: [5, 8 mm] }, text: a }"),
-            "6:34 the length '5' on the page has no unit\n");
-  EXPECT_EQ(about("{ type: label, at: { page: [5 mm] }, text: a }"), "6:33 a place on the page has two lengths\n");
+            "6:35 the length '5' on the page has no unit\n");
+  EXPECT_EQ(about("{ type: label, at: { page: [5 mm] }, text: a }"), "6:34 a place on the page has two lengths\n");
   EXPECT_EQ(about("{ type: label, at: { page: [5 mm, 1 mm], t: 0 }, text: a }"),
             "6:48 unknown field 't' of a place on the page\n");
   EXPECT_EQ(about("{ type: arrow, from: [0, 0] }"), "6:7 an arrow has either 'to' or 'along' and 'length'\n");

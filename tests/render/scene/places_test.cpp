@@ -73,7 +73,7 @@ TEST(Places, Directions) {
   expect_near(direction("{ of: s, u: 0, v: 0, vector: normal }"), {1, 0, 0});
 }
 
-// The place begins in column 35 of line 11.
+// The place begins in column 43 of line 11.
 std::string said(const std::string& place) {
   return build_text(kThings + "  x: { type: segment, to: [99, 99], from: " + place + " }\nlights: {}\n").said;
 }
@@ -82,35 +82,35 @@ std::string said_of_direction(const std::string& place) {
 }
 
 TEST(Places, Errors) {
-  EXPECT_EQ(said("{ of: c }"), "12:43 missing 't' of a place on a curve\n");
-  EXPECT_EQ(said("{ of: s, u: 0 }"), "12:43 missing 'v' of a place on a surface\n");
-  EXPECT_EQ(said("{ of: c, u: 0, v: 0 }"), "12:55 'u' is no parameter of a curve\n");
-  EXPECT_EQ(said("{ of: s, t: 0 }"), "12:55 't' is no parameter of a surface\n");
-  EXPECT_EQ(said("{ of: c, t: 0, s: 0 }"), "12:61 't' and 's' both say where: leave one out\n");
-  EXPECT_EQ(said("{ of: c, s: 1.5 }"), "12:55 expected a value between 0 and 1, found 1.5\n");
-  EXPECT_EQ(said("{ of: c, t: 0/0 }"), "12:55 the formula has no finite value (not a number)\n");
-  EXPECT_EQ(said("{ of: c, tt: 0 }"), "12:52 unknown field 'tt' of a place (did you mean 't'?)\n");
-  EXPECT_EQ(said("{ of: body, u: 0, v: 0 }"), "12:49 'body' is a body, but a curve or a surface is wanted here\n");
-  EXPECT_EQ(said("{ of: b, point: 4 }"), "12:59 there is no control point 4: the index goes from 0 to 3\n");
-  EXPECT_EQ(said("{ of: b, point: [1, 2] }"), "12:59 a control point of a curve has one index\n");
-  EXPECT_EQ(said("{ of: patch, point: 2 }"), "12:63 a control point of a surface has two indices\n");
-  EXPECT_EQ(said("{ of: patch, point: [1, 2] }"), "12:67 there is no control point 2: j goes from 0 to 1\n");
-  EXPECT_EQ(said("{ of: patch, point: [0.5, 0] }"), "12:64 expected a whole number, found 0.5\n");
-  EXPECT_EQ(said("{ of: s, point: [0, 0] }"), "12:49 this has no control points\n");
-  EXPECT_EQ(said("{ of: b, point: 1, t: 0 }"), "12:62 't' does not go with 'point'\n");
-  EXPECT_EQ(said("{ page: [5 mm, 8 mm] }"), "12:43 a place on the page is no point of space\n");
-  EXPECT_EQ(said("{ of: c, t: 0, vector: tangent }"), "12:66 a place has no 'vector'\n");
+  EXPECT_EQ(said("{ of: c }"), "11:43 missing 't' of a place on a curve\n");
+  EXPECT_EQ(said("{ of: s, u: 0 }"), "11:43 missing 'v' of a place on a surface\n");
+  EXPECT_EQ(said("{ of: c, u: 0, v: 0 }"), "11:55 'u' is no parameter of a curve\n");
+  EXPECT_EQ(said("{ of: s, t: 0 }"), "11:55 't' is no parameter of a surface\n");
+  EXPECT_EQ(said("{ of: c, t: 0, s: 0 }"), "11:61 't' and 's' both say where: leave one out\n");
+  EXPECT_EQ(said("{ of: c, s: 1.5 }"), "11:55 expected a value between 0 and 1, found 1.5\n");
+  EXPECT_EQ(said("{ of: c, t: 0/0 }"), "11:55 the formula has no finite value (not a number)\n");
+  EXPECT_EQ(said("{ of: c, tt: 0 }"), "11:52 unknown field 'tt' of a place (did you mean 't'?)\n");
+  EXPECT_EQ(said("{ of: body, u: 0, v: 0 }"), "11:49 'body' is a body, but a curve or a surface is wanted here\n");
+  EXPECT_EQ(said("{ of: b, point: 4 }"), "11:59 there is no control point 4: the index goes from 0 to 3\n");
+  EXPECT_EQ(said("{ of: b, point: [1, 2] }"), "11:59 a control point of a curve has one index\n");
+  EXPECT_EQ(said("{ of: patch, point: 2 }"), "11:63 a control point of a surface has two indices\n");
+  EXPECT_EQ(said("{ of: patch, point: [1, 2] }"), "11:67 there is no control point 2: j goes from 0 to 1\n");
+  EXPECT_EQ(said("{ of: patch, point: [0.5, 0] }"), "11:64 expected a whole number, found 0.5\n");
+  EXPECT_EQ(said("{ of: s, point: [0, 0] }"), "11:49 this has no control points\n");
+  EXPECT_EQ(said("{ of: b, point: 1, t: 0 }"), "11:62 't' does not go with 'point'\n");
+  EXPECT_EQ(said("{ page: [5 mm, 8 mm] }"), "11:43 a place on the page is no point of space\n");
+  EXPECT_EQ(said("{ of: c, t: 0, vector: tangent }"), "11:66 a place has no 'vector'\n");
 }
 
 TEST(Places, ErrorsOfDirections) {
   EXPECT_EQ(said_of_direction("{ of: c, t: 0, vector: tangnet }"),
-            "12:64 'tangnet' is no vector of a curve (did you mean 'tangent'?)\n");
+            "11:64 'tangnet' is no vector of a curve (did you mean 'tangent'?)\n");
   EXPECT_EQ(said_of_direction("{ of: s, u: 0, v: 0, vector: binormal }"),
-            "12:70 'binormal' is no vector of a surface (did you mean 'normal'?)\n");
+            "11:70 'binormal' is no vector of a surface (did you mean 'normal'?)\n");
   EXPECT_EQ(said_of_direction("{ of: l, t: 0, vector: normal }"),
-            "12:64 the curve is straight here: it has no normal\n");
-  EXPECT_EQ(said_of_direction("{ of: c, t: 0 }"), "12:41 expected a direction\n");
-  EXPECT_EQ(said_of_direction("{ of: c, vector: tangent }"), "12:41 missing 't' of a direction on a curve\n");
+            "11:64 the curve is straight here: it has no normal\n");
+  EXPECT_EQ(said_of_direction("{ of: c, t: 0 }"), "11:41 expected a direction\n");
+  EXPECT_EQ(said_of_direction("{ of: c, vector: tangent }"), "11:41 missing 't' of a direction on a curve\n");
   EXPECT_EQ(said_of_direction("{ of: s, u: 0, v: 90 deg, vector: du }"), "");
 }
 
