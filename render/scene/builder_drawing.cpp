@@ -22,7 +22,8 @@ void Builder::merge_styles() {
   const Value* given = scene_.root.find("styles");
   if (!given) return;
   if (!given->is_map()) {
-    styles_ = Value();  // declare_section() speaks of it
+    if (!given->invalid)
+      diagnostics_.error(given->place, "'styles' is a map of named things", "write name: { like: thin, ... }");
     return;
   }
   styles_.place = given->place;

@@ -64,7 +64,7 @@ TEST(Styles, Errors) {
   EXPECT_EQ(style("{ width: -1 mm }"), "4:15 expected a length between 0 and 50 mm, found -1 mm\n");
   EXPECT_EQ(style("{ opacity: 1.5 }"), "4:17 expected a value between 0 and 1, found 1.5\n");
   EXPECT_EQ(style("{ opacity: 0/0 }"), "4:17 the formula has no finite value (not a number)\n");
-  EXPECT_EQ(style("{ marker: bal }"), "4:17 unknown word 'bal' (did you mean 'ball'?)\n");
+  EXPECT_EQ(style("{ marker: bal }"), "4:16 unknown word 'bal' (did you mean 'ball'?)\n");
   EXPECT_EQ(style("{ color: cycel }"), "4:15 unknown colour 'cycel' (did you mean 'cycle'?)\n");
   EXPECT_EQ(style("{ dash: [1 mm] }"), "4:14 expected at least 2 values, found 1\n");
   EXPECT_EQ(style("{ dash: [1 mm, 1 mm, 1 mm] }"), "4:14 lengths drawn and left out come in pairs\n");
@@ -122,11 +122,11 @@ TEST(Lines, Errors) {
   EXPECT_EQ(lines("{ curve: thik }"), "6:21 there is no style called 'thik' (did you mean 'thick'?)\n");
   EXPECT_EQ(lines("{ curv: thick }"), "6:14 unknown field 'curv' of 'lines' (did you mean 'curve'?)\n");
   EXPECT_EQ(lines("{ hidden: dashd }"), "6:22 unknown word 'dashd' (did you mean 'dashed'?)\n");
-  EXPECT_EQ(lines("{ parameter: { style: thin } }"), "6:24 parameter lines need 'at_u' or 'at_v'\n");
-  EXPECT_EQ(lines("{ parameter: { at_u: 0 } }"), "6:32 expected a count between 1 and 10000, found 0\n");
-  EXPECT_EQ(lines("{ parameter: { at_u: 2.5 } }"), "6:32 expected a whole number, found 2.5\n");
-  EXPECT_EQ(lines("{ parameter: { at_u: [0, 0/0] } }"), "6:36 the formula has no finite value (not a number)\n");
-  EXPECT_EQ(lines("{ section: {} }"), "6:22 missing field 'planes' of 'section'\n");
+  EXPECT_EQ(lines("{ parameter: { style: thin } }"), "6:25 parameter lines need 'at_u' or 'at_v'\n");
+  EXPECT_EQ(lines("{ parameter: { at_u: 0 } }"), "6:33 expected a count between 1 and 10000, found 0\n");
+  EXPECT_EQ(lines("{ parameter: { at_u: 2.5 } }"), "6:33 expected a whole number, found 2.5\n");
+  EXPECT_EQ(lines("{ parameter: { at_u: [0, 0/0] } }"), "6:37 the formula has no finite value (not a number)\n");
+  EXPECT_EQ(lines("{ section: {} }"), "6:23 missing field 'planes' of 'section'\n");
   EXPECT_EQ(lines("thick"), "6:12 expected a map of fields, found a single value\n");
 }
 
