@@ -14,6 +14,10 @@ std::string_view name(Category category) {
       return "body";
     case Category::mesh:
       return "mesh";
+    case Category::group:
+      return "group";
+    case Category::object:
+      return "object";
     case Category::material:
       return "material";
     case Category::texture:
@@ -26,10 +30,12 @@ std::string_view name(Category category) {
       return "integrator";
     case Category::style:
       return "style";
+    case Category::helper:
+      return "helper";
     case Category::annotation:
       return "annotation";
-    case Category::layout:
-      return "layout";
+    case Category::panel:
+      return "panel";
   }
   return "";
 }
@@ -148,6 +154,22 @@ FieldType groups(std::vector<Field> fields) {
 FieldType transform() { return of_kind(Kind::transform); }
 FieldType page_length() { return of_kind(Kind::page_length); }
 FieldType texts() { return of_kind(Kind::texts); }
+FieldType page_lengths() { return of_kind(Kind::page_lengths); }
+FieldType anchor() { return of_kind(Kind::anchor); }
+FieldType counts() { return of_kind(Kind::counts); }
+FieldType label(std::vector<std::string> counters) {
+  FieldType type = of_kind(Kind::label);
+  type.variables = std::move(counters);
+  return type;
+}
+FieldType labels() { return of_kind(Kind::labels); }
+FieldType name_rows() { return of_kind(Kind::name_rows); }
+FieldType helpers() { return of_kind(Kind::helpers); }
+FieldType wavelength() {
+  FieldType type = of_kind(Kind::number);
+  type.dimension = Dimension::wavelength;
+  return type;
+}
 FieldType picture_size() { return of_kind(Kind::picture_size); }
 FieldType words(std::vector<std::string> allowed) { return of_kind(Kind::words).or_word(std::move(allowed)); }
 

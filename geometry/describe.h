@@ -30,19 +30,22 @@ using MeshPtr = std::shared_ptr<const Mesh>;
 // What kind of thing a type builds; a reference field asks for one or more of these. The std::any that a builder
 // returns holds the named C++ type.
 enum class Category {
-  point,     // Vec3
-  curve,     // CurvePtr
-  surface,   // SurfacePtr
-  body,      // BodyPtr
-  mesh,      // MeshPtr
-  material,  // the categories below are built by lekalo::render
+  point,    // Vec3
+  curve,    // CurvePtr
+  surface,  // SurfacePtr
+  body,     // BodyPtr
+  mesh,     // MeshPtr
+  group,    // the categories below are built by lekalo::render
+  object,
+  material,
   texture,
   light,
   camera,
   integrator,
   style,
+  helper,
   annotation,
-  layout
+  panel
 };
 std::string_view name(Category category);
 
@@ -73,6 +76,18 @@ struct PictureSize {
   double width = 0;
   double height = 0;
   bool on_paper = false;  // millimetres rather than pixels
+};
+
+// Where an annotation is held: a point of space, or of the page in millimetres from its lower left corner.
+struct Anchor {
+  Vec3 point{0};
+  bool on_page = false;
+};
+
+// Values of a parameter: so many, evenly spaced over its range, or these.
+struct ParameterValues {
+  int count = 0;  // 0 when `values` are given
+  std::vector<double> values;
 };
 
 // What a field accepts.
@@ -109,10 +124,17 @@ enum class Kind {
   page_length,   // double in millimetres (of mm, pt, px at the page's resolution)
   picture_size,  // PictureSize: [960, 540], [84 mm, auto]
   words,         // std::vector<std::string>, each one of `choices`
-  texts          // std::vector<std::string>
+  texts,         // std::vector<std::string>
+  page_lengths,  // std::vector<double> in millimetres
+  anchor,        // Anchor: a place, or { page: [5 mm, 8 mm] }
+  counts,        // ParameterValues: a count, a list, or a range 0..6
+  label,         // render::TextTemplate: TeX text with %i, %(formula); its counters are `variables`
+  labels,        // std::vector<render::TextTemplate>
+  name_rows,     // std::vector<std::vector<std::string>>: rows of names that stand elsewhere in the scene
+  helpers        // std::vector<std::any>: a map from names of helpers to their fields
 };
 
-enum class Dimension { plain, length, angle };
+enum class Dimension { plain, length, angle, wavelength };
 
 struct Field;
 
@@ -178,6 +200,14 @@ FieldType page_length();
 FieldType picture_size();
 FieldType words(std::vector<std::string> words);
 FieldType texts();
+FieldType page_lengths();
+FieldType anchor();
+FieldType counts();
+FieldType label(std::vector<std::string> counters = {});
+FieldType labels();
+FieldType name_rows();
+FieldType helpers();
+FieldType wavelength();
 
 struct Field {
   std::string name;
@@ -255,9 +285,25 @@ class Fields {
   }
   const std::any& any(std::string_view field) const;
   void set(std::string field, std::any value) { values_[std::move(field)] = std::move(value); }
+  // Takes over what was written in `other`.
+  void override_by(const Fields& other) {
+    for (const auto& [field, value] : other.values_)
+      if (other.given(field.substr(0, field.find('.')))) values_[field] = value;
+    for (const auto& [field, words] : other.written_) written_[field] = words;
+  }
+
+  // Whether the field was written, and has not its default value.
+  bool given(std::string_view field) const { return written_.find(field) != written_.end(); }
+  // The words that stand there, if it was written as one value (a name, a formula); else empty.
+  std::string written(std::string_view field) const {
+    const auto found = written_.find(field);
+    return found == written_.end() ? std::string() : found->second;
+  }
+  void set_written(std::string field, std::string words) { written_[std::move(field)] = std::move(words); }
 
  private:
   std::map<std::string, std::any, std::less<>> values_;
+  std::map<std::string, std::string, std::less<>> written_;
 };
 
 // One type: all that the program knows about it apart from its class.
@@ -272,7 +318,7 @@ struct TypeDeclaration {
   };
   std::vector<Check> checks;
   std::function<std::any(const Fields&)> build;
-  // Fields of `show:` that an object of this type offers in drawings (control_polygon, frames, comb, ...).
+  // Names of the helpers that `show` of an object offers for this type alone (control_polygon, knots, ...).
   std::vector<std::string> helpers;
 
   TypeDeclaration& field(std::string name, FieldType type, std::string description);

@@ -23,7 +23,7 @@ TypeDeclaration bezier_curve_type() {
       .field("points", points().count(2, kMaxDegree + 1), "control points; the degree is one less than their number")
       .optional("weights", numbers(), "one weight for each point; all 1 when left out")
       .field("domain", range(), "part of the curve, inside [0, 1]", "[0, 1]")
-      .shows({"control_polygon", "de_casteljau", "comb", "frames"})
+      .shows({"control_polygon", "de_casteljau"})
       .built_by([](const Fields& f) {
         return bezier_curve(f.points("points"), f.has("weights") ? f.numbers("weights") : std::vector<double>(),
                             f.range("domain"));

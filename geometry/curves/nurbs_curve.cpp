@@ -92,7 +92,7 @@ TypeDeclaration nurbs_curve_type() {
       .optional("weights", numbers(), "one weight for each point; all 1 when left out")
       .field("closed", boolean(), "periodic curve, smooth over its seam", "false")
       .optional("domain", range(), "part of the curve, in the knots' parameter; over the seam too when closed")
-      .shows({"control_polygon", "knots", "de_boor", "comb", "frames"})
+      .shows({"control_polygon", "knots", "de_boor"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");
         const bool closed = f.boolean("closed");

@@ -70,8 +70,6 @@ class Expression {
 
   // One expression. If it has no names it is bound already.
   static std::variant<Expression, ExpressionError> parse(std::string_view text);
-  // "a..b": two expressions around the dots; the second one's errors have offsets in the whole text too.
-  static std::variant<std::pair<Expression, Expression>, ExpressionError> parse_range(std::string_view text);
 
   const std::string& text() const { return text_; }
   // Free names in order of appearance, each once.

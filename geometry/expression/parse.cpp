@@ -117,10 +117,6 @@ class ExpressionParser {
     return {t.offset, fmt::format("unexpected {}", shown(t)), ""};
   }
   bool at_end() const { return token().kind == TokenKind::end; }
-  ExpressionError missing_range() const {
-    if (!at_end()) return unexpected();
-    return {token().offset, "expected a range 'a..b'", "both ends belong to it: 0..3 is 0, 1, 2, 3"};
-  }
 
  private:
   // Counts the nesting, so that no text can exhaust the stack.
@@ -383,18 +379,6 @@ std::variant<Expression, ExpressionError> Expression::parse(std::string_view tex
   auto result = parser.one();
   if (std::holds_alternative<Expression>(result) && !parser.at_end()) return parser.unexpected();
   return result;
-}
-
-std::variant<std::pair<Expression, Expression>, ExpressionError> Expression::parse_range(std::string_view text) {
-  ExpressionParser parser(text);
-  if (auto error = parser.start()) return *error;
-  auto first = parser.one();
-  if (auto* error = std::get_if<ExpressionError>(&first)) return *error;
-  if (!parser.accept("..")) return parser.missing_range();
-  auto last = parser.one();
-  if (auto* error = std::get_if<ExpressionError>(&last)) return *error;
-  if (!parser.at_end()) return parser.unexpected();
-  return std::pair{std::get<Expression>(std::move(first)), std::get<Expression>(std::move(last))};
 }
 
 }  // namespace lekalo::geometry

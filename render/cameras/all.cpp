@@ -4,7 +4,8 @@
 
 #define LEKALO_CAMERA_TYPES(X) \
   X(perspective_type)          \
-  X(parallel_type)
+  X(parallel_type)             \
+  X(graph_type)
 
 namespace lekalo::render {
 

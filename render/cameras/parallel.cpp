@@ -78,6 +78,7 @@ TypeDeclaration parallel_type() {
         return make_view_camera(fields.view, width, height, fields.shown(shown).points, fields.margin);
       };
     }
+    check_placed(f);
     if (!f.has("height"))
       throw FieldError("height", "a parallel view with 'from' needs 'height'",
                        "the height of the picture in scene units");

@@ -83,6 +83,7 @@ TypeDeclaration perspective_type() {
             width, height);
       };
     }
+    check_placed(f);
     PerspectiveView view{f.vec3("from"), {}, f.vec3("up"), field_of_view};
     const bool has_at = f.has("at");
     if (has_at) view.at = f.vec3("at");

@@ -85,12 +85,14 @@ Shown::Shown(const Box3& box) : box(box) {
   add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), points);
 }
 
-Shown shown(const Model& model) {
+Shown shown(const std::vector<Object>& objects) {
   Shown result;
-  result.box = bounds(model);
-  add(model.objects, Affine(), count(model.objects) <= kMostObjects, result.points);
-  if (result.points.empty()) return Shown(result.box);
+  result.box = bounds(objects);
+  add(objects, Affine(), count(objects) <= kMostObjects, result.points);
+  if (result.points.empty()) result = Shown(result.box);
   return result;
 }
+
+Shown shown(const Model& model) { return shown(model.objects); }
 
 }  // namespace lekalo::render

@@ -1,6 +1,7 @@
 #include "render/cameras/view_fields.h"
 
-#include "render/scene/model.h"
+#include "render/scene/objects.h"
+#include "render/scene/types.h"
 
 namespace lekalo::render {
 
@@ -8,16 +9,17 @@ using namespace geometry;
 
 namespace {
 
-// A built thing, as references carry it.
-Entity entity_of(const std::any& thing) {
-  if (const auto* point = std::any_cast<Vec3>(&thing)) return *point;
-  if (const auto* curve = std::any_cast<CurvePtr>(&thing)) return *curve;
-  if (const auto* surface = std::any_cast<SurfacePtr>(&thing)) return *surface;
-  if (const auto* set = std::any_cast<SurfaceSet>(&thing)) return *set;
-  if (const auto* body = std::any_cast<BodyPtr>(&thing)) return *body;
-  if (const auto* mesh = std::any_cast<MeshPtr>(&thing)) return *mesh;
-  if (const auto* group = std::any_cast<GroupPtr>(&thing)) return *group;
-  throw FieldError("frame", "this cannot be framed", "name points, curves, surfaces, bodies or meshes");
+// Those of the objects, also inside groups, that show the thing.
+void find(const std::vector<Object>& objects, const void* shape, const Affine& map, std::vector<Object>& found) {
+  for (const Object& object : objects) {
+    const Affine placed = map * object.transform;
+    if (identity(object.shape) == shape) {
+      found.push_back(object);
+      found.back().transform = placed;
+    } else if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
+      find((*group)->objects, shape, placed, found);
+    }
+  }
 }
 
 }  // namespace
@@ -30,9 +32,7 @@ void declare_view(TypeDeclaration& type, std::string default_view) {
              {"elevation", angle().between(-kPi / 2, kPi / 2), "of the viewer's place above the xy plane", true, {}}});
   type.field("view", view.or_word(view_names()), "from where all is seen when `from` is not given",
              std::move(default_view))
-      .field("frame",
-             references({Category::point, Category::curve, Category::surface, Category::body, Category::mesh})
-                 .or_word({"all"}),
+      .field("frame", references({geometry_categories().begin(), geometry_categories().end()}).or_word({"all"}),
              "what must be in the picture", "all")
       .field("margin", number().between(0, 0.45), "left free on each side, as a share of the picture's shorter side",
              "0.06");
@@ -50,11 +50,33 @@ ViewFields view_fields(const Fields& fields) {
   result.margin = fields.number("margin");
   result.frame_all = fields.word("frame") == "all";
   if (!result.frame_all) {
-    Model named;
-    for (const std::any& thing : fields.references("frame")) named.objects.emplace_back().shape = entity_of(thing);
-    result.framed = shown(named);
+    for (const std::any& thing : fields.references("frame")) result.framed.push_back(entity_of(thing));
   }
   return result;
+}
+
+Shown ViewFields::shown(const Shown& all) const {
+  if (frame_all) return all;
+  std::vector<Object> part;
+  for (const Entity& entity : framed) {
+    const size_t before = part.size();
+    const void* shape = identity(entity);
+    if (shape && all.objects) find(*all.objects, shape, Affine(), part);
+    if (part.size() == before) part.emplace_back().shape = entity;
+  }
+  return render::shown(part);
+}
+
+void check_placed(const Fields& fields) {
+  if (fields.given("view"))
+    throw FieldError("view", "'view' and 'from' both say from where the scene is seen",
+                     "leave out 'from' to have everything framed, or 'view'");
+  if (fields.given("margin"))
+    throw FieldError("margin", "'margin' is for a camera that frames the scene; this one stands at 'from'",
+                     "leave out 'margin', or 'from'");
+  if (fields.given("frame") && fields.has("at"))
+    throw FieldError("frame", "'frame' is for a camera that frames the scene; this one looks from 'from' at 'at'",
+                     "leave out 'frame', or 'from' and 'at'");
 }
 
 }  // namespace lekalo::render

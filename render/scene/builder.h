@@ -13,6 +13,7 @@
 #include "geometry/describe.h"
 #include "render/scene/include.h"
 #include "render/scene/model.h"
+#include "render/scene/objects.h"
 #include "render/scene/scope.h"
 #include "render/scene/types.h"
 
@@ -81,22 +82,42 @@ class Builder {
  private:
   // --- builder_values.cpp: one value by a field's type; nothing after an error has been reported.
   std::optional<std::any> read(const FieldType& type, const Value& value, const Counters& counters);
+  bool check_count(const FieldType& type, const Value& value, size_t count);
+  // The same as items, each read as `type`; nothing if one of them is wrong.
+  template <class T>
+  std::optional<std::vector<T>> read_list(const FieldType& type, const Value& value, const Counters& counters);
+
+  // --- builder_numbers.cpp
   std::optional<double> read_number_by(const FieldType& type, const Value& value, const Counters& counters);
-  std::optional<geometry::Interval> read_range_by(const FieldType& type, const Value& value, const Counters& counters);
+  std::optional<double> read_wavelength(const Value& value, const Counters& counters);
+  std::optional<geometry::Interval> read_interval(const FieldType& type, const Value& value, const Counters& counters);
   std::optional<std::vector<double>> read_numbers(const FieldType& type, const Value& value, const Counters& counters);
+  std::optional<geometry::ParameterValues> read_counts(const FieldType& type, const Value& value,
+                                                       const Counters& counters);
   std::optional<geometry::Knots> read_knots(const FieldType& type, const Value& value, const Counters& counters);
   std::optional<Expression> read_formula(const FieldType& type, const Value& value, const Counters& counters);
-  std::optional<std::any> read_color(const FieldType& type, const Value& value, const Counters& counters);
   std::optional<geometry::Grid<double>> read_number_grid(const FieldType& type, const Value& value,
                                                          const Counters& counters);
-  std::optional<geometry::PictureSize> read_picture_size(const Value& value, const Counters& counters);
-  bool check_count(const FieldType& type, const Value& value, size_t count);
 
-  // --- builder_places.cpp: points, directions, frames, transforms.
+  // --- builder_pictures.cpp: colours, sizes, texts, names of panels.
+  std::optional<std::any> read_color(const FieldType& type, const Value& value, const Counters& counters);
+  std::optional<geometry::PictureSize> read_picture_size(const Value& value, const Counters& counters);
+  std::optional<double> read_page_length_by(const FieldType& type, const Value& value);
+  std::optional<TextTemplate> read_label(const FieldType& type, const Value& value, const Counters& counters);
+  std::optional<std::vector<std::vector<std::string>>> read_name_rows(const Value& value);
+
+  // --- builder_places.cpp: points and directions, given or on curves and surfaces.
+  struct Located;  // a place on a curve or a surface
+  std::optional<Located> locate(const Value& map, const Counters& counters, const char* what);
   std::optional<Vec3> read_point(const Value& value, const Counters& counters);
   std::optional<Vec3> read_coordinates(const Value& value, const Counters& counters);
   std::optional<Vec3> read_place_on(const Value& map, const Counters& counters);
+  std::optional<Vec3> read_control_point(const Value& map, const Counters& counters);
+  std::optional<geometry::Anchor> read_anchor(const Value& value, const Counters& counters);
   std::optional<Vec3> read_vector(const Value& value, const Counters& counters, bool unit);
+  std::optional<Vec3> read_vector_on(const Value& map, const Counters& counters);
+
+  // --- builder_frames.cpp: axes, frames, points in lists and nets, transforms.
   std::optional<Axis> read_axis(const Value& value, const Counters& counters);
   std::optional<Frame> read_frame(const Value& value, const Counters& counters);
   std::optional<Frame> read_short_frame(const Value& map, const Value* frame, const Counters& counters);
@@ -105,13 +126,38 @@ class Builder {
   std::optional<Affine> read_transform(const Value& value, const Counters& counters);
   std::optional<Affine> read_transform_step(const Value& step, const Counters& counters);
 
-  // --- builder_types.cpp: maps with a `type`, references, families.
-  void declare_section(const char* section);
+  // --- builder_fields.cpp: maps of declared fields.
+  std::optional<std::any> read_group(const FieldType& type, const Value& map, const Counters& counters,
+                                     const std::string& what);
   bool read_field(const Field& field, const Value& value, const Counters& counters, Fields& fields);
   const Value& default_value(const std::string& text);
   bool check(const TypeDeclaration& type, const Fields& fields, const Value& map);
-  std::optional<Built> build_typed(const Value& map, const Counters& counters, std::span<const Category> wanted,
-                                   const char* default_type = nullptr);
+  // make(), with what it throws reported at the fields of `map`.
+  template <class Make>
+  auto attempt(const Value& map, const std::string& what, Make make) -> std::optional<decltype(make())> {
+    try {
+      return make();
+    } catch (const geometry::FieldError& error) {
+      diagnostics_.error(place_of_field(map, error.field), error.what(), error.hint);
+    } catch (const std::invalid_argument& error) {
+      diagnostics_.error(map.place, what + ": " + error.what());
+    }
+    return std::nullopt;
+  }
+  static const Place& place_of_field(const Value& map, std::string_view path);
+
+  // --- builder_types.cpp: maps with a `type`.
+  std::optional<Built> build_typed(const Value& map, const Counters& counters, std::span<const Category> wanted);
+  const TypeDeclaration* type_of(const Value& map, std::span<const Category> wanted);
+  // The value of a map of the type's fields and those common to its category.
+  std::optional<std::any> build_as(const TypeDeclaration& type, const Value& map, const Counters& counters);
+  const std::vector<Field>& declared_fields(const TypeDeclaration& type);
+  std::optional<Built> transformed(Built built, const Affine& map, const Value& place);
+  std::optional<std::vector<std::any>> read_helpers(const Value& value, const Counters& counters);
+  bool check_helpers(const Value& object, const Fields& fields);
+
+  // --- builder_references.cpp, builder_repeats.cpp: names, families.
+  void declare_section(const char* section);
   std::optional<Built> refer(const Value& value, const Counters& counters, std::span<const Category> wanted);
   std::optional<std::vector<std::any>> refer_all(const Value& value, const Counters& counters,
                                                  std::span<const Category> wanted);
@@ -119,32 +165,54 @@ class Builder {
   const Built* member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted);
   std::optional<Built> part_of(const Built& whole, std::string_view part, const Value& asked);
   const Value* with_like(const Value& map, const Value* section);
+  std::map<std::string, NamedThing, std::less<>>* things_of(Category category);
+  const Value* section(const char* name) const;
   // Calls visit(counters, member name) for every combination of a map's `repeat`.
   bool repeat(const Value& map, const Counters& counters,
               const std::function<void(const Counters&, const std::string&)>& visit);
-  std::map<std::string, NamedThing, std::less<>>* section_of(Category category);
-  const Value* section(const char* name) const;
-  std::optional<Built> transformed(Built built, const Affine& map, const Value& place);
+  std::optional<std::vector<double>> read_whole_numbers(const Value& range, const Counters& counters);
 
   // --- builder_scene.cpp: sections to model.
+  void check_sections();
   void build_named(Model& model);
-  void build_objects(Model& model);
-  void build_object(const Value& map, const Counters& counters, Model& model, std::vector<Object>& into);
-  void build_picture(Model& model);
-  void build_camera(Model& model);
-  void build_lights(Model& model);
-  void build_outputs(Model& model);
-  void check_drawing();
+  // Calls visit(name, built) for everything right in a named section.
+  void visit_named(const char* section, Category category,
+                   const std::function<void(const std::string&, const Built&)>& visit);
+  std::optional<std::vector<Object>> build_objects(const Value& list);
   void default_objects(Model& model);
+  void fill_materials(std::vector<Object>& objects);
+  GroupPtr in_material(const GroupPtr& group, const MaterialPtr& material);
   MaterialPtr default_material();
+
+  // --- builder_view.cpp
+  void build_lights(Model& model);
+  void build_camera(Model& model);
+  void build_film(const Fields& image, Model& model);
+  void check_crop(const Fields& image, const Value* given, Film& film);
+  bool names_frames() const;
+  void build_outputs(Model& model);
+  std::optional<OutputFile> build_output(const Value& value, const Counters& counters);
+
+  // --- builder_drawing.cpp
+  void merge_styles();
+  void build_drawing(Model& model);
+  void build_panels(const std::optional<Fields>& drawing, Model& model);
+  void build_layout(Model& model);
+  // Reports a name that no panel has.
+  bool check_panel(const Value& name);
 
   const SceneDescription& scene_;
   BuildOptions options_;
   Diagnostics& diagnostics_;
   Parameters parameters_;
+  Value styles_;  // the built-in ones with the scene's changes
   std::map<std::string, std::map<std::string, NamedThing, std::less<>>> sections_;
   std::map<std::string, Value> default_values_;
-  std::deque<Value> made_;  // maps that `like` made
+  std::map<const TypeDeclaration*, std::vector<Field>> declared_;
+  std::map<const void*, const TypeDeclaration*> types_;  // of built geometry, by identity()
+  std::map<std::pair<const Group*, const Material*>, GroupPtr> groups_in_material_;
+  std::vector<GroupPtr> kept_groups_;  // so that no address of theirs is used again
+  std::deque<Value> made_;             // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
   std::vector<std::filesystem::path> files_named_;
@@ -153,6 +221,10 @@ class Builder {
   int depth_ = 0;
 };
 
-Entity entity_of(const Built& built);
+// Checks of one value by its field's type, with the words for messages.
+bool is_outside(const FieldType& type, double x);
+bool is_word(const FieldType& type, const Value& value);
+// "between 0 and 1", "at least 3"; limits are multiplied by `scale`.
+std::string range_text(const FieldType& type, double scale);
 
 }  // namespace lekalo::render

@@ -1,17 +1,51 @@
-// Points, directions, axes, frames and transforms of scene files.
+// Points and directions, given by coordinates or names, or taken from curves and surfaces.
+//
+//   { of: r, t: 0.4 }   { of: r, s: 0.5 } fraction of the arc length   { of: patch, u: .5, v: .3 }
+//   { of: patch, point: [2, 2] } control point   { of: r, t: 0.4, vector: tangent | normal | binormal }
+//   { of: patch, u: .5, v: .3, vector: normal | du | dv }
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "geometry/expression/nearest_name.h"
+#include "geometry/curves/nurbs_curve.h"
+#include "geometry/queries/arc_length.h"
+#include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/transformed.h"
 #include "render/scene/builder.h"
 #include "render/scene/scalars.h"
-#include "render/scene/table.h"
+#include "render/scene/words.h"
 
 namespace lekalo::render {
 
-using geometry::Grid;
+using geometry::Anchor;
+using geometry::CurvePtr;
+using geometry::SurfacePtr;
+
+// A place on a curve (t) or on a surface (u, v).
+struct Builder::Located {
+  CurvePtr curve;
+  SurfacePtr surface;
+  double t = 0, u = 0, v = 0;
+};
+
+namespace {
+
+const Category kCurveOrSurface[] = {Category::curve, Category::surface};
+
+// The spline behind any number of transforms, with their product.
+template <class Spline, class Transformed, class Pointer>
+const Spline* spline_behind(const Pointer& shape, Affine& map) {
+  if (const auto* moved = dynamic_cast<const Transformed*>(shape.get())) {
+    map = map * moved->map();
+    return spline_behind<Spline, Transformed>(moved->original(), map);
+  }
+  return dynamic_cast<const Spline*>(shape.get());
+}
+
+Vec3 cartesian(const geometry::Vec4& p) { return Vec3(p) / p.w; }
+
+}  // namespace
 
 std::optional<Vec3> Builder::read_coordinates(const Value& value, const Counters& counters) {
   if (!value.is_sequence() || value.items.size() < 2 || value.items.size() > 3) {
@@ -45,10 +79,150 @@ std::optional<Vec3> Builder::read_point(const Value& value, const Counters& coun
   return std::any_cast<Vec3>(built->value);
 }
 
-// { of: r, t: 0.4 }, { of: patch, u: .5, v: .3 }
+// { page: [5 mm, 8 mm] }, or a point.
+std::optional<Anchor> Builder::read_anchor(const Value& value, const Counters& counters) {
+  const Value* page = value.find("page");
+  if (!page) {
+    const auto point = read_point(value, counters);
+    return point ? std::optional(Anchor{*point, false}) : std::nullopt;
+  }
+  for (const Entry& entry : value.entries)
+    if (entry.key.name != "page") {
+      diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of a place on the page", entry.key.name),
+                         "{ page: [5 mm, 8 mm] }, from the lower left corner");
+      return std::nullopt;
+    }
+  if (!page->is_sequence() || page->items.size() != 2) {
+    diagnostics_.error(page->place, "a place on the page has two lengths",
+                       "{ page: [5 mm, 8 mm] }, from the lower left corner");
+    return std::nullopt;
+  }
+  Anchor anchor;
+  anchor.on_page = true;
+  for (int k = 0; k < 2; ++k) {
+    const auto length = read_page_length_by(geometry::page_length(), page->items[static_cast<size_t>(k)]);
+    if (!length) return std::nullopt;
+    anchor.point[k] = *length;
+  }
+  return anchor;
+}
+
+// The place that `of` and the parameters beside it say; `what` is "a place" or "a direction".
+std::optional<Builder::Located> Builder::locate(const Value& map, const Counters& counters, const char* what) {
+  const bool direction = map.find("vector") != nullptr;
+  std::vector<std::string> known = {"of", "t", "s", "u", "v"};
+  known.push_back(direction ? "vector" : "point");
+  for (const Entry& entry : map.entries)
+    if (entry.key.name != "repeat" && std::find(known.begin(), known.end(), entry.key.name) == known.end()) {
+      diagnostics_.error(
+          entry.key.place,
+          fmt::format("unknown field '{}' of {}{}", entry.key.name, what, suggestion(entry.key.name, known)),
+          "{ of: curve, t: ... }, { of: curve, s: 0.5 }, { of: surface, u: ..., v: ... } or { of: "
+          "surface, point: [i, j] }");
+      return std::nullopt;
+    }
+  const auto built = refer(*map.find("of"), counters, kCurveOrSurface);
+  if (!built) return std::nullopt;
+  Located place;
+  const bool on_curve = built->category == Category::curve;
+  if (on_curve) {
+    place.curve = std::any_cast<CurvePtr>(built->value);
+  } else if (const auto* surface = std::any_cast<SurfacePtr>(&built->value)) {
+    place.surface = *surface;
+  } else {
+    diagnostics_.error(map.find("of")->place, "this is a set of surfaces; name one of its members",
+                       "for example teapot.0");
+    return std::nullopt;
+  }
+  for (const char* key : {"t", "s", "u", "v"})
+    if (const Value* value = map.find(key); value && (key[0] == 't' || key[0] == 's') != on_curve) {
+      diagnostics_.error(value->place, fmt::format("'{}' is no parameter of a {}", key, on_curve ? "curve" : "surface"),
+                         on_curve ? "t: its parameter, or s: the fraction of its length" : "u and v are");
+      return std::nullopt;
+    }
+  const auto parameter = [&](const char* key) -> std::optional<double> {
+    if (const Value* value = map.find(key)) return parameters_.number(*value, counters);
+    diagnostics_.error(map.place, fmt::format("missing '{}' of {} on a {}", key, what, on_curve ? "curve" : "surface"));
+    return std::nullopt;
+  };
+  const Value* fraction = map.find("s");
+  if (fraction && map.find("t")) {
+    diagnostics_.error(fraction->place, "'t' and 's' both say where: leave one out");
+    return std::nullopt;
+  }
+  if (fraction) {
+    const auto s = read_number_by(geometry::number().between(0, 1), *fraction, counters);
+    if (!s) return std::nullopt;
+    const auto t = attempt(map, "s", [&] { return geometry::parameter_at_fraction(*place.curve, *s); });
+    if (!t) return std::nullopt;
+    place.t = *t;
+    return place;
+  }
+  const auto first = parameter(on_curve ? "t" : "u");
+  const auto second = on_curve ? first : parameter("v");
+  if (!first || !second) return std::nullopt;
+  place.t = place.u = *first;
+  place.v = *second;
+  return place;
+}
+
+// { of: r, point: 2 }, { of: patch, point: [2, 2] }
+std::optional<Vec3> Builder::read_control_point(const Value& map, const Counters& counters) {
+  const Value& point = *map.find("point");
+  for (const Entry& entry : map.entries)
+    if (entry.key.name != "of" && entry.key.name != "point" && entry.key.name != "repeat") {
+      diagnostics_.error(entry.key.place, fmt::format("'{}' does not go with 'point'", entry.key.name),
+                         "{ of: surface, point: [i, j] } is a control point");
+      return std::nullopt;
+    }
+  const auto built = refer(*map.find("of"), counters, kCurveOrSurface);
+  if (!built) return std::nullopt;
+  Affine placed;
+  std::vector<Vec3> points;
+  int columns = 0;  // 0: a curve
+  if (const auto* curve = std::any_cast<CurvePtr>(&built->value)) {
+    if (const auto* spline = spline_behind<geometry::NurbsCurve, geometry::TransformedCurve>(*curve, placed))
+      for (int i = 0; i < spline->axis().distinct(); ++i)
+        points.push_back(cartesian(spline->points()[static_cast<size_t>(i)]));
+  } else if (const auto* surface = std::any_cast<SurfacePtr>(&built->value)) {
+    if (const auto* spline = spline_behind<geometry::NurbsSurface, geometry::TransformedSurface>(*surface, placed)) {
+      columns = spline->axis_v().distinct();
+      for (int i = 0; i < spline->axis_u().distinct(); ++i)
+        for (int j = 0; j < columns; ++j)
+          points.push_back(cartesian(spline->form().points[static_cast<size_t>(i * spline->form().count_v() + j)]));
+    }
+  }
+  if (points.empty()) {
+    diagnostics_.error(map.find("of")->place, "this has no control points",
+                       "splines, Bezier curves and surfaces, and polylines have");
+    return std::nullopt;
+  }
+  const int counts[2] = {static_cast<int>(points.size()) / std::max(columns, 1), columns};
+  const auto indices = read_list<int>(geometry::integer(), point, counters);
+  if (!indices) return std::nullopt;
+  if (indices->size() != (columns ? 2u : 1u)) {
+    diagnostics_.error(
+        point.place,
+        columns ? "a control point of a surface has two indices" : "a control point of a curve has one index",
+        columns ? "point: [i, j], i along u, j along v, from 0" : "point: i, from 0");
+    return std::nullopt;
+  }
+  for (size_t k = 0; k < indices->size(); ++k)
+    if ((*indices)[k] < 0 || (*indices)[k] >= counts[k]) {
+      const Place& place = point.is_sequence() && k < point.items.size() ? point.items[k].place : point.place;
+      diagnostics_.error(place, fmt::format("there is no control point {}: {} goes from 0 to {}", (*indices)[k],
+                                            columns == 0 ? "the index"
+                                            : k == 0     ? "i"
+                                                         : "j",
+                                            counts[k] - 1));
+      return std::nullopt;
+    }
+  const int index = columns ? (*indices)[0] * columns + (*indices)[1] : (*indices)[0];
+  return placed.point(points[static_cast<size_t>(index)]);
+}
+
 std::optional<Vec3> Builder::read_place_on(const Value& map, const Counters& counters) {
-  const Value* of = map.find("of");
-  if (!of) {
+  if (!map.find("of")) {
     if (map.find("page"))
       diagnostics_.error(map.place, "a place on the page is no point of space",
                          "give coordinates or a place { of: ... }");
@@ -57,42 +231,56 @@ std::optional<Vec3> Builder::read_place_on(const Value& map, const Counters& cou
                          "coordinates [x, y, z], the name of a point, or a place { of: curve, t: ... }");
     return std::nullopt;
   }
-  for (const Entry& entry : map.entries)
-    if (entry.key.name != "of" && entry.key.name != "t" && entry.key.name != "u" && entry.key.name != "v" &&
-        entry.key.name != "repeat") {
-      diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of a place", entry.key.name),
-                         "{ of: curve, t: ... } or { of: surface, u: ..., v: ... }");
-      return std::nullopt;
-    }
-  const Category wanted[] = {Category::curve, Category::surface};
-  const auto built = refer(*of, counters, wanted);
-  if (!built) return std::nullopt;
-  const auto number = [&](const char* key) -> std::optional<double> {
-    const Value* value = map.find(key);
-    if (value) return parameters_.number(*value, counters);
-    diagnostics_.error(map.place, fmt::format("missing '{}' of a place on a {}", key, geometry::name(built->category)));
-    return std::nullopt;
-  };
-  if (built->category == Category::curve) {
-    const auto t = number("t");
-    if (!t) return std::nullopt;
-    return std::any_cast<geometry::CurvePtr>(built->value)->point(*t);
-  }
-  const auto u = number("u");
-  const auto v = number("v");
-  if (!u || !v) return std::nullopt;
-  const auto* surface = std::any_cast<geometry::SurfacePtr>(&built->value);
-  if (!surface) {
-    diagnostics_.error(of->place, "this is a set of surfaces; name one of its members", "for example teapot.0");
+  if (map.find("point")) return read_control_point(map, counters);
+  if (const Value* vector = map.find("vector")) {
+    diagnostics_.error(vector->place, "a place has no 'vector'", "this would be a direction");
     return std::nullopt;
   }
-  return (*surface)->point(*u, *v);
+  const auto place = locate(map, counters, "a place");
+  if (!place) return std::nullopt;
+  return place->curve ? place->curve->point(place->t) : place->surface->point(place->u, place->v);
 }
 
-// x, -z, [1, 2, 0], or { of, t | u, v, vector: tangent | normal | binormal | du | dv }.
+// Frenet's frame of a curve (Golovanov 2016, 2.1), the derivatives and the normal of a surface.
+std::optional<Vec3> Builder::read_vector_on(const Value& map, const Counters& counters) {
+  const Value* which = map.find("vector");
+  if (!map.find("of") || !which || !which->is_scalar()) {
+    diagnostics_.error(map.place, "expected a direction", "x, [a, b, c] or { of: curve, t: ..., vector: tangent }");
+    return std::nullopt;
+  }
+  const auto place = locate(map, counters, "a direction");
+  if (!place) return std::nullopt;
+  const std::string& word = which->text;
+  if (place->curve) {
+    const auto jet = place->curve->evaluate(place->t, 2);
+    const Vec3 binormal = glm::cross(jet.d[1], jet.d[2]);
+    if (word == "tangent") return jet.d[1];
+    if (word == "normal" || word == "binormal") {
+      if (!(glm::length(binormal) > 1e-12 * glm::dot(jet.d[1], jet.d[1]))) {
+        diagnostics_.error(which->place, fmt::format("the curve is straight here: it has no {}", word),
+                           "its tangent is defined");
+        return std::nullopt;
+      }
+      return word == "binormal" ? binormal : glm::cross(binormal, jet.d[1]);
+    }
+  } else {
+    const auto jet = place->surface->evaluate(place->u, place->v, 1);
+    if (word == "du") return jet.du();
+    if (word == "dv") return jet.dv();
+    if (word == "normal") return place->surface->normal(place->u, place->v);
+  }
+  const std::vector<std::string> known = place->curve ? std::vector<std::string>{"tangent", "normal", "binormal"}
+                                                      : std::vector<std::string>{"normal", "du", "dv"};
+  diagnostics_.error(
+      which->place,
+      fmt::format("'{}' is no vector of a {}{}", word, place->curve ? "curve" : "surface", suggestion(word, known)),
+      "it has " + listed(known));
+  return std::nullopt;
+}
+
+// x, -z, [1, 2, 0], or taken from a curve or surface.
 std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& counters, bool unit) {
   if (value.invalid) return std::nullopt;
-  std::optional<Vec3> result;
   if (value.is_scalar()) {
     std::string_view word = value.text;
     const bool negative = word.starts_with('-');
@@ -106,55 +294,7 @@ std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& cou
                        "x, y, z, -x, -y, -z or components [a, b, c]");
     return std::nullopt;
   }
-  if (value.is_sequence()) {
-    result = read_coordinates(value, counters);
-  } else {
-    const Value* of = value.find("of");
-    const Value* which = value.find("vector");
-    if (!of || !which || !which->is_scalar()) {
-      diagnostics_.error(value.place, "expected a direction", "x, [a, b, c] or { of: curve, t: ..., vector: tangent }");
-      return std::nullopt;
-    }
-    const Category wanted[] = {Category::curve, Category::surface};
-    const auto built = refer(*of, counters, wanted);
-    if (!built) return std::nullopt;
-    const auto number = [&](const char* key) -> std::optional<double> {
-      const Value* v = value.find(key);
-      if (v) return parameters_.number(*v, counters);
-      diagnostics_.error(value.place, fmt::format("missing '{}'", key));
-      return std::nullopt;
-    };
-    if (built->category == Category::curve) {
-      const auto t = number("t");
-      if (!t) return std::nullopt;
-      const auto jet = std::any_cast<geometry::CurvePtr>(built->value)->evaluate(*t, 2);
-      // Frenet's frame (Golovanov 2016, 2.1).
-      const Vec3 binormal = glm::cross(jet.d[1], jet.d[2]);
-      if (which->text == "tangent")
-        result = jet.d[1];
-      else if (which->text == "binormal")
-        result = binormal;
-      else if (which->text == "normal")
-        result = glm::cross(binormal, jet.d[1]);
-    } else if (const auto* surface = std::any_cast<geometry::SurfacePtr>(&built->value)) {
-      const auto u = number("u");
-      const auto v = number("v");
-      if (!u || !v) return std::nullopt;
-      const auto jet = (*surface)->evaluate(*u, *v, 1);
-      if (which->text == "du")
-        result = jet.du();
-      else if (which->text == "dv")
-        result = jet.dv();
-      else if (which->text == "normal")
-        result = (*surface)->normal(*u, *v);
-    }
-    if (!result) {
-      diagnostics_.error(which->place,
-                         fmt::format("'{}' is no vector of a {}", which->text, geometry::name(built->category)),
-                         built->category == Category::curve ? "tangent, normal or binormal" : "normal, du or dv");
-      return std::nullopt;
-    }
-  }
+  const auto result = value.is_sequence() ? read_coordinates(value, counters) : read_vector_on(value, counters);
   if (!result) return std::nullopt;
   const double length = glm::length(*result);
   if (!(length > 0) || !std::isfinite(length)) {
@@ -163,284 +303,6 @@ std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& cou
     return std::nullopt;
   }
   return unit ? *result / length : *result;
-}
-
-// `axis: z` is the line through the origin; in full { through, along }.
-std::optional<Axis> Builder::read_axis(const Value& value, const Counters& counters) {
-  Axis axis;
-  const bool full = value.is_map() && (value.find("through") || value.find("along"));
-  if (full) {
-    for (const Entry& entry : value.entries)
-      if (entry.key.name != "through" && entry.key.name != "along") {
-        diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of an axis", entry.key.name),
-                           "{ through: point, along: direction }");
-        return std::nullopt;
-      }
-    if (const Value* through = value.find("through")) {
-      const auto point = read_point(*through, counters);
-      if (!point) return std::nullopt;
-      axis.through = *point;
-    }
-  }
-  const Value* along = full ? value.find("along") : &value;
-  if (!along) return axis;
-  const auto direction = read_vector(*along, counters, true);
-  if (!direction) return std::nullopt;
-  axis.along = *direction;
-  return axis;
-}
-
-std::optional<Frame> Builder::read_frame(const Value& value, const Counters& counters) {
-  if (!value.is_map()) {
-    diagnostics_.error(value.place, fmt::format("expected a frame, found {}", kind_name(value)),
-                       "write { origin: [0, 0, 0], z: z, x: x }");
-    return std::nullopt;
-  }
-  Vec3 origin(0), z(0, 0, 1);
-  std::optional<Vec3> x;
-  for (const Entry& entry : value.entries) {
-    if (entry.key.name == "origin") {
-      const auto point = read_point(entry.value, counters);
-      if (!point) return std::nullopt;
-      origin = *point;
-    } else if (entry.key.name == "z" || entry.key.name == "x") {
-      const auto direction = read_vector(entry.value, counters, true);
-      if (!direction) return std::nullopt;
-      if (entry.key.name == "z")
-        z = *direction;
-      else
-        x = *direction;
-    } else {
-      diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of a frame", entry.key.name),
-                         "a frame has origin, z and x");
-      return std::nullopt;
-    }
-  }
-  try {
-    return x ? geometry::frame_from(origin, z, *x) : geometry::frame_about(origin, z);
-  } catch (const std::invalid_argument& error) {
-    diagnostics_.error(value.place, error.what());
-    return std::nullopt;
-  }
-}
-
-// `center` and `normal` (or `axis`) are the short form of `frame`.
-std::optional<Frame> Builder::read_short_frame(const Value& map, const Value* frame, const Counters& counters) {
-  const Value* center = map.find("center");
-  const Value* normal = map.find("normal");
-  const Value* axis = map.find("axis");
-  if (frame) {
-    for (const Value* other : {center, normal, axis})
-      if (other) {
-        diagnostics_.error(other->place, "a placement is given by 'frame' or by 'center' and 'normal', not by both");
-        return std::nullopt;
-      }
-    return read_frame(*frame, counters);
-  }
-  Axis placement;
-  if (axis) {
-    if (normal) {
-      diagnostics_.error(normal->place, "'axis' and 'normal' say the same: leave one out");
-      return std::nullopt;
-    }
-    const auto read = read_axis(*axis, counters);
-    if (!read) return std::nullopt;
-    placement = *read;
-  }
-  if (center) {
-    const auto point = read_point(*center, counters);
-    if (!point) return std::nullopt;
-    placement.through = *point;
-  }
-  if (normal) {
-    const auto direction = read_vector(*normal, counters, true);
-    if (!direction) return std::nullopt;
-    placement.along = *direction;
-  }
-  return geometry::frame_about(placement.through, placement.along);
-}
-
-std::optional<std::vector<Vec3>> Builder::read_points(const FieldType& type, const Value& value,
-                                                      const Counters& counters) {
-  std::vector<Vec3> points;
-  if (value.is_map() && value.find("file")) {
-    const auto path = read(geometry::file(), *value.find("file"), counters);
-    if (!path) return std::nullopt;
-    const auto table = read_table(std::any_cast<std::string>(*path), value.place, diagnostics_);
-    if (!table) return std::nullopt;
-    if (table->column_count != 2 && table->column_count != 3) {
-      diagnostics_.error(table->place(0), fmt::format("points have 2 or 3 columns, found {}", table->column_count));
-      return std::nullopt;
-    }
-    for (size_t row = 0; row < table->row_count(); ++row)
-      points.push_back({table->at(row, 0), table->at(row, 1), table->column_count == 3 ? table->at(row, 2) : 0});
-  } else if (!value.is_sequence()) {
-    diagnostics_.error(value.place, fmt::format("expected a list of points, found {}", kind_name(value)),
-                       "write [[0, 0, 0], [1, 0, 0], ...]");
-    return std::nullopt;
-  } else {
-    bool good = true;
-    for (const Scoped& item : items(value, counters)) {
-      const auto point = read_point(*item.value, item.counters);
-      if (point)
-        points.push_back(*point);
-      else
-        good = false;
-    }
-    if (!good) return std::nullopt;
-  }
-  if (!check_count(type, value, points.size())) return std::nullopt;
-  return points;
-}
-
-// points[i][j]: rows run with u.
-std::optional<Grid<Vec3>> Builder::read_net(const FieldType&, const Value& value, const Counters& counters) {
-  Grid<Vec3> net;
-  const auto add_row = [&](const std::vector<Vec3>& row, const Place& place) {
-    if (net.rows > 0 && static_cast<int>(row.size()) != net.columns) {
-      diagnostics_.error(place, fmt::format("this row has {} points, the rows before it {}", row.size(), net.columns));
-      return false;
-    }
-    net.columns = static_cast<int>(row.size());
-    net.values.insert(net.values.end(), row.begin(), row.end());
-    ++net.rows;
-    return true;
-  };
-  if (value.is_map() && value.find("file")) {
-    const auto path = read(geometry::file(), *value.find("file"), counters);
-    if (!path) return std::nullopt;
-    const auto table = read_table(std::any_cast<std::string>(*path), value.place, diagnostics_);
-    if (!table) return std::nullopt;
-    if (table->column_count != 3) {
-      diagnostics_.error(table->place(0), fmt::format("a net's points have 3 columns, found {}", table->column_count));
-      return std::nullopt;
-    }
-    for (size_t block = 0; block < table->blocks.size(); ++block) {
-      const size_t end = block + 1 < table->blocks.size() ? table->blocks[block + 1] : table->row_count();
-      std::vector<Vec3> row;
-      for (size_t k = table->blocks[block]; k < end; ++k)
-        row.push_back({table->at(k, 0), table->at(k, 1), table->at(k, 2)});
-      if (!add_row(row, table->place(table->blocks[block]))) return std::nullopt;
-    }
-    return net;
-  }
-  if (!value.is_sequence()) {
-    diagnostics_.error(value.place, fmt::format("expected rows of points, found {}", kind_name(value)),
-                       "write a list of rows; each row is a list of points");
-    return std::nullopt;
-  }
-  for (const Value& row : value.items) {
-    const auto points = read_points(geometry::points().count(1), row, counters);
-    if (!points || !add_row(*points, row.place)) return std::nullopt;
-  }
-  return net;
-}
-
-std::optional<Affine> Builder::read_transform(const Value& value, const Counters& counters) {
-  Affine all;
-  for (const Scoped& step : items(value, counters)) {
-    const auto one = read_transform_step(*step.value, step.counters);
-    if (!one) return std::nullopt;
-    all = *one * all;
-  }
-  return all;
-}
-
-std::optional<Affine> Builder::read_transform_step(const Value& step, const Counters& counters) {
-  static const std::vector<std::string> kinds = {"translate", "rotate", "scale", "mirror", "matrix"};
-  if (!step.is_map()) {
-    diagnostics_.error(step.place, fmt::format("expected a step of a transform, found {}", kind_name(step)),
-                       "for example { rotate: 30, axis: z } or { translate: [1, 0, 0] }");
-    return std::nullopt;
-  }
-  const Entry* kind = nullptr;
-  for (const Entry& entry : step.entries) {
-    const std::string& name = entry.key.name;
-    if (std::find(kinds.begin(), kinds.end(), name) != kinds.end()) {
-      if (kind) {
-        diagnostics_.error(entry.key.place, "one step does one thing",
-                           "write a list of steps: [{ rotate: ... }, { translate: ... }]");
-        return std::nullopt;
-      }
-      kind = &entry;
-    } else if (name != "axis" && name != "about" && name != "repeat") {
-      const auto nearest = geometry::nearest_name(name, kinds);
-      diagnostics_.error(entry.key.place,
-                         fmt::format("unknown step '{}' of a transform{}", name,
-                                     nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""),
-                         "translate, rotate (with axis), scale, mirror or matrix; about: the point that stays");
-      return std::nullopt;
-    }
-  }
-  if (!kind) {
-    diagnostics_.error(step.place, "a step of a transform says translate, rotate, scale, mirror or matrix");
-    return std::nullopt;
-  }
-  const std::string& name = kind->key.name;
-  const Value* axis = step.find("axis");
-  if (axis && name != "rotate") {
-    diagnostics_.error(axis->place, fmt::format("'axis' goes with 'rotate', not with '{}'", name));
-    return std::nullopt;
-  }
-  Vec3 about(0);
-  if (const Value* value = step.find("about")) {
-    const auto point = read_point(*value, counters);
-    if (!point) return std::nullopt;
-    about = *point;
-  }
-  if (name == "translate") {
-    const auto by = read_vector(kind->value, counters, false);
-    return by ? std::optional(Affine::translation(*by)) : std::nullopt;
-  }
-  if (name == "rotate") {
-    const auto angle = parameters_.angle(kind->value, counters);
-    Axis line;
-    if (axis) {
-      const auto read = read_axis(*axis, counters);
-      if (!read) return std::nullopt;
-      line = *read;
-    }
-    if (!angle) return std::nullopt;
-    return Affine::rotation(*angle, line.along, step.find("about") ? about : line.through);
-  }
-  if (name == "mirror") {
-    const auto normal = read_vector(kind->value, counters, true);
-    return normal ? std::optional(Affine::mirror(*normal, about)) : std::nullopt;
-  }
-  if (name == "scale") {
-    Vec3 factors;
-    if (kind->value.is_sequence()) {
-      const auto three = read_numbers(geometry::numbers().count(3, 3), kind->value, counters);
-      if (!three) return std::nullopt;
-      factors = {(*three)[0], (*three)[1], (*three)[2]};
-    } else {
-      const auto one = parameters_.number(kind->value, counters);
-      if (!one) return std::nullopt;
-      factors = Vec3(*one);
-    }
-    if (factors.x == 0 || factors.y == 0 || factors.z == 0) {
-      diagnostics_.error(kind->value.place, "a scale factor of 0 flattens everything");
-      return std::nullopt;
-    }
-    return Affine::scaling(factors, about);
-  }
-  const auto rows = read_number_grid(geometry::number_grid(), kind->value, counters);
-  if (!rows) return std::nullopt;
-  if ((rows->rows != 3 && rows->rows != 4) || rows->columns != 4 ||
-      (rows->rows == 4 && (rows->at(3, 0) != 0 || rows->at(3, 1) != 0 || rows->at(3, 2) != 0 || rows->at(3, 3) != 1))) {
-    diagnostics_.error(kind->value.place, "expected a matrix of 3 rows of 4 numbers (a fourth row must be 0 0 0 1)");
-    return std::nullopt;
-  }
-  Affine map;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) map.linear[j][i] = rows->at(i, j);
-    map.offset[i] = rows->at(i, 3);
-  }
-  if (!(std::abs(map.determinant()) > 0)) {
-    diagnostics_.error(kind->value.place, "this matrix flattens everything: its determinant is 0");
-    return std::nullopt;
-  }
-  return map;
 }
 
 }  // namespace lekalo::render

@@ -1,12 +1,14 @@
 #include "render/scene/manual.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/scene/sections.h"
 #include "render/scene/suite.h"
+#include "render/scene/words.h"
 
 namespace lekalo::render {
 
@@ -16,12 +18,6 @@ using geometry::FieldType;
 using geometry::Kind;
 
 namespace {
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 // Angles are declared in radians and written in degrees.
 std::string limits(const FieldType& type) {
@@ -41,6 +37,8 @@ std::string number_text(const FieldType& type) {
       return "length" + limits(type);
     case Dimension::angle:
       return "angle in degrees" + limits(type);
+    case Dimension::wavelength:
+      return "wavelength in nm" + limits(type);
     case Dimension::plain:
       break;
   }
@@ -64,7 +62,7 @@ std::string plain_value_text(const FieldType& type) {
     case Kind::boolean:
       return "true or false";
     case Kind::choice:
-      return "one of " + join(type.choices);
+      return "one of " + listed(type.choices);
     case Kind::text:
       return "text";
     case Kind::file:
@@ -99,15 +97,15 @@ std::string plain_value_text(const FieldType& type) {
       return "lists of point numbers, from 0";
     case Kind::knots:
       return "list of knots, or " +
-             (type.choices.empty() ? "clamped, uniform, chord_length, centripetal" : join(type.choices));
+             (type.choices.empty() ? "clamped, uniform, chord_length, centripetal" : listed(type.choices));
     case Kind::color:
       return std::find(type.categories.begin(), type.categories.end(), Category::texture) == type.categories.end()
                  ? "color"
                  : "color or texture";
     case Kind::formula:
-      return "formula of " + join(type.variables);
+      return "formula of " + listed(type.variables);
     case Kind::formulas:
-      return "formulas of " + join(type.variables) + count_text(type);
+      return "formulas of " + listed(type.variables) + count_text(type);
     case Kind::reference:
       return describe(type.categories) + ": name or map";
     case Kind::references:
@@ -116,7 +114,7 @@ std::string plain_value_text(const FieldType& type) {
     case Kind::groups: {
       std::vector<std::string> names;
       for (const Field& field : *type.fields) names.push_back(field.name);
-      return fmt::format("{}{{ {} }}", type.kind == Kind::groups ? "list of " : "", join(names));
+      return fmt::format("{}{{ {} }}", type.kind == Kind::groups ? "list of " : "", listed(names));
     }
     case Kind::transform:
       return "step or list of steps: translate, rotate, scale, mirror, matrix";
@@ -125,9 +123,24 @@ std::string plain_value_text(const FieldType& type) {
     case Kind::picture_size:
       return "[width, height]";
     case Kind::words:
-      return "list of words: " + join(type.choices);
+      return "list of words: " + listed(type.choices);
     case Kind::texts:
       return "list of texts in quotes";
+    case Kind::page_lengths:
+      return "lengths on the page, with units" + count_text(type);
+    case Kind::anchor:
+      return "point, or { page: [5 mm, 8 mm] } from the lower left corner";
+    case Kind::counts:
+      return "count, list, or range 0..6";
+    case Kind::label:
+      return type.variables.empty() ? "TeX text"
+                                    : "TeX text with %" + fmt::format("{}", fmt::join(type.variables, ", %"));
+    case Kind::labels:
+      return "TeX texts" + count_text(type);
+    case Kind::name_rows:
+      return "rows of names: [[a, b], [c, empty]]";
+    case Kind::helpers:
+      return "map of helpers: { control_polygon: { style: thin } }, or names";
   }
   return "";
 }
@@ -206,6 +219,20 @@ std::string sample(const FieldType& type) {
       return "5 mm";
     case Kind::picture_size:
       return "[960, 720]";
+    case Kind::page_lengths:
+      return "[2 mm, 1 mm]";
+    case Kind::anchor:
+      return "[1, 0, 0]";
+    case Kind::counts:
+      return "9";
+    case Kind::label:
+      return "'$p$'";
+    case Kind::labels:
+      return "['$x$', '$y$']";
+    case Kind::name_rows:
+      return "[[front, top]]";
+    case Kind::helpers:
+      return "{ control_polygon: {} }";
   }
   return "";
 }
@@ -260,7 +287,8 @@ std::string page_of(Category category) {
     text += table(type.fields);
     if (!type.checks.empty()) text += "\n";
     for (const auto& check : type.checks) text += fmt::format("Must hold: `{}`.\n", check.condition);
-    if (!type.helpers.empty()) text += fmt::format("\nHelpers for `show`: {}.\n", join(type.helpers));
+    if (const auto helpers = helpers_of(type); !helpers.empty())
+      text += fmt::format("\nHelpers for `show`: {}.\n", listed(helpers));
   }
   return text;
 }
@@ -273,13 +301,17 @@ std::string page_of_sections() {
     text += fmt::format("\n## {}\n\n{}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
                         section.description.substr(1));
     using Shape = SectionDeclaration::Shape;
-    if (section.shape == Shape::named || section.shape == Shape::one_of) {
+    if (section.shape == Shape::named || section.shape == Shape::one_of || section.shape == Shape::things) {
       std::string pages;
       for (const Category category : section.categories) {
         if (type_names({&category, 1}).empty()) continue;
         pages += fmt::format("{}[{}]({}.md)", pages.empty() ? "" : ", ", plural(category), plural(category));
       }
-      text += fmt::format("\n{}: {}.\n", section.shape == Shape::named ? "A map of names to things" : "One of", pages);
+      text += fmt::format("\n{}: {}.\n",
+                          section.shape == Shape::named    ? "A map of names to things"
+                          : section.shape == Shape::things ? "A list of"
+                                                           : "One of",
+                          pages);
     }
     if (section.shape == Shape::list) text += "\nA list of maps, or one:\n";
     if (!section.fields.empty()) text += fmt::format("\n{}", table(section.fields));
@@ -309,38 +341,28 @@ std::string page_of_suites() {
 std::string value_text(const FieldType& type) {
   std::string text = plain_value_text(type);
   if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots)
-    text += ", or " + join(type.choices);
+    text += ", or " + listed(type.choices);
   if (type.per_direction) text += "; or { u: ..., v: ... }";
   return text;
 }
 
 std::string example_of(const TypeDeclaration& type) {
-  std::string text = "{ type: " + type.name;
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("{} {}: {}", text.empty() ? "{" : ",", name, value);
+  };
+  if (!is_implicit(type.category) && type.category != Category::helper) add("type", type.name);
   for (const Field& field : type.fields)
     if (field.required && field.default_text.empty() && field.type.kind != Kind::frame)
-      text += fmt::format(", {}: {}", field.name, sample(field.type));
-  text += " }";
-  return text;
-}
-
-std::vector<Field> common_fields(Category category) {
-  using geometry::boolean, geometry::new_name, geometry::text, geometry::transform;
-  std::vector<Field> fields;
-  const bool is_geometry = category == Category::point || category == Category::curve ||
-                           category == Category::surface || category == Category::body || category == Category::mesh;
-  if (is_geometry)
-    fields.push_back({"transform", transform(), "steps in the order in which they happen, world axes", false, {}});
-  if (category == Category::surface)
-    fields.push_back({"reversed", boolean(), "turn the normal to the other side", false, "false"});
-  if (is_geometry || category == Category::material || category == Category::light)
-    fields.push_back({"like", new_name(), "copy the fields of this thing; those given here override them", false, {}});
-  return fields;
+      add(field.name, sample(field.type));
+  text += text.empty() ? "{}" : " }";
+  return type.category == Category::helper ? type.name + ": " + text : text;
 }
 
 const std::vector<Category>& categories_of_manual() {
   static const std::vector<Category> categories = [] {
     std::vector<Category> some;
-    for (int k = 0; k <= static_cast<int>(Category::layout); ++k) {
+    for (int k = 0; k <= static_cast<int>(Category::panel); ++k) {
       const auto category = static_cast<Category>(k);
       if (!type_names({&category, 1}).empty()) some.push_back(category);
     }
@@ -377,7 +399,8 @@ std::string description_of(const TypeDeclaration& type) {
   if (const auto common = common_fields(type.category); !common.empty())
     text += fmt::format("\nfields of every {}\n{}", geometry::name(type.category), lines_of(common, "  "));
   for (const auto& check : type.checks) text += fmt::format("\nmust hold: {}\n", check.condition);
-  if (!type.helpers.empty()) text += fmt::format("\nhelpers for show: {}\n", join(type.helpers));
+  if (const auto helpers = helpers_of(type); !helpers.empty())
+    text += fmt::format("\nhelpers for show: {}\n", listed(helpers));
   return text;
 }
 

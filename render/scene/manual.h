@@ -16,9 +16,6 @@ std::string value_text(const geometry::FieldType& type);
 // A map of this type with all that it needs, in one line: "{ type: circle, radius: 1 }".
 std::string example_of(const TypeDeclaration& type);
 
-// Fields that the scene layer adds to every type of the category: `transform`, `reversed`, `like`, `repeat`.
-std::vector<geometry::Field> common_fields(Category category);
-
 // Categories that have types, in the order of the manual, and the name of a category's page ("curves").
 const std::vector<Category>& categories_of_manual();
 std::string plural(Category category);

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "render/scene/styles.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -16,9 +18,6 @@ namespace {
 constexpr std::array<std::string_view, 6> kNamedSections{"geometry", "materials", "lights",
                                                          "styles",   "panels",    "parameters"};
 constexpr std::array<std::string_view, 2> kListSections{"objects", "outputs"};
-constexpr std::array<std::string_view, 9> kBuiltInStyles{"thick",        "thin",      "hairline", "hidden", "axis",
-                                                         "construction", "dimension", "label",    "ray"};
-
 template <std::size_t n>
 bool is_one_of(const std::array<std::string_view, n>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -83,7 +82,7 @@ void merge_named(Value& base, Value&& over, const std::string& section, const Ru
       continue;
     }
     Entry& old = base.entries[found->second];
-    const bool style = section == "styles" && is_one_of(kBuiltInStyles, entry.key.name);
+    const bool style = section == "styles" && is_built_in_style(entry.key.name);
     const bool decided = rule.overriding_parameters && rule.overriding_parameters->find(entry.key.name);
     if (style && old.value.is_map() && entry.value.is_map())
       merge_keys(old.value, std::move(entry.value));

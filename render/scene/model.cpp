@@ -21,9 +21,11 @@ geometry::Box3 bounds(const Entity& entity) {
       entity);
 }
 
-geometry::Box3 bounds(const Model& model) {
+geometry::Box3 bounds(const Model& model) { return bounds(model.objects); }
+
+geometry::Box3 bounds(const std::vector<Object>& objects) {
   geometry::Box3 box;
-  for (const Object& object : model.objects) {
+  for (const Object& object : objects) {
     const geometry::Box3 one = transformed(bounds(object.shape), object.transform);
     if (one.bounded()) box.include(one);
   }

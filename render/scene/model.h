@@ -19,6 +19,7 @@
 #include "render/lights/light.h"
 #include "render/materials/material.h"
 #include "render/samplers/sampler.h"
+#include "render/scene/page.h"
 
 namespace lekalo::render {
 
@@ -51,6 +52,8 @@ struct Object {
   bool flat_shading = false;  // mesh facets show their own normals
   uint32_t visible_to = kVisibleToAll;
   std::vector<ClipPlane> clips;
+  std::shared_ptr<const Look> look;  // in drawings; null: the drawing's lines, no helpers
+  std::string legend;                // its entry in the legend of a drawing; empty: none
 };
 
 // Objects placed together as one; a group may hold groups. Instances share the compiled group.
@@ -75,10 +78,20 @@ struct Film {
 
 struct OutputFile {
   std::string path;
-  std::string kind;     // exr, png, pdf, svg
+  std::string kind;     // render, drawing
   double exposure = 0;  // stops, for png
   bool filmic = false;
-  std::map<std::string, std::string> options;
+  std::string panel;  // of a drawing: only this panel; empty: the page
+  double width = 0;   // of a drawing in millimetres; 0: the page's
+};
+
+// One view of several on a page.
+struct Panel {
+  std::string name;
+  CameraPtr camera;  // for a picture of the whole page's size
+  std::function<CameraPtr(int width, int height)> make_camera;
+  DrawingChoices drawing;
+  std::optional<std::vector<Object>> objects;  // none: those of the scene
 };
 
 struct Model {
@@ -93,6 +106,11 @@ struct Model {
   Film film;
   IntegratorPtr integrator;
   std::vector<OutputFile> outputs;
+  std::map<std::string, Style> styles;  // built-in and the scene's own
+  DrawingChoices drawing;
+  std::vector<Panel> panels;
+  Layout layout;
+  Paper paper;
   std::string title;
   std::string unit;
   std::map<std::string, double> parameters;  // as evaluated
@@ -101,6 +119,7 @@ struct Model {
 
 // Box of everything that the objects show; unbounded shapes are left out.
 geometry::Box3 bounds(const Model& model);
+geometry::Box3 bounds(const std::vector<Object>& objects);
 geometry::Box3 bounds(const Entity& entity);
 
 }  // namespace lekalo::render

@@ -67,7 +67,8 @@ class SchemaWriter {
   Json properties(const std::vector<Field>& fields, std::vector<std::string>& required);
   Json map_of(const std::vector<Field>& fields, const std::vector<std::string>& also = {});
   Json type_definition(const TypeDeclaration& type);
-  Json thing(const std::vector<Category>& categories, bool type_needed = true);
+  Json definition(const TypeDeclaration& type);
+  Json thing(const std::vector<Category>& categories);
   Json section(const SectionDeclaration& declared);
   void add_common_definitions();
 
@@ -86,9 +87,10 @@ void SchemaWriter::add_common_definitions() {
                       {"properties",
                        {{"of", any_of({ref("reference"), {{"type", "object"}}})},
                         {"t", formula},
+                        {"s", formula},
                         {"u", formula},
                         {"v", formula},
-                        {"point", {{"type", {"array", "string", "object"}}}},
+                        {"point", {{"type", {"array", "string", "object", "number"}}}},
                         {"repeat", ref("repeat")}}},
                       {"additionalProperties", false}};
   definitions_["place"] = any_of({ref("coordinates"), ref("reference"), place});
@@ -97,6 +99,7 @@ void SchemaWriter::add_common_definitions() {
                           {"properties",
                            {{"of", any_of({ref("reference"), {{"type", "object"}}})},
                             {"t", formula},
+                            {"s", formula},
                             {"u", formula},
                             {"v", formula},
                             {"vector", words_of({"tangent", "normal", "binormal", "du", "dv"})}}},
@@ -133,6 +136,14 @@ void SchemaWriter::add_common_definitions() {
   definitions_["color"] = any_of({formula, array_of(formula, 3, 3), display});
   definitions_["color"]["description"] =
       "CSS name, '#rrggbb' in quotes, [r, g, b] linear, a grey, or { srgb: [r, g, b] }";
+  const Json on_page = {{"type", "object"},
+                        {"properties", {{"page", array_of({{"type", "string"}}, 2, 2)}}},
+                        {"required", {"page"}},
+                        {"additionalProperties", false}};
+  definitions_["anchor"] = any_of({ref("place"), on_page});
+  definitions_["label"] = {
+      {"type", {"string", "number"}},
+      {"description", "TeX in single quotes; %i a counter, %(n + 1) a formula, %% a percent sign"}};
   definitions_["page_length"] = {{"type", {"string", "number"}}, {"description", "with unit: 5 mm, 2 pt, 10 px"}};
 }
 
@@ -196,6 +207,7 @@ Json SchemaWriter::single(const FieldType& type) {
       std::vector<Json> choices{ref("reference"), thing(type.categories)};
       if (std::find(type.categories.begin(), type.categories.end(), Category::point) != type.categories.end())
         choices.push_back(ref("coordinates"));
+      if (!section_of(type.categories.front())) choices.erase(choices.begin());
       const Json one = any_of(std::move(choices));
       return type.kind == Kind::references ? one_or_list(one) : one;
     }
@@ -211,6 +223,28 @@ Json SchemaWriter::single(const FieldType& type) {
       return array_of({{"type", {"number", "string"}}}, 2, 2);
     case Kind::texts:
       return one_or_list({{"type", "string"}});
+    case Kind::page_lengths:
+      return one_or_list(ref("page_length"));
+    case Kind::anchor:
+      return ref("anchor");
+    case Kind::counts:
+      return ref("numbers");
+    case Kind::label:
+      return ref("label");
+    case Kind::labels:
+      return one_or_list(ref("label"));
+    case Kind::name_rows:
+      return array_of(array_of(ref("reference"), 1), 1);
+    case Kind::helpers: {
+      Json all = Json::object(), names = Json::array();
+      for (const TypeDeclaration& type : all_types()) {
+        if (type.category != Category::helper) continue;
+        all[type.name] = definition(type);
+        names.push_back({{"const", type.name}, {"description", type.description}});
+      }
+      const Json map = {{"type", "object"}, {"properties", all}, {"additionalProperties", false}};
+      return any_of({map, one_or_list({{"anyOf", names}})});
+    }
   }
   return Json::object();
 }
@@ -261,32 +295,43 @@ Json SchemaWriter::type_definition(const TypeDeclaration& type) {
   for (const auto& [name, one] : common.items())
     if (!all.contains(name)) all[name] = one;
   std::erase_if(required, [&](const std::string& name) { return name == "like" || name == "transform"; });
-  all["like"] = {{"type", "string"}};
+  const bool named = section_of(type.category);
+  if (named) all["like"] = {{"type", "string"}};
   all["repeat"] = ref("repeat");
-  all["type"] = {{"const", type.name}};
+  if (!is_implicit(type.category) && type.category != Category::helper) all["type"] = {{"const", type.name}};
   Json map = {
       {"description", type.description}, {"type", "object"}, {"properties", all}, {"additionalProperties", false}};
   // What a thing is like may bring the fields that it needs.
-  if (!required.empty()) map["anyOf"] = Json::array({{{"required", required}}, {{"required", {"like"}}}});
+  if (!required.empty() && named)
+    map["anyOf"] = Json::array({{{"required", required}}, {{"required", {"like"}}}});
+  else if (!required.empty())
+    map["required"] = required;
   return map;
 }
 
+Json SchemaWriter::definition(const TypeDeclaration& type) {
+  const std::string name = std::string(geometry::name(type.category)) + "." + type.name;
+  if (!definitions_.contains(name)) {
+    definitions_[name] = Json::object();  // types refer to each other
+    definitions_[name] = type_definition(type);
+  }
+  return ref(name);
+}
+
 // A map with a `type` of these categories; its other fields are those of the type.
-Json SchemaWriter::thing(const std::vector<Category>& categories, bool type_needed) {
+Json SchemaWriter::thing(const std::vector<Category>& categories) {
+  if (is_implicit(categories.front())) return definition(*find_type(geometry::name(categories.front()), categories));
+  const bool type_needed = categories.front() != Category::camera && categories.front() != Category::integrator;
   const std::string key = category_key(categories);
   if (definitions_.contains(key)) return ref(key);
   definitions_[key] = Json::object();  // types refer to each other
   Json names = Json::array(), cases = Json::array();
   for (const TypeDeclaration& type : all_types()) {
     if (std::find(categories.begin(), categories.end(), type.category) == categories.end()) continue;
-    const std::string name = std::string(geometry::name(type.category)) + "." + type.name;
-    if (!definitions_.contains(name)) {
-      definitions_[name] = Json::object();
-      definitions_[name] = type_definition(type);
-    }
+    const Json defined = definition(type);
     names.push_back({{"const", type.name}, {"description", type.description}});
     cases.push_back(
-        {{"if", {{"properties", {{"type", {{"const", type.name}}}}}, {"required", {"type"}}}}, {"then", ref(name)}});
+        {{"if", {{"properties", {{"type", {{"const", type.name}}}}}, {"required", {"type"}}}}, {"then", defined}});
   }
   Json map = {{"type", "object"}, {"properties", {{"type", {{"anyOf", names}}}}}};
   if (type_needed) map["anyOf"] = Json::array({{{"required", {"type"}}}, {{"required", {"like"}}}});
@@ -305,14 +350,12 @@ Json SchemaWriter::section(const SectionDeclaration& declared) {
       if (declared.name == "geometry") choices.push_back(ref("coordinates"));
       return {{"type", "object"}, {"additionalProperties", any_of(std::move(choices))}};
     }
-    case Shape::list: {
-      const bool objects = declared.name == "objects";
-      const Json map = map_of(declared.fields, objects ? std::vector<std::string>{"repeat", "lines", "show", "legend"}
-                                                       : std::vector<std::string>{"repeat"});
-      return one_or_list(objects ? map : any_of({{{"type", "string"}}, map}));
-    }
+    case Shape::list:
+      return one_or_list(any_of({{{"type", "string"}}, map_of(declared.fields, {"repeat"})}));
+    case Shape::things:
+      return one_or_list(thing(declared.categories));
     case Shape::one_of:
-      return thing(declared.categories, false);
+      return thing(declared.categories);
     case Shape::numbers:
       return {{"type", "object"}, {"additionalProperties", ref("formula")}};
     case Shape::free:

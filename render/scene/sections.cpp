@@ -3,6 +3,9 @@
 #include <stdexcept>
 
 #include "render/film/render.h"
+#include "render/scene/page.h"
+#include "render/scene/panels.h"
+#include "render/scene/types.h"
 
 namespace lekalo::render {
 
@@ -26,7 +29,7 @@ std::vector<Field> image_fields() {
   return {
       {"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
       {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
-      {"margin", page_length(), "free border of a drawing", false, {}},
+      {"margin", page_length().non_negative().at_most(1000), "free border of a drawing", false, {}},
       {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
       {"contrast", number().between(0, 1),
        "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "
@@ -43,35 +46,6 @@ std::vector<Field> image_fields() {
       {"background", color().non_negative(), "behind everything", false, "white"}};
 }
 
-std::vector<Field> object_fields() {
-  using namespace geometry;
-  return {
-      {"shape",
-       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::point}).count(0),
-       "what is shown: a name, a family or an inline map",
-       true,
-       {}},
-      {"name", text(), "in messages, layers and drawings; the shape's name by default", false, {}},
-      {"material", reference({Category::material}), "name or inline map; a neutral grey by default", false, {}},
-      {"back_material", reference({Category::material}), "of the side that the normals look away from", false, {}},
-      {"representation", choice({"direct", "mesh"}), "rays meet the exact surface, or triangles", false, "direct"},
-      {"mesh",
-       group({{"sag", length().positive(), "largest distance from the surface, in scene units", false, {}},
-              {"sag_pixels", number().positive(), "the same in pixels, where no sag is given", false, "0.25"}}),
-       "fineness of the mesh representation", false, "{}"},
-      {"shading", choice({"smooth", "flat"}), "normals of the surface, or of the facets of a mesh", false, "smooth"},
-      {"visible_to", words({"camera", "shadow", "reflection"}), "which rays see it", false,
-       "[camera, shadow, reflection]"},
-      {"clip",
-       groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
-               {"normal", direction(), "towards what is cut away", true, {}},
-               {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
-       "planes that cut away what lies beyond them",
-       false,
-       {}},
-      {"transform", transform(), "steps in the order in which they happen", false, {}}};
-}
-
 std::vector<Field> output_fields() {
   using namespace geometry;
   return {{"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg (drawings)", true, {}},
@@ -79,7 +53,7 @@ std::vector<Field> output_fields() {
           {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
           {"tone", choice({"none", "filmic"}), "display curve of a png", false, "none"},
           {"panel", text(), "only this panel of a drawing", false, {}},
-          {"width", page_length(), "of a drawing on paper", false, {}}};
+          {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
 }
 
 }  // namespace
@@ -98,7 +72,7 @@ const std::vector<SectionDeclaration>& sections() {
        "named points, curves, surfaces, bodies and meshes, in any order",
        Shape::named,
        {},
-       {Category::point, Category::curve, Category::surface, Category::body, Category::mesh}},
+       {geometry_categories().begin(), geometry_categories().end()}},
       {"materials", "named materials", Shape::named, {}, {Category::material}},
       {"lights", "named lights; {} means none; a studio by default", Shape::named, {}, {Category::light}},
       {"camera", "from where the scene is seen; everything, framed, by default", Shape::one_of, {}, {Category::camera}},
@@ -106,13 +80,18 @@ const std::vector<SectionDeclaration>& sections() {
       {"integrator", "how light is computed", Shape::one_of, {}, {Category::integrator}},
       {"objects",
        "what is shown and how; every entity that nothing else uses by default",
-       Shape::list,
-       object_fields(),
-       {}},
-      {"styles", "named styles of lines, markers and text of drawings", Shape::free, {}, {}},
-      {"drawing", "page-wide choices of drawings", Shape::free, {}, {}},
-      {"panels", "several views on one page", Shape::free, {}, {}},
-      {"layout", "arrangement of the panels", Shape::free, {}, {}},
+       Shape::things,
+       {},
+       {Category::object}},
+      {"styles",
+       "named styles of lines, markers and text of drawings; built-in: thick thin hairline hidden axis construction "
+       "dimension label ray",
+       Shape::named,
+       {},
+       {Category::style}},
+      {"drawing", "page-wide choices of drawings", Shape::fields, drawing_fields(), {}},
+      {"panels", "several views on one page", Shape::named, {}, {Category::panel}},
+      {"layout", "arrangement of the panels; one row by default", Shape::fields, layout_fields(), {}},
       {"outputs", "files to write", Shape::list, output_fields(), {}}};
   return all;
 }

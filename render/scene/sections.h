@@ -14,6 +14,7 @@ struct SectionDeclaration {
     fields,   // one map of the declared fields
     named,    // a map of named things, each built by a type of `categories`
     list,     // a list of maps of the declared fields
+    things,   // a list of things, each built by a type of `categories`
     one_of,   // one thing built by a type of `categories`
     numbers,  // names and formulas
     free      // read elsewhere (include)

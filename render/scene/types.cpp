@@ -11,11 +11,22 @@ std::vector<TypeDeclaration> texture_types();
 std::vector<TypeDeclaration> light_types();
 std::vector<TypeDeclaration> camera_types();
 std::vector<TypeDeclaration> integrator_types();
+std::vector<TypeDeclaration> helper_types();
+std::vector<TypeDeclaration> annotation_types();
+TypeDeclaration group_type();
+TypeDeclaration object_type();
+TypeDeclaration style_type();
+TypeDeclaration panel_type();
+
+namespace {
+std::vector<TypeDeclaration> scene_types() { return {group_type(), object_type(), style_type(), panel_type()}; }
+}  // namespace
 
 const std::vector<TypeDeclaration>& all_types() {
   static const std::vector<TypeDeclaration> types = [] {
     std::vector<TypeDeclaration> all = geometry::geometry_types();
-    for (auto family : {file_types, material_types, texture_types, light_types, camera_types, integrator_types}) {
+    for (auto family : {file_types, scene_types, material_types, texture_types, light_types, camera_types,
+                        integrator_types, helper_types, annotation_types}) {
       std::vector<TypeDeclaration> some = family();
       all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     }
@@ -63,10 +74,66 @@ std::string describe(std::span<const Category> categories) {
   std::string text;
   for (size_t i = 0; i < categories.size(); ++i) {
     if (i > 0) text += i + 1 == categories.size() ? " or " : ", ";
-    text += categories[i] == Category::integrator || categories[i] == Category::annotation ? "an " : "a ";
-    text += geometry::name(categories[i]);
+    const std::string_view name = geometry::name(categories[i]);
+    text += std::string_view("aeiou").find(name.front()) != std::string_view::npos ? "an " : "a ";
+    text += name;
   }
   return text;
+}
+
+std::span<const Category> geometry_categories() {
+  static constexpr Category all[] = {Category::curve, Category::surface, Category::body,
+                                     Category::mesh,  Category::group,   Category::point};
+  return all;
+}
+
+bool is_geometry(Category category) {
+  const auto all = geometry_categories();
+  return std::find(all.begin(), all.end(), category) != all.end();
+}
+
+const char* section_of(Category category) {
+  if (is_geometry(category)) return "geometry";
+  if (category == Category::material) return "materials";
+  if (category == Category::light) return "lights";
+  if (category == Category::style) return "styles";
+  if (category == Category::panel) return "panels";
+  return nullptr;
+}
+
+bool is_implicit(Category category) {
+  return category == Category::style || category == Category::object || category == Category::panel;
+}
+
+std::string default_type(Category category, const Value& map) {
+  if (is_implicit(category)) return std::string(geometry::name(category));
+  if (category == Category::integrator) return "classic";
+  if (category == Category::camera) return map.find("from") || map.find("field_of_view") ? "perspective" : "parallel";
+  return {};
+}
+
+std::vector<geometry::Field> common_fields(Category category) {
+  using geometry::boolean, geometry::new_name, geometry::transform;
+  std::vector<geometry::Field> fields;
+  if (is_geometry(category))
+    fields.push_back({"transform", transform(), "steps in the order in which they happen, world axes", false, {}});
+  if (category == Category::surface)
+    fields.push_back({"reversed", boolean(), "turn the normal to the other side", false, "false"});
+  if (section_of(category))
+    fields.push_back({"like", new_name(), "copy the fields of this thing; those given here override them", false, {}});
+  return fields;
+}
+
+std::vector<std::string> helpers_of(Category category) {
+  if (category == Category::curve) return {"comb", "frames"};
+  if (category == Category::surface) return {"normals"};
+  return {};
+}
+
+std::vector<std::string> helpers_of(const TypeDeclaration& type) {
+  std::vector<std::string> all = type.helpers, common = helpers_of(type.category);
+  all.insert(all.end(), common.begin(), common.end());
+  return all;
 }
 
 }  // namespace lekalo::render

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/describe.h"
+#include "render/scene/value.h"
 
 namespace lekalo::render {
 
@@ -28,5 +29,26 @@ std::vector<std::string> types_meant_by(std::string_view word, std::span<const C
 
 // "a curve", "a surface or a body": for messages.
 std::string describe(std::span<const Category> categories);
+
+// Points, curves, surfaces, bodies, meshes and groups: what the section `geometry` holds.
+std::span<const Category> geometry_categories();
+bool is_geometry(Category category);
+
+// The section in which things of this category have names, or null: textures, annotations and others are written where
+// they are used.
+const char* section_of(Category category);
+
+// Categories of a single type, which is never written: styles, objects, panels.
+bool is_implicit(Category category);
+
+// The type of a map without `type`, or empty where it must be written.
+std::string default_type(Category category, const Value& map);
+
+// Fields that every type of a category has beside its own.
+std::vector<geometry::Field> common_fields(Category category);
+
+// Names of the helpers that `show` of an object offers for this type.
+std::vector<std::string> helpers_of(const TypeDeclaration& type);
+std::vector<std::string> helpers_of(Category category);
 
 }  // namespace lekalo::render

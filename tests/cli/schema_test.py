@@ -35,7 +35,7 @@ class Schema(unittest.TestCase):
         jsonschema.Draft202012Validator.check_schema(self.suite_schema)
 
     def test_every_scene_validates(self):
-        scenes = [path for folder in ("scenes", "references", "tests/images") for path in sorted((ROOT / folder).rglob("*.yaml"))]
+        scenes = [path for folder in ("scenes", "references", "tests/images", "tests/render/scene/examples") for path in sorted((ROOT / folder).rglob("*.yaml"))]
         self.assertNotEqual(scenes, [])
         for path in scenes:
             scene = yaml.safe_load(path.read_text())
@@ -45,7 +45,7 @@ class Schema(unittest.TestCase):
 
     def test_every_example_of_a_type_validates(self):
         sections = {"curves": "geometry", "surfaces": "geometry", "bodies": "geometry", "meshes": "geometry",
-                    "materials": "materials", "lights": "lights"}
+                    "materials": "materials", "lights": "lights", "groups": "geometry"}
         for page, section in sections.items():
             for line in (ROOT / "docs/reference" / f"{page}.md").read_text().splitlines():
                 if line.startswith("    { type: "):
@@ -57,7 +57,14 @@ class Schema(unittest.TestCase):
         for text in ["geometry: { a: { type: circle, raduis: 1 } }", "geometry: { a: { type: circle } }",
                      "geometry: { a: { type: circl, radius: 1 } }", "geometry: { a: { type: ball, radius: -1 } }",
                      "geometry: { a: { radius: 1 } }", "geometry: { a: { type: diffuse } }", "geometri: {}",
-                     "image: { filter: boxx }", "objects: [{ material: steel }]", "camera: { type: fisheye }"]:
+                     "image: { filter: boxx }", "objects: [{ material: steel }]", "camera: { type: fisheye }",
+                     "styles: { a: { widht: 1 mm } }", "styles: { a: { marker: bal } }", "drawing: { grund: fill }",
+                     "drawing: { annotations: [{ type: labl, at: [0, 0] }] }",
+                     "drawing: { annotations: [{ type: label, at: [0, 0] }] }",
+                     "objects: [{ shape: a, lines: { curv: thick } }]", "objects: [{ shape: a, show: { cmob: {} } }]",
+                     "objects: [{ shape: a, show: { comb: { cuont: 3 } } }]", "panels: { a: { camra: {} } }",
+                     "layout: { rows: [a, b] }", "layout: { gap: 3 mm }", "camera: { type: graph, x: 3 }",
+                     "geometry: { g: { type: group, of: [{ material: red }] } }"]:
             self.assertFalse(self.valid(text), text)
 
 

@@ -77,7 +77,7 @@ class Suites(ProgramTest):
 
     def test_against_another_test(self):
         self.suite("name: mesh, scene: ring.yaml, representation: mesh, against: ring, layer: depth, "
-                   "compare: { metric: rmse, maximum: 0.1 }",
+                   "compare: { metric: ssim, minimum: 0.9 }",
                    "name: same, scene: ring.yaml, against: ring", "name: other, scene: ring.yaml, set: { r: 0.5 }, against: ring",
                    "name: ring, scene: ring.yaml")
         out = self.run_suite("--filter", "[mso]*", "--jobs", 2, code=DIFFERS)

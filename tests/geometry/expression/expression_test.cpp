@@ -162,20 +162,6 @@ TEST(Expression, names_and_binding) {
   EXPECT_TRUE(half.convert_to_angle());  // the parameter was written with pi
 }
 
-TEST(Expression, ranges) {
-  auto range = Expression::parse_range("0..n-1");
-  ASSERT_TRUE((std::holds_alternative<std::pair<Expression, Expression>>(range)));
-  auto& [first, last] = std::get<0>(range);
-  EXPECT_EQ(first(), 0);
-  EXPECT_EQ(last.text(), "n-1");
-  ASSERT_FALSE(last.bind({}, std::vector<Expression::Constant>{{"n", 12}}));
-  EXPECT_EQ(last(), 11);
-  auto spaced = Expression::parse_range(" 1.5 .. 2*3 ");
-  ASSERT_EQ(spaced.index(), 0u);
-  EXPECT_EQ(std::get<0>(spaced).first(), 1.5);
-  EXPECT_EQ(std::get<0>(spaced).second(), 6);
-}
-
 // The same formula in C++ for every number type.
 template <class T>
 T by_hand(const T& u, const T& v) {
@@ -385,25 +371,6 @@ TEST(Expression, every_message_of_binding) {
   EXPECT_EQ(in_pi.convert_to_angle()->hint, "write '(2*pi) rad', or give the angle in degrees");
   Expression compared = parsed("1 > 2");
   EXPECT_EQ(compared.convert_to_angle()->message, "expected an angle, found a comparison");
-}
-
-TEST(Expression, messages_of_ranges) {
-  const Wrong cases[] = {
-      {"5", 1, "expected a range 'a..b'", "both ends belong to it: 0..3 is 0, 1, 2, 3"},
-      {"0..", 3, "expected a value between '..' and the end", ""},
-      {"0..sine(3)", 3, "unknown function 'sine'", "did you mean 'sin'?"},
-      {"..3", 0, "expected a value before '..'", "write one number"},
-      {"0..1..2", 4, "a range 'a..b' is not allowed here", "write one number"},
-      {"0, 3", 1, "unexpected ','", "a decimal point is written '.': 0.3"},
-  };
-  for (const Wrong& wrong : cases) {
-    const auto result = Expression::parse_range(wrong.text);
-    const auto* error = std::get_if<ExpressionError>(&result);
-    ASSERT_TRUE(error) << wrong.text;
-    EXPECT_EQ(error->message, wrong.message) << wrong.text;
-    EXPECT_EQ(error->hint, wrong.hint) << wrong.text;
-    EXPECT_EQ(error->offset, wrong.offset) << wrong.text;
-  }
 }
 
 TEST(Expression, reserved_words) {

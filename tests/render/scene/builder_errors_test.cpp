@@ -18,7 +18,7 @@ TEST(BuilderErrors, UnknownFieldsAreNamedWithTheNearest) {
             "3:33 unknown field 'raduis' of 'circle' (did you mean 'radius'?)\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, wobble: 2 }"), "3:31 unknown field 'wobble' of 'ball'\n");
   EXPECT_EQ(hints("geometry: { a: { type: ball, radius: 1, wobble: 2 } }"),
-            "it has frame, radius, center, normal, axis, type, like, repeat, transform\n");
+            "it has frame, radius, transform, like, center, normal, axis, type, repeat\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, reversed: true }"), "3:31 unknown field 'reversed' of 'ball'\n");
   EXPECT_EQ(said("geometry: { p: [0, 0] }\nobjects:\n  - { shape: p, clips: 3 }"),
             "4:17 unknown field 'clips' of an object (did you mean 'clip'?)\n");
@@ -31,8 +31,8 @@ TEST(BuilderErrors, UnknownSections) {
             "3:13 'parameters' is a map of fields, found a single value\n"
             "4:7 'info' is a map of fields, found a list\n"
             "5:11 'geometry' is a map of named things\n"
-            "6:9 'layout' is a map, found a list\n"
-            "7:10 'objects' is a list of maps\n");
+            "6:9 'layout' is a map of fields, found a list\n"
+            "7:10 expected an object as a map of fields, found a single value\n");
 }
 
 TEST(BuilderErrors, WrongKinds) {
@@ -45,7 +45,8 @@ TEST(BuilderErrors, WrongKinds) {
   EXPECT_EQ(about("{ type: torus_surface, major_radius: 1 < 2, minor_radius: 1 }"),
             "3:43 expected a number, found a condition\n");
   EXPECT_EQ(about("5"),
-            "3:6 expected a curve, a surface, a body, a mesh or a point as a map with a type, found a single value\n");
+            "3:6 expected a curve, a surface, a body, a mesh, a group or a point as a map with a type, found a single "
+            "value\n");
   EXPECT_EQ(about("{ type: sphere_surface, radius: 1, reversed: yes }"), "3:51 expected true or false, found 'yes'\n");
   EXPECT_EQ(said("image: { filter: boxx }"), "2:18 unknown word 'boxx' (did you mean 'box'?)\n");
 }
@@ -73,7 +74,7 @@ TEST(BuilderErrors, AbsurdSizes) {
 
 TEST(BuilderErrors, MissingFields) {
   EXPECT_EQ(about("{ type: bezier_curve }"), "3:6 missing field 'points' of 'bezier_curve'\n");
-  EXPECT_EQ(about("{ radius: 1 }"), "3:6 missing 'type' of a curve, a surface, a body, a mesh or a point\n");
+  EXPECT_EQ(about("{ radius: 1 }"), "3:6 missing 'type' of a curve, a surface, a body, a mesh, a group or a point\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, center: { of: { type: segment, from: x0, to: [1, 0] } } }"),
             "3:68 there is no geometry called 'x0'\n");
   EXPECT_EQ(said("geometry: { l: { type: segment, from: [0, 0], to: [1, 0] }, b: { type: ball, radius: 1, center: "
@@ -101,8 +102,9 @@ TEST(BuilderErrors, ThingsOfTheWrongCategory) {
             "3:46 'ball' makes a body, but a curve is wanted here\n");
   EXPECT_EQ(said("geometry:\n  b: { type: ball, radius: 1 }\n  a: { type: revolution_surface, of: b, axis: z }\n"),
             "4:38 'b' is a body, but a curve is wanted here\n");
-  EXPECT_EQ(about("{ type: diffuse }"),
-            "3:14 'diffuse' makes a material, but a curve, a surface, a body, a mesh or a point is wanted here\n");
+  EXPECT_EQ(
+      about("{ type: diffuse }"),
+      "3:14 'diffuse' makes a material, but a curve, a surface, a body, a mesh, a group or a point is wanted here\n");
 }
 
 TEST(BuilderErrors, UnknownTypes) {

@@ -1,0 +1,134 @@
+// What belongs to drawings: styles, the sections drawing, panels and layout.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/cameras/cameras.h"
+#include "render/scene/builder.h"
+#include "render/scene/panels.h"
+#include "render/scene/scalars.h"
+#include "render/scene/sections.h"
+#include "render/scene/words.h"
+
+namespace lekalo::render {
+
+// The built-in styles with the scene's own: a built-in name given under `styles` changes it field by field, unless it
+// says what it is like.
+void Builder::merge_styles() {
+  Diagnostics own;
+  styles_ = read_document(make_source("(built-in styles)", std::string(built_in_styles())), own);
+  if (own.has_errors()) throw SceneError(own);
+  const Value* given = scene_.root.find("styles");
+  if (!given) return;
+  if (!given->is_map()) {
+    if (!given->invalid)
+      diagnostics_.error(given->place, "'styles' is a map of named things", "write name: { like: thin, ... }");
+    return;
+  }
+  styles_.place = given->place;
+  for (const Entry& entry : given->entries) {
+    const auto built_in = std::find_if(styles_.entries.begin(), styles_.entries.end(),
+                                       [&](const Entry& e) { return e.key.name == entry.key.name; });
+    if (built_in == styles_.entries.end()) {
+      styles_.entries.push_back(entry);
+    } else if (!entry.value.is_map() || entry.value.find("like")) {
+      *built_in = entry;
+    } else {
+      Value changed = entry.value;
+      for (Entry& field : built_in->value.entries)
+        if (!changed.find(field.key.name)) changed.entries.push_back(std::move(field));
+      *built_in = {entry.key, std::move(changed)};
+    }
+  }
+}
+
+void Builder::build_drawing(Model& model) {
+  const Value* given = section("drawing");
+  static const Value nothing = [] {
+    Value map;
+    map.kind = Value::Kind::map;
+    return map;
+  }();
+  const Value& map = given && given->is_map() ? *given : nothing;
+  const auto fields = read_fields(section_declaration("drawing").fields, map, {}, "'drawing'");
+  if (fields)
+    if (auto drawing = attempt(map, "'drawing'", [&] { return drawing_of(*fields); }))
+      model.drawing = *std::move(drawing);
+  build_panels(fields, model);
+  build_layout(model);
+}
+
+void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
+  visit_named("panels", Category::panel, [&](const std::string& name, const Built& built) {
+    auto read = std::any_cast<PanelAsRead>(built.value);
+    const Value* entry = section("panels")->find(name);
+    const Value& place = entry ? *entry : scene_.root;
+    Panel panel;
+    panel.name = name;
+    if (name == "empty") {
+      diagnostics_.error(place.place, "a panel may not be called 'empty'", "in a layout this word leaves a place free");
+      return;
+    }
+    if (read.objects) {
+      fill_materials(*read.objects);
+      panel.objects = std::move(read.objects);
+    }
+    panel.make_camera = model.make_camera;
+    if (read.camera) {
+      Shown all = shown(panel.objects ? *panel.objects : model.objects);
+      all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
+      panel.make_camera = [make = *read.camera, all](int w, int h) { return make(w, h, all); };
+    }
+    if (panel.make_camera)
+      attempt(place, "the panel's camera", [&] {
+        panel.camera = panel.make_camera(model.film.width, model.film.height);
+        return true;
+      });
+    if (drawing) {
+      Fields merged = *drawing;
+      if (read.drawing) merged.override_by(*read.drawing);
+      const Value* own = place.find("drawing");
+      if (auto made = attempt(own ? *own : place, "'drawing'", [&] { return drawing_of(merged); }))
+        panel.drawing = *std::move(made);
+    }
+    model.panels.push_back(std::move(panel));
+  });
+}
+
+bool Builder::check_panel(const Value& name) {
+  std::vector<std::string> known;
+  for (const auto& [panel, thing] : sections_["panels"])
+    for (const NamedThing::Member& one : thing.members)
+      known.push_back(one.name.empty() ? panel : panel + "." + one.name);
+  if (std::find(known.begin(), known.end(), name.text) != known.end()) return true;
+  diagnostics_.error(name.place,
+                     fmt::format("there is no panel called '{}'{}", name.text, suggestion(name.text, known)),
+                     known.empty() ? "the scene has no panels" : "there are " + listed(known, 20));
+  return false;
+}
+
+void Builder::build_layout(Model& model) {
+  const Value* given = section("layout");
+  if (!given) {
+    if (!model.panels.empty()) {
+      model.layout.rows.emplace_back();
+      for (const Panel& panel : model.panels) model.layout.rows.back().push_back(panel.name);
+    }
+    return;
+  }
+  if (!given->is_map()) return;  // check_sections() speaks of it
+  const auto fields = read_fields(section_declaration("layout").fields, *given, {}, "'layout'");
+  if (!fields) return;
+  model.layout = layout_of(*fields);
+  const Value& rows = *given->find("rows");
+  std::set<std::string> seen;
+  for (const Value& row : rows.items)
+    for (const Value& item : row.items) {
+      if (item.text == "empty") continue;
+      if (check_panel(item) && !seen.insert(item.text).second)
+        diagnostics_.error(item.place, fmt::format("the panel '{}' stands here twice", item.text));
+    }
+}
+
+}  // namespace lekalo::render

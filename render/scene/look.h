@@ -1,0 +1,66 @@
+// What drawings show of an object: which lines, which helpers of its geometry, which words in the legend.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/describe.h"
+#include "render/scene/styles.h"
+#include "render/scene/text_template.h"
+
+namespace lekalo::render {
+
+// What becomes of lines behind something.
+struct HiddenLines {
+  enum class Way {
+    drop,    // not drawn
+    dashed,  // in their own style, with the dashes of the style `hidden`
+    thin,    // in their own style at half the width
+    faded,   // in their own style at a third of the opacity
+    styled   // in `style`
+  };
+  Way way = Way::drop;
+  Style style;  // of the way styled
+};
+
+// Where the object is cut by a plane.
+struct SectionPlane {
+  geometry::Vec3 through{0};
+  geometry::Vec3 normal{0, 0, 1};
+};
+
+struct Lines {
+  // boundary, sharp, smooth, silhouette, parameter, section, intersection, self_intersection, curve: only those drawn.
+  std::map<std::string, Style> styles;
+  geometry::ParameterValues at_u, at_v;  // of `parameter`
+  std::vector<SectionPlane> planes;      // of `section`
+  std::vector<std::any> with;            // of `intersection`: geometry, as references hold it
+  HiddenLines hidden;
+};
+
+// A helper of a geometry type, drawn beside it: control polygon, frames, comb, ...
+struct Helper {
+  std::string type;  // as declared in helper_types.cpp
+  Style style;
+  HiddenLines hidden;
+  geometry::Fields values;  // its other fields as declared
+};
+
+struct Look {
+  std::optional<Lines> lines;  // none: those of the drawing
+  std::vector<Helper> helpers;
+};
+
+// Fields of `lines`, of objects and of `drawing`.
+std::vector<geometry::Field> lines_fields();
+Lines lines_of(const geometry::Fields& fields);
+// The lines of an object where nobody says which.
+constexpr const char* kUsualLines = "{ boundary: thick, sharp: thick, silhouette: thick, curve: thick }";
+
+// The field `hidden`, wherever one is declared.
+geometry::FieldType hidden_lines();
+HiddenLines hidden_of(const geometry::Fields& fields);
+
+}  // namespace lekalo::render
