@@ -205,7 +205,10 @@ std::string sample(const FieldType& type) {
       return list(1, [&](int) { return type.variables.front(); });
     case Kind::reference:
     case Kind::references:
-      return fmt::format("my_{}", geometry::name(type.categories.front()));
+      // Objects have no names to refer to: they are written out.
+      return type.categories.front() == geometry::Category::object
+                 ? "[{ shape: my_body }]"
+                 : fmt::format("my_{}", geometry::name(type.categories.front()));
     case Kind::group:
     case Kind::groups: {
       std::string text;

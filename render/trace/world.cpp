@@ -28,8 +28,8 @@ namespace {
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
 // Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
-// this only keeps shapes of a few pixels round and the way from a facet to its surface short enough for one step.
-constexpr double kMeshAngle = 20 * geometry::kPi / 180;
+// this only keeps shapes of some pixels round and the way from a facet to its surface short enough for one step.
+constexpr double kMeshAngle = 10 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
 using ShareKey = std::tuple<const void*, int, double, double, bool>;

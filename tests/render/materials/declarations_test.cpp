@@ -52,7 +52,7 @@ TEST(Declarations, FamiliesAreWhole) {
   check(
       light_types(), Category::light,
       {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light", "ambient_light"});
-  check(camera_types(), Category::camera, {"perspective", "parallel"});
+  check(camera_types(), Category::camera, {"graph", "perspective", "parallel"});
   check(integrator_types(), Category::integrator, {"classic"});
 }
 

@@ -52,24 +52,24 @@ std::string said(const std::string& text) {
       .said;
 }
 
-// The text begins in column 42, behind its quote.
+// The text begins in column 41, behind its quote.
 TEST(TextTemplate, WhatIsWrongIsSaidAtItsPlace) {
-  EXPECT_EQ(said("'ab %q'"), "5:46 unknown counter '%q' of a text\n");
-  EXPECT_EQ(said("'ab %'"), "5:45 a percent sign stands for a number here\n");
-  EXPECT_EQ(said("'50 % of'"), "5:45 a percent sign stands for a number here\n");
-  EXPECT_EQ(said("'ab %(1 + 2'"), "5:46 this parenthesis is not closed\n");
-  EXPECT_EQ(said("'ab %( )'"), "5:46 there is no formula between the parentheses\n");
-  EXPECT_EQ(said("'ab %(b + 2)'"), "5:47 unknown name 'b'\n");
-  EXPECT_EQ(said("'%(1/0)'"), "5:44 the formula has no finite value\n");
-  EXPECT_EQ(said("'%(1 < 2)'"), "5:44 expected a number, found a condition\n");
-  EXPECT_EQ(said("'%999999i'"), "5:42 a number of more than 20 digits\n");
-  EXPECT_EQ(said("'a $x'"), "5:44 this $ has no partner\n");
-  EXPECT_EQ(said("'$x_{1$'"), "5:45 this brace is not closed\n");
-  EXPECT_EQ(said("'x_{1'"), "5:44 this brace is not closed\n");
-  EXPECT_EQ(said("'x}'"), "5:43 this brace closes nothing\n");
-  EXPECT_EQ(said("'\\mathbf{a $x}$'"), "5:52 a formula begins inside braces and does not end there\n");
+  EXPECT_EQ(said("'ab %q'"), "5:45 unknown counter '%q' of a text\n");
+  EXPECT_EQ(said("'ab %'"), "5:44 a percent sign stands for a number here\n");
+  EXPECT_EQ(said("'50 % of'"), "5:44 a percent sign stands for a number here\n");
+  EXPECT_EQ(said("'ab %(1 + 2'"), "5:45 this parenthesis is not closed\n");
+  EXPECT_EQ(said("'ab %( )'"), "5:45 there is no formula between the parentheses\n");
+  EXPECT_EQ(said("'ab %(b + 2)'"), "5:46 unknown name 'b'\n");
+  EXPECT_EQ(said("'%(1/0)'"), "5:43 the formula has no finite value\n");
+  EXPECT_EQ(said("'%(1 < 2)'"), "5:43 expected a number, found a condition\n");
+  EXPECT_EQ(said("'%999999i'"), "5:41 a number of more than 20 digits\n");
+  EXPECT_EQ(said("'a $x'"), "5:43 this $ has no partner\n");
+  EXPECT_EQ(said("'$x_{1$'"), "5:44 this brace is not closed\n");
+  EXPECT_EQ(said("'x_{1'"), "5:43 this brace is not closed\n");
+  EXPECT_EQ(said("'x}'"), "5:42 this brace closes nothing\n");
+  EXPECT_EQ(said("'\\mathbf{a $x}$'"), "5:51 a formula begins inside braces and does not end there\n");
   EXPECT_EQ(said("'\\$ \\{ \\} $\\alpha$'"), "");
-  EXPECT_EQ(said("[1]"), "5:41 expected a text, found a list\n");
+  EXPECT_EQ(said("[1]"), "5:40 expected a text, found a list\n");
 }
 
 }  // namespace
