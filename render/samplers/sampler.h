@@ -26,7 +26,8 @@ class Sampler {
  public:
   virtual ~Sampler() = default;
   virtual int samples_per_pixel() const = 0;
-  // Position of a sample (below samples_per_pixel) in its pixel, in [0, 1)^2; sample counts of 1 give the centre (0.5, 0.5).
+  // Position of a sample (below samples_per_pixel) in its pixel, in [0, 1)^2; sample counts of 1 give the centre (0.5,
+  // 0.5).
   virtual Vec2 pixel_position(uint32_t x, uint32_t y, int sample) const = 0;
   // Also for a sample beyond the pixel's own, which is drawn apart from them.
   virtual SampleStream stream(uint32_t x, uint32_t y, int sample) const = 0;

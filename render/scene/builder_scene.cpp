@@ -97,7 +97,9 @@ void Builder::build_named(Model& model) {
 MaterialPtr Builder::default_material() {
   if (!default_material_) {
     const Category wanted[] = {Category::material};
-    const auto built = build_typed(default_value("{ type: classic, color: '#b9c3cd', ambient: 1, diffuse: 1, specular: 0.1, exponent: 30 }"), {}, wanted);
+    const auto built = build_typed(
+        default_value("{ type: classic, color: '#b9c3cd', ambient: 1, diffuse: 1, specular: 0.1, exponent: 30 }"), {},
+        wanted);
     if (built) default_material_ = std::any_cast<MaterialPtr>(built->value);
   }
   return default_material_;

@@ -60,9 +60,7 @@ Style complete(const StyleChanges& changes) {
   return style;
 }
 
-Style style_of(const Fields& fields, std::string_view field) {
-  return complete(fields.get<StyleChanges>(field));
-}
+Style style_of(const Fields& fields, std::string_view field) { return complete(fields.get<StyleChanges>(field)); }
 
 TypeDeclaration style_type() {
   TypeDeclaration type =
