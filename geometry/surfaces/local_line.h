@@ -21,11 +21,20 @@ struct MovedLine {
   Vec3 at(double s) const { return origin + s * direction; }
 };
 
+// Where the compiler can, functions that live on fused multiply-adds exist twice, with the processor's own instruction
+// and with the library's function; both round alike.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
+#define LEKALO_FUSED __attribute__((target_clones("fma", "default")))
+#else
+#define LEKALO_FUSED
+#endif
+
+// The line's point at t with one rounding in each coordinate.
+Vec3 fused_at(const Line& line, double t);
+
 inline MovedLine moved_near(const Line& line, const Vec3& center) {
-  const Vec3& o = line.origin;
-  const Vec3& d = line.direction;
-  const double t = glm::dot(center - o, d) / glm::dot(d, d);
-  return {t, {std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z)}, d};
+  const double t = glm::dot(center - line.origin, line.direction) / glm::dot(line.direction, line.direction);
+  return {t, fused_at(line, t), line.direction};
 }
 
 // The same in the coordinates of the frame; `center` is in world coordinates.

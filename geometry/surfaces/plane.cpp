@@ -57,24 +57,27 @@ double taxicab(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(
 
 void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   const double speed = glm::dot(line.direction, frame_.z);
-  if (std::abs(speed) <= 4 * std::numeric_limits<double>::epsilon() * glm::length(line.direction)) return;
-  const double rough = glm::dot(frame_.origin - line.origin, frame_.z) / speed;
+  constexpr double kParallel = 4 * std::numeric_limits<double>::epsilon();
+  if (speed * speed <= kParallel * kParallel * glm::dot(line.direction, line.direction)) return;
+  const double inverse = 1 / speed;
+  const double rough = glm::dot(frame_.origin - line.origin, frame_.z) * inverse;
   // Clearly behind the origin of a ray or beyond its end.
   const double length = taxicab(line.direction), distance = taxicab(line.origin);
-  const double slack = 2e-15 * (std::abs(rough) * length + taxicab(frame_.origin) + distance) / std::abs(speed);
+  const double slack = 2e-15 * (std::abs(rough) * length + taxicab(frame_.origin) + distance) * std::abs(inverse);
   if (rough < range.lo - slack || rough > range.hi + slack) return;
-  // Anew from the point nearest to the rough hit.
-  const MovedLine moved = moved_near(line, line.at(rough), frame_);
-  const double s = -moved.origin.z / moved.direction.z;
-  const double t = moved.start + s;
+  // Anew from the rough hit.
+  const Vec3 from = fused_at(line, rough) - frame_.origin;
+  const double s = -glm::dot(from, frame_.z) * inverse;
+  const double t = rough + s;
   if (!range.contains(t)) return;
-  const Vec3 p = moved.at(s);
+  const Vec3 p(glm::dot(from, frame_.x) + s * glm::dot(line.direction, frame_.x),
+               glm::dot(from, frame_.y) + s * glm::dot(line.direction, frame_.y), 0);
   if (!bounded()) {
     if (const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y); u && v) hits.add({t, *u, *v});
     return;
   }
   // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
-  const double shallow = kShallowSlack * (distance + std::abs(t) * length) * length / std::abs(speed);
+  const double shallow = kShallowSlack * (distance + std::abs(t) * length) * length * std::abs(inverse);
   const auto u = within(domain_.u, p.x, shallow), v = within(domain_.v, p.y, shallow);
   if (u && v) hits.add({t, *u, *v});
 }

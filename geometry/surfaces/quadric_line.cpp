@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "geometry/surfaces/local_line.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // b^2 - a c (Kahan; Jeannerod, Louvet, Muller 2013).
-double discriminant(double a, double b, double c) {
+inline double discriminant(double a, double b, double c) {
   const double ac = a * c;
   const double error = std::fma(-a, c, ac);
   return std::fma(b, b, -ac) + error;
@@ -22,7 +24,7 @@ double discriminant(double a, double b, double c) {
 
 }  // namespace
 
-QuadricHits quadric_hits(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
+LEKALO_FUSED QuadricHits quadric_hits(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
   QuadricHits hits;
   Vec3 o = origin;
   const Vec3& d = direction;

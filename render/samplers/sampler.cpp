@@ -82,10 +82,10 @@ class StratifiedSampler final : public Sampler {
 }  // namespace
 
 SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed)
-    : pixel_(mix(pixel_key(x, y, seed) + kGolden)), sample_(sample), count_(count) {}
+    : x_(x), y_(y), seed_(seed), sample_(sample), count_(count) {}
 
 Vec2 SampleStream::next_pair() {
-  const uint64_t key = mix(pixel_ + ++dimension_ * kGolden);
+  const uint64_t key = mix(mix(pixel_key(x_, y_, seed_) + kGolden) + ++dimension_ * kGolden);
   if (count_ > 1 && sample_ < count_) return multi_jittered(sample_, count_, key);
   return {unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 1) * kGolden)),
           unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 2) * kGolden))};

@@ -17,8 +17,7 @@ class SampleStream {
   Vec2 next_pair();  // uniform in [0, 1)^2
 
  private:
-  uint64_t pixel_;
-  uint32_t sample_, count_;
+  uint32_t x_, y_, seed_, sample_, count_;
   uint32_t dimension_ = 0;
 };
 

@@ -140,6 +140,7 @@ struct GeometryRecord {
   int leaf_number = 0;  // first number of an instance
   int face = 0;         // of a target
   const geometry::LineTarget* target = nullptr;
+  int count = 1;  // pieces of a target
   std::shared_ptr<const Hierarchy> child;
   Affine to_parent, to_child;
   int object = 0;
@@ -205,10 +206,6 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
       return bounds(*record.leaf->mesh);
   }
   return {};
-}
-
-int primitive_count(const GeometryRecord& record) {
-  return record.kind == GeometryRecord::Kind::target ? record.target->piece_count() : 1;
 }
 
 // Tests one primitive of a record in double and passes its hits on.
@@ -323,7 +320,7 @@ bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
   for (const GeometryRecord* record : p.unbounded) {
-    const int count = primitive_count(*record);
+    const int count = record->count;
     for (int i = 0; i < count; ++i) test(*record, i, query);
     if (query.any && query.found) return;
   }
@@ -421,6 +418,7 @@ void Hierarchy::add(Leaf given) {
       GeometryRecord& r = record(GeometryRecord::Kind::target);
       r.face = static_cast<int>(face);
       r.target = leaf.targets[face].get();
+      r.count = r.target->piece_count();
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
   }
@@ -447,15 +445,15 @@ bool Hierarchy::Parts::list_few() {
   size_t count = 0;
   for (const auto& record : records) {
     if (record->kind == GeometryRecord::Kind::mesh) return false;
-    count += primitive_count(*record);
+    count += record->count;
   }
   if (count > kFew) return false;
   for (const auto& record : records)
-    for (int i = 0; i < primitive_count(*record); ++i)
+    for (int i = 0; i < record->count; ++i)
       few.push_back({record.get(), i, box_of(*record, i).inflated(kBoxInflation * radius)});
   for (const auto& record : records)
     if (record->kind == GeometryRecord::Kind::target) {
-      pieces += primitive_count(*record);
+      pieces += record->count;
       bytes += record->target->memory();
     }
   return true;
@@ -491,7 +489,7 @@ void Hierarchy::Parts::build_scene() {
       meshes = true;
     } else {
       geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
-      const int count = primitive_count(*record);
+      const int count = record->count;
       rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
       rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
       rtcSetGeometryIntersectFunction(geometry, intersect_callback);
@@ -519,7 +517,7 @@ void Hierarchy::commit() {
   std::vector<std::unique_ptr<GeometryRecord>> bounded, others;
   for (auto& record : p.records) {
     Box3 box;
-    const int count = primitive_count(*record);
+    const int count = record->count;
     for (int i = 0; i < count; ++i) box.include(box_of(*record, i));
     const bool child_has_unbounded =
         record->kind == GeometryRecord::Kind::instance && !record->child->parts_->unbounded.empty();
@@ -611,9 +609,13 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
 
 Hierarchy::Place Hierarchy::place(int instance) const {
   const auto& numbers = parts_->numbers;
-  auto after = std::upper_bound(numbers.begin(), numbers.end(), instance,
-                                [](int n, const Parts::Numbered& entry) { return n < entry.first; });
-  const GeometryRecord& record = *std::prev(after)->record;
+  // One number each, unless an instance has several leaves.
+  const bool direct = static_cast<int>(numbers.size()) == parts_->leaf_count;
+  const GeometryRecord& record =
+      direct ? *numbers[instance].record
+             : *std::prev(std::upper_bound(numbers.begin(), numbers.end(), instance,
+                                           [](int n, const Parts::Numbered& entry) { return n < entry.first; }))
+                    ->record;
   Place result;
   if (record.kind == GeometryRecord::Kind::instance) {
     result = record.child->place(instance - record.leaf_number);
