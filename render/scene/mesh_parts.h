@@ -51,9 +51,9 @@ inline std::optional<int64_t> integer_of(std::string_view word) {
 }
 
 // A line of a file with its number from 1; lines end with LF, CR LF or CR.
-class Lines {
+class TextLines {
  public:
-  explicit Lines(std::string_view text) : rest_(text) {}
+  explicit TextLines(std::string_view text) : rest_(text) {}
   bool next(std::string_view& line) {
     if (rest_.empty()) return false;
     ++number_;

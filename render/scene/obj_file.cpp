@@ -104,7 +104,7 @@ class ObjParser {
     add_polygon(mesh_, corners_, group_);
   }
 
-  Lines lines_;
+  TextLines lines_;
   std::string name_;
   int line_number_ = 0;
   Mesh mesh_;

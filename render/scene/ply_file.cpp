@@ -289,7 +289,7 @@ class PlyParser {
   }
 
   std::string_view bytes_;
-  Lines lines_;
+  TextLines lines_;
   std::string name_;
   std::string_view binary_;
   bool in_binary_ = false;

@@ -71,7 +71,7 @@ Mesh parse_binary(std::string_view bytes, const std::string& name) {
 Mesh parse_text(std::string_view text, const std::string& name) {
   Mesh mesh;
   PointTable table(mesh);
-  Lines lines(text);
+  TextLines lines(text);
   std::string_view line;
   std::vector<MeshCorner> corners;
   bool in_facet = false;
