@@ -79,6 +79,8 @@ class TileTracer {
  private:
   // Samples after which a pixel may be found to be even; a picture with no more than these takes all of them.
   static constexpr int kFewSamples = 4;
+  // Reach of a noisy centre sample, in pixels.
+  static constexpr int kPenumbra = 2;
 
   // The sums of a tile while it is traced.
   struct Exposure {
@@ -147,7 +149,7 @@ class TileTracer {
   void trace_adaptively(const Window& tile, float contrast, Exposure& exposure) const {
     // The centres, with those of the neighbours around the tile.
     const Film& settings = world_.model().film;
-    const Window around = intersection(tile.grown(1), {0, 0, settings.width, settings.height});
+    const Window around = intersection(tile.grown(kPenumbra), {0, 0, settings.width, settings.height});
     const int all = sampler_->samples_per_pixel();
     std::vector<RaySample> centers;
     centers.reserve(static_cast<size_t>(around.width()) * around.height());
@@ -163,7 +165,12 @@ class TileTracer {
         const RaySample& own = centers[index(x, y)];
         const Shown& own_shown = shown[index(x, y)];
         if (is_finite(own) && film_.crop().contains(x, y)) store(x, y, own);
-        bool even = is_finite(own) && !own.noisy;
+        bool even = is_finite(own);
+        // In a penumbra a single ray to the light tells little: a few pixels around one that knows count as well.
+        for (int ny = std::max(y - kPenumbra, around.y0); even && ny <= std::min(y + kPenumbra, around.y1 - 1); ++ny)
+          for (int nx = std::max(x - kPenumbra, around.x0); even && nx <= std::min(x + kPenumbra, around.x1 - 1); ++nx)
+            even = !centers[index(nx, ny)].noisy;
+        const bool even_light = even;
         for (int ny = std::max(y - 1, around.y0); even && ny <= std::min(y + 1, around.y1 - 1); ++ny)
           for (int nx = std::max(x - 1, around.x0); even && nx <= std::min(x + 1, around.x1 - 1); ++nx)
             even = !differ(own_shown, shown[index(nx, ny)], contrast);
@@ -173,7 +180,7 @@ class TileTracer {
           continue;
         }
         taken.clear();
-        bool alike = is_finite(own) && !own.noisy;
+        bool alike = even_light && is_finite(own);
         int s = 0;
         for (; s < all && (s < kFewSamples || !alike); ++s) {
           taken.push_back(sample_at(x, y, sampler_->pixel_position(x, y, s), s, exposure.tally));

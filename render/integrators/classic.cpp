@@ -25,6 +25,8 @@ namespace {
 
 // Boundaries in a row that are no boundaries for light; more can only be a broken scene.
 constexpr int kMostPasses = 1000;
+// Light of a highlight below which its grain is not seen.
+constexpr float kGrain = 0.004f;
 constexpr float kOverPi = static_cast<float>(1 / kPi);
 const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
 const Spectrum kWhite{1, 1, 1, 0};
@@ -228,7 +230,9 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         shadow_ray.t_max = sample.distance;
         visible = passing(shadow_ray, media);
       }
-      if (jittered && (!cone || visible != kWhite)) sample_.noisy = true;
+      // A highlight jitters with the places on the light.
+      const bool glossy = lobe > 0 && (static_cast<float>(lobe) * (c.specular * light_per_pi)).largest() > kGrain;
+      if (jittered && (!cone || visible != kWhite || glossy)) sample_.noisy = true;
       mix(visible.is_zero() ? 5 : 6);
       sum.diffuse += static_cast<float>(cosine) * ((cone ? visible - kWhite : visible) * light_per_pi);
       sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
