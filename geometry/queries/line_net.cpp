@@ -240,8 +240,8 @@ class NetSearch {
 
   // What is left of a cell that cannot be decided. Cells around a singular point differ in the parameter that does not
   // matter there.
-  void add_if_singular(double x, double y, double hx, double hy) {
-    PatchPoint at = surface_at(x, y);
+  void add_if_singular(double x, double y) {
+    const PatchPoint at = surface_at(x, y);
     const double lx = glm::length(at.ds), ly = glm::length(at.dt);
     if (!(lx <= 1e-6 * whole_.x || ly <= 1e-6 * whole_.y || glm::length(glm::cross(at.ds, at.dt)) <= 1e-6 * lx * ly))
       return;
@@ -250,7 +250,6 @@ class NetSearch {
     const double near = size < kInfinity ? 1e-9 * size * std::sqrt(line_.inverse_length2) : 0;
     for (int i = 0; i < hits_.size(); ++i)
       if (std::abs(hits_[i].t - t) <= near) return;
-    (void)hx, (void)hy;
     hits_.add({t, x, y});
   }
 
@@ -332,7 +331,7 @@ class NetSearch {
               hy *= 0.5 * (hi_y - lo_y);
             }
             if (std::max(hx, hy) < kSmallestCell) {
-              add_if_singular(x0, y0, hx, hy);
+              add_if_singular(x0, y0);
               return;
             }
             continue;
@@ -341,7 +340,7 @@ class NetSearch {
       }
       const Outline o = outline(c);
       if (depth == kDeepest || std::max(hx, hy) < kSmallestCell || std::max(o.extent_x, o.extent_y) <= 4 * rounding_) {
-        add_if_singular(x0, y0, hx, hy);
+        add_if_singular(x0, y0);
         return;
       }
       // Across the direction in which the functions bend most; where that is neither (at a pole the sectors of a cap
