@@ -25,10 +25,17 @@ struct Periods {
   double v = 0;
 };
 
-// Point and partial derivatives at one place: d(i, j) is the derivative i times by u and j times by v, i + j <= order.
+// Point and partial derivatives at one place: d(i, j) is the derivative i times by u and j times by v, i + j <= order;
+// values beyond the order mean nothing.
 struct SurfaceJet {
   int order = 0;
-  std::array<Vec3, (kMaxSurfaceOrder + 1) * (kMaxSurfaceOrder + 2) / 2> values{};
+  std::array<Vec3, (kMaxSurfaceOrder + 1) * (kMaxSurfaceOrder + 2) / 2> values;
+
+  SurfaceJet() : values{} {}
+  // Zeros up to the order.
+  explicit SurfaceJet(int order) : order(order) {
+    for (int i = 0; i < (order + 1) * (order + 2) / 2; ++i) values[i] = Vec3(0);
+  }
 
   static constexpr int index(int i, int j) { return (i + j) * (i + j + 1) / 2 + j; }
   Vec3& d(int i, int j) { return values[index(i, j)]; }
@@ -91,6 +98,11 @@ struct LineHit {
 // Hits found so far, in any order; fixed room first so that tracing does not allocate.
 class LineHits {
  public:
+  LineHits() = default;
+  // `first_is_enough`: a surface that finds its hits in the order of t may stop after the first.
+  explicit LineHits(bool first_is_enough) : first_is_enough_(first_is_enough) {}
+  bool is_enough() const { return first_is_enough_ && count_ > 0; }
+
   void add(const LineHit& hit) {
     if (count_ < kInline)
       few_[count_] = hit;
@@ -108,6 +120,7 @@ class LineHits {
 
  private:
   static constexpr int kInline = 16;
+  bool first_is_enough_ = false;
   int count_ = 0;
   std::array<LineHit, kInline> few_;  // not initialised: one of these is made for each candidate of each ray
   std::vector<LineHit> more_;

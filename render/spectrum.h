@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "geometry/vectors.h"
 
@@ -33,14 +35,13 @@ class Spectrum {
   friend Spectrum operator*(float a, Spectrum b) { return b *= a; }
   friend Spectrum operator-(Spectrum a, const Spectrum& b) { return a.lanes_ -= b.lanes_, a; }
   bool operator==(const Spectrum& s) const {
-    return lanes_[0] == s[0] && lanes_[1] == s[1] && lanes_[2] == s[2] && lanes_[3] == s[3];
+    const auto halves = std::bit_cast<std::array<int64_t, 2>>(lanes_ == s.lanes_);  // all bits of a lane that is equal
+    return (halves[0] & halves[1]) == -1;
   }
 
   bool is_zero() const { return *this == Spectrum(); }
   float largest() const { return std::max(std::max(lanes_[0], lanes_[1]), std::max(lanes_[2], lanes_[3])); }
-  bool is_finite() const {
-    return std::isfinite(lanes_[0]) && std::isfinite(lanes_[1]) && std::isfinite(lanes_[2]) && std::isfinite(lanes_[3]);
-  }
+  bool is_finite() const { return *this - *this == Spectrum(); }
 
  private:
   // One register: GCC's and Clang's vector extension, on every processor.

@@ -64,23 +64,28 @@ class FormulaTarget final : public LineTarget {
   int piece_count() const override { return 1; }
   Box3 piece_bounds(int) const override { return box_; }
   void piece_hits(int, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
-    if (!acceptance_.trim()) {
+    if (acceptance_.trim())
+      trimmed_hits(line.line(), t, hits);
+    else
       surface_->line_hits(line.line(), t, hits);
-      return;
-    }
-    LineHits all;
-    surface_->line_hits(line.line(), t, all);
-    for (int i = 0; i < all.size(); ++i)
-      if (acceptance_.keeps(all[i], t, line.line(), *surface_)) hits.add(all[i]);
   }
   const Surface& surface() const override { return *surface_; }
   size_t memory() const override { return sizeof *this; }
 
  private:
+  void trimmed_hits(const Line& line, const Interval& t, LineHits& hits) const;
+
   SurfacePtr surface_;
   Acceptance acceptance_;
   Box3 box_;
 };
+
+void FormulaTarget::trimmed_hits(const Line& line, const Interval& t, LineHits& hits) const {
+  LineHits all;
+  surface_->line_hits(line, t, all);
+  for (int i = 0; i < all.size(); ++i)
+    if (acceptance_.keeps(all[i], t, line, *surface_)) hits.add(all[i]);
+}
 
 // Rational Bezier pieces, cut into flat cells.
 class PatchTarget final : public LineTarget {

@@ -34,24 +34,27 @@ void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits)
   const Vec3 o(moved.origin.x / scale, moved.origin.y / scale, cylinder ? 0.0 : radius_ + slope * moved.origin.z);
   const Vec3 d(moved.direction.x / scale, moved.direction.y / scale, slope * moved.direction.z);
   const Quadric quadric = cylinder ? Quadric{{1, 1, 0}, 0, -1} : Quadric{{1, 1, -1}, 0, 0};
-  const QuadricHits found = quadric_hits(quadric, o, d);
+  const QuadricRoots roots = quadric_roots(quadric, o, d);
+  const Interval near{t.lo - moved.start, t.hi - moved.start};
   const auto add = [&](int i, double nappe) {
-    if (!t.contains(moved.start + found.s[i])) return;
+    if (hits.is_enough() || !roots.may_lie_in(near, i)) return;
     // Is there anything of this nappe in the domain?
     const double lo = radius_ + widening_ * domain_.v.lo, hi = radius_ + widening_ * domain_.v.hi;
     if (!cylinder && !(std::max(nappe * lo, nappe * hi) > 0)) return;
-    const Vec3& p = found.point[i];
-    add_hit(hits, t, line, moved.start + found.s[i], std::atan2(nappe * p.y, nappe * p.x),
-            moved.at(found.s[i]).z / height_);
+    const QuadricHit hit = quadric_hit(quadric, d, roots, i);
+    const double at = moved.start + hit.s;
+    if (!t.contains(at)) return;
+    add_hit(hits, line, at, std::atan2(nappe * hit.point.y, nappe * hit.point.x), moved.at(hit.s).z / height_);
   };
   if (cylinder) {
-    for (int i = 0; i < found.count; ++i) add(i, radius_ < 0 ? -1 : 1);
-  } else if (found.count == 2 && found.square < 0) {
+    for (int i = 0; i < roots.count; ++i) add(i, radius_ < 0 ? -1 : 1);
+  } else if (roots.count == 2 && roots.square < 0) {
     add(0, d.z > 0 ? -1 : 1);
     add(1, d.z > 0 ? 1 : -1);
   } else {
-    const double rho = found.count == 2 ? found.point[0].z + found.point[1].z : found.point[0].z;
-    for (int i = 0; i < found.count; ++i) add(i, rho < 0 ? -1 : 1);
+    double rho = 0;
+    for (int i = 0; i < roots.count; ++i) rho += quadric_hit(quadric, d, roots, i).point.z;
+    for (int i = 0; i < roots.count; ++i) add(i, rho < 0 ? -1 : 1);
   }
 }
 

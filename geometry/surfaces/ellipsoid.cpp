@@ -24,7 +24,7 @@ NurbsCurveForm Ellipsoid::meridian_form() const {
 }
 
 void Ellipsoid::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 1}, 0, -1}, semi_axes(), line, t, hits,
+  add_quadric_hits({{1, 1, 1}, 0, -1}, 1.0 / semi_axes(), line, t, hits,
                    [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
 }
 

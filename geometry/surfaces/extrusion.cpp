@@ -19,8 +19,7 @@ ExtrusionSurface::ExtrusionSurface(CurvePtr curve, const Vec3& along, const Rect
 
 SurfaceJet ExtrusionSurface::evaluate(double u, double v, int order) const {
   const CurveJet c = curve_->evaluate(u, order);
-  SurfaceJet jet;
-  jet.order = order;
+  SurfaceJet jet(order);
   for (int i = 0; i <= order; ++i) jet.d(i, 0) = c.d[i];
   jet.d(0, 0) += v * along_;
   if (order >= 1) jet.d(0, 1) = along_;

@@ -25,7 +25,7 @@ NurbsCurveForm HyperboloidOneSheet::meridian_form() const {
 }
 
 void HyperboloidOneSheet::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, -1}, 0, -1}, {a_, b_, c_}, line, t, hits,
+  add_quadric_hits({{1, 1, -1}, 0, -1}, {1 / a_, 1 / b_, 1 / c_}, line, t, hits,
                    [](const Vec3& p) { return std::optional<double>(std::asinh(p.z)); });
 }
 
@@ -43,7 +43,7 @@ NurbsCurveForm HyperboloidTwoSheets::meridian_form() const {
 }
 
 void HyperboloidTwoSheets::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, -1}, 0, 1}, {a_, b_, c_}, line, t, hits, [](const Vec3& p) {
+  add_quadric_hits({{1, 1, -1}, 0, 1}, {1 / a_, 1 / b_, 1 / c_}, line, t, hits, [](const Vec3& p) {
     return p.z > 0 ? std::optional<double>(std::asinh(std::hypot(p.x, p.y))) : std::nullopt;
   });
 }

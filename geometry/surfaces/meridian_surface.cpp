@@ -38,8 +38,7 @@ void partial_derivatives(const Frame& frame, double a, double b, const T& u, con
 }  // namespace
 
 SurfaceJet MeridianSurface::evaluate(double u, double v, int order) const {
-  SurfaceJet jet;
-  jet.order = order;
+  SurfaceJet jet(order);
   partial_derivatives(frame_, a_, b_, u, meridian(v, order), order, [&](int i, int j, const Triple<double>& r) {
     jet.d(i, j) = {r.x, r.y, r.z};
   });
@@ -110,17 +109,19 @@ void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale
                                        const Interval& range, LineHits& hits,
                                        std::optional<double> (*parameter)(const Vec3&)) const {
   const MovedLine moved = moved_near(line, frame_.origin, frame_);
-  const QuadricHits found = quadric_hits(quadric, moved.origin / scale, moved.direction / scale);
-  for (int i = 0; i < found.count; ++i) {
-    const Vec3& p = found.point[i];
-    if (!range.contains(moved.start + found.s[i])) continue;
-    if (const auto v = parameter(p)) add_hit(hits, range, line, moved.start + found.s[i], std::atan2(p.y, p.x), *v);
+  const Vec3 direction = moved.direction * scale;
+  const QuadricRoots roots = quadric_roots(quadric, moved.origin * scale, direction);
+  const Interval near{range.lo - moved.start, range.hi - moved.start};
+  for (int i = 0; i < roots.count && !hits.is_enough(); ++i) {
+    if (!roots.may_lie_in(near, i)) continue;
+    const QuadricHit hit = quadric_hit(quadric, direction, roots, i);
+    const double t = moved.start + hit.s;
+    if (!range.contains(t)) continue;
+    if (const auto v = parameter(hit.point)) add_hit(hits, line, t, std::atan2(hit.point.y, hit.point.x), *v);
   }
 }
 
-void MeridianSurface::add_hit(LineHits& hits, const Interval& range, const Line& line, double t, double u,
-                              double v) const {
-  if (!range.contains(t)) return;
+void MeridianSurface::add_hit(LineHits& hits, const Line& line, double t, double u, double v) const {
   auto in_v = within(domain_.v, v);
   if (!in_v && std::max(domain_.v.lo - v, v - domain_.v.hi) < kShallowReach * domain_.v.width()) {
     // Rounding of a line that hardly crosses the surface moves the hit far: through an edge it must meet both faces.

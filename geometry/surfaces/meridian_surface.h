@@ -50,10 +50,10 @@ class MeridianSurface : public Surface {
   // (rho, z) as x and y, over domain().v, which is bounded.
   virtual NurbsCurveForm meridian_form() const = 0;
 
-  // Adds the hit at angle u (of atan2) and v if t and both parameters lie in their ranges.
-  void add_hit(LineHits& hits, const Interval& range, const Line& line, double t, double u, double v) const;
+  // Adds the hit at angle u (of atan2) and v if both lie in the domain.
+  void add_hit(LineHits& hits, const Line& line, double t, double u, double v) const;
 
-  // Adds the hits of a line with the quadric, whose coordinates are those of the frame divided by `scale`.
+  // Adds the hits of a line with the quadric, whose coordinates are those of the frame times `scale`.
   // `parameter` is v of a scaled point on it, or nothing where the point belongs to another sheet.
   void add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line, const Interval& range,
                         LineHits& hits, std::optional<double> (*parameter)(const Vec3&)) const;

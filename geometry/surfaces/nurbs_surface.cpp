@@ -106,8 +106,7 @@ SurfaceJet NurbsSurface::evaluate(double u, double v, int order) const {
   Vec4 sums[kInnerCount];
   tensor_sums(form_, pu.span, pv.span, bu, bv, evaluated, sums);
 
-  SurfaceJet jet;
-  jet.order = order;
+  SurfaceJet jet(order);
   if (!outside && !rational_) {
     for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k) jet.values[k] = Vec3(sums[k]);
   } else if (!outside) {

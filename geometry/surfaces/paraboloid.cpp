@@ -22,7 +22,7 @@ NurbsCurveForm EllipticParaboloid::meridian_form() const {
 }
 
 void EllipticParaboloid::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 0}, -1, 0}, {a_, b_, 1}, line, t, hits,
+  add_quadric_hits({{1, 1, 0}, -1, 0}, {1 / a_, 1 / b_, 1}, line, t, hits,
                    [](const Vec3& p) { return std::optional<double>(std::hypot(p.x, p.y)); });
 }
 
@@ -67,11 +67,16 @@ std::optional<NurbsSurfaceForm> HyperbolicParaboloid::as_nurbs() const {
 void HyperbolicParaboloid::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   const MovedLine moved = moved_near(line, frame_.origin, frame_);
   const Vec3 scale(a_, b_, 1);
-  const QuadricHits found = quadric_hits({{1, -1, 0}, -1, 0}, moved.origin / scale, moved.direction / scale);
-  for (int i = 0; i < found.count; ++i) {
-    const double t = moved.start + found.s[i];
+  const Quadric quadric{{1, -1, 0}, -1, 0};
+  const Vec3 direction = moved.direction / scale;
+  const QuadricRoots roots = quadric_roots(quadric, moved.origin / scale, direction);
+  const Interval near{range.lo - moved.start, range.hi - moved.start};
+  for (int i = 0; i < roots.count && !hits.is_enough(); ++i) {
+    if (!roots.may_lie_in(near, i)) continue;
+    const QuadricHit hit = quadric_hit(quadric, direction, roots, i);
+    const double t = moved.start + hit.s;
     if (!range.contains(t)) continue;
-    const auto u = within(domain_.u, found.point[i].x), v = within(domain_.v, found.point[i].y);
+    const auto u = within(domain_.u, hit.point.x), v = within(domain_.v, hit.point.y);
     if (u && v) hits.add({t, *u, *v});
   }
 }

@@ -23,6 +23,7 @@ inline double range_slack(const Interval& range) {
 
 // x moved into the range if it lies inside or within rounding of it, or nearer than `least_slack`.
 inline std::optional<double> within(const Interval& range, double x, double least_slack = 0) {
+  if (range.contains(x)) return x;
   const double slack = std::max(range_slack(range), least_slack);
   if (!(x >= range.lo - slack && x <= range.hi + slack)) return std::nullopt;
   return range.clamp(x);
@@ -30,6 +31,8 @@ inline std::optional<double> within(const Interval& range, double x, double leas
 
 // The same for an angle in [-pi, pi], which may be meant any number of turns away.
 inline std::optional<double> angle_within(const Interval& range, double angle) {
+  if (range.contains(angle)) return angle;
+  if (range.contains(angle + kTwoPi)) return angle + kTwoPi;
   const double slack = 4 * std::numeric_limits<double>::epsilon() * std::max({kPi, -range.lo, range.hi});
   const double turns = std::ceil((range.lo - slack - angle) / kTwoPi);
   const double x = angle + turns * kTwoPi;

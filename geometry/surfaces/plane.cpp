@@ -10,10 +10,16 @@
 namespace lekalo::geometry {
 
 namespace {
-const DomainRules kRules{{Interval::entire(), Interval::entire()}, false, false};
-}
 
-Plane::Plane(const Frame& frame, const Rectangle& domain) : frame_(frame), domain_(domain) {
+const DomainRules kRules{{Interval::entire(), Interval::entire()}, false, false};
+
+// A bound on the length that needs no root.
+double taxicab(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+}  // namespace
+
+Plane::Plane(const Frame& frame, const Rectangle& domain)
+    : frame_(frame), domain_(domain), distance_(taxicab(frame.origin)) {
   check_domain(domain, kRules);
 }
 
@@ -22,8 +28,7 @@ bool Plane::bounded() const {
 }
 
 SurfaceJet Plane::evaluate(double u, double v, int order) const {
-  SurfaceJet jet;
-  jet.order = order;
+  SurfaceJet jet(order);
   jet.d(0, 0) = frame_.origin + (u * frame_.x + v * frame_.y);
   if (order >= 1) {
     jet.d(1, 0) = frame_.x;
@@ -50,35 +55,32 @@ std::optional<NurbsSurfaceForm> Plane::as_nurbs() const {
   return form;
 }
 
-namespace {
-// A bound on the length that needs no root.
-double taxicab(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-}  // namespace
-
 void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
-  const double speed = glm::dot(line.direction, frame_.z);
+  const double speed = glm::dot(line.direction, frame_.z), length = taxicab(line.direction);
   constexpr double kParallel = 4 * std::numeric_limits<double>::epsilon();
-  if (speed * speed <= kParallel * kParallel * glm::dot(line.direction, line.direction)) return;
+  if (std::abs(speed) <= kParallel * length) return;
   const double inverse = 1 / speed;
   const double rough = glm::dot(frame_.origin - line.origin, frame_.z) * inverse;
-  // Clearly behind the origin of a ray or beyond its end.
-  const double length = taxicab(line.direction), distance = taxicab(line.origin);
-  const double slack = 2e-15 * (std::abs(rough) * length + taxicab(frame_.origin) + distance) * std::abs(inverse);
-  if (rough < range.lo - slack || rough > range.hi + slack) return;
+  if (!range.contains(rough)) {
+    // Behind the origin of a ray or beyond its end, and clearly so?
+    const double slack = 2e-15 * (std::abs(rough) * length + distance_ + taxicab(line.origin)) * std::abs(inverse);
+    if (rough < range.lo - slack || rough > range.hi + slack) return;
+  }
   // Anew from the rough hit.
   const Vec3 from = fused_at(line, rough) - frame_.origin;
   const double s = -glm::dot(from, frame_.z) * inverse;
   const double t = rough + s;
   if (!range.contains(t)) return;
-  const Vec3 p(glm::dot(from, frame_.x) + s * glm::dot(line.direction, frame_.x),
-               glm::dot(from, frame_.y) + s * glm::dot(line.direction, frame_.y), 0);
-  if (!bounded()) {
-    if (const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y); u && v) hits.add({t, *u, *v});
+  const double x = glm::dot(from, frame_.x) + s * glm::dot(line.direction, frame_.x);
+  const double y = glm::dot(from, frame_.y) + s * glm::dot(line.direction, frame_.y);
+  if (domain_.contains(x, y)) {
+    hits.add({t, x, y});
     return;
   }
   // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
-  const double shallow = kShallowSlack * (distance + std::abs(t) * length) * length * std::abs(inverse);
-  const auto u = within(domain_.u, p.x, shallow), v = within(domain_.v, p.y, shallow);
+  const double shallow =
+      bounded() ? kShallowSlack * (taxicab(line.origin) + std::abs(t) * length) * length * std::abs(inverse) : 0;
+  const auto u = within(domain_.u, x, shallow), v = within(domain_.v, y, shallow);
   if (u && v) hits.add({t, *u, *v});
 }
 

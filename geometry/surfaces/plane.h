@@ -24,6 +24,7 @@ class Plane final : public Surface {
  private:
   Frame frame_;
   Rectangle domain_;
+  double distance_;  // a bound on that of the origin
 };
 
 }  // namespace lekalo::geometry

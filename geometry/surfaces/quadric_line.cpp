@@ -24,53 +24,52 @@ inline double discriminant(double a, double b, double c) {
 
 }  // namespace
 
-LEKALO_FUSED QuadricHits quadric_hits(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
-  QuadricHits hits;
+LEKALO_FUSED QuadricRoots quadric_roots(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
+  QuadricRoots roots;
   Vec3 o = origin;
   const Vec3& d = direction;
   const double dd = glm::dot(d, d);
   double a = quadric.square(d);
   if (std::abs(a) <= 4 * kEpsilon * dd) a = 0;
-  double b = quadric.half_slope(o, d), start = 0;
+  double b = quadric.half_slope(o, d);
   if (std::abs(a) > 0.25 * dd) {
-    start = -b / a;
-    o += start * d;
+    roots.start = -b / a;
+    o += roots.start * d;
     b = quadric.half_slope(o, d);
   }
   const double c = quadric.value(o);
-  const double size = glm::length(o) + std::abs(quadric.constant) + std::abs(quadric.linear_z);
-  if (a == 0 && std::abs(b) <= 4 * kEpsilon * std::sqrt(dd) * size) return hits;
-
-  hits.square = a;
   if (a == 0) {
-    hits.count = 1;
-    hits.s[0] = -0.5 * c / b;
+    const double size = glm::length(o) + std::abs(quadric.constant) + std::abs(quadric.linear_z);
+    if (std::abs(b) <= 4 * kEpsilon * std::sqrt(dd) * size) return roots;
+    roots.count = 1;
+    roots.s[0] = -0.5 * c / b;
   } else {
     double root = discriminant(a, b, c);
     if (!(root > 0)) {
       // A line inside a cone's opening crosses both nappes, through the apex as well; rounding must not lose that.
       const bool cone = quadric.squares.z < 0 && quadric.constant == 0 && quadric.linear_z == 0;
-      if (!(cone && a < 0)) return hits;
+      if (!(cone && a < 0)) return roots;
       root = 0;
     }
     const double q = -(b + std::copysign(std::sqrt(root), b));
-    hits.count = 2;
-    hits.s = {q / a, q == 0 ? 0.0 : c / q};
-    if (hits.s[0] > hits.s[1]) std::swap(hits.s[0], hits.s[1]);
+    roots.count = 2;
+    roots.s = {q / a, q == 0 ? 0.0 : c / q};
+    if (roots.s[0] > roots.s[1]) std::swap(roots.s[0], roots.s[1]);
   }
-  for (int i = 0; i < hits.count; ++i) {
-    double& s = hits.s[i];
-    Vec3 p = o + s * d;
-    const double slope = quadric.half_slope(p, d);
-    const double step = -0.5 * quadric.value(p) / slope;
-    if (std::abs(step) <= 1e-6 * std::abs(s)) {
-      s += step;
-      p = o + s * d;
-    }
-    hits.point[i] = p;
-    s += start;
+  roots.square = a;
+  roots.origin = o;
+  return roots;
+}
+
+QuadricHit quadric_hit(const Quadric& quadric, const Vec3& direction, const QuadricRoots& roots, int i) {
+  double s = roots.s[i];
+  Vec3 p = roots.origin + s * direction;
+  const double step = -0.5 * quadric.value(p) / quadric.half_slope(p, direction);
+  if (std::abs(step) <= QuadricRoots::kLargestStep * std::abs(s)) {
+    s += step;
+    p = roots.origin + s * direction;
   }
-  return hits;
+  return {roots.start + s, p};
 }
 
 }  // namespace lekalo::geometry

@@ -1,6 +1,10 @@
 // Hits of a line with a quadric in its own, scaled coordinates.
 #pragma once
 
+#include <array>
+#include <cmath>
+
+#include "geometry/numerics/interval.h"
 #include "geometry/vectors.h"
 
 namespace lekalo::geometry {
@@ -17,15 +21,33 @@ struct Quadric {
   double square(const Vec3& d) const { return glm::dot(squares * d, d); }
 };
 
-struct QuadricHits {
+// Roots of F(origin + s direction) before the last Newton step.
+struct QuadricRoots {
   int count = 0;
-  std::array<double, 2> s{};    // increasing, in units of the direction
-  std::array<Vec3, 2> point{};  // in scaled coordinates
-  double square = 0;            // F's second-order part of the direction, zero where it is only rounding
+  std::array<double, 2> s{};  // increasing, in units of the direction, from start
+  double start = 0;           // from the origin that was given to `origin`
+  Vec3 origin{0};
+  double square = 0;  // F's second-order part of the direction, zero where it is only rounding
+
+  // False if the root will not lie in the range (which counts from the given origin) after the last step either; only
+  // for not doing work.
+  bool may_lie_in(const Interval& range, int i) const {
+    const double slack = 2 * kLargestStep * (std::abs(s[i]) + std::abs(start)), at = start + s[i];
+    return at >= range.lo - slack && at <= range.hi + slack;
+  }
+  static constexpr double kLargestStep = 1e-6;  // of a last step, as a part of the root
 };
 
-// Roots of F(origin + s direction); none at a double root: a line that touches does not count. A line that lies in the
-// surface has no hits. A cone (x^2 + y^2 - z^2 = 0) is hit twice by every line steeper than it, at its apex also.
-QuadricHits quadric_hits(const Quadric& quadric, const Vec3& origin, const Vec3& direction);
+// A root after the last step, from the given origin, and its point in scaled coordinates.
+struct QuadricHit {
+  double s;
+  Vec3 point;
+};
+
+// None at a double root: a line that touches does not count. A line that lies in the surface has no hits. A cone
+// (x^2 + y^2 - z^2 = 0) is hit twice by every line steeper than it, at its apex also.
+QuadricRoots quadric_roots(const Quadric& quadric, const Vec3& origin, const Vec3& direction);
+
+QuadricHit quadric_hit(const Quadric& quadric, const Vec3& direction, const QuadricRoots& roots, int i);
 
 }  // namespace lekalo::geometry

@@ -56,8 +56,7 @@ RevolutionSurface::RevolutionSurface(CurvePtr curve, const Axis& axis, const Rec
 SurfaceJet RevolutionSurface::evaluate(double u, double v, int order) const {
   CurveJet c = curve_->evaluate(u, order);
   c.d[0] -= frame_.origin;
-  SurfaceJet jet;
-  jet.order = order;
+  SurfaceJet jet(order);
   partial_derivatives(
       frame_, v, order, [&](int i) { return triple(c.d[i]); },
       [&](int i, int j, const Triple<double>& r) {

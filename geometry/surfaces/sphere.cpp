@@ -23,7 +23,7 @@ NurbsCurveForm SphereSurface::meridian_form() const {
 }
 
 void SphereSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(radius_), line, t, hits, [](const Vec3& p) {
+  add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / radius_), line, t, hits, [](const Vec3& p) {
     return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
   });
 }

@@ -26,7 +26,11 @@ DomainRules rules(double major, double minor) {
 struct Crossings {
   int count = 0;
   std::array<double, 5> s{};
-  void add(double x) { s[count++] = x; }
+  void add(double x) {
+    int i = count++;
+    for (; i > 0 && s[i - 1] > x; --i) s[i] = s[i - 1];
+    s[i] = x;
+  }
 };
 
 Crossings crossings(const std::array<double, 5>& quartic, const Interval& stretch) {
@@ -63,7 +67,7 @@ NurbsCurveForm TorusSurface::meridian_form() const {
 
 void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   if (major_ == 0) {
-    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(minor_), line, range, hits,
+    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / minor_), line, range, hits,
                      [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
     return;
   }
@@ -80,17 +84,21 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
   const double alpha = d.x * d.x + d.y * d.y, beta = o.x * d.x + o.y * d.y, gamma = o.x * o.x + o.y * o.y;
   const std::array<double, 5> quartic{k * k - four * gamma, 4 * b * k - 2 * four * beta,
                                       4 * b * b + 2 * k - four * alpha, 4 * b, 1};
+  constexpr double kLargestStep = 1e-6;
+  const double unit = size / speed;
   const auto add = [&](double s) {
+    const double rough = moved.start + s * unit, slack = 4 * kLargestStep * unit + 1e-15 * std::abs(moved.start);
+    if (rough < range.lo - slack || rough > range.hi + slack) return;
     // Newton on (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic.
     for (int step = 0; step < 2; ++step) {
       const Vec3 p = o + s * d;
       const double rho = std::sqrt(p.x * p.x + p.y * p.y), across = rho - major;
       const double f = across * across + (p.z - minor) * (p.z + minor);
       const double change = -0.5 * f / (across * (p.x * d.x + p.y * d.y) / rho + p.z * d.z);
-      if (!(std::abs(change) <= 1e-6)) break;
+      if (!(std::abs(change) <= kLargestStep)) break;
       s += change;
     }
-    const double t = moved.start + s * (size / speed);
+    const double t = moved.start + s * unit;
     if (!range.contains(t)) return;
     const Vec3 p = o + s * d;
     const auto u = angle_within(domain_.u, std::atan2(p.y, p.x));
@@ -98,7 +106,7 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     if (u && v) hits.add({t, *u, *v});
   };
   const auto add_all = [&](const Crossings& found) {
-    for (int i = 0; i < found.count; ++i) add(found.s[i]);
+    for (int i = 0; i < found.count && !hits.is_enough(); ++i) add(found.s[i]);
   };
 
   const double discriminant = b * b - k;

@@ -35,8 +35,6 @@ void for_each_data_run(TiledFilm& film, int tile, Visit visit) {
   }
 }
 
-size_t sum_count(const Window& w) { return static_cast<size_t>(w.width()) * w.height() * TileSums::kPlanes; }
-
 }  // namespace
 
 void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, const std::vector<int>& done,
@@ -85,7 +83,7 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
     if (tile >= static_cast<uint64_t>(film.tile_count()))
       throw ImageError(file, "the partial picture is damaged", "render without --resume");
     TileSums& sums = film.sums()[tile];
-    sums.values.resize(sum_count(sums.window));
+    sums.values.resize(static_cast<size_t>(sums.window.width()) * sums.window.height() * film.planes());
     read(sums.values.data(), sums.values.size() * sizeof(float));
     for_each_data_run(film, static_cast<int>(tile), read);
     done.push_back(static_cast<int>(tile));

@@ -61,6 +61,8 @@ class TileTracer {
  public:
   TileTracer(const World& world, TiledFilm& film)
       : world_(world),
+        camera_(*world.model().camera),
+        integrator_(*world.model().integrator),
         film_(film),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
         materials_(world.model().objects) {}
@@ -87,24 +89,33 @@ class TileTracer {
     Exposure(const TiledFilm& film, int number)
         : film(film),
           window(film.sums_window(number)),
-          sums(static_cast<size_t>(window.width()) * window.height() * TileSums::kPlanes),
+          sums(static_cast<size_t>(window.width()) * window.height() * film.planes()),
           weights(2 * film.reach() + 1) {}
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
     void add(int x, int y, const Vec2& place, const RaySample& sample, double share) {
-      constexpr int n = TileSums::kPlanes;
       const int reach = film.reach();
-      const double values[n] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
-                                sample.direct[0],   sample.direct[1],   sample.direct[2],   1};
-      for (int i = -reach; i <= reach; ++i) weights[i + reach] = share * film.filter().weight(place.x - i - 0.5);
-      for (int qy = std::max(y - reach, window.y0); qy <= std::min(y + reach, window.y1 - 1); ++qy) {
-        const double weight_y = film.filter().weight(place.y - (qy - y) - 0.5);
-        for (int qx = std::max(x - reach, window.x0); qx <= std::min(x + reach, window.x1 - 1); ++qx) {
-          const double weight = weight_y * weights[qx - x + reach];
-          double* sum = &sums[(static_cast<size_t>(qy - window.y0) * window.width() + (qx - window.x0)) * n];
-          for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
-        }
+      const float all[] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
+                           sample.direct[0],   sample.direct[1],   sample.direct[2]};
+      const float* const values = all + film.first_filtered();
+      const Filter& filter = film.filter();
+      if (reach == 0) {
+        if (window.contains(x, y))
+          deposit(x, y, values, share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
+        return;
       }
+      for (int i = -reach; i <= reach; ++i) weights[i + reach] = share * filter.weight(place.x - i - 0.5);
+      for (int qy = std::max(y - reach, window.y0); qy <= std::min(y + reach, window.y1 - 1); ++qy) {
+        const double weight_y = filter.weight(place.y - (qy - y) - 0.5);
+        for (int qx = std::max(x - reach, window.x0); qx <= std::min(x + reach, window.x1 - 1); ++qx)
+          deposit(qx, qy, values, weight_y * weights[qx - x + reach]);
+      }
+    }
+    void deposit(int x, int y, const float* values, double weight) {
+      const int n = film.planes() - 1;
+      double* sum = &sums[(static_cast<size_t>(y - window.y0) * window.width() + (x - window.x0)) * (n + 1)];
+      for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
+      sum[n] += weight;
     }
     void finish(TileSums& result) const { result.values.assign(sums.begin(), sums.end()); }
 
@@ -116,8 +127,8 @@ class TileTracer {
 
   RaySample sample_at(int x, int y, const Vec2& place, int number, Tally& tally) const {
     SampleStream random = sampler_->stream(x, y, number);
-    const Ray ray = world_.model().camera->ray(x + place.x, y + place.y);
-    RaySample sample = world_.model().integrator->trace(world_, ray, random);
+    const Ray ray = camera_.ray(x + place.x, y + place.y);
+    RaySample sample = integrator_.trace(world_, ray, random);
     ++tally.camera_rays;
     tally.shadow_rays += sample.shadow_rays;
     tally.other_rays += sample.other_rays;
@@ -126,11 +137,12 @@ class TileTracer {
   }
 
   void trace_evenly(const Window& tile, Exposure& exposure) const {
+    const int samples = sampler_->samples_per_pixel();
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         double nearest = geometry::kInfinity;
         int counted = 0;
-        for (int s = 0; s < sampler_->samples_per_pixel(); ++s) {
+        for (int s = 0; s < samples; ++s) {
           const Vec2 place = sampler_->pixel_position(x, y, s);
           const RaySample sample = sample_at(x, y, place, s, exposure.tally);
           if (!is_finite(sample)) continue;
@@ -208,31 +220,36 @@ class TileTracer {
   // The data layers of a sample.
   void store(int x, int y, const RaySample& sample) const {
     const size_t i = pixel(x, y);
-    const bool hit = sample.hit;
-    const SurfacePoint& point = sample.point;
     const auto set = [&](FilmChannel c, double value) {
-      if (Channel* kept = film_.channel(c)) kept->values[i] = hit ? static_cast<float>(value) : 0.0f;
+      if (Channel* kept = film_.channel(c)) kept->values[i] = static_cast<float>(value);
     };
     const auto set3 = [&](FilmChannel first, const Vec3& v) {
-      if (!film_.channel(first)) return;
       for (int k = 0; k < 3; ++k) set(static_cast<FilmChannel>(first + k), v[k]);
     };
+    if (!film_.keeps_data()) return;
+    if (Channel* key = film_.channel(kKey)) key->ids[i] = static_cast<uint32_t>(sample.key ^ (sample.key >> 32));
+    if (!sample.point) {
+      film_.clear_data(i);
+      return;
+    }
+    const SurfacePoint& point = *sample.point;
     set(kZ, sample.depth);
     set3(kPX, point.position);
     set3(kNX, point.normal);
     set3(kNgX, point.geometric_normal);
     set(kU, point.u);
     set(kV, point.v);
-    set3(kAlbedoR, rgb(sample.albedo));
+    const Material& material = world_.material(point, glm::dot(point.incoming, point.geometric_normal) < 0);
+    if (film_.channel(kAlbedoR)) set3(kAlbedoR, rgb(material.albedo(point, Wavelengths{})));
     if (Channel* object = film_.channel(kObject)) {
-      const bool front = glm::dot(point.incoming, point.geometric_normal) < 0;
-      object->ids[i] = hit ? static_cast<uint32_t>(point.object + 1) : 0;
-      film_.channel(kMaterial)->ids[i] = hit ? materials_(world_.material(point, front)) : 0;
+      object->ids[i] = static_cast<uint32_t>(point.object + 1);
+      film_.channel(kMaterial)->ids[i] = materials_(material);
     }
-    if (Channel* key = film_.channel(kKey)) key->ids[i] = static_cast<uint32_t>(sample.key ^ (sample.key >> 32));
   }
 
   const World& world_;
+  const Camera& camera_;
+  const Integrator& integrator_;
   TiledFilm& film_;
   SamplerPtr sampler_;
   MaterialNumbers materials_;

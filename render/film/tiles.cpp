@@ -101,7 +101,9 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
                            : c <= kA && film.half_color ? PixelType::half
                                                         : PixelType::float32;
     add_channel(image_, std::string(name), type);
-    if (c <= kDirectB) first_data_channel_ = channel_[c] + 1;
+    if (c > kDirectB) continue;
+    filtered_.push_back(static_cast<FilmChannel>(c));
+    first_data_channel_ = channel_[c] + 1;
   }
 
   uint64_t hash = 0;
@@ -126,19 +128,32 @@ const std::vector<std::string>& film_layers() {
   return names;
 }
 
+void TiledFilm::clear_data(size_t pixel) {
+  for (int c = kZ; c < kSamples; ++c)
+    if (Channel* kept = channel(static_cast<FilmChannel>(c))) {
+      if (kept->type == PixelType::uint32)
+        kept->ids[pixel] = 0;
+      else
+        kept->values[pixel] = 0;
+    }
+}
+
 void TiledFilm::develop() {
-  constexpr int n = TileSums::kPlanes;
-  std::vector<std::pair<int, float*>> planes;  // place among the sums, values
-  for (int c = kR; c <= kDirectB; ++c)
-    if (Channel* kept = channel(static_cast<FilmChannel>(c))) planes.push_back({c, kept->values.data()});
+  const int n = planes();
+  std::vector<float*> values;
+  for (const FilmChannel c : filtered_) values.push_back(channel(c)->values.data());
+  // Rows of the picture one after the other: the tiles that reach a row are searched once for some of them.
   tbb::parallel_for(tbb::blocked_range<int>(crop_.y0, crop_.y1, 16), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<const TileSums*> near;
+    for (const TileSums& tile : sums_)
+      if (!tile.values.empty() && tile.window.y0 < rows.end() && tile.window.y1 > rows.begin()) near.push_back(&tile);
     std::vector<double> row(static_cast<size_t>(crop_.width()) * n);
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::fill(row.begin(), row.end(), 0.0);
-      for (const TileSums& tile : sums_) {
-        const Window& w = tile.window;
-        if (tile.values.empty() || y < w.y0 || y >= w.y1) continue;
-        const float* from = &tile.values[static_cast<size_t>(y - w.y0) * w.width() * n];
+      for (const TileSums* tile : near) {
+        const Window& w = tile->window;
+        if (y < w.y0 || y >= w.y1) continue;
+        const float* from = &tile->values[static_cast<size_t>(y - w.y0) * w.width() * n];
         double* to = &row[static_cast<size_t>(w.x0 - crop_.x0) * n];
         for (int i = 0; i < w.width() * n; ++i) to[i] += from[i];
       }
@@ -146,8 +161,7 @@ void TiledFilm::develop() {
       for (int x = 0; x < crop_.width(); ++x) {
         const double* sum = &row[static_cast<size_t>(x) * n];
         const double weight = sum[n - 1];
-        for (const auto& [place, values] : planes)
-          values[first + x] = weight > 0 ? static_cast<float>(sum[place] / weight) : 0.0f;
+        for (int i = 0; i < n - 1; ++i) values[i][first + x] = weight > 0 ? static_cast<float>(sum[i] / weight) : 0.0f;
       }
     }
   });

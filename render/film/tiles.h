@@ -33,9 +33,8 @@ struct Tally {
   Tally& operator+=(const Tally& other);
 };
 
-// Sums of one tile: r g b alpha, direct r g b, weight for each pixel of `window`, row by row.
+// Sums of one tile: the filtered channels that the film keeps, then the weight, for each pixel of `window`, row by row.
 struct TileSums {
-  static constexpr int kPlanes = 8;
   Window window;  // the tile with its margin
   std::vector<float> values;
 };
@@ -85,7 +84,14 @@ class TiledFilm {
   // A channel of the image, or nullptr if the film does not keep it.
   Channel* channel(FilmChannel c) { return channel_[c] < 0 ? nullptr : &image_.channels[channel_[c]]; }
   int first_data_channel() const { return first_data_channel_; }  // those before are filtered
-  std::vector<TileSums>& sums() { return sums_; }                 // empty values: not done
+  // True with channels that describe what the nearest sample to a pixel's centre saw; sets those of a pixel to nothing.
+  bool keeps_data() const { return first_data_channel_ < static_cast<int>(image_.channels.size()); }
+  void clear_data(size_t pixel);
+  std::vector<TileSums>& sums() { return sums_; }  // empty values: not done
+  // The filtered channels kept are a run of kR..kDirectB, as layers come whole: the first, and the numbers in the sums
+  // of a pixel, one for each of them and the weight.
+  FilmChannel first_filtered() const { return filtered_.empty() ? kR : filtered_.front(); }
+  int planes() const { return static_cast<int>(filtered_.size()) + 1; }
 
   const Window& sums_window(int i) const { return sums_[i].window; }
 
@@ -103,6 +109,7 @@ class TiledFilm {
   std::vector<TileSums> sums_;
   Image image_;
   std::array<int, kFilmChannels> channel_;
+  std::vector<FilmChannel> filtered_;
   int first_data_channel_ = 0;
   uint64_t settings_hash_ = 0;
 };

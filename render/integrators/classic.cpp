@@ -9,6 +9,8 @@
 // lanes: the classic model has no dispersion.
 #include "render/integrators/classic.h"
 
+#include <bit>
+
 #include "geometry/describe.h"
 #include "render/integrators/classic_model.h"
 #include "render/integrators/media.h"
@@ -42,37 +44,34 @@ struct Illumination {
 struct Seen {
   SurfacePoint point;
   bool front = true;
-  Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
-  double length = 0;                             // of the way from the eye
+  double length = 0;                                   // of the way from the eye
+  Vec3 geometric_normal{}, smooth_normal{}, normal{};  // of the facet; of the surface; after bumps
 };
 
 class Tracer {
  public:
   Tracer(const World& world, const ClassicOptions& options, double reference_depth, SampleStream& random,
          RaySample& sample)
-      : world_(world), options_(options), reference_depth_(reference_depth), random_(random), sample_(sample) {
-    for (const LightPtr& light : world.lights()) ambient_ += light->ambient();
-  }
+      : world_(world), options_(options), reference_depth_(reference_depth), random_(random), sample_(sample) {}
 
   // `weight`: what the light of this ray is multiplied with on its way to the eye; `length`: of the way up to its
   // origin.
   Spectrum radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length);
 
  private:
-  Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, const ClassicCoefficients& c,
-                 const Media& media, const Media& behind, int depth, const Spectrum& weight);
+  Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
+                 const Media& behind, int depth, const Spectrum& weight);
   Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
   Spectrum passing(const Ray& shadow_ray, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
-  void record(const Seen& seen, const Material& material);
-  void mix(uint64_t value) { sample_.key = hash_combine(sample_.key, value); }
+  void record(const Seen& seen);
+  void mix(uint64_t value) { sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u; }
 
   const World& world_;
   const ClassicOptions& options_;
   double reference_depth_;
   SampleStream& random_;
   RaySample& sample_;
-  Spectrum ambient_;
 };
 
 Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length) {
@@ -83,9 +82,7 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
       mix(0);
       return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
     }
-    Seen seen;
-    seen.point = world_.surface_point(ray, hit);
-    seen.point.incoming = ray.direction;
+    Seen seen{world_.surface_point(ray, hit)};
     seen.front = glm::dot(ray.direction, seen.point.geometric_normal) < 0;
     seen.length = length + hit.t;
 
@@ -97,7 +94,7 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
     through *= transmittance(media.current().absorption, hit.t);
 
     const Material& material = world_.material(seen.point, seen.front);
-    const ClassicCoefficients c = material.classic(seen.point, Wavelengths{});
+    ClassicCoefficients c = material.classic(seen.point, Wavelengths{});
     const bool is_boundary = !medium || (seen.front ? behind : media).filling() == body;
     if (is_boundary && (seen.front || !c.catches_shadows)) {
       const double side = seen.front ? 1 : -1;
@@ -113,13 +110,13 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
   return {};
 }
 
-Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& material, const ClassicCoefficients& given,
+Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c,
                        const Media& media, const Media& behind, int depth, const Spectrum& weight) {
-  ClassicCoefficients c = given;
   if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
   mix(static_cast<uint64_t>(seen.point.instance) << 32 | static_cast<uint32_t>(seen.point.face));
-  mix(hash_combine(seen.front, material.cell(seen.point)));
-  if (depth == 0) record(seen, material);
+  mix(seen.front);
+  mix(material.cell(seen.point));
+  if (depth == 0) record(seen);
 
   const Illumination light = illuminate(ray, seen, c, media);
   if (c.catches_shadows) return caught_shadow(light, c, depth == 0);
@@ -128,7 +125,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
                            ? static_cast<float>(depth_factor(options_.depth_attenuation, seen.length, reference_depth_))
                            : 1.0f;
   const Spectrum direct =
-      fading * (c.ambient * ambient_) +
+      fading * (c.ambient * world_.ambient()) +
       (options_.attenuate_lights ? fading : 1.0f) * (c.diffuse * light.diffuse + c.specular * light.specular);
   if (depth == 0) sample_.direct = direct;
   Spectrum sum = c.emission + direct;
@@ -197,7 +194,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   Ray shadow_ray;
   shadow_ray.kind = RayKind::shadow;
   shadow_ray.origin = world_.leave(seen.point, seen.geometric_normal);
-  for (const LightPtr& light : world_.lights()) {
+  for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
     // What a cone of light brings is known; the samples only take away what is hidden. Without a shadow there is no
@@ -277,19 +274,17 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
 Spectrum Tracer::caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first) {
   Spectrum missing;  // share of the light that does not arrive, times the strength of shadows
   for (int i = 0; i < 4; ++i) {
-    const float open = ambient_[i] + light.unobstructed[i];
+    const float open = world_.ambient()[i] + light.unobstructed[i];
     if (open > 0) missing.set(i, c.diffuse[i] * (light.unobstructed[i] - light.diffuse[i]) / open);
   }
   if (first) sample_.alpha = missing.largest();
   return (kWhite - missing) * world_.model().background;
 }
 
-void Tracer::record(const Seen& seen, const Material& material) {
-  sample_.hit = true;
+void Tracer::record(const Seen& seen) {
   sample_.alpha = 1;
   sample_.point = seen.point;
   sample_.depth = seen.length;
-  sample_.albedo = material.albedo(seen.point, Wavelengths{});
 }
 
 class ClassicIntegrator final : public Integrator {
@@ -298,7 +293,6 @@ class ClassicIntegrator final : public Integrator {
 
   RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
     RaySample sample;
-    sample.alpha = 0;
     Tracer tracer(world, options_, reference_depth(world, ray), random, sample);
     sample.radiance = tracer.radiance(ray, Media(), 0, kWhite, 0);
     return sample;

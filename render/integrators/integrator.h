@@ -13,14 +13,12 @@ namespace lekalo::render {
 
 class World;
 
-// What one camera ray brings to the film. Data values are those of the first hit.
+// What one camera ray brings to the film.
 struct RaySample {
   Spectrum radiance;
-  float alpha = 1;  // 0 where nothing was hit
-  bool hit = false;
-  SurfacePoint point;  // valid when hit
-  double depth = 0;    // distance along the ray
-  Spectrum albedo;
+  float alpha = 0;                    // 0 where nothing was hit
+  std::optional<SurfacePoint> point;  // first hit
+  double depth = 0;                   // distance along the ray to it
   Spectrum direct;     // light of sources (ambient ones too) on the first hit, without reflections and refractions
   bool noisy = false;  // another sample of the same place might have shown another colour: a penumbra
   uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample

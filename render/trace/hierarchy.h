@@ -1,8 +1,9 @@
 // Pieces, triangles, shapes and instances in a bounding-volume hierarchy. Every Embree call of the program is in
-// hierarchy.cpp; see docs/internals/rays.md for what the floats may and may not decide.
+// hierarchy*.cpp and device.cpp; see docs/internals/rays.md for what the floats may and may not decide.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -58,8 +59,7 @@ class Hierarchy {
   // outermost instance or leaf was added for.
   struct Place {
     const Leaf* leaf = nullptr;
-    Affine to_world;
-    bool moved = false;  // to_world is not the identity
+    std::optional<Affine> to_world;  // the identity where there is none
     int object = 0;
     double error = 0;  // bound on the distance between what Embree saw and what is meant, in this space
   };
@@ -75,7 +75,7 @@ class Hierarchy {
 
   struct Parts;
   struct Query;
-  void run(Query& query) const;  // one query in this hierarchy's space; used by the callbacks of hierarchy.cpp
+  void run(Query& query) const;  // one query in this hierarchy's space; used by Embree's callbacks
 
  private:
   std::unique_ptr<Parts> parts_;

@@ -69,6 +69,78 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
   return glm::clamp(foot, lo + inside, hi - inside);
 }
 
+// What a hit shows in the space of its leaf.
+struct LocalPoint {
+  double u, v;
+  Vec3 position, smooth_position, du, dv, geometric_normal, normal;
+};
+
+LocalPoint point_of_surface(const Leaf& leaf, const Hit& hit) {
+  const Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
+  const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
+  const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
+  const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
+  return {hit.u, hit.v, jet.point(), jet.point(), jet.du(), jet.dv(), normal, normal};
+}
+
+LocalPoint point_of_mesh(const Leaf& leaf, const Hit& hit) {
+  LocalPoint point;
+  point.u = hit.u;
+  point.v = hit.v;
+  point.du = point.dv = Vec3(0);
+  Vec3 geometric, shading;
+  const geometry::Mesh& mesh = *leaf.mesh;
+  const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
+  const Vec3 p[3] = {mesh.points[triangle.point[0]], mesh.points[triangle.point[1]], mesh.points[triangle.point[2]]};
+  const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
+  point.position = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
+  geometric = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+  shading = geometric;
+  point.smooth_position = point.position;
+  const bool has_parameters = !mesh.parameters.empty() && triangle.parameter[0] >= 0;
+  Vec2 q[3];
+  for (int k = 0; has_parameters && k < 3; ++k) q[k] = mesh.parameters[triangle.parameter[k]];
+  if (has_parameters && !leaf.mesh_surfaces.empty() && !leaf.flat) {
+    // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
+    const Surface& surface = *leaf.mesh_surfaces[hit.face];
+    const Vec2 foot = foot_on(surface, point.position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
+    const geometry::SurfaceJet jet = surface.evaluate(foot.x, foot.y, 1);
+    point.u = foot.x;
+    point.v = foot.y;
+    point.du = jet.du();
+    point.dv = jet.dv();
+    shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, foot.x, foot.y, jet);
+    if (glm::dot(shading, geometric) < 0) geometric = -geometric;
+    // Rays to lights start on the surface itself where it stands above the facet: no terminator along the facets.
+    const double above = glm::dot(jet.point() - point.position, geometric);
+    if (above > 0) point.smooth_position = jet.point();
+  } else {
+    if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
+      const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
+                         mesh.normals[triangle.normal[2]]};
+      const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
+      if (glm::dot(shading, geometric) < 0) geometric = -geometric;
+      // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
+      // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
+      for (int k = 0; k < 3; ++k) {
+        const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
+        point.smooth_position -= w[k] * above * n[k];
+      }
+    }
+    // Texture directions of the facet.
+    const Vec2 a = q[1] - q[0], b = q[2] - q[0];
+    const double det = has_parameters ? a.x * b.y - a.y * b.x : 0;
+    if (det != 0) {
+      point.du = (b.y * (p[1] - p[0]) - a.y * (p[2] - p[0])) / det;
+      point.dv = (a.x * (p[2] - p[0]) - b.x * (p[1] - p[0])) / det;
+    }
+  }
+  point.geometric_normal = geometric;
+  point.normal = shading;
+  return point;
+}
+
 bool is_drawn_only(const Entity& entity) {
   return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
 }
@@ -242,6 +314,10 @@ World::World(std::shared_ptr<const Model> model) : model_(std::move(model)), com
   const auto begin = std::chrono::steady_clock::now();
   Compiled& c = *compiled_;
   c.camera = model_->camera;
+  for (const LightPtr& light : model_->lights) {
+    ambient_ += light->ambient();
+    if (light->sample_count() > 0) lamps_.push_back(light);
+  }
   c.count_uses(model_->objects);
   c.add(c.top, model_->objects, Affine());
   c.top.commit();
@@ -268,87 +344,32 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
-  SurfacePoint point;
-  point.u = hit.u;
-  point.v = hit.v;
-  point.instance = hit.instance;
-  point.object = place.object;
-  point.face = hit.face;
-  Vec3 geometric, shading;
-  if (leaf.mesh) {
-    const geometry::Mesh& mesh = *leaf.mesh;
-    const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
-    const Vec3 p[3] = {mesh.points[triangle.point[0]], mesh.points[triangle.point[1]], mesh.points[triangle.point[2]]};
-    const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
-    point.position = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
-    geometric = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-    shading = geometric;
-    point.smooth_position = point.position;
-    const bool has_parameters = !mesh.parameters.empty() && triangle.parameter[0] >= 0;
-    Vec2 q[3];
-    for (int k = 0; has_parameters && k < 3; ++k) q[k] = mesh.parameters[triangle.parameter[k]];
-    if (has_parameters && !leaf.mesh_surfaces.empty() && !leaf.flat) {
-      // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
-      const Surface& surface = *leaf.mesh_surfaces[hit.face];
-      const Vec2 foot = foot_on(surface, point.position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
-      const geometry::SurfaceJet jet = surface.evaluate(foot.x, foot.y, 1);
-      point.u = foot.x;
-      point.v = foot.y;
-      point.du = jet.du();
-      point.dv = jet.dv();
-      shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, foot.x, foot.y, jet);
-      if (glm::dot(shading, geometric) < 0) geometric = -geometric;
-      // Rays to lights start on the surface itself where it stands above the facet: no terminator along the facets.
-      const double above = glm::dot(jet.point() - point.position, geometric);
-      if (above > 0) point.smooth_position = jet.point();
-    } else {
-      if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
-        const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
-                           mesh.normals[triangle.normal[2]]};
-        const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
-        if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
-        if (glm::dot(shading, geometric) < 0) geometric = -geometric;
-        // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
-        // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-        for (int k = 0; k < 3; ++k) {
-          const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
-          point.smooth_position -= w[k] * above * n[k];
-        }
-      }
-      // Texture directions of the facet.
-      const Vec2 a = q[1] - q[0], b = q[2] - q[0];
-      const double det = has_parameters ? a.x * b.y - a.y * b.x : 0;
-      if (det != 0) {
-        point.du = (b.y * (p[1] - p[0]) - a.y * (p[2] - p[0])) / det;
-        point.dv = (a.x * (p[2] - p[0]) - b.x * (p[1] - p[0])) / det;
-      }
-    }
-  } else {
-    const geometry::Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
-    const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
-    const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
-    point.position = jet.point();
-    point.smooth_position = point.position;
-    point.du = jet.du();
-    point.dv = jet.dv();
-    geometric = sign * surface.normal(hit.u, hit.v, jet);
-    shading = geometric;
+  LocalPoint local = leaf.mesh ? point_of_mesh(leaf, hit) : point_of_surface(leaf, hit);
+  if (place.to_world) {
+    const Affine& map = *place.to_world;
+    const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));
+    local.position = map.point(local.position);
+    local.smooth_position = map.point(local.smooth_position);
+    local.du = map.direction(local.du);
+    local.dv = map.direction(local.dv);
+    local.geometric_normal = glm::normalize(normals * local.geometric_normal);
+    local.normal = glm::normalize(normals * local.normal);
   }
-  if (place.moved) {
-    const auto map_normal = [&](const Vec3& n) { return glm::normalize(place.to_world.normal(n)); };
-    point.position = place.to_world.point(point.position);
-    point.smooth_position = place.to_world.point(point.smooth_position);
-    point.du = place.to_world.direction(point.du);
-    point.dv = place.to_world.direction(point.dv);
-    geometric = map_normal(geometric);
-    shading = map_normal(shading);
-  }
-  point.geometric_normal = geometric;
-  point.normal = shading;
-  const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
-  point.error = place.error + kPositionError * (size.x + size.y + size.z);
-  if (compiled_->camera) point.pixel_size = compiled_->camera->pixel_size(point.position);
-  return point;
+  const Vec3 size = glm::abs(local.position) + glm::abs(local.position - ray.origin);
+  return {.position = local.position,
+          .smooth_position = local.smooth_position,
+          .incoming = ray.direction,
+          .geometric_normal = local.geometric_normal,
+          .normal = local.normal,
+          .du = local.du,
+          .dv = local.dv,
+          .u = local.u,
+          .v = local.v,
+          .error = place.error + kPositionError * (size.x + size.y + size.z),
+          .pixel_size = compiled_->camera ? compiled_->camera->pixel_size(local.position) : 0,
+          .instance = hit.instance,
+          .object = place.object,
+          .face = hit.face};
 }
 
 Vec3 World::leave(const SurfacePoint& point, const Vec3& direction) const {

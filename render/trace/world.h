@@ -47,7 +47,9 @@ class World {
   // True if some material lets light through, so that what occludes may only tint.
   bool has_transmitting_materials() const;
   const Model& model() const { return *model_; }
-  const std::vector<LightPtr>& lights() const { return model_->lights; }
+  // The lights that are somewhere, and the sum I_a of the ambient ones.
+  const std::vector<LightPtr>& lamps() const { return lamps_; }
+  const Spectrum& ambient() const { return ambient_; }
   WorldStatistics statistics() const;
   // Centre and radius of the bounding sphere of all bounded shapes.
   Vec3 center() const;
@@ -56,6 +58,8 @@ class World {
  private:
   struct Compiled;
   std::shared_ptr<const Model> model_;
+  std::vector<LightPtr> lamps_;
+  Spectrum ambient_;
   std::unique_ptr<Compiled> compiled_;
 };
 

@@ -267,7 +267,7 @@ TEST(ClassicIntegrator, ShadowCatcherShowsTheBackgroundLessItsShadows) {
   EXPECT_NEAR(shadow.alpha, 0.5 * 1 / 1.25,
               kFloat);  // half of what the lamp would have brought beside the ambient light
   EXPECT_NEAR(shadow.radiance[2], 0.7 * 0.6, kFloat);
-  EXPECT_EQ(trace(*world, {4, 0, -1}, {0, 0, 1}).hit, false);  // from below
+  EXPECT_EQ(trace(*world, {4, 0, -1}, {0, 0, 1}).point.has_value(), false);  // from below
 }
 
 TEST(ClassicIntegrator, BackOfAOneSidedSurfaceShowsOnlyAmbientLight) {

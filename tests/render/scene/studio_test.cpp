@@ -38,14 +38,14 @@ float brightest(const World& world, const Vec3& viewer) {
   for (int i = -9; i <= 9; ++i)
     for (int j = -9; j <= 9; ++j) {
       const RaySample sample = trace(world, frame.point({0.1 * i, 0.1 * j, 5}), -frame.z);
-      if (sample.hit) most = std::max(most, sample.radiance[1]);
+      if (sample.point) most = std::max(most, sample.radiance[1]);
     }
   return most;
 }
 
 TEST(Studio, SoftboxLightsAWhiteBallToNearlyWhite) {
   const World world(load(kWhiteBall, {"softbox"}));
-  EXPECT_EQ(world.lights().size(), 4u);
+  EXPECT_EQ(world.model().lights.size(), 4u);
   // key_power (1 + cos 12.5 deg)/2 + room_power where the key light is faced: its disc has a mean cosine; the rim light
   // does not reach there.
   EXPECT_NEAR(brightest(world, glm::normalize(Vec3(0.5, -0.8, 0.45))), 0.85, 0.03);
@@ -68,7 +68,7 @@ TEST(Studio, PaperShowsOnlyShadows) {
   const World world(load(kWhiteBall, {"softbox", "paper"}));
   EXPECT_EQ(trace(world, {50, 50, 5}, {0, 0, -1}).radiance, Spectrum(1, 1, 1));
   EXPECT_LT(trace(world, {0.9, 0.9, 0.1}, {0, 0, -1}).radiance[0], 0.9f);
-  EXPECT_FALSE(trace(world, {50, 50, -5}, {0, 0, 1}).hit);
+  EXPECT_FALSE(trace(world, {50, 50, -5}, {0, 0, 1}).point);
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// The process's Embree device.
+#include "render/trace/device.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "render/trace/hierarchy_parts.h"
+
+namespace lekalo::render {
+
+namespace {
+
+DeviceOptions device_options;
+bool device_exists = false;
+
+}  // namespace
+
+RTCDevice device() {
+  static const RTCDevice shared = [] {
+    std::string configuration;
+    if (device_options.threads > 0) configuration += "threads=" + std::to_string(device_options.threads);
+    if (!device_options.instruction_set.empty())
+      configuration += (configuration.empty() ? "isa=" : ",isa=") + device_options.instruction_set;
+    const RTCDevice d = rtcNewDevice(configuration.empty() ? nullptr : configuration.c_str());
+    if (!d) throw std::runtime_error("Embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    device_exists = true;
+    return d;
+  }();
+  return shared;
+}
+void set_device_options(const DeviceOptions& options) {
+  if (device_exists) throw std::logic_error("Embree runs already");
+  const std::string& set = options.instruction_set;
+  const bool known = set.empty() || set == "sse2" || set == "avx2" || set == "avx512";
+  if (!known) throw std::invalid_argument("there is no instruction set '" + set + "'; take sse2, avx2 or avx512");
+  // What Embree compiles its kernels for.
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512cd");
+  if ((set == "avx2" && !avx2) || (set == "avx512" && !avx512))
+    throw std::invalid_argument("this processor has no " + set + "; every one has sse2");
+  device_options = options;
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,108 @@
+// What a Hierarchy is made of, shared by what builds it (hierarchy.cpp) and what runs queries (hierarchy_query.cpp).
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "render/trace/hierarchy.h"
+
+namespace lekalo::render {
+
+// The one device of the process, made when it is first asked for; Embree's scenes share its thread pool. Throws
+// std::runtime_error if Embree cannot start.
+RTCDevice device();
+
+// Boxes are larger than what they hold by this part of the bounding sphere's radius: it covers the rounding of the
+// ray's origin and direction to float and Embree's own arithmetic (docs/internals/rays.md).
+inline constexpr double kBoxInflation = 4e-7;
+
+// What an Embree geometry stands for.
+struct GeometryRecord {
+  enum class Kind { target, mesh, shape, instance } kind = Kind::target;
+  const Leaf* leaf = nullptr;
+  int leaf_number = 0;  // first number of an instance
+  int face = 0;         // of a target
+  const geometry::LineTarget* target = nullptr;
+  int count = 1;  // pieces of a target
+  std::shared_ptr<const Hierarchy> child;
+  Affine to_parent, to_child;
+  int object = 0;
+  const Hierarchy::Parts* parts = nullptr;
+};
+
+struct Hierarchy::Parts {
+  std::vector<std::unique_ptr<Leaf>> leaves;
+  std::vector<std::unique_ptr<GeometryRecord>> records;  // by Embree geometry number, then the unbounded ones
+  std::vector<const GeometryRecord*> unbounded;
+  // The pieces of a scene of few, in place of an Embree scene, whose overhead would be most of its time.
+  struct Piece {
+    const GeometryRecord* record;
+    int number;
+    Box3 box;
+  };
+  std::vector<Piece> few;
+  struct Numbered {
+    int first;
+    const GeometryRecord* record;
+  };
+  std::vector<Numbered> numbers;  // one entry for each leaf or instance, by first number
+  int leaf_count = 0;
+  Box3 box;
+  Vec3 center{0};
+  double radius = 0;
+  size_t pieces = 0, triangles = 0, bytes = 0;
+  bool meshes = false;
+  RTCScene scene = nullptr;
+
+  ~Parts() {
+    if (scene) rtcReleaseScene(scene);
+  }
+
+  bool list_few();
+  void build_scene();
+  RTCBounds float_bounds(const Box3& box) const;
+};
+
+// Callbacks of Embree for pieces, shapes and instances, and for single triangles: they collect every triangle along
+// the line, or hide those that this kind of ray does not see or that are clipped away.
+void intersect_callback(const RTCIntersectFunctionNArguments* args);
+void occluded_callback(const RTCOccludedFunctionNArguments* args);
+void triangle_filter(const RTCFilterFunctionNArguments* args);
+
+// The order of hits along a line, ties by (instance, face, piece).
+inline bool comes_before(const Hit& a, const Hit& b) {
+  if (a.t != b.t) return a.t < b.t;
+  if (a.instance != b.instance) return a.instance < b.instance;
+  if (a.face != b.face) return a.face < b.face;
+  return a.piece < b.piece;
+}
+
+// A query in the space of one hierarchy. Embree hands its address back to the callbacks.
+struct Hierarchy::Query {
+  RTCIntersectContext context;
+  geometry::PreparedLine prepared;
+  const geometry::Line& line;
+  double t_min = 0;
+  double t_max = geometry::kInfinity;  // of the nearest hit so far
+  double start = 0;                    // the float ray begins here
+  double slack = 0;                    // float uncertainty of t
+  uint32_t kind = 1;
+  int leaf_offset = 0;
+  Hit best;  // once found
+  bool found = false;
+  bool any = false;  // stop at the first hit
+  std::vector<Hit>* all = nullptr;
+
+  explicit Query(const geometry::Line& l) : prepared(l), line(prepared.line()) {}
+
+  void accept(const Hit& hit) {
+    if (all) {
+      all->push_back(hit);
+    } else if (!found || comes_before(hit, best)) {
+      best = hit;
+      t_max = hit.t;
+    }
+    found = true;
+  }
+};
+
+}  // namespace lekalo::render

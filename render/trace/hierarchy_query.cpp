@@ -1,0 +1,274 @@
+// Queries: what Embree's boxes propose, or a short list, is decided in double.
+#include <algorithm>
+#include <cmath>
+
+#include "render/trace/hierarchy_parts.h"
+
+namespace lekalo::render {
+
+using geometry::Line;
+using geometry::LineHits;
+
+namespace {
+
+using Query = Hierarchy::Query;
+
+// The same for the ends of rays, once for each of them: a rounding of 2^-24 of x outward is enough there.
+float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
+
+bool keeps(const std::vector<HalfSpace>& clips, const Vec3& point) {
+  for (const HalfSpace& clip : clips)
+    if (glm::dot(point - clip.through, clip.normal) > 0) return false;
+  return true;
+}
+
+// The point where the line meets the triangle's plane, in double, with the weights clamped to the triangle.
+bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hit& hit) {
+  const auto& corners = mesh.triangles[triangle].point;
+  const Vec3 a = mesh.points[corners[0]], ab = mesh.points[corners[1]] - a, ac = mesh.points[corners[2]] - a;
+  const Vec3 n = glm::cross(ab, ac);
+  const double slope = glm::dot(n, line.direction), area2 = glm::dot(n, n);
+  if (slope == 0 || area2 == 0) return false;
+  hit.t = glm::dot(n, a - line.origin) / slope;
+  const Vec3 p = line.at(hit.t) - a;
+  hit.b = std::clamp(glm::dot(glm::cross(p, ac), n) / area2, 0.0, 1.0);
+  hit.c = std::clamp(glm::dot(glm::cross(ab, p), n) / area2, 0.0, 1.0 - hit.b);
+  hit.piece = triangle;
+  hit.face = mesh.triangles[triangle].face;
+  const auto& uv = mesh.triangles[triangle].parameter;
+  if (!mesh.parameters.empty() && uv[0] >= 0) {
+    const geometry::Vec2 q =
+        (1 - hit.b - hit.c) * mesh.parameters[uv[0]] + hit.b * mesh.parameters[uv[1]] + hit.c * mesh.parameters[uv[2]];
+    hit.u = q.x;
+    hit.v = q.y;
+  }
+  return std::isfinite(hit.t);
+}
+
+void test_instance(const GeometryRecord& record, Query& query) {
+  Query inner({record.to_child.point(query.line.origin), record.to_child.direction(query.line.direction)});
+  inner.t_min = query.t_min;
+  inner.t_max = query.t_max;
+  inner.kind = query.kind;
+  inner.leaf_offset = query.leaf_offset + record.leaf_number;
+  inner.any = query.any;
+  inner.all = query.all;
+  inner.found = query.found && !query.all;
+  inner.best = query.best;
+  record.child->run(inner);
+  if (inner.found) {
+    query.found = true;
+    query.best = inner.best;
+    query.t_max = inner.t_max;
+  }
+}
+
+void test_shape(const GeometryRecord& record, Query& query) {
+  std::vector<geometry::SurfaceHit> hits;
+  record.leaf->shape->all_hits(query.line, {query.t_min, query.t_max}, hits);
+  for (const geometry::SurfaceHit& h : hits) {
+    query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, h.face, h.piece});
+    if (!query.all) break;
+  }
+}
+
+void test_target(const GeometryRecord& record, int primitive, Query& query) {
+  const std::vector<HalfSpace>& clips = record.leaf->clips;
+  LineHits hits(!query.all && clips.empty());
+  record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
+  for (int i = 0; i < hits.size(); ++i) {
+    const geometry::LineHit& h = hits[i];
+    if (!clips.empty() && !keeps(clips, query.line.at(h.t))) continue;
+    query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
+  }
+}
+
+// Tests one primitive of a record in double and passes its hits on.
+void test(const GeometryRecord& record, int primitive, Query& query) {
+  if (record.kind == GeometryRecord::Kind::instance)
+    test_instance(record, query);
+  else if (!(record.leaf->visible_to & query.kind))
+    return;
+  else if (record.kind == GeometryRecord::Kind::target)
+    test_target(record, primitive, query);
+  else if (record.kind == GeometryRecord::Kind::shape)
+    test_shape(record, query);
+}
+
+// True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
+bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
+  for (int k = 0; k < 3; ++k) {
+    const double a = (box.lo[k] - line.origin[k]) * inverse[k], b = (box.hi[k] - line.origin[k]) * inverse[k];
+    // In this order: a NaN, of a line that runs in the plane of a side, changes nothing.
+    t_min = std::max(t_min, std::min(a, b));
+    t_max = std::min(t_max, std::max(a, b));
+  }
+  return t_min <= t_max;
+}
+
+void begin(Query& query, const Ray& ray) {
+  query.t_min = ray.t_min;
+  query.t_max = ray.t_max;
+  query.kind = static_cast<uint32_t>(ray.kind);
+}
+
+}  // namespace
+
+void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& query = *reinterpret_cast<Query*>(args->context);
+  const double before = query.t_max;
+  test(*static_cast<const GeometryRecord*>(args->geometryUserPtr), static_cast<int>(args->primID), query);
+  if (query.t_max < before) {
+    RTCRay& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
+    ray.tfar = std::min(ray.tfar, ray_end(query.t_max - query.start + query.slack));
+  }
+}
+
+void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& query = *reinterpret_cast<Query*>(args->context);
+  test(*static_cast<const GeometryRecord*>(args->geometryUserPtr), static_cast<int>(args->primID), query);
+  if (query.found) reinterpret_cast<RTCRay*>(args->ray)->tfar = -INFINITY;
+}
+
+void triangle_filter(const RTCFilterFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& query = *reinterpret_cast<Query*>(args->context);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  const int triangle = static_cast<int>(reinterpret_cast<const RTCHit*>(args->hit)->primID);
+  const Leaf& leaf = *record.leaf;
+  Hit hit;
+  const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line, hit) &&
+                    hit.t >= query.t_min && hit.t <= query.t_max && keeps(leaf.clips, query.line.at(hit.t));
+  if (seen && query.all) {
+    hit.instance = query.leaf_offset + record.leaf_number;
+    query.accept(hit);
+  }
+  if (!seen || query.all) args->valid[0] = 0;
+}
+
+void Hierarchy::run(Query& query) const {
+  const Parts& p = *parts_;
+  for (const GeometryRecord* record : p.unbounded) {
+    const int count = record->count;
+    for (int i = 0; i < count; ++i) test(*record, i, query);
+    if (query.any && query.found) return;
+  }
+  if (!p.few.empty()) {
+    const Vec3 inverse = 1.0 / query.line.direction;
+    for (const Parts::Piece& piece : p.few) {
+      if (!may_enter(piece.box, query.line, inverse, query.t_min, query.t_max)) continue;
+      test(*piece.record, piece.number, query);
+      if (query.any && query.found) return;
+    }
+  }
+  if (!p.scene) return;
+  // Enter the bounding sphere in double.
+  const Vec3 from = query.line.origin - p.center;
+  const double a = glm::dot(query.line.direction, query.line.direction), b = glm::dot(from, query.line.direction);
+  const double foot = -b / a;
+  const Vec3 nearest = from + foot * query.line.direction;
+  const double r = p.radius * (1 + 1e-6);
+  const double inside = r * r - glm::dot(nearest, nearest);
+  if (!(inside > 0)) return;
+  const double half = std::sqrt(inside / a);
+  query.start = std::max(query.t_min, foot - half);
+  const double end = std::min(query.t_max, foot + half);
+  if (!(query.start <= end)) return;
+  query.slack = kBoxInflation * p.radius / std::sqrt(a);
+
+  const Vec3 o = from + query.start * query.line.direction;
+  rtcInitIntersectContext(&query.context);
+  if (query.all) query.context.filter = triangle_filter;
+  const auto fill = [&](RTCRay& ray) {
+    ray.org_x = static_cast<float>(o.x), ray.org_y = static_cast<float>(o.y), ray.org_z = static_cast<float>(o.z);
+    ray.dir_x = static_cast<float>(query.line.direction.x);
+    ray.dir_y = static_cast<float>(query.line.direction.y);
+    ray.dir_z = static_cast<float>(query.line.direction.z);
+    ray.tnear = 0;
+    ray.tfar = ray_end(end - query.start + query.slack);
+    ray.time = 0;
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+  };
+  if (query.any) {
+    RTCRay ray;
+    fill(ray);
+    rtcOccluded1(p.scene, &query.context, &ray);
+    if (ray.tfar < 0) query.found = true;
+    return;
+  }
+  RTCRayHit ray;
+  fill(ray.ray);
+  ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(p.scene, &query.context, &ray);
+  if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+    // Only triangles write the hit; double decides between the triangle and the nearest of the others.
+    const GeometryRecord& record = *p.records[ray.hit.geomID];
+    Hit hit;
+    if (triangle_hit(*record.leaf->mesh, static_cast<int>(ray.hit.primID), query.line, hit) &&
+        hit.t >= query.t_min - query.slack) {
+      hit.instance = query.leaf_offset + record.leaf_number;
+      query.accept(hit);
+    }
+  }
+}
+
+bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
+  Query query({ray.origin, ray.direction});
+  begin(query, ray);
+  run(query);
+  if (query.found) hit = query.best;
+  return query.found;
+}
+
+bool Hierarchy::occluded(const Ray& ray) const {
+  Query query({ray.origin, ray.direction});
+  begin(query, ray);
+  query.any = true;
+  run(query);
+  return query.found;
+}
+
+std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
+  std::vector<Hit> found;
+  Query query({ray.origin, ray.direction});
+  begin(query, ray);
+  query.all = &found;
+  run(query);
+  std::sort(found.begin(), found.end(), [](const Hit& a, const Hit& b) {
+    return a.instance != b.instance ? a.instance < b.instance : comes_before(a, b);
+  });
+  // Neighbours of one leaf report a crossing on their common border twice.
+  std::vector<Hit> result;
+  for (size_t first = 0, last; first < found.size(); first = last) {
+    for (last = first; last < found.size() && found[last].instance == found[first].instance;) ++last;
+    const Place where = place(found[first].instance);
+    Line line{ray.origin, ray.direction};
+    if (where.to_world) {
+      const Affine to_leaf = where.to_world->inverse();
+      line = {to_leaf.point(ray.origin), to_leaf.direction(ray.direction)};
+    }
+    const Leaf& leaf = *where.leaf;
+    std::vector<geometry::SurfaceHit> hits;
+    for (size_t i = first; i < last; ++i)
+      hits.push_back({found[i].t, found[i].u, found[i].v, static_cast<int>(i), found[i].piece});
+    geometry::merge_hits(hits, line, leaf.size, [&](const geometry::SurfaceHit& h) -> Vec3 {
+      const Hit& hit = found[h.face];
+      if (leaf.mesh) {
+        const auto& corner = leaf.mesh->triangles[hit.piece].point;
+        const Vec3 a = leaf.mesh->points[corner[0]];
+        return glm::normalize(glm::cross(leaf.mesh->points[corner[1]] - a, leaf.mesh->points[corner[2]] - a));
+      }
+      if (leaf.shape) return leaf.shape->sign(hit.face) * leaf.shape->surface(hit.face).normal(hit.u, hit.v);
+      return leaf.signs[hit.face] * leaf.targets[hit.face]->surface().normal(hit.u, hit.v);
+    });
+    for (const geometry::SurfaceHit& h : hits) result.push_back(found[h.face]);
+  }
+  std::sort(result.begin(), result.end(), comes_before);
+  return result;
+}
+
+}  // namespace lekalo::render
