@@ -104,18 +104,20 @@ class LineHits {
   bool is_enough() const { return first_is_enough_ && count_ > 0; }
 
   void add(const LineHit& hit) {
-    if (count_ < kInline)
+    if (count_ < kInline) {
       few_[count_] = hit;
-    else
-      more_.push_back(hit);
+    } else {
+      if (!more_) more_ = std::make_unique<std::vector<LineHit>>();
+      more_->push_back(hit);
+    }
     ++count_;
   }
   int size() const { return count_; }
-  LineHit& operator[](int i) { return i < kInline ? few_[i] : more_[i - kInline]; }
-  const LineHit& operator[](int i) const { return i < kInline ? few_[i] : more_[i - kInline]; }
+  LineHit& operator[](int i) { return i < kInline ? few_[i] : (*more_)[i - kInline]; }
+  const LineHit& operator[](int i) const { return i < kInline ? few_[i] : (*more_)[i - kInline]; }
   void clear() {
     count_ = 0;
-    more_.clear();
+    more_.reset();
   }
 
  private:
@@ -123,7 +125,7 @@ class LineHits {
   bool first_is_enough_ = false;
   int count_ = 0;
   std::array<LineHit, kInline> few_;  // not initialised: one of these is made for each candidate of each ray
-  std::vector<LineHit> more_;
+  std::unique_ptr<std::vector<LineHit>> more_;
 };
 
 // A parametric surface r(u, v). Immutable; safe to use from many threads.

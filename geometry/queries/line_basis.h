@@ -26,10 +26,11 @@ struct LineBasis {
 };
 
 // A line on its way through many pieces. Closed forms need the line alone; the first piece that needs the vectors
-// across makes them for all (not to be shared between threads).
+// across makes them for all (not to be shared between threads). The line must live as long.
 class PreparedLine {
  public:
   explicit PreparedLine(const Line& line) : line_(line) {}
+  explicit PreparedLine(Line&&) = delete;
   const Line& line() const { return line_; }
 
   // The same line measured from its point nearest to `center` (whose parameter goes to `foot`), in coordinates relative
@@ -43,7 +44,7 @@ class PreparedLine {
   }
 
  private:
-  Line line_;
+  const Line& line_;
   mutable std::optional<LineBasis> basis_;
 };
 

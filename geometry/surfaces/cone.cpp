@@ -28,7 +28,7 @@ Vec3 ConeSurface::nearest_axis_point() const {
 }
 
 void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  const MovedLine moved = moved_near(line, nearest_axis_point(), frame_);
+  const MovedLine moved = local_line(line, nearest_axis_point());
   const bool cylinder = widening_ == 0;
   const double slope = widening_ / height_, scale = cylinder ? std::abs(radius_) : 1.0;
   const Vec3 o(moved.origin.x / scale, moved.origin.y / scale, cylinder ? 0.0 : radius_ + slope * moved.origin.z);

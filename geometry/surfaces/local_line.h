@@ -19,6 +19,8 @@ struct MovedLine {
   Vec3 origin{0};
   Vec3 direction{0};
   Vec3 at(double s) const { return origin + s * direction; }
+  // The same in coordinates from another origin.
+  MovedLine shifted(const Vec3& to) const { return {start, origin - to, direction}; }
 };
 
 // Where the compiler can, functions that live on fused multiply-adds exist twice, with the processor's own instruction

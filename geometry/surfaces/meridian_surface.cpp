@@ -108,7 +108,7 @@ std::optional<NurbsSurfaceForm> MeridianSurface::as_nurbs() const {
 void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line,
                                        const Interval& range, LineHits& hits,
                                        std::optional<double> (*parameter)(const Vec3&)) const {
-  const MovedLine moved = moved_near(line, frame_.origin, frame_);
+  const MovedLine moved = local_line(line, frame_.origin);
   const Vec3 direction = moved.direction * scale;
   const QuadricRoots roots = quadric_roots(quadric, moved.origin * scale, direction);
   const Interval near{range.lo - moved.start, range.hi - moved.start};

@@ -43,7 +43,12 @@ class MeridianSurface : public Surface {
 
  protected:
   MeridianSurface(const Frame& frame, double a, double b, const Rectangle& domain)
-      : frame_(frame), a_(a), b_(b), domain_(domain) {}
+      : frame_(frame), a_(a), b_(b), domain_(domain), upright_(frame.x == Vec3(1, 0, 0) && frame.y == Vec3(0, 1, 0)) {}
+
+  // The line about its point nearest to `center` (in world coordinates), in the coordinates of the frame.
+  MovedLine local_line(const Line& line, const Vec3& center) const {
+    return upright_ ? moved_near(line, center).shifted(frame_.origin) : moved_near(line, center, frame_);
+  }
 
   virtual MeridianJet<double> meridian(double v, int order) const = 0;
   virtual MeridianJet<Interval> meridian(const Interval& v, int order) const = 0;
@@ -64,6 +69,7 @@ class MeridianSurface : public Surface {
 
  private:
   bool is_pole(double v) const;
+  bool upright_;  // the frame's axes are the world's
 };
 
 // Supplies the meridian and its derivatives from a formula over any number type,

@@ -72,7 +72,7 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     return;
   }
   // In units of R + r, the direction a unit vector, s measured from the point nearest to the center.
-  const MovedLine moved = moved_near(line, frame_.origin, frame_);
+  const MovedLine moved = local_line(line, frame_.origin);
   const double size = std::abs(major_) + minor_, speed = glm::length(moved.direction);
   const double major = major_ / size, minor = minor_ / size;
   const Vec3 o = moved.origin / size, d = moved.direction / speed;

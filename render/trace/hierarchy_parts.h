@@ -80,26 +80,29 @@ inline bool comes_before(const Hit& a, const Hit& b) {
 struct Hierarchy::Query {
   RTCIntersectContext context;
   geometry::PreparedLine prepared;
-  const geometry::Line& line;
   double t_min = 0;
   double t_max = geometry::kInfinity;  // of the nearest hit so far
   double start = 0;                    // the float ray begins here
   double slack = 0;                    // float uncertainty of t
   uint32_t kind = 1;
   int leaf_offset = 0;
-  Hit best;  // once found
   bool found = false;
-  bool any = false;  // stop at the first hit
+  // What is wanted: the nearest hit, all hits, or, with neither, whether there is one.
+  Hit* nearest = nullptr;
   std::vector<Hit>* all = nullptr;
 
-  explicit Query(const geometry::Line& l) : prepared(l), line(prepared.line()) {}
+  explicit Query(const geometry::Line& line) : prepared(line) {}
+  const geometry::Line& line() const { return prepared.line(); }
+  bool is_done() const { return found && !nearest && !all; }
 
   void accept(const Hit& hit) {
-    if (all) {
+    if (nearest) {
+      if (!found || comes_before(hit, *nearest)) {
+        *nearest = hit;
+        t_max = hit.t;
+      }
+    } else if (all) {
       all->push_back(hit);
-    } else if (!found || comes_before(hit, best)) {
-      best = hit;
-      t_max = hit.t;
     }
     found = true;
   }

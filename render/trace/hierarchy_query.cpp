@@ -46,26 +46,23 @@ bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hi
 }
 
 void test_instance(const GeometryRecord& record, Query& query) {
-  Query inner({record.to_child.point(query.line.origin), record.to_child.direction(query.line.direction)});
+  const Line line{record.to_child.point(query.line().origin), record.to_child.direction(query.line().direction)};
+  Query inner(line);
   inner.t_min = query.t_min;
   inner.t_max = query.t_max;
   inner.kind = query.kind;
   inner.leaf_offset = query.leaf_offset + record.leaf_number;
-  inner.any = query.any;
+  inner.found = query.found;
+  inner.nearest = query.nearest;
   inner.all = query.all;
-  inner.found = query.found && !query.all;
-  inner.best = query.best;
   record.child->run(inner);
-  if (inner.found) {
-    query.found = true;
-    query.best = inner.best;
-    query.t_max = inner.t_max;
-  }
+  query.found = inner.found;
+  query.t_max = inner.t_max;
 }
 
 void test_shape(const GeometryRecord& record, Query& query) {
   std::vector<geometry::SurfaceHit> hits;
-  record.leaf->shape->all_hits(query.line, {query.t_min, query.t_max}, hits);
+  record.leaf->shape->all_hits(query.line(), {query.t_min, query.t_max}, hits);
   for (const geometry::SurfaceHit& h : hits) {
     query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, h.face, h.piece});
     if (!query.all) break;
@@ -78,7 +75,7 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
   record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
   for (int i = 0; i < hits.size(); ++i) {
     const geometry::LineHit& h = hits[i];
-    if (!clips.empty() && !keeps(clips, query.line.at(h.t))) continue;
+    if (!clips.empty() && !keeps(clips, query.line().at(h.t))) continue;
     query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
   }
 }
@@ -139,8 +136,8 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
   const int triangle = static_cast<int>(reinterpret_cast<const RTCHit*>(args->hit)->primID);
   const Leaf& leaf = *record.leaf;
   Hit hit;
-  const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line, hit) &&
-                    hit.t >= query.t_min && hit.t <= query.t_max && keeps(leaf.clips, query.line.at(hit.t));
+  const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line(), hit) &&
+                    hit.t >= query.t_min && hit.t <= query.t_max && keeps(leaf.clips, query.line().at(hit.t));
   if (seen && query.all) {
     hit.instance = query.leaf_offset + record.leaf_number;
     query.accept(hit);
@@ -148,27 +145,15 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
   if (!seen || query.all) args->valid[0] = 0;
 }
 
-void Hierarchy::run(Query& query) const {
-  const Parts& p = *parts_;
-  for (const GeometryRecord* record : p.unbounded) {
-    const int count = record->count;
-    for (int i = 0; i < count; ++i) test(*record, i, query);
-    if (query.any && query.found) return;
-  }
-  if (!p.few.empty()) {
-    const Vec3 inverse = 1.0 / query.line.direction;
-    for (const Parts::Piece& piece : p.few) {
-      if (!may_enter(piece.box, query.line, inverse, query.t_min, query.t_max)) continue;
-      test(*piece.record, piece.number, query);
-      if (query.any && query.found) return;
-    }
-  }
-  if (!p.scene) return;
+namespace {
+
+// The part of a query that Embree's hierarchy answers.
+void run_scene(const Hierarchy::Parts& p, Query& query) {
   // Enter the bounding sphere in double.
-  const Vec3 from = query.line.origin - p.center;
-  const double a = glm::dot(query.line.direction, query.line.direction), b = glm::dot(from, query.line.direction);
+  const Vec3 from = query.line().origin - p.center;
+  const double a = glm::dot(query.line().direction, query.line().direction), b = glm::dot(from, query.line().direction);
   const double foot = -b / a;
-  const Vec3 nearest = from + foot * query.line.direction;
+  const Vec3 nearest = from + foot * query.line().direction;
   const double r = p.radius * (1 + 1e-6);
   const double inside = r * r - glm::dot(nearest, nearest);
   if (!(inside > 0)) return;
@@ -178,14 +163,14 @@ void Hierarchy::run(Query& query) const {
   if (!(query.start <= end)) return;
   query.slack = kBoxInflation * p.radius / std::sqrt(a);
 
-  const Vec3 o = from + query.start * query.line.direction;
+  const Vec3 o = from + query.start * query.line().direction;
   rtcInitIntersectContext(&query.context);
   if (query.all) query.context.filter = triangle_filter;
   const auto fill = [&](RTCRay& ray) {
     ray.org_x = static_cast<float>(o.x), ray.org_y = static_cast<float>(o.y), ray.org_z = static_cast<float>(o.z);
-    ray.dir_x = static_cast<float>(query.line.direction.x);
-    ray.dir_y = static_cast<float>(query.line.direction.y);
-    ray.dir_z = static_cast<float>(query.line.direction.z);
+    ray.dir_x = static_cast<float>(query.line().direction.x);
+    ray.dir_y = static_cast<float>(query.line().direction.y);
+    ray.dir_z = static_cast<float>(query.line().direction.z);
     ray.tnear = 0;
     ray.tfar = ray_end(end - query.start + query.slack);
     ray.time = 0;
@@ -193,7 +178,7 @@ void Hierarchy::run(Query& query) const {
     ray.id = 0;
     ray.flags = 0;
   };
-  if (query.any) {
+  if (!query.nearest && !query.all) {
     RTCRay ray;
     fill(ray);
     rtcOccluded1(p.scene, &query.context, &ray);
@@ -208,7 +193,7 @@ void Hierarchy::run(Query& query) const {
     // Only triangles write the hit; double decides between the triangle and the nearest of the others.
     const GeometryRecord& record = *p.records[ray.hit.geomID];
     Hit hit;
-    if (triangle_hit(*record.leaf->mesh, static_cast<int>(ray.hit.primID), query.line, hit) &&
+    if (triangle_hit(*record.leaf->mesh, static_cast<int>(ray.hit.primID), query.line(), hit) &&
         hit.t >= query.t_min - query.slack) {
       hit.instance = query.leaf_offset + record.leaf_number;
       query.accept(hit);
@@ -216,25 +201,43 @@ void Hierarchy::run(Query& query) const {
   }
 }
 
+}  // namespace
+
+void Hierarchy::run(Query& query) const {
+  const Parts& p = *parts_;
+  for (const GeometryRecord* record : p.unbounded) {
+    for (int i = 0; i < record->count; ++i) test(*record, i, query);
+    if (query.is_done()) return;
+  }
+  if (!p.few.empty()) {
+    const Vec3 inverse = 1.0 / query.line().direction;
+    for (const Parts::Piece& piece : p.few) {
+      if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
+      test(*piece.record, piece.number, query);
+      if (query.is_done()) return;
+    }
+  }
+  if (p.scene) run_scene(p, query);
+}
+
 bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
-  Query query({ray.origin, ray.direction});
+  Query query(ray);
   begin(query, ray);
+  query.nearest = &hit;
   run(query);
-  if (query.found) hit = query.best;
   return query.found;
 }
 
 bool Hierarchy::occluded(const Ray& ray) const {
-  Query query({ray.origin, ray.direction});
+  Query query(ray);
   begin(query, ray);
-  query.any = true;
   run(query);
   return query.found;
 }
 
 std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
   std::vector<Hit> found;
-  Query query({ray.origin, ray.direction});
+  Query query(ray);
   begin(query, ray);
   query.all = &found;
   run(query);

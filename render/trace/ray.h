@@ -12,13 +12,11 @@ namespace lekalo::render {
 enum class RayKind : uint32_t { camera = 1, shadow = 2, reflection = 4 };  // reflection: also refracted rays
 inline constexpr uint32_t kVisibleToAll = 7;
 
-struct Ray {
-  Vec3 origin{0};
-  Vec3 direction{0, 0, 1};  // unit length, so that t is a distance
+// A line with a unit direction, so that t is a distance, and a range of t.
+struct Ray : geometry::Line {
   double t_min = 0;
   double t_max = geometry::kInfinity;
   RayKind kind = RayKind::camera;
-  Vec3 at(double t) const { return origin + t * direction; }
 };
 
 // What a ray meets. `instance` numbers the copy of the object that was hit, in the World's order of compilation.
