@@ -66,6 +66,10 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
     const double slack = 2e-15 * (std::abs(rough) * length + distance_ + taxicab(line.origin)) * std::abs(inverse);
     if (rough < range.lo - slack || rough > range.hi + slack) return;
   }
+  add_hit(line, range, rough, inverse, hits);
+}
+
+void Plane::add_hit(const Line& line, const Interval& range, double rough, double inverse, LineHits& hits) const {
   // Anew from the rough hit.
   const Vec3 from = fused_at(line, rough) - frame_.origin;
   const double s = -glm::dot(from, frame_.z) * inverse;
@@ -78,6 +82,7 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
     return;
   }
   // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
+  const double length = taxicab(line.direction);
   const double shallow =
       bounded() ? kShallowSlack * (taxicab(line.origin) + std::abs(t) * length) * length * std::abs(inverse) : 0;
   const auto u = within(domain_.u, x, shallow), v = within(domain_.v, y, shallow);

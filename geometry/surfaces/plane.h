@@ -22,6 +22,9 @@ class Plane final : public Surface {
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
  private:
+  // Adds the hit at about t = `rough` if it lies in the range and the domain; `inverse` is 1 / (direction . normal).
+  void add_hit(const Line& line, const Interval& range, double rough, double inverse, LineHits& hits) const;
+
   Frame frame_;
   Rectangle domain_;
   double distance_;  // a bound on that of the origin

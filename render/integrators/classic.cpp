@@ -197,6 +197,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
+    const bool shadows = options_.shadows != ShadowMode::none && light->casts_shadows();
     // What a cone of light brings is known; the samples only take away what is hidden. Without a shadow there is no
     // noise.
     std::optional<ConeLight> cone;
@@ -222,7 +223,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
-      if (light->casts_shadows() && options_.shadows != ShadowMode::none) {
+      if (shadows) {
         shadow_ray.direction = sample.direction;
         shadow_ray.t_max = sample.distance;
         visible = passing(shadow_ray, media);
