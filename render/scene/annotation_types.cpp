@@ -1,6 +1,7 @@
 // Annotations of drawings: labels, marks, arrows, dimensions. Lengths and sides are those of the page; points may be
 // given on it too ({ page: [5 mm, 8 mm] }).
 #include "geometry/describe.h"
+#include "geometry/queries/roundness.h"
 #include "render/scene/page.h"
 #include "render/scene/types.h"
 
@@ -152,7 +153,15 @@ TypeDeclaration round_dimension(const char* name, const char* description) {
   TypeDeclaration type = dimension(name, description);
   type.field("of", reference({Category::curve, Category::surface}), "a circle, an arc, or a surface of revolution")
       .field("leader", angle(), "direction of the dimension line on the page, from the right upwards", "45");
-  return finish(type, one_text);
+  return finish(type, [](const Fields& f) {
+    one_text(f);
+    const bool round =
+        f.holds<CurvePtr>("of") ? is_round(*f.curve("of")) : f.holds<SurfacePtr>("of") && is_round(*f.surface("of"));
+    if (!round)
+      throw FieldError("of", "this is not round: it has no radius",
+                       "name a circle, an arc, or a sphere, cylinder, torus or other surface of revolution; a distance "
+                       "is a linear_dimension");
+  });
 }
 
 TypeDeclaration angle_dimension() {

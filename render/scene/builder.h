@@ -72,6 +72,9 @@ class Builder {
   // For other kinds of files, which have fields, lists and repeats as scenes have (suite.cpp); nothing after an error.
   std::optional<Fields> read_fields(const std::vector<Field>& declared, const Value& map, const Counters& counters,
                                     const std::string& what, const std::vector<std::string>& also_allowed = {});
+  // The same into `fields`, which holds what is right even if something else is wrong; whether all is right.
+  bool read_fields_into(Fields& fields, const std::vector<Field>& declared, const Value& map, const Counters& counters,
+                        const std::string& what, const std::vector<std::string>& also_allowed = {});
   // Items of a list, repeats expanded; a single value stands for a list of one.
   std::vector<Scoped> items(const Value& value, const Counters& counters);
   // A copy in which every text has its templates filled: %k, %02k, %.3r, %(k+1); %% is a percent sign (templates.cpp).
@@ -153,6 +156,8 @@ class Builder {
   std::optional<std::any> build_as(const TypeDeclaration& type, const Value& map, const Counters& counters);
   const std::vector<Field>& declared_fields(const TypeDeclaration& type);
   std::optional<Built> transformed(Built built, const Affine& map, const Value& place);
+  // The same, or the thing itself where nothing moves it.
+  std::optional<Built> placed(Built built, const Affine& transform, const Value& place);
   std::optional<std::vector<std::any>> read_helpers(const Value& value, const Counters& counters);
   bool check_helpers(const Value& object, const Fields& fields);
 
@@ -211,8 +216,9 @@ class Builder {
   std::map<const TypeDeclaration*, std::vector<Field>> declared_;
   std::map<const void*, const TypeDeclaration*> types_;  // of built geometry, by identity()
   std::map<std::pair<const Group*, const Material*>, GroupPtr> groups_in_material_;
-  std::vector<GroupPtr> kept_groups_;  // so that no address of theirs is used again
-  std::deque<Value> made_;             // maps that `like` made
+  std::map<const Value*, GroupPtr> alike_groups_;  // of families, before their transforms
+  std::vector<GroupPtr> kept_groups_;              // so that no address of theirs is used again
+  std::deque<Value> made_;                         // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
   std::vector<std::filesystem::path> files_named_;

@@ -14,7 +14,7 @@
 namespace lekalo::render {
 
 // The built-in styles with the scene's own: a built-in name given under `styles` changes it field by field, unless it
-// says what it is like.
+// says what it is like. The same in included files, for what they hold.
 void Builder::merge_styles() {
   Diagnostics own;
   styles_ = read_document(make_source("(built-in styles)", std::string(built_in_styles())), own);
@@ -27,19 +27,23 @@ void Builder::merge_styles() {
     return;
   }
   styles_.place = given->place;
-  for (const Entry& entry : given->entries) {
-    const auto built_in = std::find_if(styles_.entries.begin(), styles_.entries.end(),
-                                       [&](const Entry& e) { return e.key.name == entry.key.name; });
-    if (built_in == styles_.entries.end()) {
-      styles_.entries.push_back(entry);
-    } else if (!entry.value.is_map() || entry.value.find("like")) {
-      *built_in = entry;
-    } else {
-      Value changed = entry.value;
-      for (Entry& field : built_in->value.entries)
-        if (!changed.find(field.key.name)) changed.entries.push_back(std::move(field));
-      *built_in = {entry.key, std::move(changed)};
-    }
+  // A style of a file included as `left` is called left.thin: it changes the `thin` of the file that includes, which
+  // therefore comes first.
+  std::vector<const Entry*> outside_in;
+  for (const Entry& entry : given->entries) outside_in.push_back(&entry);
+  const auto depth = [](const Entry* e) { return std::count(e->key.name.begin(), e->key.name.end(), '.'); };
+  std::stable_sort(outside_in.begin(), outside_in.end(),
+                   [&](const Entry* a, const Entry* b) { return depth(a) < depth(b); });
+  for (const Entry* entry : outside_in) {
+    const size_t dot = entry->key.name.rfind('.');
+    const std::string scope = dot == std::string::npos ? "" : entry->key.name.substr(0, dot);
+    const std::string own = entry->key.name.substr(dot + 1);  // npos + 1 is 0
+    Entry changed = *entry;
+    if (is_built_in_style(own) && changed.value.is_map() && !changed.value.find("like"))
+      for (const Entry& field : find_named(styles_, own, scope).entry->value.entries)
+        if (!changed.value.find(field.key.name)) changed.value.entries.push_back(field);
+    std::erase_if(styles_.entries, [&](const Entry& e) { return e.key.name == changed.key.name; });
+    styles_.entries.push_back(std::move(changed));
   }
 }
 

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
+#include "geometry/expression/nearest_name.h"
 #include "render/scene/builder.h"
+#include "render/scene/manual.h"
 #include "render/scene/scalars.h"
 #include "render/scene/words.h"
 
@@ -22,11 +25,26 @@ const Value& Builder::default_value(const std::string& text) {
   return found->second;
 }
 
+namespace {
+
+// What a map has under a name, a list under a number. A single value stands for a list of one.
+const Value* item_of(const Value& value, std::string_view name) {
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  if (error != std::errc() || end != name.data() + name.size()) return value.find(name);
+  if (!value.is_sequence()) return index == 0 ? &value : nullptr;
+  const bool repeats = std::any_of(value.items.begin(), value.items.end(),
+                                   [](const Value& item) { return item.is_map() && item.find("repeat"); });
+  return repeats || index >= value.items.size() ? nullptr : &value.items[index];
+}
+
+}  // namespace
+
 const Place& Builder::place_of_field(const Value& map, std::string_view path) {
   const Value* place = &map;
   while (!path.empty()) {
     const size_t dot = std::min(path.find('.'), path.size());
-    const Value* next = place->find(path.substr(0, dot));
+    const Value* next = item_of(*place, path.substr(0, dot));
     if (!next) break;
     place = next;
     path.remove_prefix(std::min(dot + 1, path.size()));
@@ -82,7 +100,15 @@ std::optional<Fields> Builder::read_fields(const std::vector<Field>& declared, c
                                            const Counters& counters, const std::string& what,
                                            const std::vector<std::string>& also_allowed) {
   Fields fields;
+  return read_fields_into(fields, declared, map, counters, what, also_allowed) ? std::optional(std::move(fields))
+                                                                               : std::nullopt;
+}
+
+bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declared, const Value& map,
+                               const Counters& counters, const std::string& what,
+                               const std::vector<std::string>& also_allowed) {
   bool good = true;
+  std::set<std::string> misspelt;  // fields that unknown ones were probably meant to be: not missing as well
   const auto is_declared = [&](const std::string& name) {
     return std::any_of(declared.begin(), declared.end(), [&](const Field& f) { return f.name == name; });
   };
@@ -96,9 +122,12 @@ std::optional<Fields> Builder::read_fields(const std::vector<Field>& declared, c
     for (const Field& field : declared) known.push_back(field.name);
     if (has_frame) known.insert(known.end(), {"center", "normal", "axis"});
     known.insert(known.end(), also_allowed.begin(), also_allowed.end());
-    const std::string meant = suggestion(name, known);
-    diagnostics_.error(entry.key.place, fmt::format("unknown field '{}' of {}{}", name, what, meant),
-                       meant.empty() ? "it has " + listed(known, 30) : "");
+    const auto meant = geometry::nearest_name(name, known);
+    diagnostics_.error(entry.key.place,
+                       fmt::format("unknown field '{}' of {}{}", name, what,
+                                   meant ? fmt::format(" (did you mean '{}'?)", *meant) : ""),
+                       meant ? "" : "it has " + listed(known, 30));
+    if (meant) misspelt.insert(*meant);
     good = false;
   }
   for (const Field& field : declared) {
@@ -117,11 +146,15 @@ std::optional<Fields> Builder::read_fields(const std::vector<Field>& declared, c
     } else if (!field.default_text.empty()) {
       good = read_field(field, default_value(field.default_text), {}, fields) && good;
     } else if (field.required) {
-      diagnostics_.error(map.place, fmt::format("missing field '{}' of {}", field.name, what), field.description);
+      if (!misspelt.contains(field.name))
+        diagnostics_.error(map.place, fmt::format("missing field '{}' of {}", field.name, what),
+                           field.description == field.name
+                               ? fmt::format("{}: {}", field.name, value_text(field.type))
+                               : fmt::format("{}: {} ({})", field.name, field.description, value_text(field.type)));
       good = false;
     }
   }
-  return good ? std::optional(std::move(fields)) : std::nullopt;
+  return good;
 }
 
 bool Builder::check(const TypeDeclaration& type, const Fields& fields, const Value& map) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "geometry/transformed.h"
 #include "render/scene/builder.h"
@@ -28,6 +29,25 @@ void reverse(std::any& value) {
   if (auto* surface = std::any_cast<SurfacePtr>(&value)) const_cast<geometry::Surface&>(**surface).set_reversed(true);
   if (auto* set = std::any_cast<SurfaceSet>(&value))
     for (SurfacePtr& surface : *set) const_cast<geometry::Surface&>(*surface).set_reversed(true);
+}
+
+// Whether something in the map other than its transform may depend on a counter: whether its name stands there.
+bool speaks_of(const Value& value, const Counters& counters, bool outermost = true) {
+  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (const auto& counter : counters.values)
+    for (size_t at = value.text.find(counter.name); at != std::string::npos;
+         at = value.text.find(counter.name, at + 1)) {
+      const size_t end = at + counter.name.size();
+      if ((at == 0 || !is_part(value.text[at - 1])) && (end == value.text.size() || !is_part(value.text[end])))
+        return true;
+    }
+  for (const Value& item : value.items)
+    if (speaks_of(item, counters, false)) return true;
+  for (const Entry& entry : value.entries)
+    if (!(outermost && (entry.key.name == "transform" || entry.key.name == "repeat")) &&
+        speaks_of(entry.value, counters, false))
+      return true;
+  return false;
 }
 
 // "'circle'", "an object".
@@ -89,23 +109,35 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
 }
 
 std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Value& map, const Counters& counters) {
+  // The groups of a family that differ in nothing but where they stand are one, placed several times.
+  const bool alike = type.category == Category::group && !counters.values.empty() && !speaks_of(map, counters);
+  if (const auto found = alike ? alike_groups_.find(&map) : alike_groups_.end(); found != alike_groups_.end()) {
+    const Value* given = map.find("transform");
+    const auto place = given ? read_transform(*given, counters) : Affine();
+    if (!place) return std::nullopt;
+    const auto built = placed({type.category, found->second}, *place, map);
+    return built ? std::optional(built->value) : std::nullopt;
+  }
   const std::string what = name_in_messages(type);
   std::vector<std::string> also = {"repeat"};
   if (!is_implicit(type.category) && type.category != Category::helper) also.insert(also.begin(), "type");
-  const auto fields = read_fields(declared_fields(type), map, counters, what, also);
-  if (!fields || !check(type, *fields, map)) return std::nullopt;
-  if (type.category == Category::object && !check_helpers(map, *fields)) return std::nullopt;
-  auto value = attempt(map, what, [&] { return type.build(*fields); });
+  Fields fields;
+  bool good = read_fields_into(fields, declared_fields(type), map, counters, what, also);
+  good = (type.category != Category::object || check_helpers(map, fields)) && good;
+  if (!good || !check(type, fields, map)) return std::nullopt;
+  auto value = attempt(map, what, [&] { return type.build(fields); });
   if (!value || !is_geometry(type.category)) return value;
-  if (type.category == Category::surface && fields->has("reversed") && fields->boolean("reversed")) reverse(*value);
-  Built built{type.category, *std::move(value)};
-  if (fields->has("transform") && !fields->transform("transform").is_identity()) {
-    auto moved = transformed(std::move(built), fields->transform("transform"), map);
-    if (!moved) return std::nullopt;
-    built = *std::move(moved);
-  }
-  if (const void* shape = identity(entity_of(built.value))) types_[shape] = &type;
-  return built.value;
+  if (type.category == Category::surface && fields.has("reversed") && fields.boolean("reversed")) reverse(*value);
+  if (alike) alike_groups_[&map] = std::any_cast<GroupPtr>(*value);
+  const auto built = placed({type.category, *std::move(value)},
+                            fields.has("transform") ? fields.transform("transform") : Affine(), map);
+  if (!built) return std::nullopt;
+  if (const void* shape = identity(entity_of(built->value))) types_[shape] = &type;
+  return built->value;
+}
+
+std::optional<Built> Builder::placed(Built built, const Affine& transform, const Value& place) {
+  return transform.is_identity() ? std::optional(std::move(built)) : transformed(std::move(built), transform, place);
 }
 
 std::optional<Built> Builder::build_typed(const Value& given, const Counters& counters,
@@ -209,11 +241,32 @@ std::optional<std::vector<std::any>> Builder::read_helpers(const Value& value, c
   return good ? std::optional(std::move(helpers)) : std::nullopt;
 }
 
-// Whether the object's shapes offer the helpers that it shows.
+// Whether the object's shapes offer the helpers that it shows. The fields may be incomplete: then what can be said is.
 bool Builder::check_helpers(const Value& object, const Fields& fields) {
   const Value* show = object.find("show");
-  if (!show || !fields.has("show")) return true;
+  if (!show) return true;
   bool good = true;
+  std::vector<std::pair<std::string, Place>> shown;
+  if (show->is_map())
+    for (const Entry& entry : show->entries) shown.emplace_back(entry.key.name, entry.key.place);
+  else if (show->is_sequence())
+    for (const Value& item : show->items) shown.emplace_back(item.text, item.place);
+  else
+    shown.emplace_back(show->text, show->place);
+  const auto check_all = [&](const std::vector<std::string>& offered, const std::string& what,
+                             const char* there_are = "it has ") {
+    for (const auto& [helper, place] : shown) {
+      if (std::find(offered.begin(), offered.end(), helper) != offered.end()) continue;
+      diagnostics_.error(place, fmt::format("{} '{}'{}", what, helper, suggestion(helper, offered)),
+                         offered.empty() ? "it has none" : there_are + listed(offered));
+      good = false;
+    }
+  };
+  if (!fields.has("shape")) {  // wrong itself: a helper may still be one that nothing has
+    static const Category wanted[] = {Category::helper};
+    check_all(type_names(wanted), "there is no helper", "there are ");
+    return good;
+  }
   std::set<const TypeDeclaration*> seen;
   for (const std::any& one : fields.references("shape")) {
     const Entity entity = entity_of(one);
@@ -222,26 +275,13 @@ bool Builder::check_helpers(const Value& object, const Fields& fields) {
     if (!seen.insert(type).second) continue;
     const bool is_curve = std::holds_alternative<CurvePtr>(entity),
                is_surface = std::holds_alternative<SurfacePtr>(entity);
-    std::vector<std::string> offered;
-    std::string name = "this shape";
-    if (type) {
-      offered = helpers_of(*type);
-      name = "'" + type->name + "'";
-    } else if (is_curve || is_surface) {
-      offered = helpers_of(is_curve ? Category::curve : Category::surface);
-    }
-    const auto check_one = [&](const std::string& helper, const Place& place) {
-      if (std::find(offered.begin(), offered.end(), helper) != offered.end()) return;
-      diagnostics_.error(place, fmt::format("{} has no helper '{}'{}", name, helper, suggestion(helper, offered)),
-                         offered.empty() ? "it has none" : "it has " + listed(offered));
-      good = false;
-    };
-    if (show->is_map())
-      for (const Entry& entry : show->entries) check_one(entry.key.name, entry.key.place);
-    else if (show->is_sequence())
-      for (const Value& item : show->items) check_one(item.text, item.place);
+    if (type)
+      check_all(helpers_of(*type), "'" + type->name + "' has no helper");
+    else if (is_curve || is_surface)
+      check_all(helpers_of(is_curve ? Category::curve : Category::surface), "this shape has no helper");
     else
-      check_one(show->text, show->place);
+      check_all({}, "this shape has no helper");
+    if (!fields.has("show")) continue;
     for (const std::any& any : fields.references("show")) {
       const auto& helper = std::any_cast<const Helper&>(any);
       if (helper.type != "de_casteljau") continue;

@@ -44,6 +44,20 @@ uint32_t visibility(const std::vector<std::string>& words) {
   return bits;
 }
 
+// Caps need an inside.
+void check_caps(const Object& object) {
+  if (std::holds_alternative<BodyPtr>(object.shape) || std::holds_alternative<GroupPtr>(object.shape)) return;
+  for (size_t k = 0; k < object.clips.size(); ++k) {
+    if (!object.clips[k].cap) continue;
+    const std::string field = "clip." + std::to_string(k) + ".cap";
+    if (std::holds_alternative<MeshPtr>(object.shape))
+      throw FieldError(field, "a cap closes the cut of a body; a mesh from a file knows no inside",
+                       "leave out 'cap', or build the shape as a body");
+    throw FieldError(field, "a cap closes the cut of a body; this shape has no inside",
+                     "leave out 'cap', or show a body in its place");
+  }
+}
+
 Objects objects_of(const Fields& fields) {
   Object object;
   object.name = fields.has("name") ? fields.text("name") : fields.written("shape");
@@ -70,6 +84,7 @@ Objects objects_of(const Fields& fields) {
   Objects all;
   for (const std::any& one : fields.references("shape")) {
     object.shape = entity_of(one);
+    check_caps(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
       for (const char* field :
            {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show"})

@@ -35,6 +35,26 @@ TEST(BuilderErrors, UnknownSections) {
             "7:10 expected an object as a map of fields, found a single value\n");
 }
 
+// A field that is there under a wrong name is not missing as well.
+TEST(BuilderErrors, MissingFieldsSayWhatTheyTake) {
+  EXPECT_EQ(about("{ type: ball, raduis: 1 }"), "3:20 unknown field 'raduis' of 'ball' (did you mean 'radius'?)\n");
+  EXPECT_EQ(hints("geometry: { a: { type: ball } }"), "radius: length greater than 0\n");
+  EXPECT_EQ(hints("geometry: { a: { type: box } }"), "size: lengths along x, y and z (vector: [a, b, c])\n");
+}
+
+TEST(BuilderErrors, CapsAreForBodies) {
+  const auto shown = [](const std::string& shape, const std::string& clip) {
+    return said("objects: { shape: " + shape + ", clip: " + clip + " }");
+  };
+  const std::string sphere = "{ type: sphere_surface, radius: 1 }";
+  EXPECT_EQ(shown("{ type: ball, radius: 1 }", "{ normal: x, cap: true }"), "");
+  EXPECT_EQ(shown(sphere, "[{ normal: x }, { normal: y, cap: false }]"), "");
+  EXPECT_EQ(shown(sphere, "{ normal: x, cap: true }"),
+            "2:80 a cap closes the cut of a body; this shape has no inside\n");
+  EXPECT_EQ(shown(sphere, "[{ normal: x }, { normal: y, cap: true }]"),
+            "2:96 a cap closes the cut of a body; this shape has no inside\n");
+}
+
 TEST(BuilderErrors, WrongKinds) {
   EXPECT_EQ(about("{ type: circle, radius: [1, 2] }"), "3:30 expected a number or a formula, found a list\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, center: [1] }"), "3:39 a point has 2 or 3 coordinates, found 1\n");

@@ -103,6 +103,30 @@ TEST(Annotations, RepeatsMakeSeveral) {
   EXPECT_EQ(m.drawing.annotations[2].values.get<Anchor>("at").point.x, 7.5);
 }
 
+// Radii of what is a circle in some other form, and of nothing else.
+TEST(Annotations, RadiiAreOfRoundThings) {
+  const auto of = [](const std::string& thing) { return about("{ type: radius_dimension, of: " + thing + " }"); };
+  for (const char* round :
+       {"{ type: circle, radius: 2, arc: [0, 90] }", "{ type: arc_through_points, points: [[0, 0], [1, 1], [3, 1]] }",
+        "{ type: ellipse, semi_axes: [2, 2] }",
+        "{ type: bezier_curve, points: [[1, 0], [1, 1], [0, 1]], weights: [1, sqrt(0.5), 1] }",
+        "{ type: circle, radius: 1, transform: [{ scale: 3 }, { rotate: 20, axis: y }] }",
+        "{ type: sphere_surface, radius: 1 }", "{ type: cylinder_surface, radius: 1 }",
+        "{ type: cone_surface, radius: 1, height: 2 }", "{ type: torus_surface, major_radius: 2, minor_radius: 1 }",
+        "{ type: ellipsoid, semi_axes: [2, 2, 1] }", "{ type: extrusion_surface, of: c, along: [0, 0, 1] }",
+        "{ type: revolution_surface, of: { type: segment, from: [1, 0, 0], to: [2, 0, 3] }, axis: z }"})
+    EXPECT_EQ(of(round), "") << round;
+  for (const char* other : {"{ type: segment, from: [0, 0], to: [1, 0] }", "{ type: ellipse, semi_axes: [2, 1] }",
+                            "{ type: polyline, points: [[1, 0], [0, 1], [-1, 0], [0, -1], [1, 0]] }",
+                            "{ type: bezier_curve, points: [[1, 0], [1, 1], [0, 1]] }",
+                            "{ type: circle, radius: 1, transform: { scale: [1, 2, 1] } }",
+                            "{ type: plane, size: [1, 1] }", "{ type: ellipsoid, semi_axes: [3, 2, 1] }",
+                            "{ type: hyperbolic_paraboloid, semi_axes: [1, 1], domain: { u: [-1, 1], v: [-1, 1] } }"})
+    EXPECT_EQ(of(other), "6:37 this is not round: it has no radius\n") << other;
+  EXPECT_EQ(about("{ type: diameter_dimension, of: { type: segment, from: [0, 0], to: [1, 0] } }"),
+            "6:39 this is not round: it has no radius\n");
+}
+
 TEST(Annotations, Errors) {
   EXPECT_EQ(about("{ type: labl, at: [0, 0], text: a }"), "6:15 unknown type 'labl' (did you mean 'label'?)\n");
   EXPECT_EQ(about("{ at: [0, 0], text: a }"), "6:7 missing 'type' of an annotation\n");

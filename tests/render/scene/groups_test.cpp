@@ -79,6 +79,21 @@ TEST(Groups, InsideGroupsAndWithTransformsOfTheirOwn) {
   EXPECT_EQ(group(group(turned.objects[0]).objects[0]).objects[1].material, m.materials.at("blue"));
 }
 
+// A family's groups that differ only in their transforms are one.
+TEST(Groups, FamiliesShareWhatTheyHold) {
+  const Model m =
+      built(kPair +
+            "  moved: { like: pair, repeat: { i: 0..9, j: [0, 1] }, transform: { translate: [i, 0, 3*j] } }\n"
+            "  grown: { repeat: { i: 1..2 }, type: group, of: { shape: { type: ball, radius: i } } }\n"
+            "objects: [{ shape: moved, material: blue }, { shape: grown }]\n")
+          .model;
+  ASSERT_EQ(m.objects.size(), 22u);
+  EXPECT_EQ(&group(group(m.objects[1]).objects[0]), &group(group(m.objects[19]).objects[0]));
+  EXPECT_EQ(group(m.objects[19]).objects[0].transform.point({0, 0, 0}), Vec3(9, 0, 3));
+  expect_near(bounds(group(m.objects[20]).objects[0].shape).hi, Vec3(1, 1, 1));
+  expect_near(bounds(group(m.objects[21]).objects[0].shape).hi, Vec3(2, 2, 2));
+}
+
 TEST(Groups, AreShownByDefault) {
   const BuiltText scene = built("geometry: { g: { type: group, of: { shape: { type: ball, radius: 1 } } } }\n");
   ASSERT_EQ(scene.model.objects.size(), 1u);

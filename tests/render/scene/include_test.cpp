@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "render/scene/builder.h"
+
 namespace lekalo::render {
 namespace {
 
@@ -250,6 +252,35 @@ TEST_F(Include, AllContentErrorsOfAllFilesComeInOneRun) {
             "main.yaml:3:16 '~' means nothing in scene files\n"
             "main.yaml:3:25 'd' is given twice, in lines 3 and 3\n"
             "a.yaml:2:16 '~' means nothing in scene files\n");
+}
+
+// A built-in style that an included file changes keeps its other fields, also where the file has a prefix.
+TEST_F(Include, ChangedBuiltInStylesOfPrefixedFiles) {
+  write("inner.yaml", "lekalo: 1\nstyles: { axis: { opacity: 0.5 } }\n");
+  write("part.yaml",
+        "lekalo: 1\ninclude: { file: inner.yaml, as: in }\n"
+        "styles: { axis: { width: 1 mm }, ray: { like: thin }, own: { like: axis, cap: round } }\n");
+  const SceneDescription scene =
+      read("lekalo: 1\ninclude: { file: part.yaml, as: left }\nstyles: { axis: { color: red } }\n");
+  ASSERT_EQ(said_, "");
+  Diagnostics diagnostics;
+  Builder builder(scene, {}, diagnostics);
+  const Model model = builder.build();
+  EXPECT_EQ(diagnostics.text(), "");
+  const Style &axis = model.styles.at("axis"), &left = model.styles.at("left.axis"),
+              &in = model.styles.at("left.in.axis"), &own = model.styles.at("left.own");
+  EXPECT_EQ(axis.dash.size(), 4u);
+  EXPECT_EQ(axis.color, geometry::Vec3(1, 0, 0));
+  for (const Style* style : {&left, &in, &own}) {
+    EXPECT_EQ(style->dash, axis.dash);
+    EXPECT_EQ(style->color, axis.color);
+    EXPECT_EQ(style->width, 1);
+  }
+  EXPECT_EQ(left.opacity, 1);
+  EXPECT_EQ(in.opacity, 0.5);
+  EXPECT_EQ(own.cap, "round");
+  EXPECT_TRUE(model.styles.at("left.ray").arrows == "none");  // replaced, not changed
+  EXPECT_EQ(model.styles.at("ray").arrows, "end");
 }
 
 TEST_F(Include, FormsOfIncludeAreChecked) {

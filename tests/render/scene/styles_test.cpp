@@ -170,6 +170,13 @@ TEST(Helpers, Errors) {
   EXPECT_EQ(said(show("{ de_casteljau: { t: 0.5, levels: [1.5] } }")), "6:45 levels are whole numbers\n");
   EXPECT_EQ(said("objects: [{ shape: { type: ball, radius: 1 }, show: { comb: {} } }]\n"),
             "3:55 'ball' has no helper 'comb'\n");
+  // Whatever else is wrong with the object.
+  EXPECT_EQ(said(kCurve + "objects: { shape: r, colour: red, show: { control_poligon: {} } }\n"),
+            "4:22 unknown field 'colour' of an object\n"
+            "4:43 'bezier_curve' has no helper 'control_poligon' (did you mean 'control_polygon'?)\n");
+  EXPECT_EQ(said(kCurve + "objects: { shape: q, show: [control_net, control_nett] }\n"),
+            "4:19 there is no geometry called 'q'\n"
+            "4:42 there is no helper 'control_nett' (did you mean 'control_net'?)\n");
 }
 
 TEST(Legend, NumbersTheMembersOfAFamily) {
