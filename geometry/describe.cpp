@@ -207,6 +207,11 @@ TypeDeclaration& TypeDeclaration::shows(std::vector<std::string> helper_names) {
   return *this;
 }
 
+TypeDeclaration& TypeDeclaration::example(std::string fields_as_written) {
+  example_fields = std::move(fields_as_written);
+  return *this;
+}
+
 TypeDeclaration declare(Category category, std::string type_name, std::string description) {
   TypeDeclaration type;
   type.name = std::move(type_name);

@@ -320,12 +320,15 @@ struct TypeDeclaration {
   std::function<std::any(const Fields&)> build;
   // Names of the helpers that `show` of an object offers for this type alone (control_polygon, knots, ...).
   std::vector<std::string> helpers;
+  // Fields of an example for the manual, "height: 2, radius: 1", where the needed ones alone make none that is good.
+  std::string example_fields;
 
   TypeDeclaration& field(std::string name, FieldType type, std::string description);
   TypeDeclaration& field(std::string name, FieldType type, std::string description, std::string default_text);
   TypeDeclaration& optional(std::string name, FieldType type, std::string description);
   TypeDeclaration& check(std::string condition, std::string message);
   TypeDeclaration& shows(std::vector<std::string> helper_names);
+  TypeDeclaration& example(std::string fields_as_written);
   // build takes const Fields& and returns a concrete Curve, Surface, ... by value; it is stored as the category's
   // shared pointer.
   template <class Build>

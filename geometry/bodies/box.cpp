@@ -79,6 +79,7 @@ Body wedge(const Frame& frame, const Vec3& size, double top) {
 
 TypeDeclaration box_type() {
   return declare(Category::body, "box", "Box along the axes. Faces: x_min, x_max, y_min, y_max, z_min, z_max.")
+      .example("size: [3, 2, 1]")
       .field("size", vector(), "lengths along x, y and z")
       .optional("corner", point(), "corner with the least coordinates; the origin when center is not given either")
       .optional("center", point(), "center, in place of corner")
@@ -92,6 +93,7 @@ TypeDeclaration wedge_type() {
   return declare(Category::body, "wedge",
                  "Box with a shortened top: its face x_max leans towards x_min. Faces as a box; without a top length "
                  "there is a ridge and no z_max.")
+      .example("size: [3, 2, 1], top: 1")
       .field("size", vector(), "lengths along x (of the bottom), y and z")
       .field("top", length().non_negative(), "length of the top along x; 0 makes a ridge over x_min", "0")
       .optional("corner", point(), "corner with the least coordinates; the origin when center is not given either")

@@ -69,7 +69,8 @@ Body frustum(const Frame& frame, double radius, double top_radius, double height
 
 TypeDeclaration cylinder_body_type() {
   TypeDeclaration type =
-      declare(Category::body, "cylinder_body", "Circular cylinder. Faces: start (the base), end, side.");
+      declare(Category::body, "cylinder_body", "Circular cylinder. Faces: start (the base), end, side.")
+          .example("radius: 1, height: 2");
   declare_axis(type);
   type.field("radius", length().positive(), "radius").built_by([](const Fields& f) -> BodyPtr {
     const AxialPlacement place = axial_placement(f);
@@ -79,13 +80,13 @@ TypeDeclaration cylinder_body_type() {
 }
 
 TypeDeclaration cone_body_type() {
-  TypeDeclaration type =
-      declare(Category::body, "cone_body",
-              "Circular cone or frustum. Faces: start (the base), end (the top of a frustum), side.");
+  TypeDeclaration type = declare(Category::body, "cone_body",
+                                 "Circular cone or frustum. Faces: start (the base), end (the top of a frustum), side.")
+                             .example("radius: 1, height: 2");
   declare_axis(type);
   type.field("radius", length().non_negative(), "radius of the base circle")
       .optional("top_radius", length().non_negative(), "radius of the top circle; 0, the apex, when left out")
-      .optional("half_angle", angle().between(-89.9999, 89.9999),
+      .optional("half_angle", angle().between(-89.9999 * kPi / 180, 89.9999 * kPi / 180),
                 "angle between generatrix and axis, positive where the cone widens upward; in place of top_radius")
       .built_by([](const Fields& f) -> BodyPtr {
         const AxialPlacement place = axial_placement(f);

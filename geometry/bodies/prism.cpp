@@ -58,7 +58,8 @@ Body pyramid(const Frame& frame, const std::vector<Vec2>& base, const Vec3& apex
 
 TypeDeclaration prism_type() {
   TypeDeclaration type =
-      declare(Category::body, "prism", "Upright prism over a regular or any other polygon. Faces: start, end, side.k.");
+      declare(Category::body, "prism", "Upright prism over a regular or any other polygon. Faces: start, end, side.k.")
+          .example("sides: 6, radius: 1, height: 2");
   declare_base(type);
   type.field("height", length().positive(), "distance of the ends along z").built_by([](const Fields& f) -> BodyPtr {
     return std::make_shared<Body>(prism(f.frame(), base_polygon(f), f.number("height")));
@@ -69,7 +70,8 @@ TypeDeclaration prism_type() {
 TypeDeclaration pyramid_type() {
   TypeDeclaration type = declare(Category::body, "pyramid",
                                  "Pyramid over a regular or any other polygon, or its part below a plane parallel to "
-                                 "the base. Faces: start (the base), side.k, end (the top of a frustum).");
+                                 "the base. Faces: start (the base), side.k, end (the top of a frustum).")
+                             .example("sides: 4, radius: 1, height: 2");
   declare_base(type);
   type.optional("height", length().positive(), "height of the apex above the frame's origin")
       .optional("apex", point(), "the apex as a point, in place of height")

@@ -33,6 +33,7 @@ Body torus_body(const Frame& frame, double major_radius, double minor_radius) {
 
 TypeDeclaration torus_body_type() {
   return declare(Category::body, "torus_body", "Solid ring torus. Face: side.")
+      .example("major_radius: 2, minor_radius: 0.5")
       .field("frame", frame(), "placement: the center, the axis of revolution z, x at the angle 0", "{}")
       .field("major_radius", length().positive(), "radius of the center circle of the tube")
       .field("minor_radius", length().positive(), "radius of the tube")

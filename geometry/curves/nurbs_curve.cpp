@@ -82,6 +82,7 @@ std::vector<double> polygon_steps(std::span<const Vec3> points, bool closed) {
 
 TypeDeclaration nurbs_curve_type() {
   return declare(Category::curve, "nurbs_curve", "Rational B-spline curve of any degree, open or closed.")
+      .example("degree: 2, points: [[0, 0], [1, 2], [3, 2], [4, 0]]")
       .field("points", points().count(2), "control points; those of a closed curve are not repeated")
       .field("degree", integer().between(1, kMaxDegree), "degree of the polynomial pieces", "3")
       .field(

@@ -38,6 +38,7 @@ std::optional<NurbsCurveForm> Segment::as_nurbs() const {
 
 TypeDeclaration segment_type() {
   return declare(Category::curve, "segment", "Straight segment between two points; t runs in 0..1.")
+      .example("from: [0, 0, 0], to: [1, 2, 0]")
       .field("from", point(), "start, t = 0")
       .field("to", point(), "end, t = 1")
       .built_by([](const Fields& f) { return Segment(f.vec3("from"), f.vec3("to")); });

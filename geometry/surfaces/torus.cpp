@@ -150,6 +150,7 @@ TypeDeclaration torus_surface_type() {
   return declare(Category::surface, "torus_surface",
                  "Ring, horn, apple or lemon torus about the axis z of its frame; the normal points away from the "
                  "center line of the tube.")
+      .example("major_radius: 2, minor_radius: 0.5")
       .field("frame", frame(), "placement: the center, the axis of symmetry z, x at the angle 0", "{}")
       .field(
           "major_radius", length(),

@@ -61,7 +61,8 @@ CameraPtr make_camera(const ParallelView& view, int width, int height) {
 
 TypeDeclaration parallel_type() {
   TypeDeclaration type = declare(Category::camera, "parallel",
-                                 "Parallel projection: the views of technical drawing, axonometric and oblique.");
+                                 "Parallel projection: the views of technical drawing, axonometric and oblique.")
+                             .example("view: isometric");
   type.optional("from", point(), "a point of the picture plane, its middle; what lies before the plane is not seen")
       .optional("at", point(), "the view goes from `from` to here; default: the middle of what is framed")
       .field("up", direction(), "what is up in the picture", "z")

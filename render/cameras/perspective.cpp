@@ -64,7 +64,8 @@ CameraPtr make_camera(const PerspectiveView& view, int width, int height) {
 }
 
 TypeDeclaration perspective_type() {
-  TypeDeclaration type = declare(Category::camera, "perspective", "Central projection, as an eye or a camera sees.");
+  TypeDeclaration type = declare(Category::camera, "perspective", "Central projection, as an eye or a camera sees.")
+                             .example("from: [4, -7, 4], at: [0, 0, 0], field_of_view: 40");
   type.optional("from", point(), "where the eye is; without it all is framed, seen as `view` says")
       .optional("at", point(), "the middle of the picture; default: the middle of what is framed")
       .field("up", direction(), "what is up in the picture", "z")

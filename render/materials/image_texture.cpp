@@ -88,6 +88,7 @@ TexturePtr make_texture(const ImageTexture& image) { return std::make_shared<Pic
 
 TypeDeclaration image_type() {
   return declare(Category::texture, "image", "A picture file mapped on the surface through its parameters (u, v).")
+      .example("file: wood.png")
       .field("file", file(), "PNG, EXR or another picture format; 8 and 16 bit files are taken as sRGB")
       .field("spacing", number().positive().for_each_direction(), "width and height of the picture in u and v", "1")
       .field("offset", number().for_each_direction(), "(u, v) of the picture's lower left corner", "0")

@@ -58,7 +58,8 @@ TypeDeclaration point_annotation() {
 
 TypeDeclaration arrow_annotation() {
   TypeDeclaration type = annotation("arrow", "A straight arrow: to a point, or along a direction.", "{ arrows: end }");
-  type.field("from", anchor(), "where it begins")
+  type.example("from: [0, 0, 0], to: [1, 0, 0]")
+      .field("from", anchor(), "where it begins")
       .optional("to", anchor(), "where it ends")
       .optional("along", direction(), "the way it goes, instead of `to`")
       .optional("length", length().positive(), "in scene units, with `along`")
@@ -186,7 +187,8 @@ TypeDeclaration knots_annotation() {
 
 TypeDeclaration light_path() {
   TypeDeclaration type = annotation("light_path", "A ray followed through the scene: refracted and reflected.", "ray");
-  type.field("from", point(), "where it begins")
+  type.example("from: [0, -3, 0], along: y")
+      .field("from", point(), "where it begins")
       .optional("to", point(), "a point that it is sent to")
       .optional("along", direction(), "the way that it is sent, instead of `to`")
       .field("wavelength", wavelength().between(360, 830), "in nanometres: 589 nm", "589 nm")

@@ -17,6 +17,7 @@ TypeDeclaration patches_type() {
   TypeDeclaration type = declare(Category::surface, "patches",
                                  "A set of bicubic Bezier patches read from a text file: the count, then 16 points for "
                                  "each patch, four rows of four.");
+  type.example("file: data/newell_teapot.txt");
   type.field("file", file(), "text file; data/newell_teapot.txt comes with the program");
   type.built_by([](const Fields& fields) -> std::any {
     std::string reason;

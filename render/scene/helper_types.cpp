@@ -53,7 +53,8 @@ TypeDeclaration control_net() {
 TypeDeclaration triangle(const char* name, const char* description, bool of_surfaces_too) {
   TypeDeclaration type = helper(name, description, "construction");
   if (of_surfaces_too)
-    type.optional("t", number(), "where a curve is divided")
+    type.example("t: 0.4")
+        .optional("t", number(), "where a curve is divided")
         .optional("u", number(), "where a surface is divided")
         .optional("v", number(), "where a surface is divided");
   else

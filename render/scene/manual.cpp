@@ -145,8 +145,8 @@ std::string plain_value_text(const FieldType& type) {
   return "";
 }
 
-// A value that the field accepts, as short as possible.
-std::string sample(const FieldType& type) {
+// A value that the field accepts, as short as possible. Points differ from those before them, which `places` counts.
+std::string sample(const FieldType& type, int& places) {
   const auto list = [&](int least, const auto& item) {
     std::string text;
     for (int k = 0; k < std::max(least, type.minimum_count); ++k) text += (k ? ", " : "") + item(k);
@@ -172,7 +172,10 @@ std::string sample(const FieldType& type) {
     case Kind::name:
       return "name";
     case Kind::point:
-      return "[1, 0, 0]";
+    case Kind::anchor: {
+      constexpr const char* kCorners[] = {"[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]"};
+      return kCorners[places++ % 3];
+    }
     case Kind::vector:
       return "[0, 0, 1]";
     case Kind::direction:
@@ -213,7 +216,8 @@ std::string sample(const FieldType& type) {
     case Kind::groups: {
       std::string text;
       for (const Field& field : *type.fields)
-        if (field.required) text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", field.name, sample(field.type));
+        if (field.required)
+          text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", field.name, sample(field.type, places));
       return fmt::format("{{ {} }}", text);
     }
     case Kind::transform:
@@ -224,8 +228,6 @@ std::string sample(const FieldType& type) {
       return "[960, 720]";
     case Kind::page_lengths:
       return "[2 mm, 1 mm]";
-    case Kind::anchor:
-      return "[1, 0, 0]";
     case Kind::counts:
       return "9";
     case Kind::label:
@@ -351,13 +353,17 @@ std::string value_text(const FieldType& type) {
 
 std::string example_of(const TypeDeclaration& type) {
   std::string text;
+  int places = 0;
   const auto add = [&](const std::string& name, const std::string& value) {
     text += fmt::format("{} {}: {}", text.empty() ? "{" : ",", name, value);
   };
   if (!is_implicit(type.category) && type.category != Category::helper) add("type", type.name);
-  for (const Field& field : type.fields)
-    if (field.required && field.default_text.empty() && field.type.kind != Kind::frame)
-      add(field.name, sample(field.type));
+  if (!type.example_fields.empty())
+    text += (text.empty() ? "{ " : ", ") + type.example_fields;
+  else
+    for (const Field& field : type.fields)
+      if (field.required && field.default_text.empty() && field.type.kind != Kind::frame)
+        add(field.name, sample(field.type, places));
   text += text.empty() ? "{}" : " }";
   return type.category == Category::helper ? type.name + ": " + text : text;
 }
@@ -405,6 +411,20 @@ std::string description_of(const TypeDeclaration& type) {
   if (const auto helpers = helpers_of(type); !helpers.empty())
     text += fmt::format("\nhelpers for show: {}\n", listed(helpers));
   return text;
+}
+
+std::string description_of_section(std::string_view name) {
+  for (const SectionDeclaration& section : sections()) {
+    if (section.name != name) continue;
+    std::string text =
+        fmt::format("{} (section)\n  {}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
+                    section.description.substr(1));
+    std::vector<std::string> types = type_names(section.categories);
+    if (!types.empty()) text += fmt::format("\ntypes\n  {}\n", listed(types));
+    if (!section.fields.empty()) text += "\nfields\n" + lines_of(section.fields, "  ");
+    return text;
+  }
+  return {};
 }
 
 std::vector<std::pair<std::string, std::string>> reference_pages() {

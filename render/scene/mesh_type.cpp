@@ -9,12 +9,13 @@ using namespace geometry;
 
 TypeDeclaration mesh_type() {
   return declare(Category::mesh, "mesh", "Triangle mesh from an OBJ, PLY or STL file.")
+      .example("file: part.stl")
       .field("file", file(), "file that ends in .obj, .ply or .stl")
       .field("normals", choice({"file", "smooth", "flat"}),
              "file: those of the file, smooth where it has none; smooth: means of the meeting triangles; flat: of each "
              "triangle's plane",
              "file")
-      .optional("crease_angle", angle().between(0, 180),
+      .optional("crease_angle", angle().between(0, geometry::kPi),
                 "triangles that meet at a larger angle get no smooth normals across their common side; without it all "
                 "do")
       .built_by([](const Fields& f) -> std::any {

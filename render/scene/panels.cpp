@@ -5,7 +5,8 @@ namespace lekalo::render {
 using namespace geometry;
 
 TypeDeclaration panel_type() {
-  TypeDeclaration type = declare(Category::panel, "panel", "One of several views on a page.");
+  TypeDeclaration type =
+      declare(Category::panel, "panel", "One of several views on a page.").example("camera: { view: top }");
   return type.optional("camera", reference({Category::camera}), "its view; the scene's camera by default")
       .optional("drawing", group(drawing_fields()), "what differs from the scene's `drawing`")
       .optional("objects", references({Category::object}).count(0), "what it shows instead of the scene's objects")
