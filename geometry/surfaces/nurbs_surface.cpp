@@ -200,7 +200,8 @@ SplineAxis axis_of(const Fields& f, bool along_u) {
     if (f.has("domain")) axis.restrict_to(along_u ? f.rectangle("domain").u : f.rectangle("domain").v);
     return axis;
   } catch (const FieldError& error) {
-    throw FieldError(error.field, fmt::format("in direction {}: {}", along_u ? 'u' : 'v', error.what()), error.hint);
+    throw FieldError(error.field + (along_u ? ".u" : ".v"),
+                     fmt::format("in direction {}: {}", along_u ? 'u' : 'v', error.what()), error.hint);
   }
 }
 
@@ -209,6 +210,7 @@ SplineAxis axis_of(const Fields& f, bool along_u) {
 TypeDeclaration nurbs_surface_type() {
   return declare(Category::surface, "nurbs_surface",
                  "Rational B-spline surface of any degrees, open or closed in each direction.")
+      .example("degree: 1, points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]]")
       .field("points", net(), "control points: points[i][j], i runs with u, j with v; not repeated where closed")
       .field("degree", integer().between(1, kMaxDegree).for_each_direction(), "degree of the polynomial pieces", "3")
       .field(
@@ -221,7 +223,8 @@ TypeDeclaration nurbs_surface_type() {
       .optional("domain", rectangle(), "part of the surface, in the knots' parameters; over the seam too when closed")
       .shows({"control_net", "knots"})
       .built_by([](const Fields& f) {
-        return NurbsSurface(axis_of(f, true), axis_of(f, false), f.net("points").values, weights_of_net(f));
+        SplineAxis u = axis_of(f, true), v = axis_of(f, false);
+        return NurbsSurface(std::move(u), std::move(v), f.net("points").values, weights_of_net(f));
       });
 }
 

@@ -38,7 +38,8 @@ void Builder::declare_section(const char* name) {
   if (!values->is_map()) {
     if (!values->invalid)
       diagnostics_.error(values->place, fmt::format("'{}' is a map of named things", name),
-                         "write name: { type: ..., ... }");
+                         std::string_view(name) == "lights" ? "write name: { type: ..., ... }; lights: {} means none"
+                                                            : "write name: { type: ..., ... }");
     return;
   }
   for (const Entry& entry : values->entries) {
@@ -164,12 +165,17 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
     std::vector<std::string> names;
     if (values)
       for (const Entry& entry : values->entries) names.push_back(entry.key.name);
-    const std::string nearest = suggestion(*text, names);
+    const char* elsewhere = nullptr;
+    for (const auto& [other, known] : sections_)
+      if (known.contains(*text)) elsewhere = other.c_str();
+    const std::string nearest = elsewhere ? "" : suggestion(*text, names);
     diagnostics_.error(
         value.place,
         fmt::format("there is no {} called '{}'{}",
                     is_geometry(wanted.front()) ? "geometry" : geometry::name(wanted.front()), *text, nearest),
-        !nearest.empty() || names.empty() ? "" : "there are " + listed(names, 20));
+        elsewhere                           ? fmt::format("'{}' stands under '{}'", *text, elsewhere)
+        : !nearest.empty() || names.empty() ? ""
+                                            : "there are " + listed(names, 20));
     return std::nullopt;
   }
   NamedThing& thing = things->find(found.entry->key.name)->second;

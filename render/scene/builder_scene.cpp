@@ -15,6 +15,22 @@ namespace lekalo::render {
 
 using Shape = SectionDeclaration::Shape;
 
+namespace {
+
+// The section with a field of this name, if there is just one.
+std::string section_that_takes(std::string_view field) {
+  std::string found;
+  for (const SectionDeclaration& declared : sections())
+    for (const Field& one : declared.fields)
+      if (one.name == field) {
+        if (!found.empty()) return {};
+        found = declared.name;
+      }
+  return found;
+}
+
+}  // namespace
+
 Builder::Builder(const SceneDescription& scene, const BuildOptions& options, Diagnostics& diagnostics)
     : scene_(scene),
       options_(options),
@@ -57,8 +73,12 @@ void Builder::check_sections() {
     const auto found = std::find(known.begin(), known.end(), entry.key.name);
     if (found == known.end()) {
       const std::string meant = suggestion(entry.key.name, known);
+      const std::string holder = section_that_takes(entry.key.name);
       diagnostics_.error(entry.key.place, fmt::format("unknown section '{}'{}", entry.key.name, meant),
-                         meant.empty() ? "sections are " + listed(known) : "");
+                         !meant.empty() ? ""
+                         : !holder.empty()
+                             ? fmt::format("it belongs inside another: {}: {{ {}: ... }}", holder, entry.key.name)
+                             : "sections are " + listed(known));
       continue;
     }
     const Shape shape = section_declaration(entry.key.name).shape;

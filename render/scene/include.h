@@ -13,7 +13,9 @@
 //                                             --set overrides all; two included files that give the same one are an
 //                                             error
 //   objects outputs, drawing: annotations     lists append, included entries first; a single entry is a list of one
-//   everything else                           merges key by key, the including file wins, then the later included one
+//   everything else                           merges key by key, the including file wins, then the later included one;
+//                                             of a camera `view` takes the place of `from` and `at`, `from` that of
+//                                             `view`, `frame` and `margin`, another `type` that of everything
 //
 // `as: PREFIX` gives every name that the included file defines in a named section the prefix and a dot: `head` becomes
 // `b1.head`. Inside the included file the names stay as written, since each of its values keeps the prefix as

@@ -24,6 +24,9 @@ std::string plural(Category category);
 std::string list_of_types();
 std::string description_of(const TypeDeclaration& type);
 
+// All about one section of scene files; empty if there is none of this name.
+std::string description_of_section(std::string_view name);
+
 // The pages of the reference: file name and Markdown text.
 std::vector<std::pair<std::string, std::string>> reference_pages();
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "render/scene/styles.h"
+#include "render/scene/types.h"
 
 namespace lekalo::render {
 
@@ -71,6 +72,21 @@ void merge_keys(Value& base, Value&& over) {
   }
 }
 
+// What an included camera says about its kind and place gives way to what the nearer one says in other words.
+void give_way(Value& camera, const Value& nearer) {
+  const auto type_of = [](const Value& c) {
+    const Value* type = c.find("type");
+    return type ? type->text : default_type(Category::camera, c);
+  };
+  if (nearer.find("type") && type_of(camera) != type_of(nearer)) camera.entries.clear();
+  constexpr std::array<std::string_view, 2> kPlace{"from", "at"};
+  constexpr std::array<std::string_view, 3> kFraming{"view", "frame", "margin"};
+  std::erase_if(camera.entries, [&](const Entry& e) {
+    return (nearer.find("view") && is_one_of(kPlace, e.key.name)) ||
+           (nearer.find("from") && is_one_of(kFraming, e.key.name));
+  });
+}
+
 void merge_named(Value& base, Value&& over, const std::string& section, const Rule& rule, Diagnostics& diagnostics) {
   std::unordered_map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < base.entries.size(); ++i) index.emplace(base.entries[i].key.name, i);
@@ -116,6 +132,7 @@ void merge_section(Entry& base, Entry&& over, const Rule& rule, Diagnostics& dia
     else if (!base.value.is_map())
       base.value = std::move(over.value);
   } else if (base.value.is_map() && over.value.is_map()) {
+    if (section == "camera") give_way(base.value, over.value);
     merge_keys(base.value, std::move(over.value));
   } else {
     base.value = std::move(over.value);

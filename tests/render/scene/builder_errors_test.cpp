@@ -42,6 +42,17 @@ TEST(BuilderErrors, MissingFieldsSayWhatTheyTake) {
   EXPECT_EQ(hints("geometry: { a: { type: box } }"), "size: lengths along x, y and z (vector: [a, b, c])\n");
 }
 
+TEST(BuilderErrors, ThingsInTheWrongSection) {
+  EXPECT_EQ(hints("annotations: []"), "it belongs inside another: drawing: { annotations: ... }\n");
+  EXPECT_EQ(hints("samples: 4"), "it belongs inside another: image: { samples: ... }\n");
+  EXPECT_EQ(hints("lights: none"), "write name: { type: ..., ... }; lights: {} means none\n");
+  const std::string swapped =
+      "geometry: { g: { type: ball, radius: 1 } }\nmaterials: { m: { type: diffuse } }\n"
+      "objects: { shape: m, material: g }";
+  EXPECT_EQ(said(swapped), "4:19 there is no geometry called 'm'\n4:32 there is no material called 'g'\n");
+  EXPECT_EQ(hints(swapped), "'m' stands under 'materials'\n'g' stands under 'geometry'\n");
+}
+
 TEST(BuilderErrors, CapsAreForBodies) {
   const auto shown = [](const std::string& shape, const std::string& clip) {
     return said("objects: { shape: " + shape + ", clip: " + clip + " }");

@@ -254,6 +254,23 @@ TEST_F(Include, AllContentErrorsOfAllFilesComeInOneRun) {
             "a.yaml:2:16 '~' means nothing in scene files\n");
 }
 
+// The same scene from elsewhere: what the included camera says in other words gives way.
+TEST_F(Include, CamerasAreReplacedWhereTheySayTheSameInOtherWords) {
+  write("near.yaml", "lekalo: 1\ncamera: { from: [4, -7, 4], at: [0, 0, 1], up: x, field_of_view: 36 }\n");
+  const auto camera = [&](const std::string& own) {
+    const SceneDescription scene = read("lekalo: 1\ninclude: near.yaml\ncamera: " + own + "\n");
+    EXPECT_EQ(said_, "");
+    return keys(scene.root.find("camera"));
+  };
+  EXPECT_EQ(camera("{ view: top }"), "up field_of_view view");
+  EXPECT_EQ(camera("{ from: [1, 1, 1] }"), "from at up field_of_view");
+  EXPECT_EQ(camera("{ type: perspective, at: [0, 0, 2] }"), "from at up field_of_view type");
+  EXPECT_EQ(camera("{ type: parallel, view: top }"), "type view");
+  write("near.yaml", "lekalo: 1\ncamera: { type: parallel, view: top, margin: 0.1 }\n");
+  EXPECT_EQ(camera("{ view: front }"), "type view margin");
+  EXPECT_EQ(camera("{ from: [0, 0, 5], height: 3 }"), "type from height");
+}
+
 // A built-in style that an included file changes keeps its other fields, also where the file has a prefix.
 TEST_F(Include, ChangedBuiltInStylesOfPrefixedFiles) {
   write("inner.yaml", "lekalo: 1\nstyles: { axis: { opacity: 0.5 } }\n");
