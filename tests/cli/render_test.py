@@ -82,7 +82,9 @@ class Pictures(ProgramTest):
         self.assertEqual(process.returncode, INTERRUPTED)
         self.assertIn("--resume part.exr.partial", notes)
         self.assertNotEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
+        self.assertTrue((self.folder / "part.exr.partial").exists())
         self.render(*samples, "-o", "part.exr", "--resume", "part.exr.partial")
+        self.assertFalse((self.folder / "part.exr.partial").exists())
         self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
 
     def test_resume_of_another_scene_is_refused(self):

@@ -37,6 +37,54 @@ class Usage(ProgramTest):
             self.assertIn(arguments[0].replace("-o", "ball.tiff"),
                           self.run_program("render", "ball.yaml", *arguments, code=USAGE)[1])
 
+    def test_slips_on_the_command_line(self):
+        """The option or command that was meant, and the help of the right command."""
+        self.write("ball.yaml", BALL + "materials: { red: { type: diffuse } }\n")
+        for arguments, said in [(["render", "ball.yaml", "--sizes", "3x4"], "there is no option '--sizes' (did you mean '--size'?)"),
+                                (["render", "ball.yaml", "--watsch"], "'lekalo render --help'"),
+                                (["check", "ball.yaml", "other.yaml"], "there is no place for 'other.yaml'"),
+                                (["evaluate", "ball.yaml", "ball"], "'lekalo evaluate --help'"),
+                                (["measure", "ball.yaml", "red"], "this is a material"),
+                                (["types", "nurbs"], "did you mean 'nurbs_curve', 'nurbs_surface'?"),
+                                (["render", "ball.yaml", "--crop", "9,9,5,50"], "X0 < X1")]:
+            self.assertIn(said, self.run_program(*arguments, code=USAGE)[1])
+        self.assertIn("annotations", self.run_program("types", "drawing")[0])
+        image = self.run_program("types", "image")[0]
+        self.assertIn("image (texture)", image)
+        self.assertIn("image (section)", image)
+
+    def test_outputs_are_tried_before_the_work(self):
+        """A picture that takes hours fails in the first second if its folder is not there."""
+        self.write("ball.yaml", BALL)
+        begin = time.perf_counter()
+        _, errors = self.run_program("render", "ball.yaml", "--size", "8000x8000", "--samples", "4096", "-o", "a.png",
+                                     "-o", "no/such/folder/b.png", code=FILE_ERROR)
+        self.assertIn("no/such/folder/b.png", errors)
+        self.assertLess(time.perf_counter() - begin, 5)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["ball.yaml"])
+
+    def test_what_only_drawings_show_is_said(self):
+        self.write("figure.yaml", """lekalo: 1
+geometry:
+  c: { type: circle, radius: 1 }
+  s: { type: bezier_surface, points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]] }
+objects:
+  - { shape: { type: group, of: { shape: c } } }
+  - { shape: s, show: control_net }
+drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
+""")
+        _, notes = self.run_program("render", "figure.yaml", "--size", "20x10")
+        self.assertIn("note: not in the picture, but in drawings: curves and points, helpers (show), annotations\n", notes)
+        self.write("ball.yaml", BALL)
+        self.assertNotIn("note:", self.run_program("render", "ball.yaml", "--size", "20x10")[1])
+
+    def test_evaluation_outside_the_domain_is_said(self):
+        self.write("curves.yaml", "lekalo: 1\ngeometry:\n  a: { type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }\n"
+                   "  c: { type: circle, radius: 1 }\n  s: { type: cylinder_surface, radius: 1, height: 2 }\n")
+        self.assertIn("t = 3 lies outside the domain 0 to 1", self.run_program("evaluate", "curves.yaml", "a", "--at", "3")[1])
+        self.assertIn("v = -1 lies", self.run_program("evaluate", "curves.yaml", "s", "--at", "9,-1")[1])
+        self.assertEqual(self.run_program("evaluate", "curves.yaml", "c", "--at", "30")[1], "")
+
     def test_errors_of_a_scene(self):
         """All in one run, each with file, line and column, the line itself and a suggestion."""
         self.write("wrong.yaml", "lekalo: 1\ngeometry:\n  ball: { type: ball, radius: -1 }\n"

@@ -34,7 +34,9 @@ const render::Entity& find_geometry(const render::LoadedScene& scene, const std:
   for (const auto& [known, entity] : geometry) names.push_back(known);
   const auto nearest = geometry::nearest_name(name, names);
   throw UsageError(fmt::format("the scene has no geometry called '{}'{}", name,
-                               nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+                               scene.model->materials.contains(name) ? ": this is a material"
+                               : nearest                             ? fmt::format(" (did you mean '{}'?)", *nearest)
+                                                                     : ""));
 }
 
 render::Table load_table(const std::string& path) {

@@ -95,15 +95,26 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
 }
 
+// Outside its domain a curve or surface goes on by a rule; who asks for it should know.
+void note_outside(const char* name, double x, const geometry::Interval& domain, double period) {
+  if (period > 0 || domain.contains(x)) return;
+  fmt::print(stderr, "note: {} = {:.9g} lies outside the domain {:.9g} to {:.9g}, this is the continuation\n", name, x,
+             domain.lo, domain.hi);
+}
+
 int run(const Options& options) {
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
   ordered_json out;
   if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
-    out = evaluate_curve(**curve, parse_numbers(options.at, 1, "--at of a curve")[0], options.order);
+    const double t = parse_numbers(options.at, 1, "--at of a curve")[0];
+    note_outside("t", t, (*curve)->domain(), (*curve)->period());
+    out = evaluate_curve(**curve, t, options.order);
   } else {
     const geometry::SurfacePtr surface = surface_of(entity, options);
     const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
+    note_outside("u", uv[0], surface->domain().u, surface->periods().u);
+    note_outside("v", uv[1], surface->domain().v, surface->periods().v);
     out = evaluate_surface(*surface, uv[0], uv[1]);
   }
   if (options.json)

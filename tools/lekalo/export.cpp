@@ -133,8 +133,10 @@ int export_pov(const Options& options, const std::string& output) {
   pov.sag = options.sag;
   const render::PovScene scene = render::pov_scene(*options.scene.load().model, pov);
   render::write_file_atomically(output, scene.text);
-  if (!options.quiet)
+  if (!options.quiet) {
     for (const std::string& note : scene.notes) fmt::print(stderr, "not exact: {}\n", note);
+    fmt::print(stderr, "{}\n", output);
+  }
   return kDone;
 }
 

@@ -25,6 +25,26 @@ class ExamplesFirst : public CLI::Formatter {
   }
 };
 
+// What CLI11 found wrong, with the option that was probably meant.
+std::string failure(const CLI::App* app, const CLI::Error& error) {
+  const auto chosen = app->get_subcommands();
+  const CLI::App* command = chosen.empty() ? app : chosen.front();
+  std::string message = error.what();
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    const std::vector<std::string> rest = app->remaining(true);
+    const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with("-"); });
+    const std::string& unknown = option == rest.end() ? rest.front() : *option;
+    std::vector<std::string> known;
+    for (const CLI::Option* one : command->get_options())
+      for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+    const auto nearest = geometry::nearest_name(unknown.substr(0, unknown.find('=')), known);
+    message = fmt::format("there is no {} '{}'{}", option == rest.end() ? "place for" : "option", unknown,
+                          nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : "");
+  }
+  return fmt::format("{}\n'{} --help' shows how to use it\n", message,
+                     command == app ? "lekalo" : "lekalo " + command->get_name());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -33,10 +53,7 @@ int main(int argc, char** argv) {
   app.formatter(std::make_shared<ExamplesFirst>());
   app.set_version_flag("--version", "lekalo " LEKALO_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App* a, const CLI::Error& error) {
-    return fmt::format("{}\n'{} --help' shows how to use it\n", error.what(),
-                       a->get_parent() ? "lekalo " + a->get_name() : "lekalo");
-  });
+  app.failure_message(failure);
   command::Action action;
   command::add_render(app, action);
   command::add_make(app, action);

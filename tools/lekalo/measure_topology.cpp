@@ -144,8 +144,8 @@ void print_topology(const ordered_json& found) {
   }
   for (const auto& violation : found["violations"])
     fmt::print("violated: {}: {}\n", violation["condition"].get<std::string>(), violation["entity"].get<std::string>());
-  fmt::print("{} shells, {} loops\n{} faces\n", found["shells"].get<size_t>(), found["loops"].get<size_t>(),
-             found["faces"].size());
+  fmt::print("{} shell{}, {} loops\n{} faces\n", found["shells"].get<size_t>(),
+             found["shells"].get<size_t>() == 1 ? "" : "s", found["loops"].get<size_t>(), found["faces"].size());
   for (const auto& face : found["faces"])
     fmt::print("  {:<3} {:<16} edges {}\n", face["index"].get<int>(), name_text(face), numbers_text(face["edges"]));
   fmt::print("{} edges\n", found["edges"].size());

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
@@ -54,6 +55,36 @@ void add_metadata(render::RenderResult& result, const render::Model& model, cons
   char host[HOST_NAME_MAX + 1] = {};
   if (gethostname(host, HOST_NAME_MAX) == 0) metadata["lekalo.host"] = std::string(host);
   metadata["lekalo.path"] = std::filesystem::absolute(scene_file).string();
+}
+
+void check_writable(const std::vector<render::OutputFile>& files) {
+  for (const render::OutputFile& file : files) {
+    // Opening a pipe would already say something to its reader.
+    const auto status = std::filesystem::status(file.path);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+        std::filesystem::is_directory(status))
+      render::AtomicFile probe(file.path);
+  }
+}
+
+std::string left_to_drawings(const render::Model& model) {
+  bool thin = false, lines = false, helpers = false;
+  const auto look = [&](auto&& self, const std::vector<render::Object>& objects) -> void {
+    for (const render::Object& object : objects) {
+      thin = thin || std::holds_alternative<geometry::CurvePtr>(object.shape) ||
+             std::holds_alternative<geometry::Vec3>(object.shape);
+      lines = lines || (object.look && object.look->lines);
+      helpers = helpers || (object.look && !object.look->helpers.empty());
+      if (const auto* group = std::get_if<render::GroupPtr>(&object.shape)) self(self, (*group)->objects);
+    }
+  };
+  look(look, model.objects);
+  std::string names;
+  for (const auto& [there, name] :
+       {std::pair(thin, "curves and points"), std::pair(lines, "lines"), std::pair(helpers, "helpers (show)"),
+        std::pair(!model.drawing.annotations.empty(), "annotations"), std::pair(!model.panels.empty(), "panels")})
+    if (there) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
 }
 
 void write_picture(const render::OutputFile& file, const render::Image& image) {

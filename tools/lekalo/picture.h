@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "render/film/render.h"
 #include "render/scene/load.h"
@@ -23,6 +24,12 @@ std::shared_ptr<render::Model> with_overrides(const render::Model& model, const 
 // Version, scene (its name without folders), samples, title and parameters; with `stamp` also the date, and the
 // machine and the scene's full path unless SOURCE_DATE_EPOCH gives the date.
 void add_metadata(render::RenderResult& result, const render::Model& model, const std::string& scene_file, bool stamp);
+
+// Throws ImageError if one of the files could not be written: before hours of tracing, not after.
+void check_writable(const std::vector<render::OutputFile>& files);
+
+// What the scene shows that only drawings have: "curves and points, annotations"; empty if there is nothing.
+std::string left_to_drawings(const render::Model& model);
 
 // EXR, or PNG by the output's display transform. Atomic. Throws ImageError.
 void write_picture(const render::OutputFile& file, const render::Image& image);

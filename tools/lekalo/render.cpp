@@ -106,6 +106,9 @@ PictureOverrides overrides_of(const Options& options) {
 
 void set_crop(const std::string& text, Model& model) {
   const std::vector<double> c = parse_numbers(text, 4, "--crop");
+  if (!(c[0] < c[2] && c[1] < c[3]))
+    throw UsageError(
+        fmt::format("--crop {}: nothing is left; write two corners X0,Y0,X1,Y1 with X0 < X1, Y0 < Y1", text));
   auto& f = model.film;
   f.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
   if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&
@@ -139,6 +142,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
   if (!options.quiet && first)
     for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
+  if (const std::string missing = left_to_drawings(*model); !options.quiet && first && !missing.empty())
+    fmt::print(stderr, "note: not in the picture, but in drawings: {}\n", missing);
   if (!options.crop.empty()) set_crop(options.crop, *model);
   std::vector<OutputFile> outputs = chosen_outputs(options, *model);
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
@@ -151,6 +156,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (outputs.empty()) return code;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
+  check_writable(outputs);
   // Only OpenEXR files have room for more than colour.
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
     model->film.layers = {"color"};
@@ -186,10 +192,13 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
   if (!result.complete) {
-    fmt::print(stderr, "interrupted: what was done is in {}; go on with --resume {}\n", outputs.front().path,
-               settings.partial_file);
+    fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command and --resume {}\n",
+               outputs.front().path, settings.partial_file);
     return kInterrupted;
   }
+  // What an interrupted run has left, or this one has saved on the way.
+  std::error_code ignored;
+  std::filesystem::remove(settings.partial_file, ignored);
   return code;
 }
 

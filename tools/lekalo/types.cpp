@@ -38,19 +38,31 @@ int describe_one(const std::string& name) {
     fmt::print("{}{}", found ? "\n" : "", render::description_of(type));
     found = true;
   }
+  if (const std::string section = render::description_of_section(name); !section.empty()) {
+    fmt::print("{}{}", found ? "\n" : "", section);
+    found = true;
+  }
   if (found) return kDone;
   const auto nearest = geometry::nearest_name(name, known);
+  std::string meant;
+  if (nearest)
+    meant = "'" + *nearest + "'";
+  else
+    for (const std::string& other : known)
+      if (other.find(name) != std::string::npos) meant += (meant.empty() ? "'" : ", '") + other + "'";
   throw UsageError(fmt::format("there is no type called '{}'{}; 'lekalo types' lists them", name,
-                               nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : ""));
+                               meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant)));
 }
 
 }  // namespace
 
 void add_types(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("types", "List the types that scene files can name, or explain one");
-  sub->footer("Examples:\n  lekalo types\n  lekalo types circle\n  lekalo types --markdown docs/reference");
+  auto* sub = app.add_subcommand("types", "List the types that scene files can name, or explain one, or a section");
+  sub->footer(
+      "Examples:\n  lekalo types\n  lekalo types circle\n  lekalo types drawing\n  lekalo types --markdown "
+      "docs/reference");
   auto options = std::make_shared<Options>();
-  auto* name = sub->add_option("type", options->name, "a type to explain");
+  auto* name = sub->add_option("type", options->name, "a type or a section to explain");
   sub->add_option("--markdown", options->folder, "write the reference manual into this folder")
       ->type_name("DIR")
       ->excludes(name);
