@@ -98,6 +98,16 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
             self.assertIn("  - { shape: bal }", errors)
         self.assertFalse((self.folder / "wrong.png").exists())
 
+    def test_caps_of_meshes(self):
+        """A mesh from a file knows no inside: nothing could close its cut."""
+        self.write("ball.yaml", BALL)
+        self.run_program("export", "ball.yaml", "ball", "--sag", "0.1", "-o", "ball.stl")
+        self.write("cut.yaml", "lekalo: 1\ngeometry: { m: { type: mesh, file: ball.stl } }\n"
+                   "objects: [{ shape: m, clip: [{ normal: x }, { normal: y, cap: true }] }]\n")
+        errors = self.run_program("check", "cut.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("cut.yaml:3:63: a cap closes the cut of a body; a mesh from a file knows no inside", errors)
+        self.assertIn("hint: leave out 'cap'", errors)
+
     def test_unreadable_files(self):
         self.assertIn("none.yaml", self.run_program("check", "none.yaml", code=FILE_ERROR)[1])
         self.write("ball.yaml", BALL)
