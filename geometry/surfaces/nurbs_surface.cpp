@@ -200,8 +200,8 @@ SplineAxis axis_of(const Fields& f, bool along_u) {
     if (f.has("domain")) axis.restrict_to(along_u ? f.rectangle("domain").u : f.rectangle("domain").v);
     return axis;
   } catch (const FieldError& error) {
-    throw FieldError(error.field + (along_u ? ".u" : ".v"),
-                     fmt::format("in direction {}: {}", along_u ? 'u' : 'v', error.what()), error.hint);
+    const std::string field = error.field + (error.field == "points" ? "" : along_u ? ".u" : ".v");
+    throw FieldError(field, fmt::format("in direction {}: {}", along_u ? 'u' : 'v', error.what()), error.hint);
   }
 }
 

@@ -42,7 +42,8 @@ class SpotLamp final : public Light {
 LightPtr make_light(const SpotLight& light) { return std::make_shared<SpotLamp>(light); }
 
 TypeDeclaration spot_light_type() {
-  TypeDeclaration type = declare(Category::light, "spot_light", "Light from one point into a cone.");
+  TypeDeclaration type = declare(Category::light, "spot_light", "Light from one point into a cone.")
+                             .example("position: [0, 0, 5], at: [0, 0, 0]");
   type.field("position", point(), "where it stands")
       .optional("at", point(), "where it points to; or give `direction`")
       .optional("direction", direction(), "along the axis of the cone")

@@ -115,7 +115,7 @@ TEST(SurfaceDeclarations, RefuseWrongValuesWhereTheyStand) {
   EXPECT_EQ(refusal(nurbs_surface_type(), with(kSurface, {{"weights", Grid<double>{4, 5, List(20, 1)}}})),
             "weights: 4 x 5 weights do not fit 5 x 4 points");
   EXPECT_EQ(refusal(nurbs_surface_type(), with(kSurface, {{"domain", Rectangle{{0, 3}, {0, 1}}}})),
-            "domain: in direction u: [0, 3] is not inside the knots' domain [0, 2]");
+            "domain.u: in direction u: [0, 3] is not inside the knots' domain [0, 2]");
   EXPECT_EQ(refusal(bezier_surface_type(), {{"points", net(30, 4)}, {"domain", Rectangle{{0, 1}, {0, 1}}}}),
             "points: a Bezier surface has 2 to 26 rows and columns of points, not 30 x 4");
 }

@@ -42,6 +42,12 @@ TEST(BuilderErrors, MissingFieldsSayWhatTheyTake) {
   EXPECT_EQ(hints("geometry: { a: { type: box } }"), "size: lengths along x, y and z (vector: [a, b, c])\n");
 }
 
+TEST(BuilderErrors, KnotsOfOneDirection) {
+  EXPECT_EQ(about("{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]],\n"
+                  "       knots: { u: [0, 0, 1, 1], v: [0, 0, 1] } }"),
+            "4:37 in direction v: 2 points of degree 1 need 4 knots, not 3\n");
+}
+
 TEST(BuilderErrors, ThingsInTheWrongSection) {
   EXPECT_EQ(hints("annotations: []"), "it belongs inside another: drawing: { annotations: ... }\n");
   EXPECT_EQ(hints("samples: 4"), "it belongs inside another: image: { samples: ... }\n");
