@@ -232,7 +232,7 @@ Hierarchy::Place Hierarchy::place(int instance) const {
     // Vertices and rays of meshes are rounded to float about the centre.
     if (record.leaf->mesh) result.error = kBoxInflation * parts_->radius;
   }
-  result.object = record.object;
+  if (record.object >= 0) result.object = record.object;
   return result;
 }
 

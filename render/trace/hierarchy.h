@@ -46,6 +46,7 @@ class Hierarchy {
   // Leaves and instances are numbered in the order in which they are added; an instance takes as many numbers as its
   // child has leaves.
   void add(Leaf leaf);
+  // `object` is the number of all that is in the instance; -1: its leaves keep their own.
   void add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object);
   // Builds; nothing may be added afterwards.
   void commit();

@@ -286,7 +286,7 @@ struct World::Compiled {
           add(*child, (*group)->objects, to_world * object.transform);
           child->commit();
         }
-        into.add_instance(child, object.transform, number);
+        into.add_instance(child, object.transform, -1);  // its members keep their own numbers and materials
         ++statistics.instances;
         continue;
       }
