@@ -62,8 +62,9 @@ Roots<2> quadratic_roots(const std::array<double, 3>& c, double relative_error =
 // relative error given. Found between the extrema of p, themselves found the same way; p(x) counts as zero where |p(x)|
 // does not exceed the sum of its running rounding error (Higham 2002, 5.1) and that of its coefficients. Leading
 // coefficients may be zero. A root within that error of an end of the domain is reported at the end. The zero
-// polynomial, and one with a coefficient that is not finite, has no roots.
+// polynomial, and one with a coefficient that is not finite, has no roots. Roots outside `wanted` may be left out; the
+// others do not depend on it.
 Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain = Interval::entire(),
-                       double relative_error = 0);
+                       double relative_error = 0, const Interval& wanted = Interval::entire());
 
 }  // namespace lekalo::geometry

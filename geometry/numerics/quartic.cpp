@@ -182,7 +182,8 @@ namespace {
 // halving.
 class Isolation {
  public:
-  Isolation(const std::array<double, 5>& c, double relative_error) : c_(c), relative_error_(relative_error) {}
+  Isolation(const std::array<double, 5>& c, double relative_error, const Interval& wanted)
+      : c_(c), relative_error_(relative_error), wanted_(wanted) {}
 
   // False where rounding or nearly equal roots leave the count open.
   bool run(const Interval& domain, Roots<4>& roots) {
@@ -218,6 +219,7 @@ class Isolation {
     }
     if (sure && changes == 0) return true;
     if (sure && changes == 1) {
+      if (hi < wanted_.lo || lo > wanted_.hi) return true;
       // From the chord's root.
       roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0, lo + (hi - lo) * (b[0] / (b[0] - b[4]))), false);
       return true;
@@ -234,18 +236,20 @@ class Isolation {
 
   const std::array<double, 5>& c_;
   double relative_error_, error_ = 0;
+  Interval wanted_;
 };
 
 }  // namespace
 
-Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain, double relative_error) {
+Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain, double relative_error,
+                       const Interval& wanted) {
   for (const double x : c) {
     if (!std::isfinite(x)) return {};
   }
   if (domain.empty()) return {};
   if (std::isfinite(domain.lo) && std::isfinite(domain.hi)) {
     Roots<4> roots;
-    if (Isolation(c, relative_error).run(domain, roots)) return roots;
+    if (Isolation(c, relative_error, wanted).run(domain, roots)) return roots;
   }
   return roots_between<4>(c.data(), domain, relative_error);
 }

@@ -62,12 +62,13 @@ TypeDeclaration cone_surface_type() {
   return declare(Category::surface, "cone_surface",
                  "Lateral surface of a circular cone or frustum; the normal points outward. Without a height it is "
                  "unbounded and has both nappes.")
+      .example("radius: 1, height: 2")
       .field("frame", frame(), "placement: the center of the base circle, the axis z, x at the angle 0", "{}")
       .field("radius", length().non_negative(), "radius of the base circle (v = 0)")
       .optional("height", length().positive(), "distance of the top circle (v = 1) from the base, along the axis")
       .optional("top_radius", length().non_negative(),
                 "radius of the top circle; 0, the apex, unless half_angle is given")
-      .optional("half_angle", angle().between(-89.9999, 89.9999),
+      .optional("half_angle", angle().between(-89.9999 * kPi / 180, 89.9999 * kPi / 180),
                 "angle between generatrix and axis, positive where the cone widens upward; in place of top_radius")
       .optional("domain", rectangle(),
                 "part of the surface: u the angle in radians, v from 0 at the base to 1 at the height (of an unbounded "

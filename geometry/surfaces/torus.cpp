@@ -33,9 +33,10 @@ struct Crossings {
   }
 };
 
-Crossings crossings(const std::array<double, 5>& quartic, const Interval& stretch) {
+Crossings crossings(const std::array<double, 5>& quartic, const Interval& stretch,
+                    const Interval& wanted = Interval::entire()) {
   Crossings result;
-  for (const auto& root : quartic_roots(quartic, stretch))
+  for (const auto& root : quartic_roots(quartic, stretch, 0, wanted))
     if (!root.tangent) result.add(root.x);
   return result;
 }
@@ -85,10 +86,11 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
   const std::array<double, 5> quartic{k * k - four * gamma, 4 * b * k - 2 * four * beta,
                                       4 * b * b + 2 * k - four * alpha, 4 * b, 1};
   constexpr double kLargestStep = 1e-6;
-  const double unit = size / speed;
+  const double unit = size / speed, room = 4 * kLargestStep + 1e-15 * std::abs(moved.start) / unit;
+  // Where a root of the quartic may still become a hit in the range.
+  const Interval wanted{(range.lo - moved.start) / unit - room, (range.hi - moved.start) / unit + room};
   const auto add = [&](double s) {
-    const double rough = moved.start + s * unit, slack = 4 * kLargestStep * unit + 1e-15 * std::abs(moved.start);
-    if (rough < range.lo - slack || rough > range.hi + slack) return;
+    if (!wanted.contains(s)) return;
     // Newton on (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic.
     for (int step = 0; step < 2; ++step) {
       const Vec3 p = o + s * d;
@@ -123,7 +125,7 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
       keep((-minor - o.z) / d.z, (minor - o.z) / d.z);
     else if (std::abs(o.z) > minor + 2 * std::abs(d.z) + kRoom)
       return;
-    if (stretch.lo < stretch.hi) add_all(crossings(quartic, stretch));
+    if (stretch.lo < stretch.hi) add_all(crossings(quartic, stretch, wanted));
     return;
   }
   const double first = -b - std::sqrt(discriminant), second = -b + std::sqrt(discriminant);

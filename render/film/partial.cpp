@@ -72,7 +72,7 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
   const uint64_t of_scene = number(), of_settings = number(), count = number();
   if (of_scene != identity || of_settings != film.settings_hash())
     throw ImageError(file, "the partial picture is of another scene, other settings or another version of the program",
-                     "render without --resume");
+                     "repeat the options of the first run (-o decides the layers as well), or render without --resume");
   tally.camera_rays = number();
   tally.shadow_rays = number();
   tally.other_rays = number();

@@ -54,6 +54,12 @@ bool differ(const Shown& a, const Shown& b, float contrast) {
   return result;
 }
 
+// Whether two samples met different things, or only one of them met any.
+bool is_outline_between(const RaySample& a, const RaySample& b) {
+  if (!a.point || !b.point) return a.point.has_value() != b.point.has_value();
+  return a.point->instance != b.point->instance || a.point->face != b.point->face;
+}
+
 bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.is_finite() && std::isfinite(s.alpha); }
 
 // Traces the pixels of one tile.
@@ -182,17 +188,21 @@ class TileTracer {
         for (int ny = std::max(y - kPenumbra, around.y0); even && ny <= std::min(y + kPenumbra, around.y1 - 1); ++ny)
           for (int nx = std::max(x - kPenumbra, around.x0); even && nx <= std::min(x + kPenumbra, around.x1 - 1); ++nx)
             even = !centers[index(nx, ny)].noisy;
-        const bool even_light = even;
-        for (int ny = std::max(y - 1, around.y0); even && ny <= std::min(y + 1, around.y1 - 1); ++ny)
-          for (int nx = std::max(x - 1, around.x0); even && nx <= std::min(x + 1, around.x1 - 1); ++nx)
-            even = !differ(own_shown, shown[index(nx, ny)], contrast);
+        // A few samples alike tell that texture or shading is calm there, not that no outline cuts off a corner.
+        bool calm = even;
+        for (int ny = std::max(y - 1, around.y0); calm && ny <= std::min(y + 1, around.y1 - 1); ++ny)
+          for (int nx = std::max(x - 1, around.x0); calm && nx <= std::min(x + 1, around.x1 - 1); ++nx) {
+            if (!differ(own_shown, shown[index(nx, ny)], contrast)) continue;
+            even = false;
+            calm = !is_outline_between(own, centers[index(nx, ny)]);
+          }
         if (even) {
           exposure.add(x, y, Vec2(0.5), own, all);
           count(x, y, 1);
           continue;
         }
         taken.clear();
-        bool alike = even_light && is_finite(own);
+        bool alike = calm;
         int s = 0;
         for (; s < all && (s < kFewSamples || !alike); ++s) {
           taken.push_back(sample_at(x, y, sampler_->pixel_position(x, y, s), s, exposure.tally));
