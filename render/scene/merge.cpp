@@ -76,7 +76,7 @@ void merge_keys(Value& base, Value&& over) {
 void give_way(Value& camera, const Value& nearer) {
   const auto type_of = [](const Value& c) {
     const Value* type = c.find("type");
-    return type ? type->text : default_type(Category::camera, c);
+    return type ? type->text : default_camera_type(c);
   };
   if (nearer.find("type") && type_of(camera) != type_of(nearer)) camera.entries.clear();
   constexpr std::array<std::string_view, 2> kPlace{"from", "at"};

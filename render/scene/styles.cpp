@@ -1,35 +1,8 @@
 #include "render/scene/styles.h"
 
-#include <algorithm>
-#include <array>
-
 namespace lekalo::render {
 
 using namespace geometry;
-
-namespace {
-
-constexpr std::array<std::string_view, 9> kNames{"thick",        "thin",      "hairline", "hidden", "axis",
-                                                 "construction", "dimension", "label",    "ray"};
-
-// Dashes of ISO 128-2: 12 widths drawn, 3 left out; chains 24, 3, 0.5, 3. Shortened by half for small figures.
-constexpr std::string_view kBuiltIn = R"(
-thick:        { width: 0.5 mm }
-thin:         { width: 0.25 mm }
-hairline:     { width: 0.13 mm }
-hidden:       { width: 0.25 mm, dash: [1.5 mm, 0.75 mm] }
-axis:         { width: 0.18 mm, dash: [3 mm, 0.6 mm, 0.2 mm, 0.6 mm] }
-construction: { width: 0.18 mm, color: '#555555' }
-dimension:    { width: 0.18 mm, arrows: both, text_size: 8 pt }
-label:        { width: 0.18 mm, text_size: 10 pt }
-ray:          { width: 0.25 mm, color: crimson, arrows: end }
-)";
-
-}  // namespace
-
-std::string_view built_in_styles() { return kBuiltIn; }
-
-bool is_built_in_style(std::string_view name) { return std::find(kNames.begin(), kNames.end(), name) != kNames.end(); }
 
 Style complete(const StyleChanges& changes) {
   const Fields& f = changes.fields;

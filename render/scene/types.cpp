@@ -108,7 +108,7 @@ bool is_implicit(Category category) {
 std::string default_type(Category category, const Value& map) {
   if (is_implicit(category)) return std::string(geometry::name(category));
   if (category == Category::integrator) return "classic";
-  if (category == Category::camera) return map.find("from") || map.find("field_of_view") ? "perspective" : "parallel";
+  if (category == Category::camera) return default_camera_type(map);
   return {};
 }
 

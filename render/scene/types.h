@@ -41,6 +41,10 @@ const char* section_of(Category category);
 // Categories of a single type, which is never written: styles, objects, panels.
 bool is_implicit(Category category);
 
+// The type of a camera without `type`.
+inline const char* default_camera_type(const Value& map) {
+  return map.find("from") || map.find("field_of_view") ? "perspective" : "parallel";
+}
 // The type of a map without `type`, or empty where it must be written.
 std::string default_type(Category category, const Value& map);
 
