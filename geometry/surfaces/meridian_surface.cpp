@@ -108,17 +108,9 @@ std::optional<NurbsSurfaceForm> MeridianSurface::as_nurbs() const {
 void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line,
                                        const Interval& range, LineHits& hits,
                                        std::optional<double> (*parameter)(const Vec3&)) const {
-  const MovedLine moved = local_line(line, frame_.origin);
-  const Vec3 direction = moved.direction * scale;
-  const QuadricRoots roots = quadric_roots(quadric, moved.origin * scale, direction);
-  const Interval near{range.lo - moved.start, range.hi - moved.start};
-  for (int i = 0; i < roots.count && !hits.is_enough(); ++i) {
-    if (!roots.may_lie_in(near, i)) continue;
-    const QuadricHit hit = quadric_hit(quadric, direction, roots, i);
-    const double t = moved.start + hit.s;
-    if (!range.contains(t)) continue;
-    if (const auto v = parameter(hit.point)) add_hit(hits, line, t, std::atan2(hit.point.y, hit.point.x), *v);
-  }
+  visit_quadric_hits(quadric, local_line(line, frame_.origin), scale, range, hits, [&](double t, const Vec3& p) {
+    if (const auto v = parameter(p)) add_hit(hits, line, t, std::atan2(p.y, p.x), *v);
+  });
 }
 
 void MeridianSurface::add_hit(LineHits& hits, const Line& line, double t, double u, double v) const {

@@ -65,20 +65,12 @@ std::optional<NurbsSurfaceForm> HyperbolicParaboloid::as_nurbs() const {
 }
 
 void HyperbolicParaboloid::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
-  const MovedLine moved = moved_near(line, frame_.origin, frame_);
-  const Vec3 scale(a_, b_, 1);
-  const Quadric quadric{{1, -1, 0}, -1, 0};
-  const Vec3 direction = moved.direction / scale;
-  const QuadricRoots roots = quadric_roots(quadric, moved.origin / scale, direction);
-  const Interval near{range.lo - moved.start, range.hi - moved.start};
-  for (int i = 0; i < roots.count && !hits.is_enough(); ++i) {
-    if (!roots.may_lie_in(near, i)) continue;
-    const QuadricHit hit = quadric_hit(quadric, direction, roots, i);
-    const double t = moved.start + hit.s;
-    if (!range.contains(t)) continue;
-    const auto u = within(domain_.u, hit.point.x), v = within(domain_.v, hit.point.y);
-    if (u && v) hits.add({t, *u, *v});
-  }
+  const Vec3 scale(1 / a_, 1 / b_, 1);
+  visit_quadric_hits({{1, -1, 0}, -1, 0}, moved_near(line, frame_.origin, frame_), scale, range, hits,
+                     [&](double t, const Vec3& p) {
+                       const auto u = within(domain_.u, p.x), v = within(domain_.v, p.y);
+                       if (u && v) hits.add({t, *u, *v});
+                     });
 }
 
 TypeDeclaration elliptic_paraboloid_type() {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/numerics/interval.h"
-#include "geometry/vectors.h"
+#include "geometry/surface.h"
+#include "geometry/surfaces/local_line.h"
 
 namespace lekalo::geometry {
 
@@ -49,5 +49,21 @@ struct QuadricHit {
 QuadricRoots quadric_roots(const Quadric& quadric, const Vec3& origin, const Vec3& direction);
 
 QuadricHit quadric_hit(const Quadric& quadric, const Vec3& direction, const QuadricRoots& roots, int i);
+
+// Calls visit(t, point) for the hits with t in the range, in the order of t, until `hits` has enough. `line` is in the
+// quadric's frame, whose coordinates times `scale` are those of F.
+template <class Visit>
+void visit_quadric_hits(const Quadric& quadric, const MovedLine& line, const Vec3& scale, const Interval& range,
+                        const LineHits& hits, Visit visit) {
+  const Vec3 direction = line.direction * scale;
+  const QuadricRoots roots = quadric_roots(quadric, line.origin * scale, direction);
+  const Interval near{range.lo - line.start, range.hi - line.start};
+  for (int i = 0; i < roots.count && !hits.is_enough(); ++i) {
+    if (!roots.may_lie_in(near, i)) continue;
+    const QuadricHit hit = quadric_hit(quadric, direction, roots, i);
+    const double t = line.start + hit.s;
+    if (range.contains(t)) visit(t, hit.point);
+  }
+}
 
 }  // namespace lekalo::geometry

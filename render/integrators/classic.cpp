@@ -219,8 +219,9 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       // R.V with R = 2 (m.L) m - L and V = -d
       const double cos_alpha = 2 * cosine * m_v + glm::dot(sample.direction, ray.direction);
       const double lobe = specular ? phong_lobe(cos_alpha, c.exponent) : 0;
-      if (!diffuse && lobe == 0) continue;
       const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
+      const float highlight = static_cast<float>(lobe) * (c.specular * light_per_pi).largest();
+      if (!diffuse && highlight == 0) continue;
       if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
       if (shadows) {
@@ -229,8 +230,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         visible = passing(shadow_ray, media);
       }
       // A highlight jitters with the places on the light.
-      const bool glossy = lobe > 0 && (static_cast<float>(lobe) * (c.specular * light_per_pi)).largest() > kGrain;
-      if (jittered && (!cone || visible != kWhite || glossy)) sample_.noisy = true;
+      if (jittered && (!cone || visible != kWhite || highlight > kGrain)) sample_.noisy = true;
       mix(visible.is_zero() ? 5 : 6);
       sum.diffuse += static_cast<float>(cosine) * ((cone ? visible - kWhite : visible) * light_per_pi);
       sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
@@ -241,10 +241,9 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
 
 Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
   ++sample_.shadow_rays;
-  const bool blocked = world_.occluded(shadow_ray);
-  if (!blocked && around.filling() < 0) return kWhite;
-  if (options_.shadows == ShadowMode::opaque || !world_.has_transmitting_materials())
-    return blocked ? Spectrum() : kWhite;
+  const bool tinted = options_.shadows == ShadowMode::transparent && world_.has_transmitting_materials();
+  if (!tinted) return world_.occluded(shadow_ray) ? Spectrum() : kWhite;
+  if (around.filling() < 0 && !world_.occluded(shadow_ray)) return kWhite;
   Ray ray = shadow_ray;
   Media media = around;
   Spectrum share = kWhite;

@@ -13,9 +13,10 @@ class CheckerTexture final : public Texture {
  public:
   explicit CheckerTexture(const Checker& checker) : checker_(checker) {}
 
-  Spectrum at(const SurfacePoint& point) const override { return shown(point).at(point); }
+  Spectrum at(const SurfacePoint& point) const override { return color(is_even(point)).at(point); }
   uint64_t cell(const SurfacePoint& point) const override {
-    return hash_combine(is_even(point), shown(point).cell(point));
+    const bool even = is_even(point);
+    return hash_combine(even, color(even).cell(point));
   }
   std::any made_from() const override { return checker_; }
 
@@ -23,11 +24,10 @@ class CheckerTexture final : public Texture {
   bool is_even(const SurfacePoint& point) const {
     const double i = std::floor((point.u - checker_.offset.x) / checker_.spacing.x);
     const double j = std::floor((point.v - checker_.offset.y) / checker_.spacing.y);
-    return std::fmod(i + j, 2.0) == 0;
+    const double half = 0.5 * (i + j);
+    return std::floor(half) == half;
   }
-  const TexturedColor& shown(const SurfacePoint& point) const {
-    return is_even(point) ? checker_.color : checker_.background;
-  }
+  const TexturedColor& color(bool even) const { return even ? checker_.color : checker_.background; }
 
   Checker checker_;
 };

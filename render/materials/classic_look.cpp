@@ -1,6 +1,6 @@
 // The classic light model as it stands (Golovanov 2016, 8.4.2-8.4.5): ambient, Lambert, Phong, mirror, refraction,
 // absorption and emission, each coefficient a number, a colour or a texture.
-#include <array>
+#include <vector>
 
 #include "render/materials/materials.h"
 
@@ -13,12 +13,14 @@ namespace {
 class ClassicMaterial final : public Material {
  public:
   explicit ClassicMaterial(const ClassicLook& look) : look_(look) {
-    for (const TexturedColor* color : colors()) textured_ = textured_ || color->texture();
-    if (!textured_) same_everywhere_ = coefficients({});
+    for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
+                                       &look_.transmission, &look_.emission})
+      if (color->texture()) textures_.push_back(color->texture());
+    if (textures_.empty()) same_everywhere_ = coefficients({});
   }
 
   ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    return textured_ ? coefficients(point) : same_everywhere_;
+    return textures_.empty() ? same_everywhere_ : coefficients(point);
   }
 
   std::optional<Medium> interior(const Wavelengths&) const override {
@@ -33,8 +35,7 @@ class ClassicMaterial final : public Material {
 
   uint64_t cell(const SurfacePoint& point) const override {
     uint64_t hash = deviation_cell(point, look_.normal_deviation);
-    if (textured_)
-      for (const TexturedColor* color : colors()) hash = hash_combine(hash, color->cell(point));
+    for (const TexturePtr& texture : textures_) hash = hash_combine(hash, texture->cell(point));
     return hash;
   }
   std::any made_from() const override { return look_; }
@@ -55,14 +56,9 @@ class ClassicMaterial final : public Material {
     return c;
   }
 
-  std::array<const TexturedColor*, 7> colors() const {
-    return {&look_.color,  &look_.ambient,      &look_.diffuse, &look_.specular,
-            &look_.mirror, &look_.transmission, &look_.emission};
-  }
-
   ClassicLook look_;
-  bool textured_ = false;
-  ClassicCoefficients same_everywhere_;  // where no coefficient has a texture
+  std::vector<TexturePtr> textures_;     // of all coefficients
+  ClassicCoefficients same_everywhere_;  // where there are none
 };
 
 }  // namespace
