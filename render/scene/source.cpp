@@ -36,7 +36,8 @@ void unify_line_breaks(std::string& text) {
 
 std::shared_ptr<const SourceFile> make_source(std::string name, std::string text, std::filesystem::path path,
                                               std::string scope, Place included_from) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  // yaml-cpp leaves out one more than is there.
+  while (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   unify_line_breaks(text);
   auto source = std::make_shared<SourceFile>();
   source->name = std::move(name);
