@@ -28,6 +28,7 @@ RTCDevice device() {
   }();
   return shared;
 }
+
 void set_device_options(const DeviceOptions& options) {
   if (device_exists) throw std::logic_error("Embree runs already");
   const std::string& set = options.instruction_set;

@@ -13,7 +13,7 @@ namespace {
 
 using Query = Hierarchy::Query;
 
-// The same for the ends of rays, once for each of them: a rounding of 2^-24 of x outward is enough there.
+// The end of a float ray, rounded outward: 2^-24 of x is enough, since boxes are inflated by more.
 float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
 
 bool keeps(const std::vector<HalfSpace>& clips, const Vec3& point) {

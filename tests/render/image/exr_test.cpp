@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <limits>
 
@@ -69,12 +71,22 @@ TEST(Exr, EveryChannelTypeWindowAndMetadataComesBack) {
 
 TEST(Exr, HalfRoundsToNearestAndKeepsFiniteValuesFinite) {
   const TemporaryFolder folder;
-  Image image = make_image(6, 1);
-  add_channel(image, "Y", PixelType::half).values = {0.1f, 70000.0f, -1e30f, kInfinity, 2049.0f, 1e-9f};
-  write_exr(folder / "half.exr", image);
-  // binary16: 11 significant bits, largest 65504, ties to even (2049 lies between 2048 and 2050).
-  EXPECT_EQ(read_exr(folder / "half.exr").channels[0].values,
-            (std::vector<float>{0.0999755859375f, 65504.0f, -65504.0f, kInfinity, 2048.0f, 0.0f}));
+  // Eleven numbers: eight are converted together, the rest one by one; so each in turn comes to stand in every place.
+  const std::vector<float> given{0.1f,  70000.0f, -1e30f,   kInfinity,  2049.0f, 1e-9f,
+                                 -0.0f, -2051.0f, 65519.0f, -kInfinity, 6.1e-5f};
+  // binary16: 11 significant bits, largest 65504, ties to even (2049 lies between 2048 and 2050), below 2^-14 steps of
+  // 2^-24.
+  const std::vector<float> rounded{0.0999755859375f, 65504.0f, -65504.0f,  kInfinity,      2048.0f, 0.0f, -0.0f,
+                                   -2052.0f,         65504.0f, -kInfinity, 1023 * 0x1p-24f};
+  for (size_t turn = 0; turn < given.size(); ++turn) {
+    Image image = make_image(static_cast<int>(given.size()), 1);
+    std::vector<float>& values = add_channel(image, "Y", PixelType::half).values = given;
+    std::vector<float> expected = rounded;
+    std::rotate(values.begin(), values.begin() + turn, values.end());
+    std::rotate(expected.begin(), expected.begin() + turn, expected.end());
+    write_exr(folder / "half.exr", image);
+    EXPECT_EQ(read_exr(folder / "half.exr").channels[0].values, expected);
+  }
 }
 
 TEST(Exr, TheSameImageGivesTheSameBytes) {
