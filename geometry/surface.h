@@ -88,6 +88,12 @@ struct DegenerateEdges {
   bool u_min = false, u_max = false, v_min = false, v_max = false;
 };
 
+// Sides of a surface: where r_u x r_v points to, and the other.
+struct Sides {
+  bool front = false, back = false;
+  Sides turned() const { return {back, front}; }
+};
+
 // One meeting of a line with a surface.
 struct LineHit {
   double t;  // along the line, in units of its direction
@@ -150,6 +156,9 @@ class Surface {
   virtual std::optional<NurbsSurfaceForm> as_nurbs() const { return std::nullopt; }
   virtual DegenerateEdges degenerate_edges() const { return {}; }
   virtual bool bounded() const { return true; }
+  // The sides on which no tangent plane has any of the surface: a ray that leaves a point to such a side does not meet
+  // the surface again. A plane has both, a convex surface one; a surface that does not know has none.
+  virtual Sides free_sides() const { return {}; }
 
   // A surface with a closed form for lines says so and adds all hits with t in the interval and (u, v) in the domain
   // (natural parameters); a tangent hit counts twice or not at all, so that crossings of closed surfaces stay even.
@@ -161,7 +170,7 @@ class Surface {
   virtual Vec3 normal(double u, double v) const;
 
   // The same where the point's jet of order 1 or more is at hand.
-  Vec3 normal(double u, double v, const SurfaceJet& jet) const;
+  virtual Vec3 normal(double u, double v, const SurfaceJet& jet) const;
 
   // A reversed surface keeps its parameters and has the opposite normal.
   bool reversed() const { return reversed_; }

@@ -1,21 +1,23 @@
 #include "geometry/queries/bezier_patch.h"
 
+#include <cstring>
+
 #include "geometry/curves/bspline_basis.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-// Two doubles side by side; a homogeneous point is two of them.
-using Pair = double __attribute__((vector_size(16)));
-struct Quad {
-  Pair xy{}, zw{};
-};
-inline Quad load(const Vec4& p) { return {Pair{p.x, p.y}, Pair{p.z, p.w}}; }
-inline void add(Quad& sum, double factor, const Quad& c) {
-  sum.xy += factor * c.xy;
-  sum.zw += factor * c.zw;
-}
+// A homogeneous point in one register, or two where registers are short.
+using Lanes = double __attribute__((vector_size(32)));
+inline void load(const Vec4& p, Lanes& lanes) { std::memcpy(&lanes, &p, sizeof lanes); }
+
+// Where the compiler can, `evaluate` exists twice, for processors with AVX2 and for all; both give the same bits.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
+#define LEKALO_WIDE __attribute__((target_clones("avx2", "default"), flatten))
+#else
+#define LEKALO_WIDE
+#endif
 
 // Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4); written out up
 // to degree 3.
@@ -78,35 +80,36 @@ namespace {
 
 // The degrees that most models have get loops of known length.
 template <int kQ>
-PatchPoint evaluate_rows(const PatchView& patch, double s, double t) {
+inline PatchPoint evaluate_rows(const PatchView& patch, double s, double t) {
   const int p = patch.degree_u, q = kQ > 0 ? kQ : patch.degree_v;
   double bu[kMaxDegree + 1], du[kMaxDegree + 1], bv[kMaxDegree + 1], dv[kMaxDegree + 1];
   bernstein(p, s, bu, du);
   bernstein(q, t, bv, dv);
-  Quad sum, sum_s, sum_t;
+  Lanes sum{}, sum_s{}, sum_t{};
   const Vec4* point = patch.points;
   for (int i = 0; i <= p; ++i) {
-    Quad row, row_t;
+    Lanes row{}, row_t{};
     for (int j = 0; j <= q; ++j, ++point) {
-      const Quad c = load(*point);
-      add(row, bv[j], c);
-      add(row_t, dv[j], c);
+      Lanes c;
+      load(*point, c);
+      row += bv[j] * c;
+      row_t += dv[j] * c;
     }
-    add(sum, bu[i], row);
-    add(sum_s, du[i], row);
-    add(sum_t, bu[i], row_t);
+    sum += bu[i] * row;
+    sum_s += du[i] * row;
+    sum_t += bu[i] * row_t;
   }
-  const double inverse = 1 / sum.zw[1];
+  const double inverse = 1 / sum[3];
   PatchPoint result;
-  result.point = {inverse * sum.xy[0], inverse * sum.xy[1], inverse * sum.zw[0]};
-  result.ds = inverse * (Vec3(sum_s.xy[0], sum_s.xy[1], sum_s.zw[0]) - sum_s.zw[1] * result.point);
-  result.dt = inverse * (Vec3(sum_t.xy[0], sum_t.xy[1], sum_t.zw[0]) - sum_t.zw[1] * result.point);
+  result.point = {inverse * sum[0], inverse * sum[1], inverse * sum[2]};
+  result.ds = inverse * (Vec3(sum_s[0], sum_s[1], sum_s[2]) - sum_s[3] * result.point);
+  result.dt = inverse * (Vec3(sum_t[0], sum_t[1], sum_t[2]) - sum_t[3] * result.point);
   return result;
 }
 
 }  // namespace
 
-PatchPoint evaluate(const PatchView& patch, double s, double t) {
+LEKALO_WIDE PatchPoint evaluate(const PatchView& patch, double s, double t) {
   switch (patch.degree_v) {
     case 1:
       return evaluate_rows<1>(patch, s, t);

@@ -301,6 +301,16 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   return m;
 }
 
+bool meets_once(const CellModel& m, const Vec3& direction) {
+  // The normal is alpha dx + beta dy + gamma direction: what `decide` has of the line's two planes.
+  const Vec3 across_x = glm::cross(direction, m.dx), across_y = glm::cross(m.dy, direction);
+  const double determinant = glm::dot(across_x, m.dy);
+  if (determinant == 0 || !(m.shift_x < kInfinity)) return false;
+  const double bend = m.bend / std::abs(determinant);
+  return m.shift_x + std::abs(glm::dot(m.normal, across_y)) * bend <= kInjective &&
+         m.shift_y + std::abs(glm::dot(m.normal, across_x)) * bend <= kInjective;
+}
+
 double roughness(const CellModel& m) {
   const double shorter = std::min(glm::length(m.dx), glm::length(m.dy));
   const double r = std::max(m.shift_x, m.shift_y) + m.bend / shorter;

@@ -79,6 +79,9 @@ CellModel model_of(const Surface& surface, const Rectangle& box);
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
                CellHits& hits);
 
+// True if no line of that direction meets the cell twice.
+bool meets_once(const CellModel& model, const Vec3& direction);
+
 // How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
 // not graze a cell of roughness below 1/4 are decided without halving.
 double roughness(const CellModel& model);

@@ -1,6 +1,7 @@
 #include "geometry/queries/line_intersections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/queries/box_tree.h"
@@ -111,7 +112,7 @@ class PatchTarget final : public LineTarget {
       const Vec3 center = box.empty() ? Vec3(0) : box.center();
       for (Vec4& p : piece.points) p = Vec4(Vec3(p) - p.w * center, p.w);
       int budget = kMostCellsPerPiece;
-      cut(std::move(piece.points), index, center, 0, 0, 1, 1, 0, budget);
+      cut(part_of(std::move(piece.points), index), index, center, 0, 0, 1, 1, 0, budget);
     }
     cells_.shrink_to_fit();
     points_.shrink_to_fit();
@@ -149,6 +150,9 @@ class PatchTarget final : public LineTarget {
       if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
     }
   }
+  bool meets_once(int i, const Vec3& direction) const override {
+    return geometry::meets_once(cells_[i].model, direction);
+  }
   const Surface& surface() const override { return *surface_; }
   size_t memory() const override {
     return sizeof *this + cells_.size() * sizeof(Cell) + points_.size() * sizeof(Vec4) +
@@ -174,34 +178,47 @@ class PatchTarget final : public LineTarget {
     return {points_.data() + cell.first_point, patches_[cell.patch].degree_u, patches_[cell.patch].degree_v};
   }
 
-  void cut(std::vector<Vec4> points, int patch, const Vec3& center, double x, double y, double hx, double hy, int depth,
+  // Part of a patch: its control points and their model.
+  struct Part {
+    std::vector<Vec4> points;
+    CellModel model;
+  };
+  Part part_of(std::vector<Vec4> points, int patch) const {
+    const CellModel model = model_of(PatchView{points.data(), patches_[patch].degree_u, patches_[patch].degree_v});
+    return {std::move(points), model};
+  }
+
+  void cut(const Part& part, int patch, const Vec3& center, double x, double y, double hx, double hy, int depth,
            int& budget) {
-    const PatchView view{points.data(), patches_[patch].degree_u, patches_[patch].degree_v};
-    const CellModel model = model_of(view);
-    if (roughness(model) <= kFlat || depth >= kDeepestCut || budget <= 1) {
-      cells_.push_back({model, center, x, y, hx, hy, patch, static_cast<uint32_t>(points_.size())});
-      points_.insert(points_.end(), points.begin(), points.end());
+    if (roughness(part.model) <= kFlat || depth >= kDeepestCut || budget <= 1) {
+      cells_.push_back({part.model, center, x, y, hx, hy, patch, static_cast<uint32_t>(points_.size())});
+      points_.insert(points_.end(), part.points.begin(), part.points.end());
       return;
     }
     --budget;
     // The cut whose halves are flatter.
-    std::vector<Vec4> first(points.size()), second(points.size()), other_first(points.size()),
-        other_second(points.size());
-    halve_u(view, first.data(), second.data());
-    halve_v(view, other_first.data(), other_second.data());
-    const auto roughness_of = [&](const std::vector<Vec4>& half) {
-      return roughness(model_of({half.data(), view.degree_u, view.degree_v}));
+    const PatchView view{part.points.data(), patches_[patch].degree_u, patches_[patch].degree_v};
+    const auto halves = [&](auto halve) {
+      std::vector<Vec4> first(part.points.size()), second(part.points.size());
+      halve(view, first.data(), second.data());
+      return std::array{part_of(std::move(first), patch), part_of(std::move(second), patch)};
     };
-    const bool along_x = std::max(roughness_of(first), roughness_of(second)) <=
-                         std::max(roughness_of(other_first), roughness_of(other_second));
-    if (!along_x) {
-      first.swap(other_first);
-      second.swap(other_second);
+    const auto worst = [](const std::array<Part, 2>& two) {
+      return std::max(roughness(two[0].model), roughness(two[1].model));
+    };
+    std::array<Part, 2> two = halves(halve_u);
+    bool along_x = true;
+    if (std::array<Part, 2> others = halves(halve_v); worst(others) < worst(two)) {
+      two = std::move(others);
+      along_x = false;
     }
-    cut(std::move(first), patch, center, along_x ? x - 0.5 * hx : x, along_x ? y : y - 0.5 * hy,
-        along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, depth + 1, budget);
-    cut(std::move(second), patch, center, along_x ? x + 0.5 * hx : x, along_x ? y : y + 0.5 * hy,
-        along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy, depth + 1, budget);
+    if (along_x)
+      hx *= 0.5;
+    else
+      hy *= 0.5;
+    for (const double side : {-1.0, 1.0})
+      cut(two[side > 0], patch, center, along_x ? x + side * hx : x, along_x ? y : y + side * hy, hx, hy, depth + 1,
+          budget);
   }
 
   SurfacePtr surface_;
@@ -237,6 +254,9 @@ class EnclosureTarget final : public LineTarget {
       hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found[k].y);
       if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
     }
+  }
+  bool meets_once(int i, const Vec3& direction) const override {
+    return geometry::meets_once(cells_[i].model, direction);
   }
   const Surface& surface() const override { return *surface_; }
   size_t memory() const override { return sizeof *this + cells_.size() * sizeof(Cell); }

@@ -37,6 +37,9 @@ class LineTarget {
   virtual Box3 piece_bounds(int piece) const = 0;
   // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
   virtual void piece_hits(int piece, const PreparedLine& line, const Interval& t, LineHits& hits) const = 0;
+  // True if certainly no line of that direction meets the piece twice: a ray that leaves a point of the piece does not
+  // come back to it.
+  virtual bool meets_once(int, const Vec3&) const { return false; }
   virtual const Surface& surface() const = 0;
   virtual size_t memory() const = 0;  // bytes
 };

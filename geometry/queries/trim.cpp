@@ -1,32 +1,59 @@
 #include "geometry/queries/trim.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace lekalo::geometry {
 
 namespace {
 
-using Points = std::vector<Vec4>;
-
 Vec2 plane_point(const Vec4& p) { return {p.x / p.w, p.y / p.w}; }
 
+// Control points of an arc. Those of usual degrees take no memory of their own: arcs are halved for every hit of every
+// ray near their edge.
+class Points {
+ public:
+  Points() = default;
+  explicit Points(std::span<const Vec4> points) {
+    resize(points.size());
+    std::copy(points.begin(), points.end(), data());
+  }
+  void resize(size_t n) {
+    size_ = n;
+    if (n > kFew) many_.resize(n);
+  }
+  size_t size() const { return size_; }
+  Vec4* data() { return size_ > kFew ? many_.data() : few_.data(); }
+  const Vec4* begin() const { return size_ > kFew ? many_.data() : few_.data(); }
+  const Vec4* end() const { return begin() + size_; }
+  const Vec4& front() const { return *begin(); }
+  const Vec4& back() const { return begin()[size_ - 1]; }
+
+ private:
+  static constexpr size_t kFew = 6;
+  size_t size_ = 0;
+  std::array<Vec4, kFew> few_;  // not initialised
+  std::vector<Vec4> many_;
+};
+
 void split_in_two(const Points& points, Points& left, Points& right) {
-  Points work = points;
-  const size_t n = work.size();
+  const size_t n = points.size();
   left.resize(n);
-  right.resize(n);
+  right = points;
+  Vec4 *const first = left.data(), *const work = right.data();
+  // Row after row of de Casteljau's scheme: its left edge is the left half, what stays in place the right one.
   for (size_t k = 0; k < n; ++k) {
-    left[k] = work[0];
-    right[n - 1 - k] = work[n - 1 - k];
+    first[k] = work[0];
     for (size_t i = 0; i + 1 < n - k; ++i) work[i] = 0.5 * (work[i] + work[i + 1]);
   }
 }
 
 bool monotone_in_y(const Points& points) {
   bool up = true, down = true;
-  for (size_t i = 0; i + 1 < points.size(); ++i) {
-    const double a = points[i].y / points[i].w, b = points[i + 1].y / points[i + 1].w;
+  for (const Vec4* p = points.begin(); p + 1 < points.end(); ++p) {
+    const double a = p[0].y / p[0].w, b = p[1].y / p[1].w;
     up = up && b >= a;
     down = down && b <= a;
   }
@@ -74,9 +101,9 @@ TrimRegion::TrimRegion(const std::vector<std::vector<Part>>& loops) {
         self(self, std::move(right), depth + 1);
         return;
       }
-      points = {points.front(), points.back()};
+      points = Points(std::array{points.front(), points.back()});
     }
-    Arc arc{points, kInfinity, -kInfinity, kInfinity, -kInfinity};
+    Arc arc{{points.begin(), points.end()}, kInfinity, -kInfinity, kInfinity, -kInfinity};
     for (const Vec4& p : points) {
       const Vec2 q = plane_point(p);
       arc.x_lo = std::min(arc.x_lo, q.x);
@@ -90,11 +117,12 @@ TrimRegion::TrimRegion(const std::vector<std::vector<Part>>& loops) {
   };
   for (const auto& loop : loops)
     for (const Part& part : loop)
-      for (const CurvePiece& piece : part.curve->pieces()) add(add, piece.points, 0);
+      for (const CurvePiece& piece : part.curve->pieces()) add(add, Points(piece.points), 0);
   std::sort(arcs_.begin(), arcs_.end(), [](const Arc& a, const Arc& b) { return a.y_lo < b.y_lo; });
 }
 
 bool TrimRegion::contains(double u, double v, double tolerance) const {
+  if (u < u_.lo - tolerance || u > u_.hi + tolerance || v < v_.lo - tolerance || v > v_.hi + tolerance) return false;
   bool inside = false;
   for (const Arc& arc : arcs_) {
     if (arc.y_lo > v) break;  // sorted
@@ -107,7 +135,7 @@ bool TrimRegion::contains(double u, double v, double tolerance) const {
       continue;
     }
     // Halve the arc until its box lies on one side of the point or is a rounding error wide.
-    Points points = arc.points;
+    Points points(arc.points);
     bool crosses_right = false;
     for (int depth = 0;; ++depth) {
       double x_lo = kInfinity, x_hi = -kInfinity;
@@ -133,7 +161,7 @@ bool TrimRegion::near_border(double u, double v, double tolerance) const {
   for (const Arc& arc : arcs_) {
     if (arc.y_lo > v + tolerance) break;
     if (arc.y_hi < v - tolerance || arc.x_lo > u + tolerance || arc.x_hi < u - tolerance) continue;
-    if (within(arc.points, {u, v}, tolerance, 50)) return true;
+    if (within(Points(arc.points), {u, v}, tolerance, 50)) return true;
   }
   return false;
 }

@@ -27,6 +27,15 @@ Vec3 ConeSurface::nearest_axis_point() const {
   return frame_.point({0, 0, height_ * v});
 }
 
+Sides ConeSurface::free_sides() const {
+  // An unbounded cylinder has no change of radius to multiply infinity with.
+  const double lo = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.lo,
+               hi = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.hi;
+  if (std::min(lo, hi) < 0 && std::max(lo, hi) > 0) return {};
+  const bool outward = (lo + hi) * height_ > 0;
+  return {.front = outward, .back = !outward};
+}
+
 void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
   const MovedLine moved = local_line(line, nearest_axis_point());
   const bool cylinder = widening_ == 0;

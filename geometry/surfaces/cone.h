@@ -18,6 +18,8 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
   double top_radius() const { return radius_ + widening_; }
   double height() const { return height_; }
 
+  // Of one nappe the outer side.
+  Sides free_sides() const override;
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

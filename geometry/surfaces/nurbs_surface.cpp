@@ -62,6 +62,13 @@ void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const Spa
   const int p = form.degree_u, q = form.degree_v;
   const size_t stride = form.count_v();
   const Vec4* row = form.points.data() + (span_u - p) * stride + (span_v - q);
+  if (order == 1) {  // what rays ask for at every hit
+    Vec4 values[kMaxDegree + 1], slopes[kMaxDegree + 1];
+    for (int i = 0; i <= p; ++i, row += stride) values[i] = bv.value_and_slope(row, slopes[i]);
+    sums[SurfaceJet::index(0, 0)] = bu.value_and_slope(values, sums[SurfaceJet::index(1, 0)]);
+    bu.derivatives(slopes, 0, &sums[SurfaceJet::index(0, 1)]);
+    return;
+  }
   Vec4 columns[kInnerOrder + 1][kMaxDegree + 1];  // [derivative by v][row]
   Vec4 points[kMaxDegree + 1], derivatives[kInnerOrder + 1];
   for (int i = 0; i <= p; ++i, row += stride) {

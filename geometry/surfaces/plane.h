@@ -16,8 +16,10 @@ class Plane final : public Surface {
   SurfaceJet evaluate(double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   Vec3 normal(double, double) const override { return normal_sign() * frame_.z; }
+  Vec3 normal(double, double, const SurfaceJet&) const override { return normal_sign() * frame_.z; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
+  Sides free_sides() const override { return {true, true}; }
   bool has_line_formula() const override { return true; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 

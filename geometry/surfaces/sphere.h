@@ -14,6 +14,7 @@ class SphereSurface final : public MeridianFormula<SphereSurface> {
   SphereSurface(const Frame& frame, double radius, const Rectangle& domain = kFull);
   double radius() const { return radius_; }
 
+  Sides free_sides() const override { return {.front = true, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -76,7 +76,7 @@ TypeDeclaration parallel_type() {
           throw FieldError(name, "'" + std::string(name) + "' needs 'from'",
                            "or leave both out to have everything framed");
       return [=](int width, int height, const Shown& shown) {
-        return make_view_camera(fields.view, width, height, fields.shown(shown).points, fields.margin);
+        return make_view_camera(fields.view, width, height, fields.shown(shown).points(), fields.margin);
       };
     }
     check_placed(f);

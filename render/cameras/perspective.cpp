@@ -80,7 +80,7 @@ TypeDeclaration perspective_type() {
       if (f.has("at")) throw FieldError("at", "'at' needs 'from'", "give both, or none to have everything framed");
       return [=](int width, int height, const Shown& shown) {
         return make_camera(
-            framed_perspective(fields.view, field_of_view, width, height, fields.shown(shown).points, fields.margin),
+            framed_perspective(fields.view, field_of_view, width, height, fields.shown(shown).points(), fields.margin),
             width, height);
       };
     }

@@ -1,5 +1,7 @@
 #include "render/cameras/shown.h"
 
+#include <mutex>
+
 #include "render/scene/model.h"
 
 namespace lekalo::render {
@@ -80,19 +82,25 @@ void add(const std::vector<Object>& objects, const Affine& map, bool closely, st
 
 }  // namespace
 
-Shown::Shown(const Box3& box) : box(box) {
-  const bool usable = !box.empty() && box.bounded();
-  add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), points);
-}
+struct Shown::Points {
+  std::once_flag once;
+  std::vector<Object> objects;
+  std::vector<Vec3> list;
+};
 
-Shown shown(const std::vector<Object>& objects) {
-  Shown result;
-  result.box = bounds(objects);
-  add(objects, Affine(), count(objects) <= kMostObjects, result.points);
-  if (result.points.empty()) result = Shown(result.box);
-  return result;
-}
+Shown::Shown(const Box3& box) : box(box), points_(std::make_shared<Points>()) {}
 
-Shown shown(const Model& model) { return shown(model.objects); }
+Shown::Shown(const std::vector<Object>& objects) : Shown(bounds(objects)) { points_->objects = objects; }
+
+const std::vector<Vec3>& Shown::points() const {
+  Points& p = *points_;
+  std::call_once(p.once, [&] {
+    add(p.objects, Affine(), count(p.objects) <= kMostObjects, p.list);
+    if (!p.list.empty()) return;
+    const bool usable = !box.empty() && box.bounded();
+    add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), p.list);
+  });
+  return p.list;
+}
 
 }  // namespace lekalo::render

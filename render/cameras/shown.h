@@ -8,23 +8,27 @@
 
 namespace lekalo::render {
 
-struct Model;
 struct Object;
 
-struct Shown {
+class Shown {
+ public:
   geometry::Box3 box;
-  std::vector<geometry::Vec3> points;                  // on the shapes, dense enough to stand for them in the picture
   std::shared_ptr<const std::vector<Object>> objects;  // of the scene, where a camera frames some by name; else null
 
-  Shown() = default;
   // The corners of the box stand for it; of an empty or unbounded box those of the unit cube about the origin.
-  Shown(const geometry::Box3& box);
-};
+  explicit Shown(const geometry::Box3& box = {});
+  // Everything that the objects show.
+  explicit Shown(const std::vector<Object>& objects);
 
-// Points on everything that the model's objects show: grids on surfaces and faces, points along edges and curves. A
-// silhouette between them may stand out by half a hundredth of the shape's size. Unbounded shapes are left out.
-// Of very many objects only the corners of their boxes are taken.
-Shown shown(const Model& model);
-Shown shown(const std::vector<Object>& objects);
+  // Points on the shapes, dense enough to stand for them in the picture: grids on surfaces and faces, points along
+  // edges and curves. A silhouette between them may stand out by half a hundredth of the shape's size. Unbounded shapes
+  // are left out. Of very many objects only the corners of their boxes are taken. Computed when first asked for: many
+  // cameras do not ask.
+  const std::vector<geometry::Vec3>& points() const;
+
+ private:
+  struct Points;
+  std::shared_ptr<Points> points_;
+};
 
 }  // namespace lekalo::render

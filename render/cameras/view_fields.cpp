@@ -64,7 +64,7 @@ Shown ViewFields::shown(const Shown& all) const {
     if (shape && all.objects) find(*all.objects, shape, Affine(), part);
     if (part.size() == before) part.emplace_back().shape = entity;
   }
-  return render::shown(part);
+  return Shown(part);
 }
 
 void check_placed(const Fields& fields) {

@@ -2,7 +2,8 @@
 // build on the same kind of machine or not at all).
 //
 //   "lekalo partial 1\n", identity, settings hash, number of finished tiles, tally (8-byte integers), then for each
-//   tile its number, its sums (floats), and its pixels' data layers, layer by layer, row by row.
+//   tile its number, its sums (floats) where the filter needs them, and its pixels' layers that stand in the image
+//   already, layer by layer, row by row.
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -23,7 +24,7 @@ template <class Visit>
 void for_each_data_run(TiledFilm& film, int tile, Visit visit) {
   const Window own = intersection(film.tile(tile), film.crop());
   Image& image = film.image();
-  for (size_t layer = film.first_data_channel(); layer < image.channels.size(); ++layer) {
+  for (size_t layer = film.first_direct_channel(); layer < image.channels.size(); ++layer) {
     Channel& channel = image.channels[layer];
     for (int y = own.y0; y < own.y1; ++y) {
       const size_t begin = static_cast<size_t>(y - film.crop().y0) * image.width + (own.x0 - film.crop().x0);
@@ -47,8 +48,8 @@ void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, 
     number(value);
   for (const int tile : done) {
     number(static_cast<uint64_t>(tile));
-    const std::vector<float>& values = film.sums()[tile].values;
-    out.write(values.data(), values.size() * sizeof(float));
+    const std::span<const float> values = film.sums()[tile].values;
+    out.write(values.data(), values.size_bytes());
     for_each_data_run(film, tile, [&](const void* run, size_t bytes) { out.write(run, bytes); });
   }
   out.commit();
@@ -83,8 +84,8 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
     if (tile >= static_cast<uint64_t>(film.tile_count()))
       throw ImageError(file, "the partial picture is damaged", "render without --resume");
     TileSums& sums = film.sums()[tile];
-    sums.values.resize(static_cast<size_t>(sums.window.width()) * sums.window.height() * film.planes());
-    read(sums.values.data(), sums.values.size() * sizeof(float));
+    read(sums.values.data(), sums.values.size_bytes());
+    sums.done = true;
     for_each_data_run(film, static_cast<int>(tile), read);
     done.push_back(static_cast<int>(tile));
   }

@@ -80,7 +80,7 @@ class TileTracer {
       trace_adaptively(film_.tile(number), static_cast<float>(contrast), exposure);
     else
       trace_evenly(film_.tile(number), exposure);
-    exposure.finish(film_.sums()[number]);
+    film_.finish(number, exposure.sums);
     return exposure.tally;
   }
 
@@ -123,7 +123,6 @@ class TileTracer {
       for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
       sum[n] += weight;
     }
-    void finish(TileSums& result) const { result.values.assign(sums.begin(), sums.end()); }
 
     const TiledFilm& film;
     Window window;

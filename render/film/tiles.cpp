@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "render/film/render.h"
+#include "render/image/large_pages.h"
 #include "render/materials/textured_color.h"
 
 namespace lekalo::render {
@@ -78,9 +79,6 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
   for (int y = needed.y0 / kTileSize * kTileSize; y < needed.y1; y += kTileSize)
     for (int x = needed.x0 / kTileSize * kTileSize; x < needed.x1; x += kTileSize)
       tiles_.push_back(intersection({x, y, x + kTileSize, y + kTileSize}, needed));
-  sums_.resize(tiles_.size());
-  for (size_t i = 0; i < tiles_.size(); ++i) sums_[i].window = intersection(tiles_[i].grown(reach_), crop_);
-
   image_ = make_image(crop_.width(), crop_.height());
   image_.x = crop_.x0;
   image_.y = crop_.y0;
@@ -104,6 +102,22 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
     if (c > kDirectB) continue;
     filtered_.push_back(static_cast<FilmChannel>(c));
     first_data_channel_ = channel_[c] + 1;
+  }
+
+  for (const Window& tile : tiles_) sums_.push_back({intersection(tile.grown(reach_), crop_), {}});
+  if (reach_ > 0) {
+    const auto size_of = [&](const TileSums& sums) {
+      return static_cast<size_t>(sums.window.width()) * sums.window.height() * planes();
+    };
+    size_t size = 0;
+    for (const TileSums& sums : sums_) size += size_of(sums);
+    sums_storage_ = std::make_unique_for_overwrite<float[]>(size);
+    prefer_large_pages(sums_storage_.get(), size * sizeof(float));
+    float* next = sums_storage_.get();
+    for (TileSums& sums : sums_) {
+      sums.values = {next, size_of(sums)};
+      next += sums.values.size();
+    }
   }
 
   uint64_t hash = 0;
@@ -138,15 +152,34 @@ void TiledFilm::clear_data(size_t pixel) {
     }
 }
 
+void TiledFilm::set_pixel(size_t pixel, const double* sums) {
+  const int n = static_cast<int>(filtered_.size());
+  const double weight = sums[n];
+  for (int i = 0; i < n; ++i)
+    image_.channels[channel_[filtered_[i]]].values[pixel] = weight > 0 ? static_cast<float>(sums[i] / weight) : 0.0f;
+}
+
+void TiledFilm::finish(int tile, std::span<const double> sums) {
+  TileSums& kept = sums_[tile];
+  if (reach_ > 0) {
+    std::copy(sums.begin(), sums.end(), kept.values.begin());
+  } else {
+    const double* sum = sums.data();
+    for (int y = kept.window.y0; y < kept.window.y1; ++y)
+      for (int x = kept.window.x0; x < kept.window.x1; ++x, sum += planes())
+        set_pixel(static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0), sum);
+  }
+  kept.done = true;
+}
+
 void TiledFilm::develop() {
+  if (reach_ == 0) return;
   const int n = planes();
-  std::vector<float*> values;
-  for (const FilmChannel c : filtered_) values.push_back(channel(c)->values.data());
   // Rows of the picture one after the other: the tiles that reach a row are searched once for some of them.
   tbb::parallel_for(tbb::blocked_range<int>(crop_.y0, crop_.y1, 16), [&](const tbb::blocked_range<int>& rows) {
     std::vector<const TileSums*> near;
     for (const TileSums& tile : sums_)
-      if (!tile.values.empty() && tile.window.y0 < rows.end() && tile.window.y1 > rows.begin()) near.push_back(&tile);
+      if (tile.done && tile.window.y0 < rows.end() && tile.window.y1 > rows.begin()) near.push_back(&tile);
     std::vector<double> row(static_cast<size_t>(crop_.width()) * n);
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::fill(row.begin(), row.end(), 0.0);
@@ -158,11 +191,7 @@ void TiledFilm::develop() {
         for (int i = 0; i < w.width() * n; ++i) to[i] += from[i];
       }
       const size_t first = static_cast<size_t>(y - crop_.y0) * crop_.width();
-      for (int x = 0; x < crop_.width(); ++x) {
-        const double* sum = &row[static_cast<size_t>(x) * n];
-        const double weight = sum[n - 1];
-        for (int i = 0; i < n - 1; ++i) values[i][first + x] = weight > 0 ? static_cast<float>(sum[i] / weight) : 0.0f;
-      }
+      for (int x = 0; x < crop_.width(); ++x) set_pixel(first + x, &row[static_cast<size_t>(x) * n]);
     }
   });
 }

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +37,9 @@ struct Tally {
 
 // Sums of one tile: the filtered channels that the film keeps, then the weight, for each pixel of `window`, row by row.
 struct TileSums {
-  Window window;  // the tile with its margin
-  std::vector<float> values;
+  Window window;            // the tile with its margin
+  std::span<float> values;  // none where the filter does not reach beyond a pixel
+  bool done = false;        // before, the values mean nothing
 };
 
 // Channels that a film may have, in the order of the image.
@@ -83,11 +86,12 @@ class TiledFilm {
   Image& image() { return image_; }
   // A channel of the image, or nullptr if the film does not keep it.
   Channel* channel(FilmChannel c) { return channel_[c] < 0 ? nullptr : &image_.channels[channel_[c]]; }
-  int first_data_channel() const { return first_data_channel_; }  // those before are filtered
+  // The first of the image's channels that no sums stand for until develop().
+  int first_direct_channel() const { return reach_ == 0 ? 0 : first_data_channel_; }
   // True with channels that describe what the nearest sample to a pixel's centre saw; sets those of a pixel to nothing.
   bool keeps_data() const { return first_data_channel_ < static_cast<int>(image_.channels.size()); }
   void clear_data(size_t pixel);
-  std::vector<TileSums>& sums() { return sums_; }  // empty values: not done
+  std::vector<TileSums>& sums() { return sums_; }
   // The filtered channels kept are a run of kR..kDirectB, as layers come whole: the first, and the numbers in the sums
   // of a pixel, one for each of them and the weight.
   FilmChannel first_filtered() const { return filtered_.empty() ? kR : filtered_.front(); }
@@ -98,7 +102,9 @@ class TiledFilm {
   // Hash of everything that decides the film's layout and contents but the scene.
   uint64_t settings_hash() const { return settings_hash_; }
 
-  // Writes the filtered layers of the image from the sums of the tiles that are done.
+  // Takes the sums of a tile. Where the filter does not reach beyond a pixel its pixels are done.
+  void finish(int tile, std::span<const double> sums);
+  // Writes the filtered layers of the image from the sums of the tiles that are done, where there are any.
   void develop();
 
  private:
@@ -107,11 +113,15 @@ class TiledFilm {
   int reach_ = 0;
   std::vector<Window> tiles_;
   std::vector<TileSums> sums_;
+  std::unique_ptr<float[]> sums_storage_;  // of all tiles
   Image image_;
   std::array<int, kFilmChannels> channel_;
   std::vector<FilmChannel> filtered_;
   int first_data_channel_ = 0;
   uint64_t settings_hash_ = 0;
+
+  // Writes a pixel of the filtered layers from its sums.
+  void set_pixel(size_t pixel, const double* sums);
 };
 
 // The file of a stopped picture (OUTPUT.partial): the tiles done so far and what they cost.

@@ -91,12 +91,13 @@ std::size_t convert_eights(const float*, half*, std::size_t) { return 0; }
 constexpr bool has_f16c = false;
 #endif
 
-std::vector<half> to_half(const std::vector<float>& values) {
-  std::vector<half> result(values.size());
-  std::size_t i = has_f16c ? convert_eights(values.data(), result.data(), values.size()) : 0;
-  for (; i < values.size(); ++i) result[i] = to_half(values[i]);
-  return result;
+void to_half(const float* from, std::vector<half>& to) {
+  std::size_t i = has_f16c ? convert_eights(from, to.data(), to.size()) : 0;
+  for (; i < to.size(); ++i) to[i] = to_half(from[i]);
 }
+
+// Rows of halves made and written at a time: whole blocks of compression for a few threads.
+constexpr int kHalfRows = 128;
 
 void insert_metadata(Imf::Header& header, const Image& image, const std::filesystem::path& path) {
   for (const auto& [name, value] : image.metadata) {
@@ -199,26 +200,46 @@ void write_checked(const std::filesystem::path& path, const Image& image, Atomic
   const Imath::Box2i data({image.x, image.y}, {image.x + image.width - 1, image.y + image.height - 1});
   Imf::Header header(display, data);
   header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::FrameBuffer frame_buffer;
-  std::vector<std::vector<half>> halves;
-  halves.reserve(image.channels.size());
+  bool has_halves = false;
   for (const Channel& channel : image.channels) {
     if (header.channels().findChannel(channel.name) != nullptr) {
       throw ImageError(path, "cannot write two channels of the name '" + channel.name + "'", "rename one of them");
     }
-    const Imf::PixelType type = stored_type(channel.type);
-    header.channels().insert(channel.name, Imf::Channel(type));
-    const void* base = channel.values.data();
-    if (type == Imf::UINT) base = channel.ids.data();
-    if (type == Imf::HALF) base = halves.emplace_back(to_half(channel.values)).data();
-    frame_buffer.insert(channel.name, Imf::Slice::Make(type, base, data));
+    header.channels().insert(channel.name, Imf::Channel(stored_type(channel.type)));
+    has_halves = has_halves || channel.type == PixelType::half;
   }
   insert_metadata(header, image, path);
   use_threads(image.pixel_count());
   AtomicStream stream(file, path.string());
   Imf::OutputFile output(stream, header);
-  output.setFrameBuffer(frame_buffer);
-  output.writePixels(image.height);
+  std::vector<std::vector<half>> halves(image.channels.size());
+  const int rows_at_once = has_halves ? kHalfRows : image.height;
+  for (int row = 0; row < image.height; row += rows_at_once) {
+    const int rows = std::min(rows_at_once, image.height - row);
+    const std::size_t first = static_cast<std::size_t>(row) * image.width;
+    const Imath::Box2i part({data.min.x, data.min.y + row}, {data.max.x, data.min.y + row + rows - 1});
+    Imf::FrameBuffer frame_buffer;
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      const Channel& channel = image.channels[c];
+      const void* base = nullptr;
+      switch (channel.type) {
+        case PixelType::float32:
+          base = &channel.values[first];
+          break;
+        case PixelType::uint32:
+          base = &channel.ids[first];
+          break;
+        case PixelType::half:
+          halves[c].resize(static_cast<std::size_t>(rows) * image.width);
+          to_half(&channel.values[first], halves[c]);
+          base = halves[c].data();
+          break;
+      }
+      frame_buffer.insert(channel.name, Imf::Slice::Make(stored_type(channel.type), base, part));
+    }
+    output.setFrameBuffer(frame_buffer);
+    output.writePixels(rows);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "render/image/large_pages.h"
+
 namespace lekalo::render {
 
 Image make_image(int width, int height) {
@@ -17,11 +19,12 @@ Image make_image(int width, int height) {
 
 Channel& add_channel(Image& image, std::string name, PixelType type) {
   Channel channel{.name = std::move(name), .type = type, .values = {}, .ids = {}};
-  if (type == PixelType::uint32) {
-    channel.ids.resize(image.pixel_count());
-  } else {
-    channel.values.resize(image.pixel_count());
-  }
+  const auto fill = [&](auto& plane) {
+    plane.reserve(image.pixel_count());
+    prefer_large_pages(plane.data(), image.pixel_count() * sizeof plane[0]);
+    plane.resize(image.pixel_count());
+  };
+  type == PixelType::uint32 ? fill(channel.ids) : fill(channel.values);
   return image.channels.emplace_back(std::move(channel));
 }
 

@@ -52,7 +52,12 @@ class Tracer {
  public:
   Tracer(const World& world, const ClassicOptions& options, double reference_depth, SampleStream& random,
          RaySample& sample)
-      : world_(world), options_(options), reference_depth_(reference_depth), random_(random), sample_(sample) {}
+      : world_(world),
+        options_(options),
+        reference_depth_(reference_depth),
+        tinted_(options.shadows == ShadowMode::transparent && world.has_transmitting_materials()),
+        random_(random),
+        sample_(sample) {}
 
   // `weight`: what the light of this ray is multiplied with on its way to the eye; `length`: of the way up to its
   // origin.
@@ -62,7 +67,7 @@ class Tracer {
   Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
                  const Media& behind, int depth, const Spectrum& weight);
   Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
-  Spectrum passing(const Ray& shadow_ray, const Media& media);
+  Spectrum passing(const Ray& shadow_ray, const Obstacles& among, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
   void record(const Seen& seen);
   void mix(uint64_t value) { sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u; }
@@ -70,6 +75,7 @@ class Tracer {
   const World& world_;
   const ClassicOptions& options_;
   double reference_depth_;
+  bool tinted_;  // shadows
   SampleStream& random_;
   RaySample& sample_;
 };
@@ -105,7 +111,7 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
     }
     media = behind;
     length = seen.length;
-    ray.origin = world_.leave(seen.point, ray.direction);
+    world_.leave(seen.point, ray.direction, ray);
   }
   return {};
 }
@@ -166,7 +172,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
       return Spectrum();
     }
     Ray next;
-    next.origin = world_.leave(seen.point, direction);
+    world_.leave(seen.point, direction, next);
     next.direction = direction;
     next.kind = RayKind::reflection;
     ++sample_.other_rays;
@@ -193,7 +199,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it.
   Ray shadow_ray;
   shadow_ray.kind = RayKind::shadow;
-  shadow_ray.origin = world_.leave(seen.point, seen.geometric_normal);
+  world_.leave(seen.point, seen.geometric_normal, shadow_ray);
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
@@ -207,6 +213,14 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
           static_cast<float>(cone->mean_cosine(glm::dot(seen.normal, cone->axis))) * kOverPi * cone->irradiance;
       sum.unobstructed += all;
       sum.diffuse += all;
+    }
+    Obstacles obstacles;
+    if (shadows && count > 1)
+      if (const Box3 places = light->places(); places.bounded()) obstacles = world_.obstacles(shadow_ray, places);
+    const bool clear = !shadows || (obstacles.none() && (!tinted_ || media.filling() < 0));
+    if (clear && cone && !specular) {
+      for (int i = 0; i < count; ++i) mix(6);
+      continue;
     }
     for (int i = 0; i < count; ++i) {
       const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
@@ -224,10 +238,11 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       if (!diffuse && highlight == 0) continue;
       if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
-      if (shadows) {
+      sample_.shadow_rays += shadows;
+      if (!clear) {
         shadow_ray.direction = sample.direction;
         shadow_ray.t_max = sample.distance;
-        visible = passing(shadow_ray, media);
+        visible = passing(shadow_ray, obstacles, media);
       }
       // A highlight jitters with the places on the light.
       if (jittered && (!cone || visible != kWhite || highlight > kGrain)) sample_.noisy = true;
@@ -239,11 +254,9 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   return sum;
 }
 
-Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
-  ++sample_.shadow_rays;
-  const bool tinted = options_.shadows == ShadowMode::transparent && world_.has_transmitting_materials();
-  if (!tinted) return world_.occluded(shadow_ray) ? Spectrum() : kWhite;
-  if (around.filling() < 0 && !world_.occluded(shadow_ray)) return kWhite;
+Spectrum Tracer::passing(const Ray& shadow_ray, const Obstacles& among, const Media& around) {
+  if (!tinted_) return world_.occluded(shadow_ray, among) ? Spectrum() : kWhite;
+  if (around.filling() < 0 && !world_.occluded(shadow_ray, among)) return kWhite;
   Ray ray = shadow_ray;
   Media media = around;
   Spectrum share = kWhite;
@@ -264,9 +277,9 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
     if (share.is_zero()) return {};
     media = behind;
     mix(static_cast<uint64_t>(point.instance) << 32 | static_cast<uint32_t>(point.face));
-    const Vec3 origin = world_.leave(point, ray.direction);
-    ray.t_max -= glm::dot(origin - ray.origin, ray.direction);
-    ray.origin = origin;
+    const Vec3 before = ray.origin;
+    world_.leave(point, ray.direction, ray);
+    ray.t_max -= glm::dot(ray.origin - before, ray.direction);
   }
   return {};
 }

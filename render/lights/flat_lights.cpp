@@ -17,23 +17,33 @@ namespace {
 class FlatLamp : public Light {
  public:
   FlatLamp(const Frame& frame, bool one_sided, const AreaSampling& sampling, const Lamp& lamp)
-      : frame_(frame), one_sided_(one_sided), sampling_(sampling), lamp_(lamp) {}
+      : frame_(frame),
+        one_sided_(one_sided),
+        weight_(1.0 / (sampling.n * sampling.n)),
+        sampling_(sampling),
+        lamp_(lamp),
+        irradiance_(lamp) {}
 
   int sample_count() const override { return sampling_.n * sampling_.n; }
 
   LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
     const Vec3 to_light = (sampling_.grid ? grid_[index] : place(index, r1, r2)) - point;
     const double distance = glm::length(to_light);
-    const Vec3 direction = to_light / distance;
-    const float share = one_sided_ ? static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z))) : 1.0f;
-    return {direction, distance, share * irradiance_of(lamp_, distance), 1.0 / sample_count()};
+    const Vec3 direction = (1 / distance) * to_light;
+    LightSample sample{direction, distance, irradiance_.at(distance), weight_};
+    if (one_sided_) sample.irradiance *= static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z)));
+    return sample;
   }
   bool is_jittered() const override { return !sampling_.grid; }
+  Box3 places() const override { return places_; }
   bool casts_shadows() const override { return lamp_.shadows; }
 
  protected:
-  // To be called when on_area knows the light's shape.
-  void lay_grid() {
+  // To be called when on_area knows the light's shape, which lies within +-half along the axes of the frame.
+  void lay_out(const Vec2& half) {
+    for (const double x : {-half.x, half.x})
+      for (const double y : {-half.y, half.y}) places_.include(frame_.point({x, y, 0}));
+    places_ = places_.inflated(1e-12 * (places_.diameter() + glm::length(frame_.origin)));
     if (!sampling_.grid) return;
     for (int i = 0; i < sample_count(); ++i) grid_.push_back(place(i, 0, 0));
   }
@@ -46,17 +56,20 @@ class FlatLamp : public Light {
   }
 
   std::vector<Vec3> grid_;  // the fixed places
+  Box3 places_;
   Frame frame_;
   bool one_sided_;
+  double weight_;  // of a sample
   AreaSampling sampling_;
   Lamp lamp_;
+  Irradiance irradiance_;
 };
 
 class RectangleLamp final : public FlatLamp {
  public:
   explicit RectangleLamp(const RectangleLight& light)
       : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {
-    lay_grid();
+    lay_out(0.5 * light.size);
   }
   Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * light_.size; }
   std::any made_from() const override { return light_; }
@@ -69,7 +82,7 @@ class DiscLamp final : public FlatLamp {
  public:
   explicit DiscLamp(const DiscLight& light)
       : FlatLamp(light.frame, light.one_sided, light.sampling, light.lamp), light_(light) {
-    lay_grid();
+    lay_out(Vec2(light.radius));
   }
   Vec2 on_area(const Vec2& square) const override { return light_.radius * concentric_disc(square); }
   std::any made_from() const override { return light_; }

@@ -8,10 +8,8 @@ namespace lekalo::render {
 
 using namespace geometry;
 
-Spectrum irradiance_of(const Lamp& lamp, double distance) {
-  const double decay = lamp.inverse_square ? 1 / (distance * distance) : 1;
-  return rgb(kPi * lamp.intensity * decay * lamp.color);
-}
+Irradiance::Irradiance(const Lamp& lamp)
+    : at_one_(rgb(kPi * lamp.intensity * lamp.color)), inverse_square_(lamp.inverse_square) {}
 
 Vec2 area_sample(const AreaSampling& sampling, int index, double r1, double r2) {
   const int i = index % sampling.n, j = index / sampling.n;

@@ -48,6 +48,8 @@ class Light {
   virtual bool is_jittered() const { return false; }
   // What the source is from the point, for jittered sources that are a cone of directions.
   virtual std::optional<ConeLight> cone(const Vec3&) const { return std::nullopt; }
+  // A box around the places of all samples; without bounds where there is none.
+  virtual geometry::Box3 places() const { return geometry::Box3::everything(); }
   virtual bool casts_shadows() const { return true; }
   // The plain value of lights.h that it was made from, for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }

@@ -85,8 +85,18 @@ LightPtr make_light(const AmbientLight& light);
 
 // For the lights' own files.
 
-// E at right angles at a distance.
-Spectrum irradiance_of(const Lamp& lamp, double distance);
+// E at right angles by distance.
+class Irradiance {
+ public:
+  explicit Irradiance(const Lamp& lamp);
+  Spectrum at(double distance) const {
+    return inverse_square_ ? static_cast<float>(1 / (distance * distance)) * at_one_ : at_one_;
+  }
+
+ private:
+  Spectrum at_one_;
+  bool inverse_square_;
+};
 // Place of sample `index` in the unit square.
 Vec2 area_sample(const AreaSampling& sampling, int index, double r1, double r2);
 // The unit square onto the unit disc, area preserving (Shirley and Chiu 1997).

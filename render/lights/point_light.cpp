@@ -9,18 +9,19 @@ namespace {
 
 class PointLamp final : public Light {
  public:
-  explicit PointLamp(const PointLight& light) : light_(light) {}
+  explicit PointLamp(const PointLight& light) : light_(light), irradiance_(light.lamp) {}
 
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.position - point;
     const double distance = glm::length(to_light);
-    return {to_light / distance, distance, irradiance_of(light_.lamp, distance), 1};
+    return {to_light / distance, distance, irradiance_.at(distance), 1};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
 
  private:
   PointLight light_;
+  Irradiance irradiance_;
 };
 
 }  // namespace

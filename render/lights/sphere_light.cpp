@@ -11,7 +11,7 @@ namespace {
 
 class SphereLamp final : public Light {
  public:
-  explicit SphereLamp(const SphereLight& light) : light_(light) {}
+  explicit SphereLamp(const SphereLight& light) : light_(light), irradiance_(light.lamp) {}
 
   int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
 
@@ -30,7 +30,7 @@ class SphereLamp final : public Light {
     const double along = distance * local.z;
     const double square = light_.radius * light_.radius - (distance * distance - along * along);
     sample.distance = along - std::sqrt(std::fmax(0.0, square));
-    sample.irradiance = irradiance_of(light_.lamp, distance);
+    sample.irradiance = irradiance_.at(distance);
     return sample;
   }
   bool is_jittered() const override { return !light_.sampling.grid; }
@@ -38,13 +38,17 @@ class SphereLamp final : public Light {
     const Vec3 to_center = light_.center - point;
     const double distance = glm::length(to_center);
     if (distance <= light_.radius || !is_jittered()) return std::nullopt;
-    return ConeLight{to_center / distance, std::asin(light_.radius / distance), irradiance_of(light_.lamp, distance)};
+    return ConeLight{to_center / distance, std::asin(light_.radius / distance), irradiance_.at(distance)};
+  }
+  Box3 places() const override {
+    return {light_.center - Vec3(light_.radius * (1 + 1e-12)), light_.center + Vec3(light_.radius * (1 + 1e-12))};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
 
  private:
   SphereLight light_;
+  Irradiance irradiance_;
 };
 
 }  // namespace

@@ -13,14 +13,17 @@ namespace {
 class SpotLamp final : public Light {
  public:
   explicit SpotLamp(const SpotLight& light)
-      : light_(light), cos_outer_(std::cos(light.angle)), cos_inner_(std::cos(light.inner_angle)) {}
+      : light_(light),
+        irradiance_(light.lamp),
+        cos_outer_(std::cos(light.angle)),
+        cos_inner_(std::cos(light.inner_angle)) {}
 
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.position - point;
     const double distance = glm::length(to_light);
     const Vec3 direction = to_light / distance;
     const float share = static_cast<float>(cone_share(-glm::dot(direction, light_.direction)));
-    return {direction, distance, share * irradiance_of(light_.lamp, distance), 1};
+    return {direction, distance, share * irradiance_.at(distance), 1};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
@@ -34,6 +37,7 @@ class SpotLamp final : public Light {
   }
 
   SpotLight light_;
+  Irradiance irradiance_;
   double cos_outer_, cos_inner_;
 };
 

@@ -80,7 +80,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     }
     panel.make_camera = model.make_camera;
     if (read.camera) {
-      Shown all = shown(panel.objects ? *panel.objects : model.objects);
+      Shown all(panel.objects ? *panel.objects : model.objects);
       all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
       panel.make_camera = [make = *read.camera, all](int w, int h) { return make(w, h, all); };
     }

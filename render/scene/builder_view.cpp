@@ -26,7 +26,7 @@ constexpr double kPixelsPerInch = 96;  // of drawings without a size on paper
 double natural_aspect(const CameraFactory& factory, const Shown& shown) {
   const CameraPtr camera = factory(1000, 1000, shown);
   double x0 = geometry::kInfinity, x1 = -x0, y0 = x0, y1 = -x0;
-  for (const Vec3& point : shown.points) {
+  for (const Vec3& point : shown.points()) {
     const PicturePoint p = camera->project(point);
     if (!p.visible_side) return 1;
     x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
@@ -75,7 +75,7 @@ void Builder::build_camera(Model& model) {
   const auto image =
       read_fields(section_declaration("image").fields, given && given->is_map() ? *given : kEmptyMap, {}, "'image'");
   const Value* camera = section("camera");
-  Shown all = shown(model);
+  Shown all(model.objects);
   all.objects = std::make_shared<const std::vector<Object>>(names_frames() ? model.objects : std::vector<Object>());
   const Box3& box = all.box;
   std::optional<Built> factory;

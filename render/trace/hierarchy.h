@@ -8,6 +8,7 @@
 
 #include "geometry/mesh.h"
 #include "geometry/queries/line_intersections.h"
+#include "render/trace/obstacles.h"
 #include "render/trace/ray.h"
 #include "render/trace/shape.h"
 
@@ -52,7 +53,11 @@ class Hierarchy {
   void commit();
 
   bool nearest(const Ray& ray, Hit& hit) const;
-  bool occluded(const Ray& ray) const;
+  bool occluded(const Ray& ray) const { return occluded(ray, {}); }
+  // What may stand between the origin of shadow rays and the places of a bounded box.
+  Obstacles obstacles(const Ray& from, const Box3& to) const;
+  // The same as occluded(ray) for a ray that ends in the box.
+  bool occluded(const Ray& ray, const Obstacles& among) const;
   // In order of t, one for each crossing of each leaf.
   std::vector<Hit> all_hits(const Ray& ray) const;
 

@@ -86,6 +86,9 @@ struct Hierarchy::Query {
   double slack = 0;                    // float uncertainty of t
   uint32_t kind = 1;
   int leaf_offset = 0;
+  int left_instance = -1, left_face = 0, left_piece = 0;  // as in Ray
+  bool left_for_good = false;
+  Obstacles among;
   bool found = false;
   // What is wanted: the nearest hit, all hits, or, with neither, whether there is one.
   Hit* nearest = nullptr;
@@ -93,6 +96,12 @@ struct Hierarchy::Query {
 
   explicit Query(const geometry::Line& line) : prepared(line) {}
   const geometry::Line& line() const { return prepared.line(); }
+  // True if the ray left this face, or this piece of it, and does not meet it again.
+  bool has_left(const GeometryRecord& record) const { return left_for_good && is_left(record); }
+  bool has_left(const GeometryRecord& record, int piece) const {
+    return is_left(record) &&
+           (left_for_good || (piece == left_piece && record.target->meets_once(piece, line().direction)));
+  }
   bool is_done() const { return found && !nearest && !all; }
 
   void accept(const Hit& hit) {
@@ -105,6 +114,12 @@ struct Hierarchy::Query {
       all->push_back(hit);
     }
     found = true;
+  }
+
+ private:
+  bool is_left(const GeometryRecord& record) const {
+    return record.kind == GeometryRecord::Kind::target && leaf_offset + record.leaf_number == left_instance &&
+           record.face == left_face;
   }
 };
 

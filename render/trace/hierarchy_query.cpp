@@ -52,6 +52,10 @@ void test_instance(const GeometryRecord& record, Query& query) {
   inner.t_max = query.t_max;
   inner.kind = query.kind;
   inner.leaf_offset = query.leaf_offset + record.leaf_number;
+  inner.left_instance = query.left_instance;
+  inner.left_face = query.left_face;
+  inner.left_piece = query.left_piece;
+  inner.left_for_good = query.left_for_good;
   inner.found = query.found;
   inner.nearest = query.nearest;
   inner.all = query.all;
@@ -84,7 +88,7 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
 void test(const GeometryRecord& record, int primitive, Query& query) {
   if (record.kind == GeometryRecord::Kind::instance)
     test_instance(record, query);
-  else if (!(record.leaf->visible_to & query.kind))
+  else if (!(record.leaf->visible_to & query.kind) || query.has_left(record, primitive))
     return;
   else if (record.kind == GeometryRecord::Kind::target)
     test_target(record, primitive, query);
@@ -103,10 +107,44 @@ bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_
   return t_min <= t_max;
 }
 
+// All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
+class Shaft {
+ public:
+  Shaft(const Vec3& from, const Box3& to) : from_(from), lo_(to.lo - from), hi_(to.hi - from) {}
+  // True if one of them may meet the box.
+  bool may_enter(const Box3& box) const {
+    double begin = 0, end = 1;
+    const auto at_most = [&](double slope, double value) {  // slope s <= value
+      if (slope > 0)
+        end = std::min(end, value / slope);
+      else if (slope < 0)
+        begin = std::max(begin, value / slope);
+      else if (value < 0)
+        end = -1;
+    };
+    for (int k = 0; k < 3; ++k) {
+      at_most(lo_[k], box.hi[k] - from_[k]);
+      at_most(-hi_[k], from_[k] - box.lo[k]);
+    }
+    return begin <= end;
+  }
+
+ private:
+  Vec3 from_, lo_, hi_;
+};
+
+constexpr size_t kLastBit = 63;
+
+bool is_listed(uint64_t set, size_t i) { return set >> std::min(i, kLastBit) & 1; }
+
 void begin(Query& query, const Ray& ray) {
   query.t_min = ray.t_min;
   query.t_max = ray.t_max;
   query.kind = static_cast<uint32_t>(ray.kind);
+  query.left_instance = ray.left_instance;
+  query.left_face = ray.left_face;
+  query.left_piece = ray.left_piece;
+  query.left_for_good = ray.left_for_good;
 }
 
 }  // namespace
@@ -205,19 +243,22 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
 
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
+  size_t number = 0;
   for (const GeometryRecord* record : p.unbounded) {
+    if (!is_listed(query.among.listed, number++)) continue;
     for (int i = 0; i < record->count; ++i) test(*record, i, query);
     if (query.is_done()) return;
   }
   if (!p.few.empty()) {
     const Vec3 inverse = 1.0 / query.line().direction;
     for (const Parts::Piece& piece : p.few) {
+      if (!is_listed(query.among.listed, number++) || query.has_left(*piece.record)) continue;
       if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
     }
   }
-  if (p.scene) run_scene(p, query);
+  if (p.scene && query.among.scene) run_scene(p, query);
 }
 
 bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
@@ -228,9 +269,28 @@ bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
   return query.found;
 }
 
-bool Hierarchy::occluded(const Ray& ray) const {
+Obstacles Hierarchy::obstacles(const Ray& from, const Box3& to) const {
+  const Parts& p = *parts_;
+  Query query(from);
+  begin(query, from);
+  const Shaft shaft(from.origin, to);
+  Obstacles result{0, false};
+  size_t number = 0;
+  const auto list = [&](bool listed) {
+    if (listed) result.listed |= uint64_t{1} << std::min(number, kLastBit);
+    ++number;
+  };
+  for (const GeometryRecord* record : p.unbounded) list(!query.has_left(*record));
+  for (const Parts::Piece& piece : p.few) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
+  result.scene = p.scene && shaft.may_enter(p.box.inflated(kBoxInflation * p.radius));
+  return result;
+}
+
+bool Hierarchy::occluded(const Ray& ray, const Obstacles& among) const {
+  if (among.none()) return false;
   Query query(ray);
   begin(query, ray);
+  query.among = among;
   run(query);
   return query.found;
 }

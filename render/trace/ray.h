@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "geometry/vectors.h"
+#include "geometry/surface.h"
 #include "render/spectrum.h"
 
 namespace lekalo::render {
@@ -17,6 +17,12 @@ struct Ray : geometry::Line {
   double t_min = 0;
   double t_max = geometry::kInfinity;
   RayKind kind = RayKind::camera;
+  // The piece of a face that the ray left; instance -1: none. `left_for_good`: to a side from which it does not meet
+  // any of the face again (Surface::free_sides).
+  int32_t left_instance = -1;
+  int32_t left_face = 0;
+  int32_t left_piece = 0;
+  bool left_for_good = false;
 };
 
 // What a ray meets. `instance` numbers the copy of the object that was hit, in the World's order of compilation.
@@ -48,6 +54,8 @@ struct SurfacePoint {
   int32_t instance = -1;
   int32_t object = 0;  // number in the Model's objects, those of groups counted where they stand
   int32_t face = 0;
+  int32_t piece = 0;
+  geometry::Sides free_sides;  // of the face that was hit; front is where geometric_normal points to
 };
 
 }  // namespace lekalo::render

@@ -1,5 +1,7 @@
 #include "render/trace/world.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -73,6 +75,7 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
 struct LocalPoint {
   double u, v;
   Vec3 position, smooth_position, du, dv, geometric_normal, normal;
+  geometry::Sides free_sides;
 };
 
 LocalPoint point_of_surface(const Leaf& leaf, const Hit& hit) {
@@ -80,7 +83,12 @@ LocalPoint point_of_surface(const Leaf& leaf, const Hit& hit) {
   const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
   const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
   const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
-  return {hit.u, hit.v, jet.point(), jet.point(), jet.du(), jet.dv(), normal, normal};
+  geometry::Sides sides;
+  if (!leaf.shape) {
+    sides = surface.free_sides();
+    if (sign * surface.normal_sign() < 0) sides = sides.turned();
+  }
+  return {hit.u, hit.v, jet.point(), jet.point(), jet.du(), jet.dv(), normal, normal, sides};
 }
 
 LocalPoint point_of_mesh(const Leaf& leaf, const Hit& hit) {
@@ -248,10 +256,10 @@ struct World::Compiled {
               leaf.signs = {1};
               return;
             }
-            for (const SurfacePtr& surface : set) {
-              leaf.targets.push_back(geometry::make_line_target(surface));
-              leaf.signs.push_back(1);
-            }
+            leaf.targets.resize(set.size());
+            tbb::parallel_for(size_t{0}, set.size(),
+                              [&](size_t i) { leaf.targets[i] = geometry::make_line_target(set[i]); });
+            leaf.signs.assign(set.size(), 1);
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
             if (as_mesh) {
               use_mesh_of(*shape, tolerance_of(object, to_world), leaf);
@@ -335,6 +343,8 @@ World::~World() = default;
 
 bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
+Obstacles World::obstacles(const Ray& from, const Box3& to) const { return compiled_->top.obstacles(from, to); }
+bool World::occluded(const Ray& ray, const Obstacles& among) const { return compiled_->top.occluded(ray, among); }
 std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
 bool World::has_transmitting_materials() const { return compiled_->transmits; }
 WorldStatistics World::statistics() const { return compiled_->statistics; }
@@ -369,13 +379,19 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
           .pixel_size = compiled_->camera ? compiled_->camera->pixel_size(local.position) : 0,
           .instance = hit.instance,
           .object = place.object,
-          .face = hit.face};
+          .face = hit.face,
+          .piece = hit.piece,
+          .free_sides = local.free_sides};
 }
 
-Vec3 World::leave(const SurfacePoint& point, const Vec3& direction) const {
-  const bool outward = glm::dot(direction, point.geometric_normal) >= 0;
-  const Vec3 side = outward ? point.geometric_normal : -point.geometric_normal;
-  return (outward ? point.smooth_position : point.position) + 4 * point.error * side;
+void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
+  const bool outward = glm::dot(side, point.geometric_normal) >= 0;
+  const Vec3 normal = outward ? point.geometric_normal : -point.geometric_normal;
+  ray.origin = (outward ? point.smooth_position : point.position) + 4 * point.error * normal;
+  ray.left_instance = point.instance;
+  ray.left_face = point.face;
+  ray.left_piece = point.piece;
+  ray.left_for_good = outward ? point.free_sides.front : point.free_sides.back;
 }
 
 const Object& World::object(const SurfacePoint& point) const { return *compiled_->objects[point.object]; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/scene/model.h"
+#include "render/trace/obstacles.h"
 #include "render/trace/ray.h"
 
 namespace lekalo::render {
@@ -33,13 +34,17 @@ class World {
   bool nearest(const Ray& ray, Hit& hit) const;
   // True if anything that shadow rays see lies between t_min and t_max.
   bool occluded(const Ray& ray) const;
+  // What may stand between the origin of shadow rays and the places of a box, and whether one of it occludes a ray that
+  // ends in the box. Pays for several rays.
+  Obstacles obstacles(const Ray& from, const geometry::Box3& to) const;
+  bool occluded(const Ray& ray, const Obstacles& among) const;
   // All hits in order of t, one for each crossing.
   std::vector<Hit> all_hits(const Ray& ray) const;
 
   // Position, normals and derivatives at a hit; `ray` is the one that found it.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
-  // Origin of a ray that leaves the point on the side of `direction`, clear of the point's error bound.
-  Vec3 leave(const SurfacePoint& point, const Vec3& direction) const;
+  // Lets the ray begin at the point, on the given side of it, clear of the point's error bound.
+  void leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const;
 
   // The object that a point belongs to, which may stand in a group.
   const Object& object(const SurfacePoint& point) const;

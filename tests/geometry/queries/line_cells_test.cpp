@@ -140,5 +140,36 @@ TEST(LineCells, ALineThroughACollapsedEdgeHitsItOnce) {
   EXPECT_EQ(at_the_pole, 1);
 }
 
+// Where meets_once says so, no line of the direction has two roots; gentle patches are nearly always known to have one.
+TEST(LineCells, KnowWhichDirectionsMeetThemOnce) {
+  std::mt19937_64 random(5);
+  int known = 0, several = 0, lines = 0, met = 0;
+  for (int n = 0; n < tests::tier_count(2000, 40); ++n) {
+    RandomPatch patch = random_patch(random, 1 + n % 5, 1 + n % 4, n % 3 == 0 ? 10 : 1, false);
+    const double bumps = n % 2 == 0 ? 0.05 : 0.5;
+    for (int i = 0; i <= patch.p; ++i)
+      for (int j = 0; j <= patch.q; ++j) {
+        Vec4& c = patch.points[i * (patch.q + 1) + j];
+        const Vec3 even(i / double(patch.p), j / double(patch.q), 0.5);
+        c = Vec4(c.w * (even + bumps * (Vec3(c) / c.w - even)), c.w);
+      }
+    const oracle::PatchOracle truth(patch.points, patch.p, patch.q);
+    const CellModel model = model_of(patch.view());
+    for (int k = 0; k < 30; ++k) {
+      Line line = random_line(random, 2);
+      line.origin = truth.point(0.1 + 0.8 * (k / 30.0), 0.1 + 0.8 * ((7 * k % 30) / 30.0)) - 2.0 * line.direction;
+      const size_t roots = truth.roots(line).size();
+      const bool once = meets_once(model, line.direction);
+      ++lines;
+      met += roots > 1;
+      known += once;
+      several += once && roots > 1;
+    }
+  }
+  EXPECT_EQ(several, 0) << "of " << known << " directions said to meet once, " << met << " of " << lines << " do not";
+  EXPECT_GT(known, lines / 5);
+  EXPECT_GT(met, lines / 100);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry

@@ -5,6 +5,7 @@
 //   enclosures   random parts of the domain against samples
 //   NURBS form   the Cox-de Boor recursion in long double at mapped parameters
 //   pieces       de Casteljau in long double; areas of the domains add up
+//   free sides   pairs of points and tangent planes
 //   line hits    points of hits lie on line and surface; lines aimed at points of the surface find them; origins up to
 //                a million sizes away (everything about the line in 113 bits)
 #pragma once
@@ -282,9 +283,27 @@ inline void check_hits(const Surface& surface, const Line& line, const Interval&
   }
 }
 
+// No point of the surface lies beyond a tangent plane on a side that is said to be free.
+inline void check_free_sides(const Surface& surface, const Rectangle& range) {
+  const Sides free = surface.free_sides();
+  std::mt19937_64 random(27);
+  double size = 0, front = 0, back = 0;  // farthest beyond a plane on either side
+  for (int sample = 0; sample < 2000; ++sample) {
+    const Vec2 p = random_place(range, random), q = random_place(range, random);
+    const Vec3 at = surface.point(p.x, p.y), to = surface.point(q.x, q.y) - at;
+    const double height = surface.normal_sign() * glm::dot(surface.normal(p.x, p.y), to);
+    size = std::max({size, glm::length(to), 1e-3 * glm::length(at)});
+    front = std::max(front, height);
+    back = std::max(back, -height);
+  }
+  ASSERT_TRUE(!free.front || front <= 1e-12 * size) << front;
+  ASSERT_TRUE(!free.back || back <= 1e-12 * size) << back;
+}
+
 // `range` is the part of the domain aimed at (all of it for bounded surfaces).
 inline void check_line_hits(const Surface& surface, const Rectangle& range, const LineChecks& checks = {}) {
   ASSERT_TRUE(surface.has_line_formula());
+  check_free_sides(surface, range);
   std::mt19937_64 random(26);
   std::uniform_real_distribution<double> uniform(0, 1);
   Box3 box;
@@ -348,7 +367,10 @@ inline void check_surface(const Surface& surface, const LineChecks& checks = {})
   if (surface.as_nurbs()) check_nurbs(surface);
   check_pieces(surface);
   check_periods(surface, d);
-  if (surface.has_line_formula()) check_line_hits(surface, d, checks);
+  if (surface.has_line_formula())
+    check_line_hits(surface, d, checks);
+  else
+    check_free_sides(surface, d);
 }
 
 }  // namespace lekalo::geometry::checks

@@ -14,7 +14,7 @@ namespace {
 using geometry::Box3;
 using geometry::kPi;
 
-std::vector<Vec3> corners(const Box3& box) { return Shown(box).points; }
+std::vector<Vec3> corners(const Box3& box) { return Shown(box).points(); }
 
 void check_round_trip(const Camera& camera) {
   std::mt19937 random(7);
@@ -173,8 +173,8 @@ TEST(Framing, FitsTheOutlineOfABall) {
   // the ball it fills the picture to the margin but for the grid's half a per cent.
   SmallScene scene;
   scene.add(sphere({1, 2, 3}, 2), nullptr);
-  const Shown all = shown(scene.model);
-  const PerspectiveView view = framed_perspective(preset_view("isometric"), 0.6, 200, 200, all.points, 0.1);
+  const Shown all(scene.model.objects);
+  const PerspectiveView view = framed_perspective(preset_view("isometric"), 0.6, 200, 200, all.points(), 0.1);
   const double distance = glm::length(view.from - Vec3(1, 2, 3));
   const double outline = std::tan(std::asin(2 / distance)) / std::tan(0.3);  // share of half the picture
   EXPECT_NEAR(outline, 0.8, 0.005);
