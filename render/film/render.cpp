@@ -176,7 +176,11 @@ class TileTracer {
       return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
     };
     std::vector<Shown> shown(centers.begin(), centers.end());
-    std::vector<RaySample> taken;
+    struct Taken {
+      Vec2 place;
+      RaySample sample;
+    };
+    std::vector<Taken> taken;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const RaySample& own = centers[index(x, y)];
@@ -204,14 +208,14 @@ class TileTracer {
         bool alike = calm;
         int s = 0;
         for (; s < all && (s < kFewSamples || !alike); ++s) {
-          taken.push_back(sample_at(x, y, sampler_->pixel_position(x, y, s), s, exposure.tally));
-          alike = alike && !taken.back().noisy && !differ(own_shown, Shown(taken.back()), contrast);
+          const Vec2 place = sampler_->pixel_position(x, y, s);
+          const RaySample& sample = taken.emplace_back(Taken{place, sample_at(x, y, place, s, exposure.tally)}).sample;
+          alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
         }
         int counted = 0;
-        for (const RaySample& sample : taken) counted += is_finite(sample);
-        for (int i = 0; i < s; ++i)
-          if (is_finite(taken[i]))
-            exposure.add(x, y, sampler_->pixel_position(x, y, i), taken[i], static_cast<double>(all) / counted);
+        for (const Taken& one : taken) counted += is_finite(one.sample);
+        for (const Taken& one : taken)
+          if (is_finite(one.sample)) exposure.add(x, y, one.place, one.sample, static_cast<double>(all) / counted);
         count(x, y, counted);
       }
   }

@@ -209,8 +209,12 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     std::optional<ConeLight> cone;
     if (diffuse && jittered && seen.normal == seen.smooth_normal) cone = light->cone(seen.point.position);
     if (cone) {
-      const Spectrum all =
-          static_cast<float>(cone->mean_cosine(glm::dot(seen.normal, cone->axis))) * kOverPi * cone->irradiance;
+      const double mean_cosine = cone->mean_cosine(glm::dot(seen.normal, cone->axis));
+      if (mean_cosine == 0) {  // all of it below the horizon
+        mix(4);
+        continue;
+      }
+      const Spectrum all = static_cast<float>(mean_cosine) * kOverPi * cone->irradiance;
       sum.unobstructed += all;
       sum.diffuse += all;
     }

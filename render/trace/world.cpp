@@ -71,28 +71,23 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
   return glm::clamp(foot, lo + inside, hi - inside);
 }
 
-// What a hit shows in the space of its leaf.
-struct LocalPoint {
-  double u, v;
-  Vec3 position, smooth_position, du, dv, geometric_normal, normal;
-  geometry::Sides free_sides;
-};
-
-LocalPoint point_of_surface(const Leaf& leaf, const Hit& hit) {
+// What a hit shows in the space of its leaf: parameters, places, derivatives, normals, free sides.
+void point_of_surface(const Leaf& leaf, const Hit& hit, SurfacePoint& point) {
   const Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
   const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
   const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
-  const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
-  geometry::Sides sides;
-  if (!leaf.shape) {
-    sides = surface.free_sides();
-    if (sign * surface.normal_sign() < 0) sides = sides.turned();
-  }
-  return {hit.u, hit.v, jet.point(), jet.point(), jet.du(), jet.dv(), normal, normal, sides};
+  point.u = hit.u;
+  point.v = hit.v;
+  point.position = point.smooth_position = jet.point();
+  point.du = jet.du();
+  point.dv = jet.dv();
+  point.geometric_normal = point.normal = sign * surface.normal(hit.u, hit.v, jet);
+  if (leaf.shape) return;
+  point.free_sides = surface.free_sides();
+  if (sign * surface.normal_sign() < 0) point.free_sides = point.free_sides.turned();
 }
 
-LocalPoint point_of_mesh(const Leaf& leaf, const Hit& hit) {
-  LocalPoint point;
+void point_of_mesh(const Leaf& leaf, const Hit& hit, SurfacePoint& point) {
   point.u = hit.u;
   point.v = hit.v;
   point.du = point.dv = Vec3(0);
@@ -146,7 +141,6 @@ LocalPoint point_of_mesh(const Leaf& leaf, const Hit& hit) {
   }
   point.geometric_normal = geometric;
   point.normal = shading;
-  return point;
 }
 
 bool is_drawn_only(const Entity& entity) {
@@ -354,34 +348,27 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
-  LocalPoint local = leaf.mesh ? point_of_mesh(leaf, hit) : point_of_surface(leaf, hit);
+  SurfacePoint point;
+  leaf.mesh ? point_of_mesh(leaf, hit, point) : point_of_surface(leaf, hit, point);
   if (place.to_world) {
     const Affine& map = *place.to_world;
     const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));
-    local.position = map.point(local.position);
-    local.smooth_position = map.point(local.smooth_position);
-    local.du = map.direction(local.du);
-    local.dv = map.direction(local.dv);
-    local.geometric_normal = glm::normalize(normals * local.geometric_normal);
-    local.normal = glm::normalize(normals * local.normal);
+    point.position = map.point(point.position);
+    point.smooth_position = map.point(point.smooth_position);
+    point.du = map.direction(point.du);
+    point.dv = map.direction(point.dv);
+    point.geometric_normal = glm::normalize(normals * point.geometric_normal);
+    point.normal = glm::normalize(normals * point.normal);
   }
-  const Vec3 size = glm::abs(local.position) + glm::abs(local.position - ray.origin);
-  return {.position = local.position,
-          .smooth_position = local.smooth_position,
-          .incoming = ray.direction,
-          .geometric_normal = local.geometric_normal,
-          .normal = local.normal,
-          .du = local.du,
-          .dv = local.dv,
-          .u = local.u,
-          .v = local.v,
-          .error = place.error + kPositionError * (size.x + size.y + size.z),
-          .pixel_size = compiled_->camera ? compiled_->camera->pixel_size(local.position) : 0,
-          .instance = hit.instance,
-          .object = place.object,
-          .face = hit.face,
-          .piece = hit.piece,
-          .free_sides = local.free_sides};
+  point.incoming = ray.direction;
+  const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
+  point.error = place.error + kPositionError * (size.x + size.y + size.z);
+  point.pixel_size = compiled_->camera ? compiled_->camera->pixel_size(point.position) : 0;
+  point.instance = hit.instance;
+  point.object = place.object;
+  point.face = hit.face;
+  point.piece = hit.piece;
+  return point;
 }
 
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
