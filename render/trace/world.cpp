@@ -1,5 +1,6 @@
 #include "render/trace/world.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -251,8 +252,9 @@ struct World::Compiled {
               return;
             }
             leaf.targets.resize(set.size());
-            tbb::parallel_for(size_t{0}, set.size(),
-                              [&](size_t i) { leaf.targets[i] = geometry::make_line_target(set[i]); });
+            tbb::parallel_for(tbb::blocked_range<size_t>(0, set.size()), [&](const tbb::blocked_range<size_t>& part) {
+              for (size_t i = part.begin(); i < part.end(); ++i) leaf.targets[i] = geometry::make_line_target(set[i]);
+            });
             leaf.signs.assign(set.size(), 1);
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
             if (as_mesh) {
