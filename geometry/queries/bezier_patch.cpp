@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "geometry/curves/bspline_basis.h"
+#include "geometry/numerics/instruction_sets.h"
 
 namespace lekalo::geometry {
 
@@ -11,13 +12,6 @@ namespace {
 // A homogeneous point in one register, or two where registers are short.
 using Lanes = double __attribute__((vector_size(32)));
 inline void load(const Vec4& p, Lanes& lanes) { std::memcpy(&lanes, &p, sizeof lanes); }
-
-// Where the compiler can, `evaluate` exists twice, for processors with AVX2 and for all; both give the same bits.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define LEKALO_WIDE __attribute__((target_clones("avx2", "default"), flatten))
-#else
-#define LEKALO_WIDE
-#endif
 
 // Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4); written out up
 // to degree 3.

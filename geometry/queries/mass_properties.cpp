@@ -58,11 +58,19 @@ void mass_integrands(const SurfaceJet& jet, const Scale& scale, std::span<double
   values[13] = flux * r.z * r.x / 5;
 }
 
+// The centroid of a wire or sheet whose length or area is the first integral and whose moments are the next three.
+void set_centroid(const Integral& integral, const Scale& scale, Vec3& centroid, double& error) {
+  const double size = integral.value[0];
+  const Vec3 moment(integral.value[1], integral.value[2], integral.value[3]);
+  const Vec3 moment_error(integral.error[1], integral.error[2], integral.error[3]);
+  centroid = scale.origin + scale.unit / size * moment;
+  error = scale.unit / size * (glm::length(moment_error) + glm::length(moment) / size * integral.error[0]);
+}
+
 SurfaceMeasures area_of(const Integral& integral, const Scale& scale) {
   SurfaceMeasures result;
   result.area = {scale.factor(0) * integral.value[0], scale.factor(0) * integral.error[0]};
-  result.centroid =
-      scale.origin + scale.unit / integral.value[0] * Vec3(integral.value[1], integral.value[2], integral.value[3]);
+  set_centroid(integral, scale, result.centroid, result.centroid_error);
   return result;
 }
 
@@ -126,8 +134,7 @@ CurveMeasures measure(const Curve& curve) {
   CurveMeasures result;
   result.length = {scale.unit * integral.value[0], scale.unit * integral.error[0]};
   result.centroid = scale.origin;
-  if (integral.value[0] > 0)
-    result.centroid += scale.unit / integral.value[0] * Vec3(integral.value[1], integral.value[2], integral.value[3]);
+  if (integral.value[0] > 0) set_centroid(integral, scale, result.centroid, result.centroid_error);
   return result;
 }
 

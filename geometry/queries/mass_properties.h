@@ -19,12 +19,14 @@ struct Measured {
 
 struct CurveMeasures {
   Measured length;
-  Vec3 centroid{0};  // of the curve as a wire of constant thickness
+  Vec3 centroid{0};           // of the curve as a wire of constant thickness
+  double centroid_error = 0;  // length
 };
 
 struct SurfaceMeasures {
   Measured area;
-  Vec3 centroid{0};  // of the surface as a sheet of constant thickness
+  Vec3 centroid{0};           // of the surface as a sheet of constant thickness
+  double centroid_error = 0;  // length
 };
 
 struct MassProperties {

@@ -1,5 +1,7 @@
 #include "geometry/surfaces/local_line.h"
 
+#include "geometry/numerics/instruction_sets.h"
+
 namespace lekalo::geometry {
 
 LEKALO_FUSED Vec3 fused_at(const Line& line, double t) {

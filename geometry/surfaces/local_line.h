@@ -23,14 +23,6 @@ struct MovedLine {
   MovedLine shifted(const Vec3& to) const { return {start, origin - to, direction}; }
 };
 
-// Where the compiler can, functions that live on fused multiply-adds exist twice, with the processor's own instruction
-// and with the library's function; both round alike.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define LEKALO_FUSED __attribute__((target_clones("fma", "default")))
-#else
-#define LEKALO_FUSED
-#endif
-
 // The line's point at t with one rounding in each coordinate.
 Vec3 fused_at(const Line& line, double t);
 

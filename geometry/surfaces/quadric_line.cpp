@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/local_line.h"
 
 namespace lekalo::geometry {

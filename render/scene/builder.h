@@ -209,6 +209,7 @@ class Builder {
   const SceneDescription& scene_;
   BuildOptions options_;
   Diagnostics& diagnostics_;
+  std::map<std::string, const Value*, std::less<>> misspelt_sections_;  // by the name that is meant
   Parameters parameters_;
   Value styles_;  // the built-in ones with the scene's changes
   std::map<std::string, std::map<std::string, NamedThing, std::less<>>> sections_;

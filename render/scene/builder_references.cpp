@@ -22,7 +22,9 @@ bool contains(std::span<const Category> categories, Category category) {
 
 const Value* Builder::section(const char* name) const {
   if (std::string_view(name) == "styles" && styles_.is_map()) return &styles_;
-  return scene_.root.find(name);
+  if (const Value* written = scene_.root.find(name)) return written;
+  const auto meant = misspelt_sections_.find(name);
+  return meant == misspelt_sections_.end() ? nullptr : meant->second;
 }
 
 std::map<std::string, NamedThing, std::less<>>* Builder::things_of(Category category) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/expression/nearest_name.h"
 #include "render/cameras/cameras.h"
 #include "render/scene/builder.h"
 #include "render/scene/panels.h"
@@ -29,13 +30,32 @@ std::string section_that_takes(std::string_view field) {
   return found;
 }
 
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const SectionDeclaration& declared : sections()) names.push_back(declared.name);
+  return names;
+}
+
+// Sections that stand in the scene under a name much like theirs, by what they are meant to be. They are read as that,
+// so that an error in a section's name is not followed by one for every name in it.
+std::map<std::string, const Value*, std::less<>> misspelt_sections(const Value& root) {
+  std::map<std::string, const Value*, std::less<>> result;
+  const std::vector<std::string> known = section_names();
+  for (const Entry& entry : root.entries) {
+    const auto meant = geometry::nearest_name(entry.key.name, known);
+    if (meant && !root.find(*meant)) result.emplace(*meant, &entry.value);
+  }
+  return result;
+}
+
 }  // namespace
 
 Builder::Builder(const SceneDescription& scene, const BuildOptions& options, Diagnostics& diagnostics)
     : scene_(scene),
       options_(options),
       diagnostics_(diagnostics),
-      parameters_(scene.root.find("parameters"), diagnostics) {
+      misspelt_sections_(misspelt_sections(scene.root)),
+      parameters_(section("parameters"), diagnostics) {
   merge_styles();
 }
 
@@ -67,8 +87,7 @@ Model Builder::build() {
 
 // Unknown sections, and those that are not what their declaration says.
 void Builder::check_sections() {
-  std::vector<std::string> known;
-  for (const SectionDeclaration& declared : sections()) known.push_back(declared.name);
+  const std::vector<std::string> known = section_names();
   for (const Entry& entry : scene_.root.entries) {
     const auto found = std::find(known.begin(), known.end(), entry.key.name);
     if (found == known.end()) {

@@ -44,6 +44,7 @@ class Numbers(ProgramTest):
         self.assert_near(measured["length"], 4 * math.pi, 1e-13)
         self.assertLess(measured["length_error"], 1e-11)
         self.assert_near(measured["centroid"], [0, 0, 0], 1e-14)
+        self.assertTrue(0 < measured["centroid_error"] < 1e-11)
 
     def test_torus_area_volume_and_moments(self):
         """Area 4 pi^2 R r, volume 2 pi^2 R r^2 (Pappus); moments V (R^2 + 3/4 r^2), V (R^2/2 + 5/8 r^2)."""

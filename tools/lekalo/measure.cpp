@@ -21,14 +21,18 @@ void put(ordered_json& out, const char* key, const Measured& measured) {
   out[std::string(key) + "_error"] = measured.error;
 }
 
+void put_centroid(ordered_json& out, const Vec3& centroid, double error) {
+  out["centroid"] = to_json(centroid);
+  out["centroid_error"] = error;
+}
+
 void put(ordered_json& out, const MassProperties& mass) {
   put(out, "area", mass.area);
   out["closed"] = mass.closed;
   // An open shell bounds nothing.
   if (!mass.closed) return;
   put(out, "volume", mass.volume);
-  out["centroid"] = to_json(mass.centroid);
-  out["centroid_error"] = mass.centroid_error;
+  put_centroid(out, mass.centroid, mass.centroid_error);
   out["inertia"] = to_json(mass.inertia);
   out["inertia_error"] = mass.inertia_error;
   out["principal_moments"] = to_json(mass.principal_moments);
@@ -37,18 +41,24 @@ void put(ordered_json& out, const MassProperties& mass) {
 
 void put(ordered_json& out, const geometry::SurfaceMeasures& measures) {
   put(out, "area", measures.area);
-  out["centroid"] = to_json(measures.centroid);
+  put_centroid(out, measures.centroid, measures.centroid_error);
 }
 
 geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
   geometry::SurfaceMeasures sum;
+  std::vector<geometry::SurfaceMeasures> parts;
   for (const geometry::SurfacePtr& surface : set) {
-    const geometry::SurfaceMeasures one = geometry::measure(*surface);
+    const geometry::SurfaceMeasures& one = parts.emplace_back(geometry::measure(*surface));
     sum.area.value += one.area.value;
     sum.area.error += one.area.error;
     sum.centroid += one.area.value * one.centroid;
   }
-  if (sum.area.value > 0) sum.centroid /= sum.area.value;
+  if (!(sum.area.value > 0)) return sum;
+  sum.centroid /= sum.area.value;
+  for (const geometry::SurfaceMeasures& one : parts)
+    sum.centroid_error +=
+        (one.area.value * one.centroid_error + glm::length(one.centroid - sum.centroid) * one.area.error) /
+        sum.area.value;
   return sum;
 }
 
@@ -91,7 +101,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       const geometry::CurveMeasures measured = geometry::measure(**curve);
       out["kind"] = "curve";
       put(out, "length", measured.length);
-      out["centroid"] = to_json(measured.centroid);
+      put_centroid(out, measured.centroid, measured.centroid_error);
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));

@@ -26,6 +26,14 @@ TEST(BuilderErrors, UnknownFieldsAreNamedWithTheNearest) {
 
 TEST(BuilderErrors, UnknownSections) {
   EXPECT_EQ(said("geometri: {}"), "2:1 unknown section 'geometri' (did you mean 'geometry'?)\n");
+  EXPECT_EQ(said("geometri: { a: { type: ball, radius: r } }\nparameter: { r: 2 }\nobjects: [{ shape: a }]"),
+            "2:1 unknown section 'geometri' (did you mean 'geometry'?)\n"
+            "3:1 unknown section 'parameter' (did you mean 'parameters'?)\n")
+      << "what stands in them is known all the same";
+  EXPECT_EQ(said("geometri: { a: { type: ball, radios: 1 } }"),
+            "2:1 unknown section 'geometri' (did you mean 'geometry'?)\n"
+            "2:30 unknown field 'radios' of 'ball' (did you mean 'radius'?)\n")
+      << "and its errors are found in the same run";
   EXPECT_EQ(said("image: 7\nparameters: 9\ninfo: [a]\ngeometry: 3\nlayout: []\nobjects: 5"),
             "2:8 'image' is a map of fields, found a single value\n"
             "3:13 'parameters' is a map of fields, found a single value\n"
