@@ -42,10 +42,18 @@ struct Illumination {
 
 // A surface point seen by a ray, all normals on the viewer's side.
 struct Seen {
+  Seen(const World& world, const Ray& ray, const Hit& hit, double way)
+      : point(world.surface_point(ray, hit)),
+        front(glm::dot(ray.direction, point.geometric_normal) < 0),
+        length(way + hit.t),
+        geometric_normal(front ? point.geometric_normal : -point.geometric_normal),
+        smooth_normal(front ? point.normal : -point.normal),
+        normal(smooth_normal) {}
+
   SurfacePoint point;
-  bool front = true;
-  double length = 0;                                   // of the way from the eye
-  Vec3 geometric_normal{}, smooth_normal{}, normal{};  // of the facet; of the surface; after bumps
+  bool front;
+  double length;                                 // of the way from the eye
+  Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
 };
 
 class Tracer {
@@ -88,9 +96,7 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
       mix(0);
       return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
     }
-    Seen seen{world_.surface_point(ray, hit)};
-    seen.front = glm::dot(ray.direction, seen.point.geometric_normal) < 0;
-    seen.length = length + hit.t;
+    Seen seen(world_, ray, hit, length);
 
     const int32_t body = seen.point.instance;
     const std::optional<Medium> medium = world_.material(seen.point, true).interior(kYellow);
@@ -103,10 +109,8 @@ Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weigh
     ClassicCoefficients c = material.classic(seen.point, Wavelengths{});
     const bool is_boundary = !medium || (seen.front ? behind : media).filling() == body;
     if (is_boundary && (seen.front || !c.catches_shadows)) {
-      const double side = seen.front ? 1 : -1;
-      seen.geometric_normal = side * seen.point.geometric_normal;
-      seen.smooth_normal = side * seen.point.normal;
-      seen.normal = side * material.shading_normal(seen.point);
+      seen.normal = material.shading_normal(seen.point);
+      if (!seen.front) seen.normal = -seen.normal;
       return through * shade(ray, seen, material, c, media, behind, depth, weight * through);
     }
     media = behind;

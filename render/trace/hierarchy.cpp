@@ -221,17 +221,15 @@ Hierarchy::Place Hierarchy::place(int instance) const {
              : *std::prev(std::upper_bound(numbers.begin(), numbers.end(), instance,
                                            [](int n, const Parts::Numbered& entry) { return n < entry.first; }))
                     ->record;
-  Place result;
-  if (record.kind == GeometryRecord::Kind::instance) {
-    result = record.child->place(instance - record.leaf_number);
-    result.to_world = result.to_world ? record.to_parent * *result.to_world : record.to_parent;
-    const geometry::Mat3& a = record.to_parent.linear;
-    result.error *= std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));
-  } else {
-    result.leaf = record.leaf;
+  if (record.kind != GeometryRecord::Kind::instance) {
     // Vertices and rays of meshes are rounded to float about the centre.
-    if (record.leaf->mesh) result.error = kBoxInflation * parts_->radius;
+    const double error = record.leaf->mesh ? kBoxInflation * parts_->radius : 0;
+    return {record.leaf, std::nullopt, std::max(record.object, 0), error};
   }
+  Place result = record.child->place(instance - record.leaf_number);
+  result.to_world = result.to_world ? record.to_parent * *result.to_world : record.to_parent;
+  const geometry::Mat3& a = record.to_parent.linear;
+  result.error *= std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));
   if (record.object >= 0) result.object = record.object;
   return result;
 }

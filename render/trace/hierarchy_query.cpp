@@ -243,12 +243,8 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
 
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
+  // What is bounded first: a ray that ends there asks less of a plane behind it.
   size_t number = 0;
-  for (const GeometryRecord* record : p.unbounded) {
-    if (!is_listed(query.among.listed, number++)) continue;
-    for (int i = 0; i < record->count; ++i) test(*record, i, query);
-    if (query.is_done()) return;
-  }
   if (!p.few.empty()) {
     const Vec3 inverse = 1.0 / query.line().direction;
     for (const Parts::Piece& piece : p.few) {
@@ -259,6 +255,11 @@ void Hierarchy::run(Query& query) const {
     }
   }
   if (p.scene && query.among.scene) run_scene(p, query);
+  for (const GeometryRecord* record : p.unbounded) {
+    if (!is_listed(query.among.listed, number++)) continue;
+    if (query.is_done()) return;
+    for (int i = 0; i < record->count; ++i) test(*record, i, query);
+  }
 }
 
 bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
@@ -280,8 +281,8 @@ Obstacles Hierarchy::obstacles(const Ray& from, const Box3& to) const {
     if (listed) result.listed |= uint64_t{1} << std::min(number, kLastBit);
     ++number;
   };
-  for (const GeometryRecord* record : p.unbounded) list(!query.has_left(*record));
   for (const Parts::Piece& piece : p.few) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
+  for (const GeometryRecord* record : p.unbounded) list(!query.has_left(*record));
   result.scene = p.scene && shaft.may_enter(p.box.inflated(kBoxInflation * p.radius));
   return result;
 }

@@ -72,23 +72,40 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
   return glm::clamp(foot, lo + inside, hi - inside);
 }
 
-// What a hit shows in the space of its leaf: parameters, places, derivatives, normals, free sides.
-void point_of_surface(const Leaf& leaf, const Hit& hit, SurfacePoint& point) {
+// What a hit shows in the space of its leaf. All members are written at once: this runs for every hit of every ray.
+SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
   const Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
   const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
   const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
-  point.u = hit.u;
-  point.v = hit.v;
-  point.position = point.smooth_position = jet.point();
-  point.du = jet.du();
-  point.dv = jet.dv();
-  point.geometric_normal = point.normal = sign * surface.normal(hit.u, hit.v, jet);
-  if (leaf.shape) return;
-  point.free_sides = surface.free_sides();
-  if (sign * surface.normal_sign() < 0) point.free_sides = point.free_sides.turned();
+  const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
+  geometry::Sides sides;
+  if (!leaf.shape) sides = sign * surface.normal_sign() < 0 ? surface.free_sides().turned() : surface.free_sides();
+  return {.position = jet.point(),
+          .smooth_position = jet.point(),
+          .incoming = incoming,
+          .geometric_normal = normal,
+          .normal = normal,
+          .du = jet.du(),
+          .dv = jet.dv(),
+          .u = hit.u,
+          .v = hit.v,
+          .error = error,
+          .pixel_size = 0,
+          .instance = hit.instance,
+          .object = object,
+          .face = hit.face,
+          .piece = hit.piece,
+          .free_sides = sides};
 }
 
-void point_of_mesh(const Leaf& leaf, const Hit& hit, SurfacePoint& point) {
+SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
+  SurfacePoint point;
+  point.incoming = incoming;
+  point.error = error;
+  point.instance = hit.instance;
+  point.object = object;
+  point.face = hit.face;
+  point.piece = hit.piece;
   point.u = hit.u;
   point.v = hit.v;
   point.du = point.dv = Vec3(0);
@@ -142,6 +159,7 @@ void point_of_mesh(const Leaf& leaf, const Hit& hit, SurfacePoint& point) {
   }
   point.geometric_normal = geometric;
   point.normal = shading;
+  return point;
 }
 
 bool is_drawn_only(const Entity& entity) {
@@ -350,8 +368,8 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
-  SurfacePoint point;
-  leaf.mesh ? point_of_mesh(leaf, hit, point) : point_of_surface(leaf, hit, point);
+  SurfacePoint point = leaf.mesh ? point_of_mesh(leaf, hit, ray.direction, place.object, place.error)
+                                 : point_of_surface(leaf, hit, ray.direction, place.object, place.error);
   if (place.to_world) {
     const Affine& map = *place.to_world;
     const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));
@@ -362,14 +380,9 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
     point.geometric_normal = glm::normalize(normals * point.geometric_normal);
     point.normal = glm::normalize(normals * point.normal);
   }
-  point.incoming = ray.direction;
   const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
-  point.error = place.error + kPositionError * (size.x + size.y + size.z);
-  point.pixel_size = compiled_->camera ? compiled_->camera->pixel_size(point.position) : 0;
-  point.instance = hit.instance;
-  point.object = place.object;
-  point.face = hit.face;
-  point.piece = hit.piece;
+  point.error += kPositionError * (size.x + size.y + size.z);
+  if (compiled_->camera) point.pixel_size = compiled_->camera->pixel_size(point.position);
   return point;
 }
 
