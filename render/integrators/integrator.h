@@ -15,6 +15,9 @@ class World;
 
 // What one camera ray brings to the film.
 struct RaySample {
+  // Not a constant: compilers would copy the zeros of one over all of it, for every ray.
+  RaySample() {}
+
   Spectrum radiance;
   float alpha = 0;                    // 0 where nothing was hit
   std::optional<SurfacePoint> point;  // first hit
