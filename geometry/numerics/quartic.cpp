@@ -60,9 +60,7 @@ double crossing(const double* c, double a, double b, bool rising, double start) 
     double next = x - p / slope;
     if (!(a <= next && next <= b)) next = 0.5 * a + 0.5 * b;  // also where the slope is 0 or the quotient NaN
     const double change = std::fabs(next - x);
-    // Steps that shrink by some factor shrink by its square next: what is left is below change^2 / previous.
-    const double left = step > 0 ? std::fmin(change, change * (change / previous)) : change;
-    if (left <= kUnitRoundoff * std::fabs(x)) return next;
+    if (change <= kUnitRoundoff * std::fabs(x)) return next;
     // Newton's steps shrink fast until rounding keeps them from it. They also shrink slowly far from the root and
     // beside a double one, so it is the value's own error bound that tells.
     if (change > 0.25 * previous && evaluate<N>(c, x, 0).sign == 0) return x;

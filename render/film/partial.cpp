@@ -24,7 +24,7 @@ template <class Visit>
 void for_each_data_run(TiledFilm& film, int tile, Visit visit) {
   const Window own = intersection(film.tile(tile), film.crop());
   Image& image = film.image();
-  for (size_t layer = film.first_direct_channel(); layer < image.channels.size(); ++layer) {
+  for (size_t layer = film.first_unsummed_channel(); layer < image.channels.size(); ++layer) {
     Channel& channel = image.channels[layer];
     for (int y = own.y0; y < own.y1; ++y) {
       const size_t begin = static_cast<size_t>(y - film.crop().y0) * image.width + (own.x0 - film.crop().x0);

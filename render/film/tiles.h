@@ -86,8 +86,8 @@ class TiledFilm {
   Image& image() { return image_; }
   // A channel of the image, or nullptr if the film does not keep it.
   Channel* channel(FilmChannel c) { return channel_[c] < 0 ? nullptr : &image_.channels[channel_[c]]; }
-  // The first of the image's channels that no sums stand for until develop().
-  int first_direct_channel() const { return reach_ == 0 ? 0 : first_data_channel_; }
+  // The first of the image's channels that tiles write at once, without sums that develop() makes it of.
+  int first_unsummed_channel() const { return reach_ == 0 ? 0 : first_data_channel_; }
   // True with channels that describe what the nearest sample to a pixel's centre saw; sets those of a pixel to nothing.
   bool keeps_data() const { return first_data_channel_ < static_cast<int>(image_.channels.size()); }
   void clear_data(size_t pixel);

@@ -246,7 +246,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       if (!diffuse && highlight == 0) continue;
       if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
       Spectrum visible = kWhite;
-      sample_.shadow_rays += shadows;
+      if (shadows) ++sample_.shadow_rays;
       if (!clear) {
         shadow_ray.direction = sample.direction;
         shadow_ray.t_max = sample.distance;
