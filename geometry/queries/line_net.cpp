@@ -1,6 +1,8 @@
 #include "geometry/queries/line_net.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/curves/bspline_basis.h"
@@ -30,7 +32,11 @@ using Pair = double __attribute__((vector_size(16)));
 Pair pair(double a) { return Pair{a, a}; }
 Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
-Pair magnitude(Pair a) { return a < 0 ? -a : a; }
+Pair magnitude(Pair a) {
+  using Bits = int64_t __attribute__((vector_size(16)));
+  constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
+  return (Pair)((Bits)a & Bits{kAllButSign, kAllButSign});
+}
 double largest_of(Pair a) { return std::fmax(a[0], a[1]); }
 
 // Bernstein functions of degree n at the middle of [-1, 1], and their derivatives by x.
@@ -62,18 +68,19 @@ struct Jacobian {
   double determinant() const { return x[0] * y[1] - x[1] * y[0]; }
 };
 
+// The degrees that most models have get loops of known length; kAnyDegree: as the patch says.
+constexpr int kAnyDegree = -1;
+
+template <int kP, int kQ>
 class NetSearch {
  public:
   NetSearch(const PatchView& patch, const Vec2& whole, const LineBasis& line, CellHits& hits)
       : patch_(patch),
-        p_(patch.degree_u),
-        q_(patch.degree_v),
-        n_(patch.count()),
         whole_(whole),
         line_(line),
         hits_(hits),
-        room_(workspace(static_cast<size_t>(n_) * (kDeepest + 2))) {
-    for (int k = 0; k < n_; ++k) {
+        room_(workspace(static_cast<size_t>(n()) * (kDeepest + 2))) {
+    for (int k = 0; k < n(); ++k) {
       const Vec4& c = patch.points[k];
       const Vec3 r = Vec3(c) - c.w * line.line.origin;
       const Pair value{glm::dot(line.n1, r), glm::dot(line.n2, r)};
@@ -88,6 +95,10 @@ class NetSearch {
   void run() { visit(room_, 0, 0, 1, 1, 0); }
 
  private:
+  int p() const { return kP == kAnyDegree ? patch_.degree_u : kP; }
+  int q() const { return kQ == kAnyDegree ? patch_.degree_v : kQ; }
+  int n() const { return (p() + 1) * (q() + 1); }
+
   // Two directions of kSmallestCell each, and then some for clips that leave more than half.
   static constexpr int kDeepest = 96;
 
@@ -101,7 +112,7 @@ class NetSearch {
   // All coefficients of one function on one side of zero.
   bool excluded(const Pair* c) const {
     Pair lo = c[0], hi = c[0];
-    for (int k = 1; k < n_; ++k) {
+    for (int k = 1; k < n(); ++k) {
       lo = smaller(lo, c[k]);
       hi = larger(hi, c[k]);
     }
@@ -111,12 +122,12 @@ class NetSearch {
 
   // Functions and derivatives at the centre.
   Pair center(const Pair* c, Jacobian& j) const {
-    const Middle &mx = middle(p_), &my = middle(q_);
+    const Middle &mx = middle(p()), &my = middle(q());
     Pair f = pair(0);
     j.x = j.y = pair(0);
-    for (int i = 0; i <= p_; ++i, c += q_ + 1) {
+    for (int i = 0; i <= p(); ++i, c += q() + 1) {
       Pair row = pair(0), slope = pair(0);
-      for (int k = 0; k <= q_; ++k) {
+      for (int k = 0; k <= q(); ++k) {
         row += my.value[k] * c[k];
         slope += my.slope[k] * c[k];
       }
@@ -131,13 +142,13 @@ class NetSearch {
   Pair at(const Pair* c, double x, double y, Jacobian& j) const {
     const double s = 0.5 * (x + 1), t = 0.5 * (y + 1);
     Pair rows[kMaxDegree + 1], slopes[kMaxDegree + 1], work[kMaxDegree + 1];
-    for (int i = 0; i <= p_; ++i, c += q_ + 1) {
-      for (int k = 0; k <= q_; ++k) work[k] = c[k];
-      rows[i] = reduce(work, q_, t, slopes[i]);
+    for (int i = 0; i <= p(); ++i, c += q() + 1) {
+      for (int k = 0; k <= q(); ++k) work[k] = c[k];
+      rows[i] = reduce(work, q(), t, slopes[i]);
     }
     Pair ignored;
-    j.y = reduce(slopes, p_, s, ignored);
-    return reduce(rows, p_, s, j.x);
+    j.y = reduce(slopes, p(), s, ignored);
+    return reduce(rows, p(), s, j.x);
   }
   // Value at s of the polynomial with the given coefficients, which are overwritten; slope by x in [-1, 1].
   static Pair reduce(Pair* c, int n, double s, Pair& slope) {
@@ -160,16 +171,16 @@ class NetSearch {
   // Bounds |E| by rows (returned), and the outline. `a` and `b` are the columns of J^-1.
   Pair deviation(const Pair* c, const Pair& a, const Pair& b) const {
     Pair ex = pair(0), ey = pair(0);
-    const double hp = 0.5 * p_, hq = 0.5 * q_;
-    for (int i = 0; i <= p_; ++i)
-      for (int k = 0; k <= q_; ++k) {
-        const Pair& here = c[i * (q_ + 1) + k];
-        if (i < p_) {
-          const Pair d = hp * (c[(i + 1) * (q_ + 1) + k] - here);
+    const double hp = 0.5 * p(), hq = 0.5 * q();
+    for (int i = 0; i <= p(); ++i)
+      for (int k = 0; k <= q(); ++k) {
+        const Pair& here = c[i * (q() + 1) + k];
+        if (i < p()) {
+          const Pair d = hp * (c[(i + 1) * (q() + 1) + k] - here);
           ex = larger(ex, magnitude(d[0] * a + d[1] * b - Pair{1, 0}));
         }
-        if (k < q_) {
-          const Pair d = hq * (c[i * (q_ + 1) + k + 1] - here);
+        if (k < q()) {
+          const Pair d = hq * (c[i * (q() + 1) + k + 1] - here);
           ey = larger(ey, magnitude(d[0] * a + d[1] * b - Pair{0, 1}));
         }
       }
@@ -178,15 +189,15 @@ class NetSearch {
 
   Outline outline(const Pair* c) const {
     Pair dx = pair(0), dy = pair(0), dxx = pair(0), dyy = pair(0);
-    for (int i = 0; i <= p_; ++i)
-      for (int k = 0; k <= q_; ++k) {
-        const Pair* here = c + i * (q_ + 1) + k;
-        if (i < p_) dx = larger(dx, magnitude(here[q_ + 1] - here[0]));
-        if (k < q_) dy = larger(dy, magnitude(here[1] - here[0]));
-        if (i > 0 && i < p_) dxx = larger(dxx, magnitude(here[q_ + 1] - 2 * here[0] + here[-(q_ + 1)]));
-        if (k > 0 && k < q_) dyy = larger(dyy, magnitude(here[1] - 2 * here[0] + here[-1]));
+    for (int i = 0; i <= p(); ++i)
+      for (int k = 0; k <= q(); ++k) {
+        const Pair* here = c + i * (q() + 1) + k;
+        if (i < p()) dx = larger(dx, magnitude(here[q() + 1] - here[0]));
+        if (k < q()) dy = larger(dy, magnitude(here[1] - here[0]));
+        if (i > 0 && i < p()) dxx = larger(dxx, magnitude(here[q() + 1] - 2 * here[0] + here[-(q() + 1)]));
+        if (k > 0 && k < q()) dyy = larger(dyy, magnitude(here[1] - 2 * here[0] + here[-1]));
       }
-    return {p_ * largest_of(dx), q_ * largest_of(dy), p_ * (p_ - 1) * largest_of(dxx), q_ * (q_ - 1) * largest_of(dyy)};
+    return {p() * largest_of(dx), q() * largest_of(dy), p() * (p() - 1) * largest_of(dxx), q() * (q() - 1) * largest_of(dyy)};
   }
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
@@ -265,25 +276,25 @@ class NetSearch {
       for (int i = n; i >= level; --i) c[i * stride] = c[(i - 1) * stride] + s * (c[i * stride] - c[(i - 1) * stride]);
   }
   void clip_x(Pair* c, double lo, double hi) const {
-    for (int k = 0; k <= q_; ++k) {
-      if (hi < 1) keep_before(c + k, p_, q_ + 1, hi);
-      if (lo > -1) keep_after(c + k, p_, q_ + 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
+    for (int k = 0; k <= q(); ++k) {
+      if (hi < 1) keep_before(c + k, p(), q() + 1, hi);
+      if (lo > -1) keep_after(c + k, p(), q() + 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
     }
   }
   void clip_y(Pair* c, double lo, double hi) const {
-    for (int i = 0; i <= p_; ++i) {
-      Pair* row = c + i * (q_ + 1);
-      if (hi < 1) keep_before(row, q_, 1, hi);
-      if (lo > -1) keep_after(row, q_, 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
+    for (int i = 0; i <= p(); ++i) {
+      Pair* row = c + i * (q() + 1);
+      if (hi < 1) keep_before(row, q(), 1, hi);
+      if (lo > -1) keep_after(row, q(), 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
     }
   }
 
   // First half stays in c, second goes to `other`.
   void halve_x(Pair* c, Pair* other) const {
-    for (int k = 0; k <= q_; ++k) halve_row(c + k, p_, q_ + 1, other + k);
+    for (int k = 0; k <= q(); ++k) halve_row(c + k, p(), q() + 1, other + k);
   }
   void halve_y(Pair* c, Pair* other) const {
-    for (int i = 0; i <= p_; ++i) halve_row(c + i * (q_ + 1), q_, 1, other + i * (q_ + 1));
+    for (int i = 0; i <= p(); ++i) halve_row(c + i * (q() + 1), q(), 1, other + i * (q() + 1));
   }
   static void halve_row(Pair* c, int n, int stride, Pair* other) {
     other[n * stride] = c[n * stride];
@@ -347,7 +358,7 @@ class NetSearch {
       // never become simpler by being made narrower), across the longer one.
       const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
       const bool along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
-      Pair* other = c + n_;
+      Pair* other = c + n();
       if (along_x) {
         halve_x(c, other);
         hx *= 0.5;
@@ -364,7 +375,6 @@ class NetSearch {
   }
 
   const PatchView& patch_;
-  int p_, q_, n_;
   Vec2 whole_;
   const LineBasis& line_;
   CellHits& hits_;
@@ -376,7 +386,13 @@ class NetSearch {
 }  // namespace
 
 void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits) {
-  NetSearch(patch, {reach_x, reach_y}, line, hits).run();
+  const Vec2 reach(reach_x, reach_y);
+  if (patch.degree_u == 3 && patch.degree_v == 3)
+    NetSearch<3, 3>(patch, reach, line, hits).run();
+  else if (patch.degree_u == 2 && patch.degree_v == 2)
+    NetSearch<2, 2>(patch, reach, line, hits).run();
+  else
+    NetSearch<kAnyDegree, kAnyDegree>(patch, reach, line, hits).run();
 }
 
 }  // namespace lekalo::geometry
