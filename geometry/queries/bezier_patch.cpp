@@ -1,17 +1,12 @@
 #include "geometry/queries/bezier_patch.h"
 
-#include <cstring>
-
 #include "geometry/curves/bspline_basis.h"
 #include "geometry/numerics/instruction_sets.h"
+#include "geometry/queries/lanes.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// A homogeneous point in one register, or two where registers are short.
-using Lanes = double __attribute__((vector_size(32)));
-inline void load(const Vec4& p, Lanes& lanes) { std::memcpy(&lanes, &p, sizeof lanes); }
 
 // Bernstein functions of degree n and their derivatives at s, by the recurrence (Golovanov 2016, 2.4.4); written out up
 // to degree 3.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/numerics/instruction_sets.h"
+#include "geometry/queries/lanes.h"
 #include "geometry/queries/line_net.h"
 #include "geometry/tolerances.h"
 
@@ -210,27 +212,38 @@ struct CellFrame {
   }
 };
 
-// Largest parts of the vectors included.
-struct LargestParts {
-  double x = 0, y = 0, normal = 0, length2 = 0;
-  void include(const Vec3& v, const CellFrame& frame) {
-    x = std::max(x, std::abs(glm::dot(v, frame.dual_x)));
-    y = std::max(y, std::abs(glm::dot(v, frame.dual_y)));
-    normal = std::max(normal, std::abs(glm::dot(v, frame.normal)));
-    length2 = std::max(length2, glm::dot(v, v));
+// Largest parts of the vectors included, in the directions of a cell and of space.
+class LargestParts {
+ public:
+  explicit LargestParts(const CellFrame& frame) {
+    for (int k = 0; k < 3; ++k) load(Vec4(frame.dual_x[k], frame.dual_y[k], frame.normal[k], 0), column_[k]);
   }
-};
+  // The fourth lane counts in space only.
+  void include(const Lanes& v) {
+    const Lanes of_cell = v[0] * column_[0] + v[1] * column_[1] + v[2] * column_[2];
+    raise(of_cell_, of_cell);
+    raise(of_space_, v);
+  }
+  void add_to(CellModel& m, double factor) const {
+    m.shift_x += factor * of_cell_[0];
+    m.shift_y += factor * of_cell_[1];
+    m.bend += factor * of_cell_[2];
+    m.variation += factor * glm::length(Vec3(of_space_[0], of_space_[1], of_space_[2]));
+  }
+  double fourth() const { return of_space_[3]; }
 
-void add(CellModel& m, const LargestParts& parts, double factor) {
-  m.shift_x += factor * parts.x;
-  m.shift_y += factor * parts.y;
-  m.bend += factor * parts.normal;
-  m.variation += factor * std::sqrt(parts.length2);
-}
+ private:
+  static void raise(Lanes& largest, const Lanes& v) {
+    largest = v > largest ? v : largest;
+    largest = -v > largest ? -v : largest;
+  }
+  Lanes column_[3];
+  Lanes of_cell_{}, of_space_{};
+};
 
 }  // namespace
 
-CellModel model_of(const PatchView& patch) {
+LEKALO_WIDE CellModel model_of(const PatchView& patch) {
   CellModel m;
   const PatchPoint center = evaluate(patch, 0.5, 0.5);
   m.point = center.point;
@@ -250,28 +263,35 @@ CellModel model_of(const PatchView& patch) {
   // With X~ = X - w S0 the derivative is S_x = (X~_x - S~ w_x) / w, S~ = S - S0 = X~ / w. All in Bernstein form: the
   // derivative of X~ raised to the patch's own degree, less w dx, has coefficients K; then
   //   |S_x - dx| <= max|K| / min w + max|S~| max|w_x| / min w
-  // holds for every part of the vectors.
+  // holds for every part of the vectors. The fourth lane holds w_x.
   const bool polynomial = least_weight == most_weight;
   const int p = patch.degree_u, q = patch.degree_v;
-  LargestParts along_x, along_y, reach;
-  double wx = 0, wy = 0;
+  LargestParts along_x(frame), along_y(frame), reach(frame);
+  Lanes middle, dx, dy;
+  load(Vec4(m.point, 0), middle);
+  load(Vec4(m.dx, 0), dx);
+  load(Vec4(m.dy, 0), dy);
   // Coefficient k of a derivative of degree n raised by one degree, times 1/2 for x = 2 s - 1.
-  const auto difference = [&](int k, int n, const Vec4& before, const Vec4& c, const Vec4& after, const Vec3& mean,
-                              LargestParts& parts, double& largest_w) {
-    const Vec4 d = 0.5 * (static_cast<double>(k) * (c - before) + static_cast<double>(n - k) * (after - c));
-    parts.include(Vec3(d) - d.w * m.point - c.w * mean, frame);
-    largest_w = std::max(largest_w, std::abs(d.w));
+  const auto include = [&](int k, int n, const Vec4& before, const Lanes& c, const Vec4& after, const Lanes& mean,
+                           LargestParts& parts) {
+    Lanes a, b;
+    load(before, a);
+    load(after, b);
+    const Lanes d = 0.5 * (static_cast<double>(k) * (c - a) + static_cast<double>(n - k) * (b - c));
+    parts.include(d - d[3] * middle - c[3] * mean);
   };
   for (int i = 0; i <= p; ++i)
     for (int j = 0; j <= q; ++j) {
-      const Vec4& c = patch.at(i, j);
-      difference(i, p, i > 0 ? patch.at(i - 1, j) : c, c, i < p ? patch.at(i + 1, j) : c, m.dx, along_x, wx);
-      difference(j, q, j > 0 ? patch.at(i, j - 1) : c, c, j < q ? patch.at(i, j + 1) : c, m.dy, along_y, wy);
-      if (!polynomial) reach.include(Vec3(c) / c.w - m.point, frame);
+      const Vec4& at = patch.at(i, j);
+      Lanes c;
+      load(at, c);
+      include(i, p, i > 0 ? patch.at(i - 1, j) : at, c, i < p ? patch.at(i + 1, j) : at, dx, along_x);
+      include(j, q, j > 0 ? patch.at(i, j - 1) : at, c, j < q ? patch.at(i, j + 1) : at, dy, along_y);
+      if (!polynomial) reach.include(c / c[3] - middle);
     }
-  add(m, along_x, 1 / least_weight);
-  add(m, along_y, 1 / least_weight);
-  if (!polynomial) add(m, reach, (wx + wy) / least_weight);
+  along_x.add_to(m, 1 / least_weight);
+  along_y.add_to(m, 1 / least_weight);
+  if (!polynomial) reach.add_to(m, (along_x.fourth() + along_y.fourth()) / least_weight);
   if (!frame.regular) m.shift_x = m.shift_y = kInfinity;
   return m;
 }
