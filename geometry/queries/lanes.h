@@ -1,0 +1,14 @@
+// Four doubles that are computed with together.
+#pragma once
+
+#include <cstring>
+
+#include "geometry/vectors.h"
+
+namespace lekalo::geometry {
+
+// A homogeneous point in one register, or two where registers are short: GCC's and Clang's vector extension.
+using Lanes = double __attribute__((vector_size(32)));
+inline void load(const Vec4& p, Lanes& lanes) { std::memcpy(&lanes, &p, sizeof lanes); }
+
+}  // namespace lekalo::geometry
