@@ -92,10 +92,10 @@ class TileTracer {
 
   // The sums of a tile while it is traced.
   struct Exposure {
-    Exposure(const TiledFilm& film, int number)
+    Exposure(TiledFilm& film, int number)
         : film(film),
           window(film.sums_window(number)),
-          sums(static_cast<size_t>(window.width()) * window.height() * film.planes()),
+          sums(film.reach() == 0 ? film.planes() : film.planes() * static_cast<size_t>(window.width()) * window.height()),
           weights(2 * film.reach() + 1) {}
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
@@ -106,26 +106,32 @@ class TileTracer {
       const float* const values = all + film.first_filtered();
       const Filter& filter = film.filter();
       if (reach == 0) {
-        if (window.contains(x, y))
-          deposit(x, y, values, share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
+        deposit(sums.data(), values, share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
         return;
       }
       for (int i = -reach; i <= reach; ++i) weights[i + reach] = share * filter.weight(place.x - i - 0.5);
       for (int qy = std::max(y - reach, window.y0); qy <= std::min(y + reach, window.y1 - 1); ++qy) {
         const double weight_y = filter.weight(place.y - (qy - y) - 0.5);
         for (int qx = std::max(x - reach, window.x0); qx <= std::min(x + reach, window.x1 - 1); ++qx)
-          deposit(qx, qy, values, weight_y * weights[qx - x + reach]);
+          deposit(&sums[(static_cast<size_t>(qy - window.y0) * window.width() + (qx - window.x0)) * film.planes()],
+                  values, weight_y * weights[qx - x + reach]);
       }
     }
-    void deposit(int x, int y, const float* values, double weight) {
+    void deposit(double* sum, const float* values, double weight) {
       const int n = film.planes() - 1;
-      double* sum = &sums[(static_cast<size_t>(y - window.y0) * window.width() + (x - window.x0)) * (n + 1)];
       for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
       sum[n] += weight;
     }
+    // All samples of the pixel are added.
+    void finish(int x, int y) {
+      if (film.reach() > 0) return;
+      if (window.contains(x, y)) film.set_pixel(x, y, sums);
+      std::fill(sums.begin(), sums.end(), 0.0);
+    }
 
-    const TiledFilm& film;
+    TiledFilm& film;
     Window window;
+    // Of all pixels of the window; where the filter does not reach beyond a pixel, of the pixel at hand.
     std::vector<double> sums, weights;
     Tally tally;
   };
@@ -159,6 +165,7 @@ class TileTracer {
             store(x, y, sample);
           }
         }
+        exposure.finish(x, y);
         count(x, y, counted);
       }
   }
@@ -201,6 +208,7 @@ class TileTracer {
           }
         if (even) {
           exposure.add(x, y, Vec2(0.5), own, all);
+          exposure.finish(x, y);
           count(x, y, 1);
           continue;
         }
@@ -216,6 +224,7 @@ class TileTracer {
         for (const Taken& one : taken) counted += is_finite(one.sample);
         for (const Taken& one : taken)
           if (is_finite(one.sample)) exposure.add(x, y, one.place, one.sample, static_cast<double>(all) / counted);
+        exposure.finish(x, y);
         count(x, y, counted);
       }
   }

@@ -161,14 +161,7 @@ void TiledFilm::set_pixel(size_t pixel, const double* sums) {
 
 void TiledFilm::finish(int tile, std::span<const double> sums) {
   TileSums& kept = sums_[tile];
-  if (reach_ > 0) {
-    std::copy(sums.begin(), sums.end(), kept.values.begin());
-  } else {
-    const double* sum = sums.data();
-    for (int y = kept.window.y0; y < kept.window.y1; ++y)
-      for (int x = kept.window.x0; x < kept.window.x1; ++x, sum += planes())
-        set_pixel(static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0), sum);
-  }
+  if (reach_ > 0) std::copy(sums.begin(), sums.end(), kept.values.begin());
   kept.done = true;
 }
 

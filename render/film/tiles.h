@@ -102,7 +102,11 @@ class TiledFilm {
   // Hash of everything that decides the film's layout and contents but the scene.
   uint64_t settings_hash() const { return settings_hash_; }
 
-  // Takes the sums of a tile. Where the filter does not reach beyond a pixel its pixels are done.
+  // Writes a pixel of the filtered layers from its sums.
+  void set_pixel(int x, int y, std::span<const double> sums) {
+    set_pixel(static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0), sums.data());
+  }
+  // Takes the sums of a tile. Where the filter does not reach beyond a pixel there are none, and its pixels are set.
   void finish(int tile, std::span<const double> sums);
   // Writes the filtered layers of the image from the sums of the tiles that are done, where there are any.
   void develop();
@@ -120,7 +124,6 @@ class TiledFilm {
   int first_data_channel_ = 0;
   uint64_t settings_hash_ = 0;
 
-  // Writes a pixel of the filtered layers from its sums.
   void set_pixel(size_t pixel, const double* sums);
 };
 
