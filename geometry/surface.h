@@ -146,6 +146,11 @@ class Surface {
   // Point and partial derivatives up to total `order` (0..kMaxSurfaceOrder).
   virtual SurfaceJet evaluate(double u, double v, int order) const = 0;
   virtual void evaluate_many(std::span<const Vec2> uv, int order, std::span<SurfaceJet> result) const;
+  // The same but for rounding where the point is known to lie at `near`, as that of a hit is: what a formula would find
+  // anew from the parameters (cosines and sines of angles) a surface may take from there.
+  virtual SurfaceJet evaluate_near(const Vec3& /*near*/, double u, double v, int order) const {
+    return evaluate(u, v, order);
+  }
 
   // Certified enclosure of point and derivatives up to `order` (0..2) over a rectangle inside the domain.
   virtual SurfaceEnclosure enclose(const Rectangle& box, int order) const = 0;
@@ -156,9 +161,10 @@ class Surface {
   virtual std::optional<NurbsSurfaceForm> as_nurbs() const { return std::nullopt; }
   virtual DegenerateEdges degenerate_edges() const { return {}; }
   virtual bool bounded() const { return true; }
-  // The sides on which no tangent plane has any of the surface: a ray that leaves a point to such a side does not meet
-  // the surface again. A plane has both, a convex surface one; a surface that does not know has none.
-  virtual Sides free_sides() const { return {}; }
+  // The sides of the tangent plane at a point on which there is nothing of the surface: a ray that leaves the point to
+  // such a side does not meet the surface again. A plane has both, a convex surface one; a surface that does not know
+  // has none.
+  virtual Sides free_sides(double /*u*/, double /*v*/) const { return {}; }
 
   // A surface with a closed form for lines says so and adds all hits with t in the interval and (u, v) in the domain
   // (natural parameters); a tangent hit counts twice or not at all, so that crossings of closed surfaces stay even.

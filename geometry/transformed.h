@@ -42,8 +42,8 @@ class TransformedSurface final : public Surface {
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   DegenerateEdges degenerate_edges() const override { return original_->degenerate_edges(); }
   bool bounded() const override { return original_->bounded(); }
-  Sides free_sides() const override {
-    const Sides sides = original_->free_sides();
+  Sides free_sides(double u, double v) const override {
+    const Sides sides = original_->free_sides(u, v);
     return orientation_ < 0 ? sides.turned() : sides;
   }
   bool has_line_formula() const override { return original_->has_line_formula(); }

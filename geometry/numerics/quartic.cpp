@@ -47,7 +47,7 @@ Evaluation evaluate(const double* c, double x, double relative_error) {
 
 // The only root between a and b, where p has different signs (up to rounding); `start` lies between them.
 template <int N>
-double crossing(const double* c, double a, double b, bool rising, double start) {
+double crossing(const double* c, double a, double b, bool rising, double start, double last_step = 0) {
   double x = start, previous = kInfinity;
   for (int step = 0; step < 2000; ++step) {
     double p = c[N], slope = 0;
@@ -60,7 +60,7 @@ double crossing(const double* c, double a, double b, bool rising, double start) 
     double next = x - p / slope;
     if (!(a <= next && next <= b)) next = 0.5 * a + 0.5 * b;  // also where the slope is 0 or the quotient NaN
     const double change = std::fabs(next - x);
-    if (change <= kUnitRoundoff * std::fabs(x)) return next;
+    if (change <= std::fmax(kUnitRoundoff * std::fabs(x), last_step)) return next;
     // Newton's steps shrink fast until rounding keeps them from it. They also shrink slowly far from the root and
     // beside a double one, so it is the value's own error bound that tells.
     if (change > 0.25 * previous && evaluate<N>(c, x, 0).sign == 0) return x;
@@ -182,8 +182,8 @@ namespace {
 // halving.
 class Isolation {
  public:
-  Isolation(const std::array<double, 5>& c, double relative_error, const Interval& wanted)
-      : c_(c), relative_error_(relative_error), wanted_(wanted) {}
+  Isolation(const std::array<double, 5>& c, double relative_error, const Interval& wanted, double last_step)
+      : c_(c), relative_error_(relative_error), wanted_(wanted), last_step_(last_step) {}
 
   // False where rounding or nearly equal roots leave the count open.
   bool run(const Interval& domain, Roots<4>& roots) {
@@ -221,7 +221,8 @@ class Isolation {
     if (sure && changes == 1) {
       if (hi < wanted_.lo || lo > wanted_.hi) return true;
       // From the chord's root.
-      roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0, lo + (hi - lo) * (b[0] / (b[0] - b[4]))), false);
+      const double chord = lo + (hi - lo) * (b[0] / (b[0] - b[4]));
+      roots.add(crossing<4>(c_.data(), lo, hi, b[0] < 0, chord, last_step_), false);
       return true;
     }
     if (depth == kDeepest) return false;
@@ -237,19 +238,20 @@ class Isolation {
   const std::array<double, 5>& c_;
   double relative_error_, error_ = 0;
   Interval wanted_;
+  double last_step_;
 };
 
 }  // namespace
 
 Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain, double relative_error,
-                       const Interval& wanted) {
+                       const Interval& wanted, double last_step) {
   for (const double x : c) {
     if (!std::isfinite(x)) return {};
   }
   if (domain.empty()) return {};
   if (std::isfinite(domain.lo) && std::isfinite(domain.hi)) {
     Roots<4> roots;
-    if (Isolation(c, relative_error, wanted).run(domain, roots)) return roots;
+    if (Isolation(c, relative_error, wanted, last_step).run(domain, roots)) return roots;
   }
   return roots_between<4>(c.data(), domain, relative_error);
 }

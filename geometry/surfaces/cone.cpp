@@ -27,7 +27,7 @@ Vec3 ConeSurface::nearest_axis_point() const {
   return frame_.point({0, 0, height_ * v});
 }
 
-Sides ConeSurface::free_sides() const {
+Sides ConeSurface::free_sides(double, double) const {
   // An unbounded cylinder has no change of radius to multiply infinity with.
   const double lo = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.lo,
                hi = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.hi;

@@ -19,7 +19,7 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
   double height() const { return height_; }
 
   // Of one nappe the outer side.
-  Sides free_sides() const override;
+  Sides free_sides(double u, double v) const override;
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -15,13 +15,11 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Calls result(i, j, r_ij) for all i + j <= order; the origin is left out. T is double or Interval.
+// Calls result(i, j, r_ij) for all i + j <= order, c and s the cosine and sine of u; the origin is left out. T is
+// double or Interval.
 template <class T, class Result>
-void partial_derivatives(const Frame& frame, double a, double b, const T& u, const MeridianJet<T>& meridian, int order,
-                         Result result) {
-  using std::cos;
-  using std::sin;
-  T c = cos(u), s = sin(u);
+void turned_meridian(const Frame& frame, double a, double b, T c, T s, const MeridianJet<T>& meridian, int order,
+                     Result result) {
   for (int i = 0; i <= order; ++i) {
     const Triple<T> across = (a * c) * triple(frame.x) + (b * s) * triple(frame.y);
     for (int j = 0; i + j <= order; ++j) {
@@ -34,12 +32,38 @@ void partial_derivatives(const Frame& frame, double a, double b, const T& u, con
     c = turned;
   }
 }
+template <class T, class Result>
+void partial_derivatives(const Frame& frame, double a, double b, const T& u, const MeridianJet<T>& meridian, int order,
+                         Result result) {
+  using std::cos;
+  using std::sin;
+  turned_meridian(frame, a, b, T(cos(u)), T(sin(u)), meridian, order, result);
+}
 
 }  // namespace
 
 SurfaceJet MeridianSurface::evaluate(double u, double v, int order) const {
   SurfaceJet jet(order);
   partial_derivatives(frame_, a_, b_, u, meridian(v, order), order, [&](int i, int j, const Triple<double>& r) {
+    jet.d(i, j) = {r.x, r.y, r.z};
+  });
+  jet.values[0] += frame_.origin;
+  return jet;
+}
+
+SurfaceJet MeridianSurface::evaluate_near(const Vec3& near, double u, double v, int order) const {
+  // An elliptical parallel would stretch the rounding of the point along it.
+  if (order > 1 || a_ != b_) return evaluate(u, v, order);
+  const Vec3 from = near - frame_.origin;
+  const Vec3 local = upright_ ? from : frame_.to_local_direction(from);
+  const double length = std::sqrt(local.x * local.x + local.y * local.y), rho = length / a_;
+  const MeridianJet<double> m = meridian_near({rho, local.z}, v);
+  // Near the axis rounding turns the direction.
+  constexpr double kNearAxis = 1e-3;
+  if (!(rho > kNearAxis * (std::abs(m.rho[1]) + std::abs(m.z[1])))) return evaluate(u, v, order);
+  const double inverse = (m.rho[0] < 0 ? -1 : 1) / length;
+  SurfaceJet jet(order);
+  turned_meridian(frame_, a_, b_, local.x * inverse, local.y * inverse, m, order, [&](int i, int j, const Triple<double>& r) {
     jet.d(i, j) = {r.x, r.y, r.z};
   });
   jet.values[0] += frame_.origin;

@@ -34,6 +34,7 @@ class MeridianSurface : public Surface {
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {kTwoPi, 0}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
+  SurfaceJet evaluate_near(const Vec3& near, double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   Vec3 normal(double u, double v) const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
@@ -52,6 +53,10 @@ class MeridianSurface : public Surface {
 
   virtual MeridianJet<double> meridian(double v, int order) const = 0;
   virtual MeridianJet<Interval> meridian(const Interval& v, int order) const = 0;
+  // The meridian and its first derivative where its point is known to lie at `near`, rho >= 0, but for rounding.
+  virtual MeridianJet<double> meridian_near(const MeridianPoint<double>& /*near*/, double v) const {
+    return meridian(v, 1);
+  }
   // (rho, z) as x and y, over domain().v, which is bounded.
   virtual NurbsCurveForm meridian_form() const = 0;
 

@@ -19,7 +19,7 @@ class Plane final : public Surface {
   Vec3 normal(double, double, const SurfaceJet&) const override { return normal_sign() * frame_.z; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
-  Sides free_sides() const override { return {true, true}; }
+  Sides free_sides(double, double) const override { return {true, true}; }
   bool has_line_formula() const override { return true; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 

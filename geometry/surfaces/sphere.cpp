@@ -22,6 +22,19 @@ NurbsCurveForm SphereSurface::meridian_form() const {
   return form;
 }
 
+MeridianJet<double> SphereSurface::meridian_near(const MeridianPoint<double>& near, double) const {
+  const double scale = radius_ / std::sqrt(near.rho * near.rho + near.z * near.z);
+  const double rho = scale * near.rho, z = scale * near.z;
+  MeridianJet<double> jet;
+  jet.rho[0] = rho, jet.rho[1] = -z;
+  jet.z[0] = z, jet.z[1] = rho;
+  return jet;
+}
+
+Vec3 SphereSurface::normal(double, double, const SurfaceJet& jet) const {
+  return (normal_sign() / radius_) * (jet.point() - frame_.origin);
+}
+
 void SphereSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
   add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / radius_), line, t, hits, [](const Vec3& p) {
     return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));

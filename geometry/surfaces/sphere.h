@@ -14,7 +14,9 @@ class SphereSurface final : public MeridianFormula<SphereSurface> {
   SphereSurface(const Frame& frame, double radius, const Rectangle& domain = kFull);
   double radius() const { return radius_; }
 
-  Sides free_sides() const override { return {.front = true, .back = false}; }
+  using MeridianSurface::normal;
+  Vec3 normal(double u, double v, const SurfaceJet& jet) const override;
+  Sides free_sides(double, double) const override { return {.front = true, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>
@@ -26,6 +28,7 @@ class SphereSurface final : public MeridianFormula<SphereSurface> {
 
  private:
   NurbsCurveForm meridian_form() const override;
+  MeridianJet<double> meridian_near(const MeridianPoint<double>& near, double v) const override;
   double radius_;
 };
 

@@ -33,10 +33,13 @@ struct Crossings {
   }
 };
 
+// Good enough for the two steps of Newton's iteration on the torus itself that follow.
+constexpr double kLastStep = 1e-7;
+
 Crossings crossings(const std::array<double, 5>& quartic, const Interval& stretch,
                     const Interval& wanted = Interval::entire()) {
   Crossings result;
-  for (const auto& root : quartic_roots(quartic, stretch, 0, wanted))
+  for (const auto& root : quartic_roots(quartic, stretch, 0, wanted, kLastStep))
     if (!root.tangent) result.add(root.x);
   return result;
 }
@@ -64,6 +67,16 @@ NurbsCurveForm TorusSurface::meridian_form() const {
   NurbsCurveForm form = circle_form(domain_.v);
   for (Vec4& p : form.points) p = {major_ * p.w + minor_ * p.x, minor_ * p.y, 0, p.w};
   return form;
+}
+
+MeridianJet<double> TorusSurface::meridian_near(const MeridianPoint<double>& near, double v) const {
+  const double out = near.rho - major_, distance = std::sqrt(out * out + near.z * near.z);
+  if (distance == 0) return meridian(v, 1);
+  const double scale = minor_ / distance;
+  MeridianJet<double> jet;
+  jet.rho[0] = major_ + scale * out, jet.rho[1] = -scale * near.z;
+  jet.z[0] = scale * near.z, jet.z[1] = scale * out;
+  return jet;
 }
 
 void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {

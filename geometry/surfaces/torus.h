@@ -22,6 +22,8 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
   double minor_radius() const { return minor_; }
 
   Periods periods() const override { return {kTwoPi, kTwoPi}; }
+  // The tube's outer half lies on the convex hull.
+  Sides free_sides(double, double v) const override { return {.front = major_ <= 0 || std::cos(v) >= 0, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>
@@ -33,6 +35,7 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
 
  private:
   NurbsCurveForm meridian_form() const override;
+  MeridianJet<double> meridian_near(const MeridianPoint<double>& near, double v) const override;
   double major_, minor_;
 };
 

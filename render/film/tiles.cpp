@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "render/film/render.h"
-#include "render/image/large_pages.h"
 #include "render/materials/textured_color.h"
 
 namespace lekalo::render {
@@ -111,9 +110,8 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
     };
     size_t size = 0;
     for (const TileSums& sums : sums_) size += size_of(sums);
-    sums_storage_ = std::make_unique_for_overwrite<float[]>(size);
-    prefer_large_pages(sums_storage_.get(), size * sizeof(float));
-    float* next = sums_storage_.get();
+    sums_storage_ = PixelPlane<float>(size);
+    float* next = sums_storage_.data();
     for (TileSums& sums : sums_) {
       sums.values = {next, size_of(sums)};
       next += sums.values.size();

@@ -117,7 +117,7 @@ class TiledFilm {
   int reach_ = 0;
   std::vector<Window> tiles_;
   std::vector<TileSums> sums_;
-  std::unique_ptr<float[]> sums_storage_;  // of all tiles
+  PixelPlane<float> sums_storage_;  // of all tiles
   Image image_;
   std::array<int, kFilmChannels> channel_;
   std::vector<FilmChannel> filtered_;

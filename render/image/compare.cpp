@@ -83,8 +83,8 @@ bool same_non_finite(float a, float b) { return a == b || (std::isnan(a) && std:
 std::vector<bool> clear_non_finite(Image& a, Image& b) {
   std::vector<bool> mismatch(a.pixel_count(), false);
   for (std::size_t c = 0; c < a.channels.size(); ++c) {
-    std::vector<float>& va = a.channels[c].values;
-    std::vector<float>& vb = b.channels[c].values;
+    PixelPlane<float>& va = a.channels[c].values;
+    PixelPlane<float>& vb = b.channels[c].values;
     if (va.size() != vb.size()) continue;  // ids, which are always finite
     for (std::size_t i = 0; i < va.size(); ++i) {
       if (std::isfinite(va[i]) && std::isfinite(vb[i])) continue;

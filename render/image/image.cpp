@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/image/large_pages.h"
-
 namespace lekalo::render {
 
 Image make_image(int width, int height) {
@@ -19,12 +17,10 @@ Image make_image(int width, int height) {
 
 Channel& add_channel(Image& image, std::string name, PixelType type) {
   Channel channel{.name = std::move(name), .type = type, .values = {}, .ids = {}};
-  const auto fill = [&](auto& plane) {
-    plane.reserve(image.pixel_count());
-    prefer_large_pages(plane.data(), image.pixel_count() * sizeof plane[0]);
-    plane.resize(image.pixel_count());
-  };
-  type == PixelType::uint32 ? fill(channel.ids) : fill(channel.values);
+  if (type == PixelType::uint32)
+    channel.ids = PixelPlane<std::uint32_t>(image.pixel_count());
+  else
+    channel.values = PixelPlane<float>(image.pixel_count());
   return image.channels.emplace_back(std::move(channel));
 }
 

@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "render/image/pixel_plane.h"
+
 namespace lekalo::render {
 
 // How a channel is stored in a file. In memory half and float32 are both float.
@@ -22,8 +24,8 @@ struct Channel {
   std::string name;
   PixelType type = PixelType::float32;
   // One of the two has width * height entries, row by row from the top left pixel; the other is empty.
-  std::vector<float> values;       // half, float32
-  std::vector<std::uint32_t> ids;  // uint32
+  PixelPlane<float> values;       // half, float32
+  PixelPlane<std::uint32_t> ids;  // uint32
 };
 
 using MetadataValue = std::variant<std::string, int, double>;

@@ -240,7 +240,9 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       }
       // R.V with R = 2 (m.L) m - L and V = -d
       const double cos_alpha = 2 * cosine * m_v + glm::dot(sample.direction, ray.direction);
-      const double lobe = specular ? phong_lobe(cos_alpha, c.exponent) : 0;
+      // Beside diffuse light no float shows what of a highlight is below e^-20: cos^n <= e^(-n (1 - cos)).
+      const bool is_lost = diffuse && c.exponent * (1 - cos_alpha) > 20;
+      const double lobe = specular && !is_lost ? phong_lobe(cos_alpha, c.exponent) : 0;
       const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       const float highlight = static_cast<float>(lobe) * (c.specular * light_per_pi).largest();
       if (!diffuse && highlight == 0) continue;

@@ -15,6 +15,7 @@ class DistantLamp final : public Light {
       : light_(light),
         irradiance_(light.lamp),
         frame_(frame_about(Vec3(0), -light.direction)),
+        sine_(std::sin(0.5 * light.angular_diameter)),
         one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)) {}
 
   int sample_count() const override { return light_.angular_diameter > 0 ? light_.sampling.n * light_.sampling.n : 1; }
@@ -35,7 +36,7 @@ class DistantLamp final : public Light {
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3&) const override {
     if (!is_jittered()) return std::nullopt;
-    return ConeLight{frame_.z, 0.5 * light_.angular_diameter, irradiance_.at(1)};
+    return ConeLight{frame_.z, sine_, irradiance_.at(1)};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
@@ -44,7 +45,7 @@ class DistantLamp final : public Light {
   DistantLight light_;
   Irradiance irradiance_;
   Frame frame_;
-  double one_minus_cosine_;
+  double sine_, one_minus_cosine_;  // of half the angular diameter
 };
 
 }  // namespace

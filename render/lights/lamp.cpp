@@ -60,13 +60,14 @@ AreaSampling area_sampling(const Fields& fields) {
 }
 
 double ConeLight::mean_cosine(double axis_cosine) const {
-  const double c = std::clamp(axis_cosine, -1.0, 1.0), sine = std::sqrt(1 - c * c);
-  const double cone_sine = std::sin(half_angle), cone_cosine = std::cos(half_angle);
+  const double c = std::clamp(axis_cosine, -1.0, 1.0), cone_sine = this->sine;
   if (c <= -cone_sine) return 0;  // all of the cone below the horizon
-  if (half_angle == 0) return c;
-  const double solid_angle = 2 * kPi * 2 * std::pow(std::sin(0.5 * half_angle), 2);
+  if (cone_sine == 0) return c;
   const double square = cone_sine * cone_sine;
+  const double cone_cosine = std::sqrt(1 - square);
+  const double solid_angle = 2 * kPi * square / (1 + cone_cosine);
   if (c >= cone_sine) return kPi * square * c / solid_angle;  // all of it above
+  const double sine = std::sqrt(1 - c * c);
   const double gamma = std::asin(std::min(1.0, cone_cosine / sine));
   const double cos_gamma = std::cos(gamma), sin_gamma = std::sin(gamma);
   const double g = -2 * sine * cone_cosine * cos_gamma + 0.5 * kPi - gamma + sin_gamma * cos_gamma;

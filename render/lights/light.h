@@ -27,7 +27,7 @@ struct LightSample {
 // the way: without the noise of samples.
 struct ConeLight {
   Vec3 axis{0, 0, 1};     // unit, towards the middle of the source
-  double half_angle = 0;  // below pi/2
+  double sine = 0;        // of half its opening, which is less than pi
   Spectrum irradiance;    // of LightSample, the same for all directions of the cone
   // Mean over the cone of max(0, cosine of the angle from the normal), the angle between axis and normal having the
   // given cosine (Snyder, "Area light sources for real-time graphics", 1996).

@@ -73,13 +73,19 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
 }
 
 // What a hit shows in the space of its leaf. All members are written at once: this runs for every hit of every ray.
-SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
+// `line` is the ray in the leaf's space, where it is at hand.
+SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const geometry::Line* line, const Vec3& incoming,
+                              int object, double error) {
   const Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
   const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
-  const geometry::SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
+  const geometry::SurfaceJet jet =
+      line ? surface.evaluate_near(line->at(hit.t), hit.u, hit.v, 1) : surface.evaluate(hit.u, hit.v, 1);
   const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
   geometry::Sides sides;
-  if (!leaf.shape) sides = sign * surface.normal_sign() < 0 ? surface.free_sides().turned() : surface.free_sides();
+  if (!leaf.shape) {
+    sides = surface.free_sides(hit.u, hit.v);
+    if (sign * surface.normal_sign() < 0) sides = sides.turned();
+  }
   return {.position = jet.point(),
           .smooth_position = jet.point(),
           .incoming = incoming,
@@ -369,7 +375,8 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
   SurfacePoint point = leaf.mesh ? point_of_mesh(leaf, hit, ray.direction, place.object, place.error)
-                                 : point_of_surface(leaf, hit, ray.direction, place.object, place.error);
+                                 : point_of_surface(leaf, hit, place.to_world ? nullptr : &ray, ray.direction,
+                                                    place.object, place.error);
   if (place.to_world) {
     const Affine& map = *place.to_world;
     const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));

@@ -50,7 +50,7 @@ extern "C" __attribute__((visibility("default"))) bool lekalo_oiio_read(const ch
         channel.name = "Y";
       }
       channel.type = PixelType::float32;
-      channel.values.resize(image.pixel_count());
+      channel.values = lekalo::render::PixelPlane<float>(image.pixel_count());
       for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] = pixels[i * channels + c];
       image.channels.push_back(std::move(channel));
     }

@@ -9,6 +9,7 @@
 #include "render/image/exr.h"
 #include "render/image/image_error.h"
 #include "render/image/temporary_folder.h"
+#include "support/planes.h"
 
 namespace lekalo::render {
 namespace {
@@ -20,7 +21,7 @@ Image layered() {
   Image image = make_image(16, 12);
   for (const char* name :
        {"B", "G", "R", "A", "Z", "N.Z", "N.Y", "N.X", "uv.V", "uv.U", "albedo.B", "albedo.G", "albedo.R"}) {
-    add_channel(image, name).values.assign(image.pixel_count(), 0.5f);
+    checks::fill(add_channel(image, name), 0.5f);
   }
   add_channel(image, "id.object", PixelType::uint32);
   find_channel(image, "Z")->values[3] = kInfinity;

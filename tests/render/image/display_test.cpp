@@ -1,5 +1,6 @@
 // The display transform against IEC 61966-2-1 and Narkowicz' formula worked out by hand.
 #include "render/image/display.h"
+#include "support/planes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +10,9 @@
 namespace lekalo::render {
 namespace {
 
-Image grey(std::vector<float> values) {
+Image grey(const std::vector<float>& values) {
   Image image = make_image(static_cast<int>(values.size()), 1);
-  add_channel(image, "Y").values = std::move(values);
+  add_channel(image, "Y").values = PixelPlane<float>(values);
   return image;
 }
 
@@ -62,8 +63,8 @@ TEST(Display, NotFiniteAndOutOfRangeValuesAreShownAndCounted) {
 
 TEST(Display, AlphaIsDividedOutOrLeftBeforeBlack) {
   Image image = make_image(2, 1);
-  for (const char* name : {"R", "G", "B"}) add_channel(image, name).values = {0.25f, 0.0f};
-  add_channel(image, "A").values = {0.5f, 0.0f};
+  for (const char* name : {"R", "G", "B"}) checks::set(add_channel(image, name), {0.25f, 0.0f});
+  checks::set(add_channel(image, "A"), {0.5f, 0.0f});
   const DisplayImage kept = to_display(image, {.alpha = true}).image;
   EXPECT_EQ(kept.samples, (std::vector<std::uint16_t>{188, 188, 188, 128, 0, 0, 0, 0}));
   const DisplayImage before_black = to_display(image, {}).image;

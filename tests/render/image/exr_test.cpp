@@ -80,8 +80,8 @@ TEST(Exr, HalfRoundsToNearestAndKeepsFiniteValuesFinite) {
                                    -2052.0f,         65504.0f, -kInfinity, 1023 * 0x1p-24f};
   for (size_t turn = 0; turn < given.size(); ++turn) {
     Image image = make_image(static_cast<int>(given.size()), 1);
-    std::vector<float>& values = add_channel(image, "Y", PixelType::half).values = given;
-    std::vector<float> expected = rounded;
+    PixelPlane<float>& values = add_channel(image, "Y", PixelType::half).values = PixelPlane<float>(given);
+    PixelPlane<float> expected(rounded);
     std::rotate(values.begin(), values.begin() + turn, values.end());
     std::rotate(expected.begin(), expected.begin() + turn, expected.end());
     write_exr(folder / "half.exr", image);

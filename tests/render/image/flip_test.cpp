@@ -6,6 +6,7 @@
 
 #include "render/image/exr.h"
 #include "render/image/png.h"
+#include "support/planes.h"
 
 namespace lekalo::render {
 namespace {
@@ -59,7 +60,7 @@ TEST(Flip, HighDynamicRangeIsAsPublished) {
 Image constant(float r, float g, float b) {
   Image image = make_image(40, 30);
   for (const auto& [name, value] : {std::pair{"R", r}, {"G", g}, {"B", b}}) {
-    add_channel(image, name).values.assign(image.pixel_count(), value);
+    checks::fill(add_channel(image, name), value);
   }
   return image;
 }

@@ -11,9 +11,9 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-Image plane(int width, int height, std::vector<float> values) {
+Image plane(int width, int height, const std::vector<float>& values) {
   Image image = make_image(width, height);
-  add_channel(image, "Y").values = std::move(values);
+  add_channel(image, "Y").values = PixelPlane<float>(values);
   return image;
 }
 
@@ -32,8 +32,8 @@ TEST(Metrics, RmsePsnrAndMaximumByHand) {
 
 TEST(Metrics, ObjectNumbersAreComparedExactly) {
   Image a = make_image(1, 1), b = make_image(1, 1);
-  add_channel(a, "id.object", PixelType::uint32).ids = {4000000000u};
-  add_channel(b, "id.object", PixelType::uint32).ids = {4000000001u};
+  add_channel(a, "id.object", PixelType::uint32).ids[0] = 4000000000u;
+  add_channel(b, "id.object", PixelType::uint32).ids[0] = 4000000001u;
   EXPECT_EQ(rmse(a, b), 1);
 }
 

@@ -9,6 +9,7 @@
 #include "render/image/exr.h"
 #include "render/image/image_error.h"
 #include "render/image/temporary_folder.h"
+#include "support/planes.h"
 
 namespace lekalo::render {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 TEST(ReadImage, DecidesByTheFirstBytes) {
   const TemporaryFolder folder;
   Image image = make_image(2, 1);
-  add_channel(image, "Y").values = {0.25f, 7.0f};
+  checks::set(add_channel(image, "Y"), {0.25f, 7.0f});
   write_exr(folder / "picture.png", image);
   EXPECT_EQ(read_image(folder / "picture.png").channels[0].values, image.channels[0].values);
   write_png(folder / "picture.exr", {.width = 1, .height = 1, .channels = 1, .bits = 8, .samples = {128}, .text = {}});

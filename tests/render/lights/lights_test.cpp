@@ -141,7 +141,7 @@ TEST(Lights, ConeAboveAndBelowTheHorizonBringsTheMeanOfItsSamples) {
           sum += std::fmax(0.0, std::cos(angle) * c + std::sin(angle) * s * std::cos(azimuth));
         }
       }
-      const ConeLight cone{{0, 0, 1}, half, {}};
+      const ConeLight cone{{0, 0, 1}, std::sin(half), {}};
       EXPECT_NEAR(cone.mean_cosine(std::cos(angle)), sum / (n * n), 2e-5) << half << " " << angle;
     }
 }

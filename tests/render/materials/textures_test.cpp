@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/materials/normal_deviation.h"
+#include "support/planes.h"
 
 namespace lekalo::render {
 namespace {
@@ -74,7 +75,7 @@ TEST(ParameterLines, HaveTheirWidthInPixelsWhateverTheScaleAndTheView) {
 
 Image two_by_two() {
   Image image = make_image(2, 2);
-  for (const char* name : {"R", "G", "B"}) add_channel(image, name).values = {0.1f, 0.2f, 0.3f, 0.4f};
+  for (const char* name : {"R", "G", "B"}) checks::set(add_channel(image, name), {0.1f, 0.2f, 0.3f, 0.4f});
   return image;
 }
 
