@@ -63,8 +63,8 @@ Roots<2> quadratic_roots(const std::array<double, 3>& c, double relative_error =
 // does not exceed the sum of its running rounding error (Higham 2002, 5.1) and that of its coefficients. Leading
 // coefficients may be zero. A root within that error of an end of the domain is reported at the end. The zero
 // polynomial, and one with a coefficient that is not finite, has no roots. Roots outside `wanted` may be left out; the
-// others do not depend on it. For a caller who polishes the roots, Newton's iteration may end with a step no longer than
-// `last_step`: the root is then wrong by about that step's square, divided by the distance of the next root.
+// others do not depend on it. For a caller who polishes the roots, Newton's iteration may end with a step no longer
+// than `last_step`: the root is then wrong by about that step's square, divided by the distance of the next root.
 Roots<4> quartic_roots(const std::array<double, 5>& c, const Interval& domain = Interval::entire(),
                        double relative_error = 0, const Interval& wanted = Interval::entire(), double last_step = 0);
 

@@ -19,7 +19,7 @@ constexpr int kDeepestCut = 9;
 
 // Cells up to this roughness are not cut further: few enough to be found quickly, flat enough that most lines are
 // decided without halving.
-constexpr double kFlat = 0.3;
+constexpr double kFlat = 0.2;
 
 // Keeps hits in the interval and inside the trims.
 class Acceptance {

@@ -63,9 +63,10 @@ SurfaceJet MeridianSurface::evaluate_near(const Vec3& near, double u, double v, 
   if (!(rho > kNearAxis * (std::abs(m.rho[1]) + std::abs(m.z[1])))) return evaluate(u, v, order);
   const double inverse = (m.rho[0] < 0 ? -1 : 1) / length;
   SurfaceJet jet(order);
-  turned_meridian(frame_, a_, b_, local.x * inverse, local.y * inverse, m, order, [&](int i, int j, const Triple<double>& r) {
-    jet.d(i, j) = {r.x, r.y, r.z};
-  });
+  turned_meridian(frame_, a_, b_, local.x * inverse, local.y * inverse, m, order,
+                  [&](int i, int j, const Triple<double>& r) {
+                    jet.d(i, j) = {r.x, r.y, r.z};
+                  });
   jet.values[0] += frame_.origin;
   return jet;
 }

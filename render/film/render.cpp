@@ -95,7 +95,8 @@ class TileTracer {
     Exposure(TiledFilm& film, int number)
         : film(film),
           window(film.sums_window(number)),
-          sums(film.reach() == 0 ? film.planes() : film.planes() * static_cast<size_t>(window.width()) * window.height()),
+          sums(film.reach() == 0 ? film.planes()
+                                 : film.planes() * static_cast<size_t>(window.width()) * window.height()),
           weights(2 * film.reach() + 1) {}
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.

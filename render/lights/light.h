@@ -26,9 +26,9 @@ struct LightSample {
 // The light of a source that fills a round cone of directions evenly, as a matt surface receives it if nothing is in
 // the way: without the noise of samples.
 struct ConeLight {
-  Vec3 axis{0, 0, 1};     // unit, towards the middle of the source
-  double sine = 0;        // of half its opening, which is less than pi
-  Spectrum irradiance;    // of LightSample, the same for all directions of the cone
+  Vec3 axis{0, 0, 1};   // unit, towards the middle of the source
+  double sine = 0;      // of half its opening, which is less than pi
+  Spectrum irradiance;  // of LightSample, the same for all directions of the cone
   // Mean over the cone of max(0, cosine of the angle from the normal), the angle between axis and normal having the
   // given cosine (Snyder, "Area light sources for real-time graphics", 1996).
   double mean_cosine(double axis_cosine) const;

@@ -1,6 +1,8 @@
 // The process's Embree device.
 #include "render/trace/device.h"
 
+#include <tbb/task_arena.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -42,6 +44,11 @@ void set_device_options(const DeviceOptions& options) {
   if ((set == "avx2" && !avx2) || (set == "avx512" && !avx512))
     throw std::invalid_argument("this processor has no " + set + "; every one has sse2");
   device_options = options;
+}
+
+void with_device_threads(const std::function<void()>& build) {
+  if (device_options.threads == 0) return build();
+  tbb::task_arena(device_options.threads).execute(build);
 }
 
 }  // namespace lekalo::render

@@ -1,17 +1,21 @@
 // How Embree is to run, said once for the process before the first World is made.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace lekalo::render {
 
 struct DeviceOptions {
-  int threads = 0;              // that build hierarchies; 0: all cores
+  int threads = 0;              // that build Worlds; 0: all cores
   std::string instruction_set;  // sse2, avx2 or avx512; empty: the best that the processor has
 };
 
 // Throws std::invalid_argument for an instruction set that is unknown or that this processor lacks, and
 // std::logic_error once a World has been made.
 void set_device_options(const DeviceOptions& options);
+
+// Runs the work of building a World with the threads it may have.
+void with_device_threads(const std::function<void()>& build);
 
 }  // namespace lekalo::render

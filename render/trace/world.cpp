@@ -14,6 +14,7 @@
 #include "geometry/queries/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/clipped_body.h"
+#include "render/trace/device.h"
 #include "render/trace/hierarchy.h"
 
 namespace lekalo::render {
@@ -347,8 +348,10 @@ World::World(std::shared_ptr<const Model> model) : model_(std::move(model)), com
     if (light->sample_count() > 0) lamps_.push_back(light);
   }
   c.count_uses(model_->objects);
-  c.add(c.top, model_->objects, Affine());
-  c.top.commit();
+  with_device_threads([&] {
+    c.add(c.top, model_->objects, Affine());
+    c.top.commit();
+  });
   for (const Object* object : c.objects)
     for (const Material* material : {object->material.get(), object->back_material.get()})
       c.transmits = c.transmits || (material && material->transmits());
