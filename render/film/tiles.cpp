@@ -99,6 +99,7 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
                                                         : PixelType::float32;
     add_channel(image_, std::string(name), type);
     if (c > kDirectB) continue;
+    filtered_planes_[filtered_.size()] = image_.channels.back().values.data();
     filtered_.push_back(static_cast<FilmChannel>(c));
     first_data_channel_ = channel_[c] + 1;
   }
@@ -153,8 +154,11 @@ void TiledFilm::clear_data(size_t pixel) {
 void TiledFilm::set_pixel(size_t pixel, const double* sums) {
   const int n = static_cast<int>(filtered_.size());
   const double weight = sums[n];
-  for (int i = 0; i < n; ++i)
-    image_.channels[channel_[filtered_[i]]].values[pixel] = weight > 0 ? static_cast<float>(sums[i] / weight) : 0.0f;
+  if (weight == 1) {  // one sample under a box
+    for (int i = 0; i < n; ++i) filtered_planes_[i][pixel] = static_cast<float>(sums[i]);
+    return;
+  }
+  for (int i = 0; i < n; ++i) filtered_planes_[i][pixel] = weight > 0 ? static_cast<float>(sums[i] / weight) : 0.0f;
 }
 
 void TiledFilm::finish(int tile, std::span<const double> sums) {

@@ -121,6 +121,7 @@ class TiledFilm {
   Image image_;
   std::array<int, kFilmChannels> channel_;
   std::vector<FilmChannel> filtered_;
+  std::array<float*, kZ> filtered_planes_{};  // of the image's channels, in the order of filtered_
   int first_data_channel_ = 0;
   uint64_t settings_hash_ = 0;
 
