@@ -197,7 +197,8 @@ class NetSearch {
         if (i > 0 && i < p()) dxx = larger(dxx, magnitude(here[q() + 1] - 2 * here[0] + here[-(q() + 1)]));
         if (k > 0 && k < q()) dyy = larger(dyy, magnitude(here[1] - 2 * here[0] + here[-1]));
       }
-    return {p() * largest_of(dx), q() * largest_of(dy), p() * (p() - 1) * largest_of(dxx), q() * (q() - 1) * largest_of(dyy)};
+    return {p() * largest_of(dx), q() * largest_of(dy), p() * (p() - 1) * largest_of(dxx),
+            q() * (q() - 1) * largest_of(dyy)};
   }
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
