@@ -51,6 +51,12 @@ void curve_enclosure(const Formula& formula, const Interval& t, CurveEnclosure& 
   for (int k = 0; k <= N; ++k) result.d[k] = box_of(r.x.derivative(k), r.y.derivative(k), r.z.derivative(k));
 }
 
+// What both know of a value.
+inline Box3 narrowed(const Box3& wide, const Triple<Interval>& other) {
+  const Triple<Interval> r = triple(wide);
+  return box_of(intersect(r.x, other.x), intersect(r.y, other.y), intersect(r.z, other.z));
+}
+
 }  // namespace detail
 
 // formula: any number type T -> Triple<T>.
@@ -92,6 +98,19 @@ CurveEnclosure enclose_curve_formula(const Formula& formula, const Interval& t, 
   return result;
 }
 
+// The same in centered form for point and first derivative, f(T) in f(m) + f'(T) (T - m): where a formula names its
+// variable several times the plain one is too wide by a share of T's width, this one by its square.
+template <class Formula>
+CurveEnclosure enclose_curve_centered(const Formula& formula, const Interval& t, int order) {
+  CurveEnclosure result, at;
+  detail::curve_enclosure<2>(formula, t, result);
+  const Interval middle(t.middle()), off = t - middle;
+  detail::curve_enclosure<2>(formula, middle, at);
+  for (int k = 0; k <= std::min(order, 1); ++k)
+    result.d[k] = detail::narrowed(result.d[k], triple(at.d[k]) + off * triple(result.d[k + 1]));
+  return result;
+}
+
 // formula: (T u, T v) -> Triple<T>.
 template <class Formula>
 SurfaceJet evaluate_surface_formula(const Formula& formula, double u, double v, int order) {
@@ -125,6 +144,35 @@ SurfaceEnclosure enclose_surface_formula(const Formula& formula, const Rectangle
   } else {
     detail::surface_enclosure<2>(formula, box, result);
   }
+  return result;
+}
+
+template <class Formula>
+SurfaceEnclosure enclose_surface_centered(const Formula& formula, const Rectangle& box, int order) {
+  SurfaceEnclosure result, at;
+  const bool is_place = box.u.width() == 0 && box.v.width() == 0;
+  if (order == 0 || (is_place && order == 1))
+    detail::surface_enclosure<1>(formula, box, result);
+  else
+    detail::surface_enclosure<2>(formula, box, result);
+  if (is_place) return result;
+  const Interval u(box.u.middle()), v(box.v.middle()), off_u = box.u - u, off_v = box.v - v;
+  if (order == 0) {
+    const Triple<Interval> r = formula(u, v);
+    at.values[0] = detail::box_of(r.x, r.y, r.z);
+  } else {
+    detail::surface_enclosure<1>(formula, {u, v}, at);
+  }
+  const auto center = [&](int i, int j) {
+    const int k = SurfaceJet::index(i, j);
+    result.values[k] = detail::narrowed(result.values[k], triple(at.values[k]) + off_u * triple(result.d(i + 1, j)) +
+                                                              off_v * triple(result.d(i, j + 1)));
+  };
+  if (order >= 1) {
+    center(1, 0);
+    center(0, 1);
+  }
+  center(0, 0);
   return result;
 }
 

@@ -8,7 +8,8 @@
   X(ellipse_type)             \
   X(arc_through_points_type)  \
   X(bezier_curve_type)        \
-  X(nurbs_curve_type)
+  X(nurbs_curve_type)         \
+  X(formula_curve_type)
 
 namespace lekalo::geometry {
 

@@ -176,21 +176,69 @@ bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double
   return true;
 }
 
-void search(Search& s, const Surface& surface, const Rectangle& box, const CellModel& m, double x0, double y0,
-            double hx, double hy) {
-  if (is_settled(s, SurfaceCells{&surface, box}, m, x0, y0, hx, hy)) return;
-  const bool along_x = halve_across_x(m, hx, hy);
-  for (int child = 0; child < 2; ++child) {
-    Rectangle half = box;
-    if (along_x)
-      (child == 0 ? half.u.hi : half.u.lo) = box.u.middle();
-    else
-      (child == 0 ? half.v.hi : half.v.lo) = box.v.middle();
-    const double cx = along_x ? x0 + (child == 0 ? -0.5 : 0.5) * hx : x0;
-    const double cy = along_x ? y0 : y0 + (child == 0 ? -0.5 : 0.5) * hy;
-    if (SurfaceCells{&surface, half}.excluded(s.line)) continue;
-    search(s, surface, half, model_of(surface, half), cx, cy, along_x ? 0.5 * hx : hx, along_x ? hy : 0.5 * hy);
+// The surface over a rectangle, behind its proxy; keeps what the proxy leaves open.
+class BehindProxy final : public NearSurface {
+ public:
+  struct Cell {
+    double x, y, hx, hy;
+  };
+  BehindProxy(const SurfaceCells& cells, const ProxyPatch& proxy) : cells_(cells) {
+    off = proxy.off;
+    off_x = proxy.off_x;
+    off_y = proxy.off_y;
   }
+  PatchPoint at(double x, double y) const override { return cells_.at(x, y); }
+  void undecided(double x, double y, double hx, double hy) override { open_.push_back({x, y, hx, hy}); }
+  const std::vector<Cell>& open() const { return open_; }
+
+ private:
+  SurfaceCells cells_;
+  std::vector<Cell> open_;
+};
+
+// A rectangle of the piece with its place [x0 - hx, x0 + hx] times [y0 - hy, y0 + hy] in the piece.
+struct Part {
+  Rectangle box;
+  double x0 = 0, y0 = 0, hx = 1, hy = 1;
+  Part cell(double x, double y, double wx, double wy) const {
+    const auto cut = [](const Interval& range, double at, double half) {
+      const double middle = range.middle(), reach = 0.5 * range.width();
+      return Interval{at - half <= -1 ? range.lo : middle + (at - half) * reach,
+                      at + half >= 1 ? range.hi : middle + (at + half) * reach};
+    };
+    return {{cut(box.u, x, wx), cut(box.v, y, wy)}, x0 + hx * x, y0 + hy * y, hx * wx, hy * wy};
+  }
+};
+
+// Proxies that are farther from the surface than this share of the cell tell too little to be worth their making.
+constexpr double kWorthwhileProxy = 0.05;
+
+void search(Search& s, const Surface& surface, const Part& part, const CellModel& m, const ProxyPatch* proxy) {
+  if (is_settled(s, SurfaceCells{&surface, part.box}, m, part.x0, part.y0, part.hx, part.hy)) return;
+  const auto go_on = [&](const Part& smaller) {
+    if (SurfaceCells{&surface, smaller.box}.excluded(s.line)) return;
+    search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
+  };
+  ProxyPatch own;
+  if (!proxy) {
+    own = proxy_of(surface, part.box);
+    proxy = &own;
+  }
+  if (proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
+    BehindProxy behind(SurfaceCells{&surface, part.box}, *proxy);
+    CellHits found;
+    search_net(proxy->view(), behind, s.line, found);
+    for (int i = 0; i < found.size(); ++i)
+      s.add({found[i].t, part.x0 + part.hx * found[i].x, part.y0 + part.hy * found[i].y});
+    const std::vector<BehindProxy::Cell>& open = behind.open();
+    if (open.empty()) return;
+    if (open.size() > 1 || std::max(open[0].hx, open[0].hy) < 0.9) {
+      for (const BehindProxy::Cell& cell : open) go_on(part.cell(cell.x, cell.y, cell.hx, cell.hy));
+      return;
+    }
+  }
+  const bool along_x = halve_across_x(m, part.hx, part.hy);
+  for (const double side : {-0.5, 0.5}) go_on(along_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 
 }  // namespace
@@ -350,10 +398,10 @@ void intersect(const PatchView& patch, const CellModel& model, const LineBasis& 
   search_net(patch, reach.x, reach.y, line, hits);
 }
 
-void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
-               CellHits& hits) {
+void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
+               const LineBasis& line, CellHits& hits) {
   Search s{line, hits, extent(model)};
-  search(s, surface, box, model, 0, 0, 1, 1);
+  search(s, surface, {box}, model, &proxy);
 }
 
 }  // namespace lekalo::geometry

@@ -23,6 +23,7 @@
 
 #include "geometry/queries/bezier_patch.h"
 #include "geometry/queries/line_basis.h"
+#include "geometry/queries/proxy_patch.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -76,8 +77,9 @@ void intersect(const PatchView& patch, const CellModel& model, const LineBasis& 
 
 // The same for a rectangle of any surface, from evaluate and enclose.
 CellModel model_of(const Surface& surface, const Rectangle& box);
-void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const LineBasis& line,
-               CellHits& hits);
+// `proxy` is proxy_of(surface, box), kept by the caller.
+void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
+               const LineBasis& line, CellHits& hits);
 
 // True if no line of that direction meets the cell twice.
 bool meets_once(const CellModel& model, const Vec3& direction);

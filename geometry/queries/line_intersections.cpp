@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <queue>
 
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/line_cells.h"
@@ -16,6 +17,9 @@ namespace {
 // Cells of one piece when the target is built; what is not flat by then is halved along the line that asks.
 constexpr int kMostCellsPerPiece = 1024;
 constexpr int kDeepestCut = 9;
+
+// Of a surface that only its enclosures tell about: each cell costs several evaluations over intervals.
+constexpr size_t kMostEnclosedCells = 1 << 13;
 
 // Cells up to this roughness are not cut further: few enough to be found quickly, flat enough that most lines are
 // decided without halving.
@@ -233,10 +237,9 @@ class EnclosureTarget final : public LineTarget {
  public:
   EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim)
       : surface_(std::move(surface)), acceptance_(std::move(trim)) {
-    for (const SurfacePiece& piece : pieces) {
-      int budget = kMostCellsPerPiece;
-      cut(piece.domain, 0, budget);
-    }
+    std::vector<Rectangle> boxes;
+    for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
+    cut(boxes);
   }
   int piece_count() const override { return static_cast<int>(cells_.size()); }
   Box3 piece_bounds(int i) const override { return surface_->enclose(cells_[i].box, 0).values[0]; }
@@ -246,7 +249,7 @@ class EnclosureTarget final : public LineTarget {
     LineBasis basis = line.near(cell.model.point, foot);
     basis.line.origin += cell.model.point;
     CellHits found;
-    intersect(*surface_, cell.box, cell.model, basis, found);
+    intersect(*surface_, cell.box, cell.model, cell.proxy, basis, found);
     for (int k = 0; k < found.size(); ++k) {
       LineHit hit;
       hit.t = foot + found[k].t;
@@ -265,21 +268,36 @@ class EnclosureTarget final : public LineTarget {
   struct Cell {
     CellModel model;
     Rectangle box;
+    ProxyPatch proxy;
   };
-  void cut(const Rectangle& box, int depth, int& budget) {
-    const CellModel model = model_of(*surface_, box);
-    if (roughness(model) <= kFlat || depth >= kDeepestCut || budget <= 1) {
-      cells_.push_back({model, box});
-      return;
+  // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
+  void cut(const std::vector<Rectangle>& boxes) {
+    const auto size_of = [](const Cell& cell) {
+      return glm::length(cell.model.dx) + glm::length(cell.model.dy) + cell.model.variation;
+    };
+    const auto smaller = [&](const Cell& a, const Cell& b) { return size_of(a) < size_of(b); };
+    std::priority_queue<Cell, std::vector<Cell>, decltype(smaller)> rough(smaller);
+    const auto add = [&](const Rectangle& box) {
+      const Cell cell{model_of(*surface_, box), box, {}};
+      if (roughness(cell.model) <= kFlat)
+        cells_.push_back(cell);
+      else
+        rough.push(cell);
+    };
+    for (const Rectangle& box : boxes) add(box);
+    while (!rough.empty() && cells_.size() + rough.size() < kMostEnclosedCells) {
+      const Cell cell = rough.top();
+      rough.pop();
+      Rectangle first = cell.box, second = cell.box;
+      if (glm::length(cell.model.dx) >= glm::length(cell.model.dy))
+        first.u.hi = second.u.lo = cell.box.u.middle();
+      else
+        first.v.hi = second.v.lo = cell.box.v.middle();
+      add(first);
+      add(second);
     }
-    --budget;
-    Rectangle first = box, second = box;
-    if (glm::length(model.dx) >= glm::length(model.dy))
-      first.u.hi = second.u.lo = box.u.middle();
-    else
-      first.v.hi = second.v.lo = box.v.middle();
-    cut(first, depth + 1, budget);
-    cut(second, depth + 1, budget);
+    for (; !rough.empty(); rough.pop()) cells_.push_back(rough.top());
+    for (Cell& cell : cells_) cell.proxy = proxy_of(*surface_, cell.box);
   }
 
   SurfacePtr surface_;

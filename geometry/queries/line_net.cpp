@@ -26,6 +26,10 @@ constexpr int kMostCells = 20000;
 // A cell is clipped rather than halved where that leaves less of one side than this.
 constexpr double kWorthClipping = 0.7;
 
+// A cell in which the bound of a patch's distance from its surface moves roots by more than this part is left to a
+// better patch.
+constexpr double kTooWide = 0.25;
+
 // Two doubles side by side, (f, g) of a control point.
 using Pair = double __attribute__((vector_size(16)));
 
@@ -74,9 +78,10 @@ constexpr int kAnyDegree = -1;
 template <int kP, int kQ>
 class NetSearch {
  public:
-  NetSearch(const PatchView& patch, const Vec2& whole, const LineBasis& line, CellHits& hits)
+  NetSearch(const PatchView& patch, const Vec2& whole, NearSurface* near, const LineBasis& line, CellHits& hits)
       : patch_(patch),
         whole_(whole),
+        near_(near),
         line_(line),
         hits_(hits),
         room_(workspace(static_cast<size_t>(n()) * (kDeepest + 2))) {
@@ -90,6 +95,7 @@ class NetSearch {
     }
     // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that halving takes.
     rounding_ *= 1e-15;
+    if (near_) rounding_ += near_->off;
   }
 
   void run() { visit(room_, 0, 0, 1, 1, 0); }
@@ -149,6 +155,14 @@ class NetSearch {
     Pair ignored;
     j.y = reduce(slopes, p(), s, ignored);
     return reduce(rows, p(), s, j.x);
+  }
+  // The same of the surface itself.
+  Pair at_near(double x0, double y0, double hx, double hy, double x, double y, Jacobian& j) const {
+    const PatchPoint p = near_->at(x0 + hx * x, y0 + hy * y);
+    const Vec3 r = p.point - line_.line.origin;
+    j.x = hx * Pair{glm::dot(line_.n1, p.ds), glm::dot(line_.n2, p.ds)};
+    j.y = hy * Pair{glm::dot(line_.n1, p.dt), glm::dot(line_.n2, p.dt)};
+    return Pair{glm::dot(line_.n1, r), glm::dot(line_.n2, r)};
   }
   // Value at s of the polynomial with the given coefficients, which are overwritten; slope by x in [-1, 1].
   static Pair reduce(Pair* c, int n, double s, Pair& slope) {
@@ -210,7 +224,7 @@ class NetSearch {
     const int most = contracts ? 40 : 8;
     for (int iteration = 0; iteration < most; ++iteration) {
       Jacobian j;
-      const Pair f = at(c, x, y, j);
+      const Pair f = near_ ? at_near(x0, y0, hx, hy, x, y, j) : at(c, x, y, j);
       const double determinant = j.determinant();
       if (determinant == 0) return false;
       const double ex = x - (f[0] * j.y[1] - f[1] * j.y[0]) / determinant;
@@ -247,11 +261,17 @@ class NetSearch {
     near = std::max(near, 4 * kBorderSlack);
     for (int i = 0; i < hits_.size(); ++i)
       if (std::abs(hits_[i].x - x) <= near && std::abs(hits_[i].y - y) <= near) return;
-    hits_.add({along(surface_at(x, y).point), x, y});
+    hits_.add({along(near_ ? near_->at(x, y).point : surface_at(x, y).point), x, y});
   }
 
   // What is left of a cell that cannot be decided. Cells around a singular point differ in the parameter that does not
   // matter there.
+  void leave(double x, double y, double hx, double hy) {
+    if (near_)
+      near_->undecided(x, y, hx, hy);
+    else
+      add_if_singular(x, y);
+  }
   void add_if_singular(double x, double y) {
     const PatchPoint at = surface_at(x, y);
     const double lx = glm::length(at.ds), ly = glm::length(at.dt);
@@ -318,15 +338,20 @@ class NetSearch {
         const Pair a{j.y[1] * inverse, -j.x[1] * inverse}, b{-j.y[0] * inverse, j.x[0] * inverse};
         const Pair root = -(f[0] * a + f[1] * b);
         const Pair uncertain = rounding_ * (magnitude(a) + magnitude(b));
-        const Pair e = deviation(c, a, b);
+        Pair e = deviation(c, a, b);
+        if (near_) e += (magnitude(a) + magnitude(b)) * (hx * near_->off_x + hy * near_->off_y);
         const Pair slack = kBorderSlack + uncertain;
         const Pair lo = root - e - slack, hi = root + e + slack;
         if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return;
         const double worst = std::fmax(slack[0], slack[1]);
         const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
-        if (e[0] <= kInjective && e[1] <= kInjective && worst < 1e-3 &&
-            newton(c, x0, y0, hx, hy, root, worst, contracts))
+        if (e[0] <= kInjective && e[1] <= kInjective && (near_ || worst < 1e-3) &&
+            newton(c, x0, y0, hx, hy, root, near_ ? kBorderSlack : worst, contracts))
           return;
+        if (near_ && worst > kTooWide) {
+          near_->undecided(x0, y0, hx, hy);
+          return;
+        }
         if (!contracts) {
           const double lo_x = std::fmax(lo[0], -1), hi_x = std::fmin(hi[0], 1);
           const double lo_y = std::fmax(lo[1], -1), hi_y = std::fmin(hi[1], 1);
@@ -343,7 +368,7 @@ class NetSearch {
               hy *= 0.5 * (hi_y - lo_y);
             }
             if (std::max(hx, hy) < kSmallestCell) {
-              add_if_singular(x0, y0);
+              leave(x0, y0, hx, hy);
               return;
             }
             continue;
@@ -352,7 +377,7 @@ class NetSearch {
       }
       const Outline o = outline(c);
       if (depth == kDeepest || std::max(hx, hy) < kSmallestCell || std::max(o.extent_x, o.extent_y) <= 4 * rounding_) {
-        add_if_singular(x0, y0);
+        leave(x0, y0, hx, hy);
         return;
       }
       // Across the direction in which the functions bend most; where that is neither (at a pole the sectors of a cap
@@ -377,6 +402,7 @@ class NetSearch {
 
   const PatchView& patch_;
   Vec2 whole_;
+  NearSurface* near_;  // nullptr: the patch stands for itself
   const LineBasis& line_;
   CellHits& hits_;
   Pair* room_;
@@ -389,11 +415,15 @@ class NetSearch {
 void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits) {
   const Vec2 reach(reach_x, reach_y);
   if (patch.degree_u == 3 && patch.degree_v == 3)
-    NetSearch<3, 3>(patch, reach, line, hits).run();
+    NetSearch<3, 3>(patch, reach, nullptr, line, hits).run();
   else if (patch.degree_u == 2 && patch.degree_v == 2)
-    NetSearch<2, 2>(patch, reach, line, hits).run();
+    NetSearch<2, 2>(patch, reach, nullptr, line, hits).run();
   else
-    NetSearch<kAnyDegree, kAnyDegree>(patch, reach, line, hits).run();
+    NetSearch<kAnyDegree, kAnyDegree>(patch, reach, nullptr, line, hits).run();
+}
+
+void search_net(const PatchView& patch, NearSurface& near, const LineBasis& line, CellHits& hits) {
+  NetSearch<3, 3>(patch, Vec2(0), &near, line, hits).run();
 }
 
 }  // namespace lekalo::geometry

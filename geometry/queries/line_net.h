@@ -25,8 +25,23 @@
 
 namespace lekalo::geometry {
 
+// A surface that a patch stands for, over the same x, y.
+class NearSurface {
+ public:
+  virtual ~NearSurface() = default;
+  double off = 0, off_x = 0, off_y = 0;  // bounds of ProxyPatch
+  // Its own point and derivatives by x and y.
+  virtual PatchPoint at(double x, double y) const = 0;
+  // Takes a cell, [x - hx, x + hx] times [y - hy, y + hy], in which the bounds are too wide to tell.
+  virtual void undecided(double x, double y, double hx, double hy) = 0;
+};
+
 // Adds the roots, in local coordinates x = 2 s - 1, y = 2 t - 1 of the patch. `reach_x`, `reach_y` bound the patch's
 // extent in space along x and y from its centre.
 void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits);
+
+// The same for the surface near to the patch: cells are treated with the bounds added, and Newton's iteration runs on
+// the surface itself.
+void search_net(const PatchView& patch, NearSurface& near, const LineBasis& line, CellHits& hits);
 
 }  // namespace lekalo::geometry

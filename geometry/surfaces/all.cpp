@@ -15,7 +15,8 @@
   X(extrusion_surface_type)      \
   X(revolution_surface_type)     \
   X(bezier_surface_type)         \
-  X(nurbs_surface_type)
+  X(nurbs_surface_type)          \
+  X(formula_surface_type)
 
 namespace lekalo::geometry {
 

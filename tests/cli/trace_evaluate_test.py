@@ -23,6 +23,8 @@ SURFACES = {
     "revolution_surface": "of: { type: bezier_curve, points: [[1, 0, 0], [2, 0, 1], [0.5, 0, 2]] }, axis: z",
     "bezier_surface": f"points: [{NET}], weights: [[1, 2, 1, 1], [1, 0.5, 3, 1], [1, 1, 1, 1]]",
     "nurbs_surface": f"points: [{NET}], degree: 2",
+    "formula_surface": "point: ['(2 + cos(v))*cos(u)', '(2 + cos(v))*sin(u)', sin(v) + 0.3*sin(3*u)], "
+                       "domain: { u: [0, 2*pi], v: [0, 2*pi] }, closed: true",
 }
 
 

@@ -1,0 +1,112 @@
+// A surface by its formulas (Golovanov 2016, 3.1): r(u, v) = point(f(u, v), g(u, v), h(u, v)).
+#include "geometry/surfaces/formula_surface.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/describe.h"
+#include "geometry/formula.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Places along each direction where the formulas are tried before anything else asks.
+constexpr int kTried = 32;
+
+bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+double wrapped(double x, const Interval& domain) {
+  return domain.contains(x) ? x : x - domain.width() * std::floor((x - domain.lo) / domain.width());
+}
+
+double place(const Interval& range, int i) { return i == kTried ? range.hi : range.lo + range.width() * i / kTried; }
+
+const std::vector<std::string> kVariables{"u", "v"};
+
+}  // namespace
+
+FormulaSurface::FormulaSurface(std::array<Expression, 3> formulas, Coordinates coordinates, const Rectangle& domain,
+                               Closed closed)
+    : formulas_(std::move(formulas)), coordinates_(coordinates), domain_(domain) {
+  for (const Interval& side : {domain.u, domain.v})
+    if (!(side.width() > 0 && side.width() < kInfinity))
+      throw std::invalid_argument("the domain of a surface of formulas must be finite and not empty");
+  Box3 box;
+  for (int i = 0; i <= kTried; ++i)
+    for (int j = 0; j <= kTried; ++j) {
+      const double u = place(domain.u, i), v = place(domain.v, j);
+      const Vec3 p = point(u, v);
+      if (!is_finite(p))
+        throw std::invalid_argument("the formulas have no value at u = " + std::to_string(u) +
+                                    ", v = " + std::to_string(v));
+      box.include(p);
+    }
+  const double same = kClosedCurve * box.diameter();
+  // The largest distance between places along u (or v) that two functions of it give.
+  const auto farthest = [&](const Interval& range, auto a, auto b) {
+    double result = 0;
+    for (int i = 0; i <= kTried; ++i) result = std::max(result, glm::length(a(place(range, i)) - b(place(range, i))));
+    return result;
+  };
+  const auto at_u = [&](double u) { return [this, u](double v) { return point(u, v); }; };
+  const auto at_v = [&](double v) { return [this, v](double u) { return point(u, v); }; };
+  const auto refuse = [](const char* direction) {
+    throw std::invalid_argument(std::string("the surface is not closed along ") + direction +
+                                ": its edges there are not the same");
+  };
+  if (closed.u && farthest(domain.v, at_u(domain.u.lo), at_u(domain.u.hi)) > same) refuse("u");
+  if (closed.v && farthest(domain.u, at_v(domain.v.lo), at_v(domain.v.hi)) > same) refuse("v");
+  const auto is_point = [&](const Interval& range, auto edge) {
+    const Vec3 first = edge(range.lo);
+    return farthest(range, edge, [&](double) { return first; }) <= kCollapsedEdge * box.diameter();
+  };
+  degenerate_ = {is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
+                 is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))};
+  closed_ = closed;
+}
+
+SurfaceJet FormulaSurface::evaluate(double u, double v, int order) const {
+  if (closed_.u) u = wrapped(u, domain_.u);
+  if (closed_.v) v = wrapped(v, domain_.v);
+  return evaluate_surface_formula(
+      [this](const auto& a, const auto& b) {
+        return point_of(coordinates_, formulas_[0](a, b), formulas_[1](a, b), formulas_[2](a, b));
+      },
+      u, v, order);
+}
+
+SurfaceEnclosure FormulaSurface::enclose(const Rectangle& box, int order) const {
+  return enclose_surface_centered(
+      [this](const auto& a, const auto& b) {
+        return point_of(coordinates_, formulas_[0](a, b), formulas_[1](a, b), formulas_[2](a, b));
+      },
+      box, order);
+}
+
+TypeDeclaration formula_surface_type() {
+  TypeDeclaration type =
+      declare(Category::surface, "formula_surface",
+              "Surface given by formulas of its parameters u and v; the normal is r_u x r_v. Formulas must be smooth "
+              "inside the domain, but may meet themselves and have poles, cusps and pinch points.");
+  type.example("point: [u*cos(v), u*sin(v), 0.4*v], domain: { u: [-1, 1], v: [0, 2*pi] }");
+  declare_formulas(type, kVariables);
+  type.field("domain", rectangle(), "of u and v, or of x and y");
+  type.field("closed", boolean().for_each_direction(), "the opposite edges are one, and the parameter wraps", "false");
+  return type.built_by([](const Fields& f) {
+    const PointFormulas read = read_formulas(f, kVariables);
+    const FormulaSurface::Closed asked{f.u<bool>("closed"), f.v<bool>("closed")};
+    const auto made = [&](const FormulaSurface::Closed& closed) {
+      try {
+        return FormulaSurface(read.formulas, read.coordinates, f.rectangle("domain"), closed);
+      } catch (const std::invalid_argument& error) {
+        throw FieldError(closed.u || closed.v ? "closed" : "domain", error.what());
+      }
+    };
+    const FormulaSurface open = made({});
+    return asked.u || asked.v ? made(asked) : open;
+  });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,40 @@
+// Surfaces given by formulas of scene files (Golovanov 2016, 3.1).
+#pragma once
+
+#include <array>
+
+#include "geometry/expression/expression.h"
+#include "geometry/formula_coordinates.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// r(u, v) = point of three formulas of u and v in Cartesian, cylindrical or spherical coordinates, over a finite
+// rectangle. All derivatives are exact (jets), enclosures certified (jets of intervals in centered form). The formulas
+// must be smooth inside the domain; singular points (poles, cusps, pinch points) are welcome.
+class FormulaSurface final : public Surface {
+ public:
+  struct Closed {
+    bool u = false, v = false;
+  };
+
+  // Each formula is bound to two variables, u and v. `closed`: the opposite edges are the same curve, and the parameter
+  // wraps. Throws std::invalid_argument for an empty or infinite domain, a formula that has no value in it, or edges
+  // that do not meet.
+  FormulaSurface(std::array<Expression, 3> formulas, Coordinates coordinates, const Rectangle& domain, Closed closed);
+
+  Rectangle domain() const override { return domain_; }
+  Periods periods() const override { return {closed_.u ? domain_.u.width() : 0, closed_.v ? domain_.v.width() : 0}; }
+  SurfaceJet evaluate(double u, double v, int order) const override;
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  DegenerateEdges degenerate_edges() const override { return degenerate_; }
+
+ private:
+  std::array<Expression, 3> formulas_;
+  Coordinates coordinates_;
+  Rectangle domain_;
+  Closed closed_;
+  DegenerateEdges degenerate_;
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,145 @@
+// Surfaces by formulas: their derivatives and enclosures, and lines against them, compared with closed forms (torus)
+// and, where the formulas are polynomials, with the halving oracle on the Bezier patch that they are.
+#include "geometry/surfaces/formula_surface.h"
+
+#include <algorithm>
+#include <random>
+
+#include "geometry/formulas.h"
+#include "geometry/queries/line_intersections.h"
+#include "geometry/surfaces/surface_checks.h"
+#include "geometry/surfaces/torus.h"
+#include "support/line_oracle.h"
+#include "support/tier.h"
+
+namespace lekalo::geometry {
+namespace {
+
+FormulaSurface surface(const std::array<std::string, 3>& point, const Rectangle& domain,
+                       FormulaSurface::Closed closed = {}, Coordinates coordinates = Coordinates::cartesian) {
+  return FormulaSurface(checks::formulas(point, {"u", "v"}), coordinates, domain, closed);
+}
+
+FormulaSurface klein_bottle() {
+  const std::string radius = "(2 + cos(u/2)*sin(v) - sin(u/2)*sin(2*v))";
+  return surface({radius + "*cos(u)", radius + "*sin(u)", "sin(u/2)*sin(v) + cos(u/2)*sin(2*v)"},
+                 {{0, kTwoPi}, {0, kTwoPi}}, {false, true});
+}
+
+const std::array<std::string, 3> kEnneper{"u - u^3/3 + u*v^2", "v - v^3/3 + v*u^2", "u^2 - v^2"};
+
+TEST(FormulaSurface, MeetsTheGeneralChecks) {
+  for (const FormulaSurface& one : {klein_bottle(), surface(kEnneper, {{-1.8, 1.8}, {-1.8, 1.8}}),
+                                    surface({"u", "v", "sin(u)*exp(-v^2)/(2 + u*v)"}, {{-1, 1}, {-1, 1}})}) {
+    checks::check_differences(one, one.domain());
+    checks::check_normals(one, one.domain());
+    checks::check_degenerate_edges(one);
+    checks::check_enclosures(one, one.domain());
+    checks::check_pieces(one);
+    checks::check_periods(one, one.domain());
+  }
+}
+
+TEST(FormulaSurface, KnowsPolesAndOtherCoordinates) {
+  const FormulaSurface ball =
+      surface({"2", "u", "v"}, {{0, kTwoPi}, {-0.5 * kPi, 0.5 * kPi}}, {true, false}, Coordinates::spherical);
+  EXPECT_TRUE(ball.degenerate_edges().v_min && ball.degenerate_edges().v_max);
+  EXPECT_LE(glm::length(ball.normal(1, 0.5 * kPi) - Vec3(0, 0, 1)), 1e-9);
+  EXPECT_LE(glm::length(ball.point(0.5, 0.3) -
+                        2.0 * Vec3(std::cos(0.3) * std::cos(0.5), std::cos(0.3) * std::sin(0.5), std::sin(0.3))),
+            1e-15);
+}
+
+TEST(FormulaSurface, RefusesWhatIsNoSurface) {
+  EXPECT_THROW(surface({"u", "v", "log(u)"}, {{0, 1}, {0, 1}}), std::invalid_argument);
+  EXPECT_THROW(surface({"u", "v", "0"}, {{0, 0}, {0, 1}}), std::invalid_argument);
+  EXPECT_THROW(surface({"cos(u)", "sin(u)", "v"}, {{0, 6}, {0, 1}}, {true, false}), std::invalid_argument);
+  EXPECT_THROW(surface({"u", "v", "0"}, {{0, 1}, {0, 1}}, {false, true}), std::invalid_argument);
+}
+
+// Counts of hits at the line and at lines moved by 1e-9 of the size: where they differ the line is a tangent.
+template <class Count>
+bool is_tangent(const Line& line, double size, const Count& count) {
+  const int here = count(line);
+  for (const Vec3& shift : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+    for (const double by : {-1e-9, 1e-9})
+      if (count(Line{line.origin + by * size * shift, line.direction}) != here) return true;
+  return false;
+}
+
+template <class Truth>
+void compare(const Surface& given, const SurfacePtr& target, int lines, const Truth& truth) {
+  const LineIntersector intersector(target);
+  const Box3 box = bounds(given);
+  const double size = box.diameter();
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int hits = 0, tangents = 0;
+  for (int i = 0; i < lines; ++i) {
+    const Vec3 d = checks::random_direction(random);
+    const Vec3 aim = box.lo + Vec3(unit(random), unit(random), unit(random)) * box.size();
+    const Line line{aim - 2 * size * d, d};
+    const std::vector<double> expected = truth(line);
+    const std::vector<SurfaceHit> found = intersector.all_hits(line);
+    hits += static_cast<int>(found.size());
+    bool same = found.size() == expected.size();
+    for (size_t k = 0; same && k < found.size(); ++k) same = std::abs(found[k].t - expected[k]) <= 1e-9 * size;
+    if (same) continue;
+    ASSERT_TRUE(is_tangent(line, size, [&](const Line& moved) { return static_cast<int>(truth(moved).size()); }))
+        << "line " << i << ": " << found.size() << " hits, expected " << expected.size();
+    ++tangents;
+  }
+  EXPECT_GT(hits, lines / 4);
+  EXPECT_LE(tangents, lines / 100 + 1);
+}
+
+TEST(FormulaSurface, LinesMeetATorusWhereItsClosedFormSays) {
+  const auto formulas = std::make_shared<FormulaSurface>(surface(
+      {"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v))*sin(u)", "0.7*sin(v)"}, {{0, kTwoPi}, {-kPi, kPi}}, {true, true}));
+  const TorusSurface torus(Frame(), 2, 0.7);
+  compare(torus, formulas, tests::tier_count(30000), [&](const Line& line) {
+    LineHits hits;
+    torus.line_hits(line, Interval::entire(), hits);
+    std::vector<double> t;
+    for (int i = 0; i < hits.size(); ++i) t.push_back(hits[i].t);
+    std::sort(t.begin(), t.end());
+    return t;
+  });
+}
+
+// Bernstein coefficient k of degree 3 of the power x^i over the range: its blossom, a mean of products.
+double coefficient(int i, int k, const Interval& range) {
+  std::array<double, 3> x;
+  for (int m = 0; m < 3; ++m) x[m] = m < k ? range.hi : range.lo;
+  switch (i) {
+    case 0:
+      return 1;
+    case 1:
+      return (x[0] + x[1] + x[2]) / 3;
+    case 2:
+      return (x[0] * x[1] + x[1] * x[2] + x[2] * x[0]) / 3;
+    default:
+      return x[0] * x[1] * x[2];
+  }
+}
+
+TEST(FormulaSurface, LinesMeetEnneperWhereTheOracleSays) {
+  const Interval side(-1.8, 1.8);
+  std::vector<Vec4> points;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const auto power = [&](int a, int b) { return coefficient(a, i, side) * coefficient(b, j, side); };
+      points.push_back({power(1, 0) - power(3, 0) / 3 + power(1, 2), power(0, 1) - power(0, 3) / 3 + power(2, 1),
+                        power(2, 0) - power(0, 2), 1});
+    }
+  const oracle::PatchOracle oracle(points, 3, 3);
+  const auto enneper = std::make_shared<FormulaSurface>(surface(kEnneper, {side, side}));
+  compare(*enneper, enneper, tests::tier_count(20000), [&](const Line& line) {
+    std::vector<double> t;
+    for (const oracle::Root& root : oracle.roots(line)) t.push_back(root.t);
+    return t;
+  });
+}
+
+}  // namespace
+}  // namespace lekalo::geometry
