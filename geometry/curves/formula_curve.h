@@ -27,7 +27,7 @@ class FormulaCurve final : public Curve {
   std::array<Expression, 3> formulas_;
   Coordinates coordinates_;
   Interval domain_;
-  bool closed_;
+  bool closed_ = false;  // set once the ends are known to meet
 };
 
 }  // namespace lekalo::geometry

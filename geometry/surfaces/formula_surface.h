@@ -33,7 +33,7 @@ class FormulaSurface final : public Surface {
   std::array<Expression, 3> formulas_;
   Coordinates coordinates_;
   Rectangle domain_;
-  Closed closed_;
+  Closed closed_;  // set once the edges are known to meet
   DegenerateEdges degenerate_;
 };
 
