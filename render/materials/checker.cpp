@@ -1,5 +1,6 @@
 // Checker board in the parameter plane (Golovanov 2016, 8.5: a picture on a surface through (u, v)).
 #include <cmath>
+#include <cstdint>
 
 #include "render/materials/textures.h"
 
@@ -24,8 +25,8 @@ class CheckerTexture final : public Texture {
   bool is_even(const SurfacePoint& point) const {
     const double i = std::floor((point.u - checker_.offset.x) / checker_.spacing.x);
     const double j = std::floor((point.v - checker_.offset.y) / checker_.spacing.y);
-    const double half = 0.5 * (i + j);
-    return std::floor(half) == half;
+    const double sum = i + j;
+    return std::abs(sum) < 0x1p62 ? static_cast<int64_t>(sum) % 2 == 0 : std::fmod(sum, 2) == 0;
   }
   const TexturedColor& color(bool even) const { return even ? checker_.color : checker_.background; }
 
