@@ -105,7 +105,7 @@ CurveEnclosure enclose_curve_centered(const Formula& formula, const Interval& t,
   CurveEnclosure result, at;
   detail::curve_enclosure<2>(formula, t, result);
   const Interval middle(t.middle()), off = t - middle;
-  detail::curve_enclosure<2>(formula, middle, at);
+  detail::curve_enclosure<1>(formula, middle, at);
   for (int k = 0; k <= std::min(order, 1); ++k)
     result.d[k] = detail::narrowed(result.d[k], triple(at.d[k]) + off * triple(result.d[k + 1]));
   return result;

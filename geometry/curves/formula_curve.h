@@ -1,11 +1,8 @@
 // Curves given by formulas of scene files (Golovanov 2016, 2.1).
 #pragma once
 
-#include <array>
-
 #include "geometry/curve.h"
-#include "geometry/expression/expression.h"
-#include "geometry/formula_coordinates.h"
+#include "geometry/point_formulas.h"
 
 namespace lekalo::geometry {
 
@@ -13,10 +10,9 @@ namespace lekalo::geometry {
 // derivatives are exact (jets), enclosures certified (jets of intervals in centered form).
 class FormulaCurve final : public Curve {
  public:
-  // Each formula is bound to one variable, t. `closed`: r(lo) = r(hi), and the parameter wraps. Throws
-  // std::invalid_argument for an empty or infinite domain, a formula that has no value in it, or ends that do not meet.
-  FormulaCurve(std::array<Expression, 3> formulas, Coordinates coordinates, const Interval& domain,
-               bool closed = false);
+  // The formulas are bound to one variable, t. `closed`: r(lo) = r(hi), and the parameter wraps. Throws FieldError for
+  // an empty or infinite domain, a formula that has no value in it, or ends that do not meet.
+  FormulaCurve(PointFormulas point, const Interval& domain, bool closed = false);
 
   Interval domain() const override { return domain_; }
   double period() const override { return closed_ ? domain_.width() : 0; }
@@ -24,8 +20,7 @@ class FormulaCurve final : public Curve {
   CurveEnclosure enclose(const Interval& t, int order) const override;
 
  private:
-  std::array<Expression, 3> formulas_;
-  Coordinates coordinates_;
+  PointFormulas point_;
   Interval domain_;
   bool closed_ = false;  // set once the ends are known to meet
 };

@@ -58,7 +58,10 @@ ProxyPatch proxy_of(const Surface& surface, const Rectangle& box) {
   const double rounding = 1e-14 * size;
   const double off = at_corner + along_x + along_y + 0.5 * m_xx + m_xy + 0.5 * m_yy + rounding;
   const double off_x = along_x + m_xx + m_xy + rounding, off_y = along_y + m_xy + m_yy + rounding;
-  if (off < kInfinity && off_x < kInfinity && off_y < kInfinity) {
+  const bool finite = std::all_of(result.points.begin(), result.points.end(), [](const Vec4& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+  if (finite && off < kInfinity && off_x < kInfinity && off_y < kInfinity) {
     result.off = off;
     result.off_x = off_x;
     result.off_y = off_y;

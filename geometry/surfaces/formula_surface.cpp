@@ -15,32 +15,25 @@ namespace {
 // Places along each direction where the formulas are tried before anything else asks.
 constexpr int kTried = 32;
 
-bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-double wrapped(double x, const Interval& domain) {
-  return domain.contains(x) ? x : x - domain.width() * std::floor((x - domain.lo) / domain.width());
-}
-
 double place(const Interval& range, int i) { return i == kTried ? range.hi : range.lo + range.width() * i / kTried; }
 
 const std::vector<std::string> kVariables{"u", "v"};
 
 }  // namespace
 
-FormulaSurface::FormulaSurface(std::array<Expression, 3> formulas, Coordinates coordinates, const Rectangle& domain,
-                               Closed closed)
-    : formulas_(std::move(formulas)), coordinates_(coordinates), domain_(domain) {
+FormulaSurface::FormulaSurface(PointFormulas point_formulas, const Rectangle& domain, Closed closed)
+    : point_(std::move(point_formulas)), domain_(domain) {
   for (const Interval& side : {domain.u, domain.v})
     if (!(side.width() > 0 && side.width() < kInfinity))
-      throw std::invalid_argument("the domain of a surface of formulas must be finite and not empty");
+      throw FieldError("domain", "the domain of a surface of formulas must be finite and not empty");
   Box3 box;
   for (int i = 0; i <= kTried; ++i)
     for (int j = 0; j <= kTried; ++j) {
       const double u = place(domain.u, i), v = place(domain.v, j);
       const Vec3 p = point(u, v);
       if (!is_finite(p))
-        throw std::invalid_argument("the formulas have no value at u = " + std::to_string(u) +
-                                    ", v = " + std::to_string(v));
+        throw FieldError("domain",
+                         "the formulas have no value at u = " + std::to_string(u) + ", v = " + std::to_string(v));
       box.include(p);
     }
   const double same = kClosedCurve * box.diameter();
@@ -53,8 +46,8 @@ FormulaSurface::FormulaSurface(std::array<Expression, 3> formulas, Coordinates c
   const auto at_u = [&](double u) { return [this, u](double v) { return point(u, v); }; };
   const auto at_v = [&](double v) { return [this, v](double u) { return point(u, v); }; };
   const auto refuse = [](const char* direction) {
-    throw std::invalid_argument(std::string("the surface is not closed along ") + direction +
-                                ": its edges there are not the same");
+    throw FieldError(
+        "closed", std::string("the surface is not closed along ") + direction + ": its edges there are not the same");
   };
   if (closed.u && farthest(domain.v, at_u(domain.u.lo), at_u(domain.u.hi)) > same) refuse("u");
   if (closed.v && farthest(domain.u, at_v(domain.v.lo), at_v(domain.v.hi)) > same) refuse("v");
@@ -70,19 +63,11 @@ FormulaSurface::FormulaSurface(std::array<Expression, 3> formulas, Coordinates c
 SurfaceJet FormulaSurface::evaluate(double u, double v, int order) const {
   if (closed_.u) u = wrapped(u, domain_.u);
   if (closed_.v) v = wrapped(v, domain_.v);
-  return evaluate_surface_formula(
-      [this](const auto& a, const auto& b) {
-        return point_of(coordinates_, formulas_[0](a, b), formulas_[1](a, b), formulas_[2](a, b));
-      },
-      u, v, order);
+  return evaluate_surface_formula(point_, u, v, order);
 }
 
 SurfaceEnclosure FormulaSurface::enclose(const Rectangle& box, int order) const {
-  return enclose_surface_centered(
-      [this](const auto& a, const auto& b) {
-        return point_of(coordinates_, formulas_[0](a, b), formulas_[1](a, b), formulas_[2](a, b));
-      },
-      box, order);
+  return enclose_surface_centered(point_, box, order);
 }
 
 TypeDeclaration formula_surface_type() {
@@ -95,17 +80,8 @@ TypeDeclaration formula_surface_type() {
   type.field("domain", rectangle(), "of u and v, or of x and y");
   type.field("closed", boolean().for_each_direction(), "the opposite edges are one, and the parameter wraps", "false");
   return type.built_by([](const Fields& f) {
-    const PointFormulas read = read_formulas(f, kVariables);
-    const FormulaSurface::Closed asked{f.u<bool>("closed"), f.v<bool>("closed")};
-    const auto made = [&](const FormulaSurface::Closed& closed) {
-      try {
-        return FormulaSurface(read.formulas, read.coordinates, f.rectangle("domain"), closed);
-      } catch (const std::invalid_argument& error) {
-        throw FieldError(closed.u || closed.v ? "closed" : "domain", error.what());
-      }
-    };
-    const FormulaSurface open = made({});
-    return asked.u || asked.v ? made(asked) : open;
+    return FormulaSurface(read_formulas(f, kVariables), f.rectangle("domain"),
+                          {f.u<bool>("closed"), f.v<bool>("closed")});
   });
 }
 

@@ -1,10 +1,7 @@
 // Surfaces given by formulas of scene files (Golovanov 2016, 3.1).
 #pragma once
 
-#include <array>
-
-#include "geometry/expression/expression.h"
-#include "geometry/formula_coordinates.h"
+#include "geometry/point_formulas.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -18,10 +15,10 @@ class FormulaSurface final : public Surface {
     bool u = false, v = false;
   };
 
-  // Each formula is bound to two variables, u and v. `closed`: the opposite edges are the same curve, and the parameter
-  // wraps. Throws std::invalid_argument for an empty or infinite domain, a formula that has no value in it, or edges
+  // The formulas are bound to two variables, u and v. `closed`: the opposite edges are the same curve, and the
+  // parameter wraps. Throws FieldError for an empty or infinite domain, a formula that has no value in it, or edges
   // that do not meet.
-  FormulaSurface(std::array<Expression, 3> formulas, Coordinates coordinates, const Rectangle& domain, Closed closed);
+  FormulaSurface(PointFormulas point, const Rectangle& domain, Closed closed);
 
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {closed_.u ? domain_.u.width() : 0, closed_.v ? domain_.v.width() : 0}; }
@@ -30,8 +27,7 @@ class FormulaSurface final : public Surface {
   DegenerateEdges degenerate_edges() const override { return degenerate_; }
 
  private:
-  std::array<Expression, 3> formulas_;
-  Coordinates coordinates_;
+  PointFormulas point_;
   Rectangle domain_;
   Closed closed_;  // set once the edges are known to meet
   DegenerateEdges degenerate_;

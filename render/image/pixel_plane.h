@@ -1,7 +1,7 @@
 // Numbers of the pixels of a picture: zeros that cost nothing before they are touched, in large pages.
 //
-// A picture of a million pixels is some ten thousand small pages, which the system would clear and map one by one, for
-// as long as it takes to trace a tenth of its rays; and whoever fills it with zeros first makes all threads wait.
+// A picture of a million pixels is thousands of small pages, which the system would clear and map one by one while it
+// is traced; and whoever fills it with zeros first makes all threads wait.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "geometry/curves/formula_curve.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/formulas.h"
 
 namespace lekalo::geometry {
 namespace {
@@ -10,7 +9,7 @@ using checks::distance;
 
 FormulaCurve curve(const std::array<std::string, 3>& point, const Interval& domain, bool closed = false,
                    Coordinates coordinates = Coordinates::cartesian) {
-  return FormulaCurve(checks::formulas(point, {"t"}), coordinates, domain, closed);
+  return FormulaCurve(point_formulas(point, {"t"}, coordinates), domain, closed);
 }
 
 TEST(FormulaCurve, DerivativesEqualThoseOfTheFormulaIn113Bits) {

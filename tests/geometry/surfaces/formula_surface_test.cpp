@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <random>
 
-#include "geometry/formulas.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/surfaces/surface_checks.h"
 #include "geometry/surfaces/torus.h"
@@ -17,7 +16,7 @@ namespace {
 
 FormulaSurface surface(const std::array<std::string, 3>& point, const Rectangle& domain,
                        FormulaSurface::Closed closed = {}, Coordinates coordinates = Coordinates::cartesian) {
-  return FormulaSurface(checks::formulas(point, {"u", "v"}), coordinates, domain, closed);
+  return FormulaSurface(point_formulas(point, {"u", "v"}, coordinates), domain, closed);
 }
 
 FormulaSurface klein_bottle() {

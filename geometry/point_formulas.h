@@ -1,7 +1,8 @@
-// Points whose coordinates are three numbers of any type, for formulas of curves and surfaces.
+// Points whose coordinates are formulas of scene files, for curves and surfaces.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "geometry/describe.h"
@@ -38,7 +39,24 @@ Triple<T> point_of(Coordinates coordinates, const T& a, const T& b, const T& c) 
 struct PointFormulas {
   std::array<Expression, 3> formulas;
   Coordinates coordinates = Coordinates::cartesian;
+
+  // The point at t, or at (u, v), over the number types of Expression::evaluate.
+  template <class... T>
+  auto operator()(const T&... at) const {
+    return point_of(coordinates, formulas[0](at...), formulas[1](at...), formulas[2](at...));
+  }
 };
+
+// From texts. Throws std::invalid_argument for one that is no formula of the variables.
+PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std::vector<std::string>& variables,
+                             Coordinates coordinates = Coordinates::cartesian);
+
+inline bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// The parameter of a closed curve or surface moved into the domain by whole turns.
+inline double wrapped(double x, const Interval& domain) {
+  return domain.contains(x) ? x : x - domain.width() * std::floor((x - domain.lo) / domain.width());
+}
 
 // Declares the fields `point` and `coordinates`, formulas of `variables` (t, or u and v), and the short form that gives
 // the last Cartesian coordinate as a formula of those before it: `y` of x, `z` of x and y.

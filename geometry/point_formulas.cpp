@@ -1,4 +1,4 @@
-#include "geometry/formula_coordinates.h"
+#include "geometry/point_formulas.h"
 
 #include <stdexcept>
 
@@ -6,13 +6,12 @@ namespace lekalo::geometry {
 
 namespace {
 
-// A formula of the program's own.
 Expression formula_of(const std::string& text, const std::vector<std::string>& variables) {
   std::vector<Expression::Variable> bound;
   for (const std::string& name : variables) bound.push_back({name, Measure::plain});
   auto parsed = Expression::parse(text);
   auto* expression = std::get_if<Expression>(&parsed);
-  if (!expression || expression->bind(bound)) throw std::logic_error("a formula of the program is wrong: " + text);
+  if (!expression || expression->bind(bound)) throw std::invalid_argument("no formula of the variables: " + text);
   return std::move(*expression);
 }
 
@@ -22,6 +21,14 @@ std::vector<std::string> places(const std::vector<std::string>& variables) {
 std::string short_form(const std::vector<std::string>& variables) { return variables.size() == 1 ? "y" : "z"; }
 
 }  // namespace
+
+PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std::vector<std::string>& variables,
+                             Coordinates coordinates) {
+  PointFormulas result;
+  for (size_t k = 0; k < 3; ++k) result.formulas[k] = formula_of(texts[k], variables);
+  result.coordinates = coordinates;
+  return result;
+}
 
 void declare_formulas(TypeDeclaration& type, const std::vector<std::string>& variables) {
   const bool is_curve = variables.size() == 1;
