@@ -83,6 +83,12 @@ struct NurbsSurfaceForm {
   }
 };
 
+// The nearest point of a surface, and the unit normal there.
+struct Foot {
+  Vec3 point;
+  Vec3 normal;
+};
+
 // Which edges of the domain shrink to a point (poles, apexes, collapsed Bezier edges).
 struct DegenerateEdges {
   bool u_min = false, u_max = false, v_min = false, v_max = false;
@@ -105,9 +111,11 @@ struct LineHit {
 class LineHits {
  public:
   LineHits() = default;
-  // `first_is_enough`: a surface that finds its hits in the order of t may stop after the first.
-  explicit LineHits(bool first_is_enough) : first_is_enough_(first_is_enough) {}
+  // `first_is_enough`: a surface that finds its hits in the order of t may stop after the first. Without `parameters`
+  // only t is asked for, and it may leave u and v zero.
+  LineHits(bool first_is_enough, bool parameters) : first_is_enough_(first_is_enough), parameters_(parameters) {}
   bool is_enough() const { return first_is_enough_ && count_ > 0; }
+  bool wants_parameters() const { return parameters_; }
 
   void add(const LineHit& hit) {
     if (count_ < kInline) {
@@ -128,7 +136,7 @@ class LineHits {
 
  private:
   static constexpr int kInline = 16;
-  bool first_is_enough_ = false;
+  bool first_is_enough_ = false, parameters_ = true;
   int count_ = 0;
   std::array<LineHit, kInline> few_;  // not initialised: one of these is made for each candidate of each ray
   std::unique_ptr<std::vector<LineHit>> more_;
@@ -151,6 +159,11 @@ class Surface {
   virtual SurfaceJet evaluate_near(const Vec3& /*near*/, double u, double v, int order) const {
     return evaluate(u, v, order);
   }
+
+  // Where nothing shows parameters, a hit on a surface that knows its feet needs none: then no hit of a line lies
+  // outside the domain, and free_sides does not look at them. `near` is a point of the surface but for rounding.
+  virtual bool knows_feet() const { return false; }
+  virtual Foot foot(const Vec3& near) const;
 
   // Certified enclosure of point and derivatives up to `order` (0..2) over a rectangle inside the domain.
   virtual SurfaceEnclosure enclose(const Rectangle& box, int order) const = 0;

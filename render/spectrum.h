@@ -11,6 +11,10 @@
 #include <cmath>
 #include <cstdint>
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 #include "geometry/vectors.h"
 
 namespace lekalo::render {
@@ -35,8 +39,12 @@ class Spectrum {
   friend Spectrum operator*(float a, Spectrum b) { return b *= a; }
   friend Spectrum operator-(Spectrum a, const Spectrum& b) { return a.lanes_ -= b.lanes_, a; }
   bool operator==(const Spectrum& s) const {
+#ifdef __SSE__
+    return _mm_movemask_ps(lanes_ == s.lanes_) == 15;
+#else
     const auto halves = std::bit_cast<std::array<int64_t, 2>>(lanes_ == s.lanes_);  // all bits of a lane that is equal
     return (halves[0] & halves[1]) == -1;
+#endif
   }
 
   bool is_zero() const { return *this == Spectrum(); }

@@ -15,6 +15,7 @@ Ellipsoid::Ellipsoid(const Frame& frame, const Vec3& semi_axes, const Rectangle&
   if (!(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0))
     throw std::invalid_argument("the semi-axes of an ellipsoid must be positive");
   check_domain(domain, kRules);
+  whole_ = covers(domain, kFull);
 }
 
 NurbsCurveForm Ellipsoid::meridian_form() const {
@@ -24,8 +25,9 @@ NurbsCurveForm Ellipsoid::meridian_form() const {
 }
 
 void Ellipsoid::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 1}, 0, -1}, 1.0 / semi_axes(), line, t, hits,
-                   [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
+  add_quadric_hits({{1, 1, 1}, 0, -1}, 1.0 / semi_axes(), line, t, hits, [](const Vec3& p) {
+    return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
+  });
 }
 
 TypeDeclaration ellipsoid_type() {

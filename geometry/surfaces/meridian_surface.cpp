@@ -15,11 +15,13 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Calls result(i, j, r_ij) for all i + j <= order, c and s the cosine and sine of u; the origin is left out. T is
-// double or Interval.
+// Calls result(i, j, r_ij) for all i + j <= order; the origin is left out. T is double or Interval.
 template <class T, class Result>
-void turned_meridian(const Frame& frame, double a, double b, T c, T s, const MeridianJet<T>& meridian, int order,
-                     Result result) {
+void partial_derivatives(const Frame& frame, double a, double b, const T& u, const MeridianJet<T>& meridian, int order,
+                         Result result) {
+  using std::cos;
+  using std::sin;
+  T c = cos(u), s = sin(u);
   for (int i = 0; i <= order; ++i) {
     const Triple<T> across = (a * c) * triple(frame.x) + (b * s) * triple(frame.y);
     for (int j = 0; i + j <= order; ++j) {
@@ -31,13 +33,6 @@ void turned_meridian(const Frame& frame, double a, double b, T c, T s, const Mer
     s = c;
     c = turned;
   }
-}
-template <class T, class Result>
-void partial_derivatives(const Frame& frame, double a, double b, const T& u, const MeridianJet<T>& meridian, int order,
-                         Result result) {
-  using std::cos;
-  using std::sin;
-  turned_meridian(frame, a, b, T(cos(u)), T(sin(u)), meridian, order, result);
 }
 
 }  // namespace
@@ -56,18 +51,19 @@ SurfaceJet MeridianSurface::evaluate_near(const Vec3& near, double u, double v, 
   if (order > 1 || a_ != b_) return evaluate(u, v, order);
   const Vec3 from = near - frame_.origin;
   const Vec3 local = upright_ ? from : frame_.to_local_direction(from);
-  const double length = std::sqrt(local.x * local.x + local.y * local.y), rho = length / a_;
-  const MeridianJet<double> m = meridian_near({rho, local.z}, v);
+  const double length = std::sqrt(local.x * local.x + local.y * local.y);
+  const double inverse = 1 / length, rho = a_ == 1 ? length : length / a_;
+  const MeridianTangent m = meridian_near({rho, local.z}, v);
   // Near the axis rounding turns the direction.
   constexpr double kNearAxis = 1e-3;
-  if (!(rho > kNearAxis * (std::abs(m.rho[1]) + std::abs(m.z[1])))) return evaluate(u, v, order);
-  const double inverse = (m.rho[0] < 0 ? -1 : 1) / length;
+  if (!(rho > kNearAxis * (std::abs(m.rho_v) + std::abs(m.z_v)))) return evaluate(u, v, order);
+  const double scale = m.rho < 0 ? -a_ * inverse : a_ * inverse;
+  const double c = scale * local.x, s = scale * local.y;
   SurfaceJet jet(order);
-  turned_meridian(frame_, a_, b_, local.x * inverse, local.y * inverse, m, order,
-                  [&](int i, int j, const Triple<double>& r) {
-                    jet.d(i, j) = {r.x, r.y, r.z};
-                  });
-  jet.values[0] += frame_.origin;
+  jet.d(0, 0) = frame_.origin + direction({m.rho * c, m.rho * s, m.z});
+  if (order == 0) return jet;
+  jet.d(1, 0) = direction({-m.rho * s, m.rho * c, 0});
+  jet.d(0, 1) = direction({m.rho_v * c, m.rho_v * s, m.z_v});
   return jet;
 }
 
@@ -134,7 +130,10 @@ void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale
                                        const Interval& range, LineHits& hits,
                                        std::optional<double> (*parameter)(const Vec3&)) const {
   visit_quadric_hits(quadric, local_line(line, frame_.origin), scale, range, hits, [&](double t, const Vec3& p) {
-    if (const auto v = parameter(p)) add_hit(hits, line, t, std::atan2(p.y, p.x), *v);
+    if (needs_no_parameters(hits))
+      hits.add({t, 0, 0});
+    else if (const auto v = parameter(p))
+      add_hit(hits, line, t, std::atan2(p.y, p.x), *v);
   });
 }
 

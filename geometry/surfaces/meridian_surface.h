@@ -54,8 +54,12 @@ class MeridianSurface : public Surface {
   virtual MeridianJet<double> meridian(double v, int order) const = 0;
   virtual MeridianJet<Interval> meridian(const Interval& v, int order) const = 0;
   // The meridian and its first derivative where its point is known to lie at `near`, rho >= 0, but for rounding.
-  virtual MeridianJet<double> meridian_near(const MeridianPoint<double>& /*near*/, double v) const {
-    return meridian(v, 1);
+  struct MeridianTangent {
+    double rho, z, rho_v, z_v;
+  };
+  virtual MeridianTangent meridian_near(const MeridianPoint<double>& /*near*/, double v) const {
+    const MeridianJet<double> m = meridian(v, 1);
+    return {m.rho[0], m.z[0], m.rho[1], m.z[1]};
   }
   // (rho, z) as x and y, over domain().v, which is bounded.
   virtual NurbsCurveForm meridian_form() const = 0;
@@ -68,12 +72,17 @@ class MeridianSurface : public Surface {
   void add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line, const Interval& range,
                         LineHits& hits, std::optional<double> (*parameter)(const Vec3&)) const;
 
+  // True if the hits need no parameters: they are not wanted, and none would lie outside the domain.
+  bool needs_no_parameters(const LineHits& hits) const { return whole_ && !hits.wants_parameters(); }
+
   Frame frame_;
   double a_, b_;  // stretch of the parallels along x and y
   Rectangle domain_;
+  bool whole_ = false;  // a closed surface, all of it
 
  private:
   bool is_pole(double v) const;
+  Vec3 direction(const Vec3& local) const { return upright_ ? local : frame_.direction(local); }
   bool upright_;  // the frame's axes are the world's
 };
 

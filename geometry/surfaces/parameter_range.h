@@ -40,6 +40,11 @@ inline std::optional<double> angle_within(const Interval& range, double angle) {
   return std::nullopt;
 }
 
+// True if the domain is as wide as `whole` both ways: all of a closed surface, its angles whole turns.
+inline bool covers(const Rectangle& domain, const Rectangle& whole) {
+  return domain.u.width() >= whole.u.width() && domain.v.width() >= whole.v.width();
+}
+
 // What a domain may be: within `limits`, and u (v) at most a turn wide where it is an angle.
 struct DomainRules {
   Rectangle limits{Interval::entire(), Interval::entire()};

@@ -19,7 +19,11 @@ double taxicab(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(
 }  // namespace
 
 Plane::Plane(const Frame& frame, const Rectangle& domain)
-    : frame_(frame), domain_(domain), distance_(taxicab(frame.origin)) {
+    : frame_(frame),
+      domain_(domain),
+      whole_(domain.u.lo == -kInfinity && domain.u.hi == kInfinity && domain.v.lo == -kInfinity &&
+             domain.v.hi == kInfinity),
+      distance_(taxicab(frame.origin)) {
   check_domain(domain, kRules);
 }
 
@@ -35,6 +39,10 @@ SurfaceJet Plane::evaluate(double u, double v, int order) const {
     jet.d(0, 1) = frame_.y;
   }
   return jet;
+}
+
+Foot Plane::foot(const Vec3& near) const {
+  return {near - glm::dot(near - frame_.origin, frame_.z) * frame_.z, normal_sign() * frame_.z};
 }
 
 SurfaceEnclosure Plane::enclose(const Rectangle& box, int order) const {
@@ -75,6 +83,10 @@ void Plane::add_hit(const Line& line, const Interval& range, double rough, doubl
   const double s = -glm::dot(from, frame_.z) * inverse;
   const double t = rough + s;
   if (!range.contains(t)) return;
+  if (whole_ && !hits.wants_parameters()) {
+    hits.add({t, 0, 0});
+    return;
+  }
   const double x = glm::dot(from, frame_.x) + s * glm::dot(line.direction, frame_.x);
   const double y = glm::dot(from, frame_.y) + s * glm::dot(line.direction, frame_.y);
   if (domain_.contains(x, y)) {

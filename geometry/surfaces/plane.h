@@ -19,6 +19,8 @@ class Plane final : public Surface {
   Vec3 normal(double, double, const SurfaceJet&) const override { return normal_sign() * frame_.z; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
+  bool knows_feet() const override { return whole_; }
+  Foot foot(const Vec3& near) const override;
   Sides free_sides(double, double) const override { return {true, true}; }
   bool has_line_formula() const override { return true; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
@@ -29,6 +31,7 @@ class Plane final : public Surface {
 
   Frame frame_;
   Rectangle domain_;
+  bool whole_;       // unbounded in all directions
   double distance_;  // a bound on that of the origin
 };
 

@@ -14,6 +14,7 @@ SphereSurface::SphereSurface(const Frame& frame, double radius, const Rectangle&
     : MeridianFormula(frame, 1, 1, domain), radius_(radius) {
   if (!(radius > 0)) throw std::invalid_argument("the radius of a sphere must be positive");
   check_domain(domain, kRules);
+  whole_ = covers(domain, kFull);
 }
 
 NurbsCurveForm SphereSurface::meridian_form() const {
@@ -22,17 +23,19 @@ NurbsCurveForm SphereSurface::meridian_form() const {
   return form;
 }
 
-MeridianJet<double> SphereSurface::meridian_near(const MeridianPoint<double>& near, double) const {
+SphereSurface::MeridianTangent SphereSurface::meridian_near(const MeridianPoint<double>& near, double) const {
   const double scale = radius_ / std::sqrt(near.rho * near.rho + near.z * near.z);
   const double rho = scale * near.rho, z = scale * near.z;
-  MeridianJet<double> jet;
-  jet.rho[0] = rho, jet.rho[1] = -z;
-  jet.z[0] = z, jet.z[1] = rho;
-  return jet;
+  return {rho, z, -z, rho};
 }
 
 Vec3 SphereSurface::normal(double, double, const SurfaceJet& jet) const {
   return (normal_sign() / radius_) * (jet.point() - frame_.origin);
+}
+
+Foot SphereSurface::foot(const Vec3& near) const {
+  const Vec3 outward = glm::normalize(near - frame_.origin);
+  return {frame_.origin + radius_ * outward, normal_sign() * outward};
 }
 
 void SphereSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {

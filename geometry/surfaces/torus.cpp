@@ -61,6 +61,7 @@ TorusSurface::TorusSurface(const Frame& frame, double major, double minor, const
   if (!(minor > 0)) throw std::invalid_argument("the minor radius of a torus must be positive");
   if (!(major > -minor)) throw std::invalid_argument("the major radius of a torus must be greater than -minor radius");
   check_domain(domain, rules(major, minor));
+  whole_ = covers(domain, full_domain(major, minor));
 }
 
 NurbsCurveForm TorusSurface::meridian_form() const {
@@ -69,20 +70,18 @@ NurbsCurveForm TorusSurface::meridian_form() const {
   return form;
 }
 
-MeridianJet<double> TorusSurface::meridian_near(const MeridianPoint<double>& near, double v) const {
+TorusSurface::MeridianTangent TorusSurface::meridian_near(const MeridianPoint<double>& near, double v) const {
   const double out = near.rho - major_, distance = std::sqrt(out * out + near.z * near.z);
-  if (distance == 0) return meridian(v, 1);
+  if (distance == 0) return MeridianSurface::meridian_near(near, v);
   const double scale = minor_ / distance;
-  MeridianJet<double> jet;
-  jet.rho[0] = major_ + scale * out, jet.rho[1] = -scale * near.z;
-  jet.z[0] = scale * near.z, jet.z[1] = scale * out;
-  return jet;
+  return {major_ + scale * out, scale * near.z, -scale * near.z, scale * out};
 }
 
 void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   if (major_ == 0) {
-    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / minor_), line, range, hits,
-                     [](const Vec3& p) { return std::optional<double>(std::atan2(p.z, std::hypot(p.x, p.y))); });
+    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / minor_), line, range, hits, [](const Vec3& p) {
+      return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
+    });
     return;
   }
   // In units of R + r, the direction a unit vector, s measured from the point nearest to the center.
@@ -115,6 +114,10 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     }
     const double t = moved.start + s * unit;
     if (!range.contains(t)) return;
+    if (needs_no_parameters(hits)) {
+      hits.add({t, 0, 0});
+      return;
+    }
     const Vec3 p = o + s * d;
     const auto u = angle_within(domain_.u, std::atan2(p.y, p.x));
     const auto v = angle_within(domain_.v, std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y) - major));

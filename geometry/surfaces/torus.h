@@ -37,7 +37,7 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
 
  private:
   NurbsCurveForm meridian_form() const override;
-  MeridianJet<double> meridian_near(const MeridianPoint<double>& near, double v) const override;
+  MeridianTangent meridian_near(const MeridianPoint<double>& near, double v) const override;
   double major_, minor_;
 };
 

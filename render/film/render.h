@@ -13,6 +13,7 @@ namespace lekalo::render {
 // Names of the layers that a film can keep: color (R G B A), direct, depth (Z), position (P), normal (N),
 // geometric_normal (Ng), uv, id (id.object id.material), albedo, samples.
 const std::vector<std::string>& film_layers();
+bool keeps_layer(const Film& film, std::string_view layer);
 
 struct RenderOptions {
   int threads = 0;  // 0: all

@@ -89,9 +89,7 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
   channel_.fill(-1);
   for (int c = 0; c < kFilmChannels; ++c) {
     const std::string_view name = kChannels[c].channel;
-    const bool kept = c == kKey ? key_layer
-                                : film.layers.empty() || std::find(film.layers.begin(), film.layers.end(),
-                                                                   kChannels[c].layer) != film.layers.end();
+    const bool kept = c == kKey ? key_layer : keeps_layer(film, kChannels[c].layer);
     if (!kept) continue;
     channel_[c] = static_cast<int>(image_.channels.size());
     const PixelType type = name.starts_with("id.")      ? PixelType::uint32
@@ -129,6 +127,10 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
   for (const int channel : channel_) hash = hash_combine(hash, static_cast<uint64_t>(channel + 1));
   for (const char letter : film.filter) hash = hash_combine(hash, static_cast<unsigned char>(letter));
   settings_hash_ = hash;
+}
+
+bool keeps_layer(const Film& film, std::string_view layer) {
+  return film.layers.empty() || std::find(film.layers.begin(), film.layers.end(), layer) != film.layers.end();
 }
 
 const std::vector<std::string>& film_layers() {

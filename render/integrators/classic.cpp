@@ -271,6 +271,7 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Obstacles& among, const Me
   Media media = around;
   Spectrum share = kWhite;
   for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (pass > 0) ++sample_.shadow_rays;
     Hit hit;
     if (!world_.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
     const SurfacePoint point = world_.surface_point(ray, hit);

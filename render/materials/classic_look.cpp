@@ -29,6 +29,7 @@ class ClassicMaterial final : public Material {
   }
 
   bool transmits() const override { return !look_.transmission.is_black(); }
+  bool uses_parameters() const override { return !textures_.empty() || look_.normal_deviation.amplitude != 0; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, look_.normal_deviation);
   }

@@ -36,6 +36,7 @@ class ConductorMaterial final : public Material {
     const ClassicCoefficients c = classic(point, wavelengths);
     return fresnel_conductor(1, c.index, c.extinction);
   }
+  bool uses_parameters() const override { return conductor_.normal_deviation.amplitude != 0; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, conductor_.normal_deviation);
   }

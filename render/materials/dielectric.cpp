@@ -28,6 +28,7 @@ class DielectricMaterial final : public Material {
                   dielectric_.priority};
   }
   bool transmits() const override { return true; }
+  bool uses_parameters() const override { return dielectric_.normal_deviation.amplitude != 0; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, dielectric_.normal_deviation);
   }

@@ -16,6 +16,7 @@ class DiffuseMaterial final : public Material {
     c.ambient = c.diffuse = diffuse_.color.at(point);
     return c;
   }
+  bool uses_parameters() const override { return diffuse_.color.texture() || diffuse_.normal_deviation.amplitude != 0; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, diffuse_.normal_deviation);
   }

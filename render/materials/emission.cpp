@@ -16,6 +16,7 @@ class EmissionMaterial final : public Material {
     c.emission = static_cast<float>(emission_.strength) * emission_.color.at(point);
     return c;
   }
+  bool uses_parameters() const override { return emission_.color.texture() != nullptr; }
   uint64_t cell(const SurfacePoint& point) const override { return emission_.color.cell(point); }
   std::any made_from() const override { return emission_; }
 

@@ -51,6 +51,8 @@ class Material {
   virtual std::optional<Medium> interior(const Wavelengths&) const { return std::nullopt; }
   // True when light passes, so that shadow rays may be tinted instead of stopped.
   virtual bool transmits() const { return false; }
+  // True if anything depends on the surface's parameters, or the directions in which they grow: textures, bumps.
+  virtual bool uses_parameters() const { return true; }
   // Unit shading normal after bumps (random normal deviation of rough surfaces); the given one by default.
   virtual Vec3 shading_normal(const SurfacePoint& point) const { return point.normal; }
   // Diffuse reflectance for the albedo layer.

@@ -26,6 +26,7 @@ class PlasticMaterial final : public Material {
     c.ambient = c.diffuse = plastic_.color.at(point);
     return c;
   }
+  bool uses_parameters() const override { return plastic_.color.texture() || plastic_.normal_deviation.amplitude != 0; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, plastic_.normal_deviation);
   }

@@ -14,6 +14,7 @@ class ShadowCatcherMaterial final : public Material {
     coefficients_.catches_shadows = true;
   }
   ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
+  bool uses_parameters() const override { return false; }
   Spectrum albedo(const SurfacePoint&, const Wavelengths&) const override { return {}; }
   std::any made_from() const override { return catcher_; }
 

@@ -63,14 +63,13 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
   }
 }
 
-const geometry::Surface& ClippedBody::surface(int face) const {
+ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::Vec3& near) const {
   const int faces = static_cast<int>(body_->faces.size());
-  return face < faces ? *body_->faces[face].surface : *caps_[face - faces];
-}
-
-double ClippedBody::sign(int face) const {
-  const int faces = static_cast<int>(body_->faces.size());
-  return face < faces ? (body_->faces[face].forward ? 1 : -1) : 1;
+  const bool cap = hit.face >= faces;
+  const geometry::Surface& surface = cap ? *caps_[hit.face - faces] : *body_->faces[hit.face].surface;
+  const double sign = cap || body_->faces[hit.face].forward ? 1 : -1;
+  const geometry::SurfaceJet jet = surface.evaluate_near(near, hit.u, hit.v, 1);
+  return {jet.point(), sign * surface.normal(hit.u, hit.v, jet), jet.du(), jet.dv(), hit.u, hit.v};
 }
 
 }  // namespace lekalo::render

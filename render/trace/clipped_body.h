@@ -26,8 +26,7 @@ class ClippedBody final : public Shape {
   void all_hits(const geometry::Line& line, const geometry::Interval& t,
                 std::vector<geometry::SurfaceHit>& hits) const override;
   // Caps are numbered behind the body's faces.
-  const geometry::Surface& surface(int face) const override;
-  double sign(int face) const override;
+  ShapePoint point(const geometry::SurfaceHit& hit, const geometry::Vec3& near) const override;
 
  private:
   geometry::BodyPtr body_;

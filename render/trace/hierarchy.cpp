@@ -86,6 +86,7 @@ void Hierarchy::add(Leaf given) {
       r.face = static_cast<int>(face);
       r.target = leaf.targets[face].get();
       r.count = r.target->piece_count();
+      r.bare = leaf.is_bare(r.face);
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
   }

@@ -30,11 +30,15 @@ struct Leaf {
   geometry::MeshPtr mesh;
   std::vector<geometry::SurfacePtr> mesh_surfaces;  // by Triangle::face, of a mesh that stands for surfaces
   bool flat = false;
+  bool parameters = true;  // something shows them
   std::unique_ptr<Shape> shape;
   std::vector<HalfSpace> clips;
   uint32_t visible_to = kVisibleToAll;
   int object = 0;
   double size = 0;  // diameter of its box; set by Hierarchy::add, 1 for unbounded leaves
+
+  // True if the nearest hit on a face comes without parameters: the surface's foot tells all that is shown.
+  bool is_bare(int face) const { return !parameters && !targets.empty() && targets[face]->surface().knows_feet(); }
 };
 
 class Hierarchy {

@@ -22,7 +22,8 @@ struct GeometryRecord {
   int leaf_number = 0;  // first number of an instance
   int face = 0;         // of a target
   const geometry::LineTarget* target = nullptr;
-  int count = 1;  // pieces of a target
+  int count = 1;      // pieces of a target
+  bool bare = false;  // the nearest hit needs no parameters
   std::shared_ptr<const Hierarchy> child;
   Affine to_parent, to_child;
   int object = 0;

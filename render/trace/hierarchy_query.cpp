@@ -75,7 +75,7 @@ void test_shape(const GeometryRecord& record, Query& query) {
 
 void test_target(const GeometryRecord& record, int primitive, Query& query) {
   const std::vector<HalfSpace>& clips = record.leaf->clips;
-  LineHits hits(!query.all && clips.empty());
+  LineHits hits(!query.all && clips.empty(), query.all || (query.nearest && !record.bare));
   record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
   for (int i = 0; i < hits.size(); ++i) {
     const geometry::LineHit& h = hits[i];
@@ -326,7 +326,7 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
         const Vec3 a = leaf.mesh->points[corner[0]];
         return glm::normalize(glm::cross(leaf.mesh->points[corner[1]] - a, leaf.mesh->points[corner[2]] - a));
       }
-      if (leaf.shape) return leaf.shape->sign(hit.face) * leaf.shape->surface(hit.face).normal(hit.u, hit.v);
+      if (leaf.shape) return leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, line.at(hit.t)).normal;
       return leaf.signs[hit.face] * leaf.targets[hit.face]->surface().normal(hit.u, hit.v);
     });
     for (const geometry::SurfaceHit& h : hits) result.push_back(found[h.face]);

@@ -36,7 +36,7 @@ constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 constexpr double kMeshAngle = 10 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
-using ShareKey = std::tuple<const void*, int, double, double, bool>;
+using ShareKey = std::tuple<const void*, int, double, double, bool, bool>;
 
 const void* identity(const Entity& entity) {
   return std::visit(
@@ -52,9 +52,19 @@ const void* identity(const Entity& entity) {
       entity);
 }
 
+// True if an object's materials need the parameters of its hits.
+bool uses_parameters(const Object& object) {
+  return (object.material && object.material->uses_parameters()) ||
+         (object.back_material && object.back_material->uses_parameters());
+}
+
 ShareKey key_of(const Object& object) {
-  return {identity(object.shape), static_cast<int>(object.representation), object.sag, object.sag_pixels,
-          object.flat_shading};
+  return {identity(object.shape),
+          static_cast<int>(object.representation),
+          object.sag,
+          object.sag_pixels,
+          object.flat_shading,
+          uses_parameters(object)};
 }
 
 // The foot of a facet's point on the surface that the facet stands for: one Gauss-Newton step from the interpolated
@@ -73,20 +83,36 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
   return glm::clamp(foot, lo + inside, hi - inside);
 }
 
-// What a hit shows in the space of its leaf. All members are written at once: this runs for every hit of every ray.
-// `line` is the ray in the leaf's space, where it is at hand.
-SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const geometry::Line* line, const Vec3& incoming,
-                              int object, double error) {
-  const Surface& surface = leaf.shape ? leaf.shape->surface(hit.face) : leaf.targets[hit.face]->surface();
-  const double sign = leaf.shape ? leaf.shape->sign(hit.face) : leaf.signs[hit.face];
-  const geometry::SurfaceJet jet =
-      line ? surface.evaluate_near(line->at(hit.t), hit.u, hit.v, 1) : surface.evaluate(hit.u, hit.v, 1);
+// What a hit shows in the space of its leaf. All members are written at once: these run for every hit of every ray.
+SurfacePoint point_of_foot(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
+                           double error) {
+  const Surface& surface = leaf.targets[hit.face]->surface();
+  const geometry::Foot foot = surface.foot(near);
+  const double sign = leaf.signs[hit.face];
+  const Vec3 normal = sign * foot.normal;
+  geometry::Sides sides = surface.free_sides(0, 0);
+  if (sign * surface.normal_sign() < 0) sides = sides.turned();
+  return {.position = foot.point,
+          .smooth_position = foot.point,
+          .incoming = incoming,
+          .geometric_normal = normal,
+          .normal = normal,
+          .error = error,
+          .instance = hit.instance,
+          .object = object,
+          .face = hit.face,
+          .piece = hit.piece,
+          .free_sides = sides};
+}
+
+SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
+                              double error) {
+  const Surface& surface = leaf.targets[hit.face]->surface();
+  const double sign = leaf.signs[hit.face];
+  const geometry::SurfaceJet jet = surface.evaluate_near(near, hit.u, hit.v, 1);
   const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
-  geometry::Sides sides;
-  if (!leaf.shape) {
-    sides = surface.free_sides(hit.u, hit.v);
-    if (sign * surface.normal_sign() < 0) sides = sides.turned();
-  }
+  geometry::Sides sides = surface.free_sides(hit.u, hit.v);
+  if (sign * surface.normal_sign() < 0) sides = sides.turned();
   return {.position = jet.point(),
           .smooth_position = jet.point(),
           .incoming = incoming,
@@ -97,12 +123,30 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const geometry::
           .u = hit.u,
           .v = hit.v,
           .error = error,
-          .pixel_size = 0,
           .instance = hit.instance,
           .object = object,
           .face = hit.face,
           .piece = hit.piece,
           .free_sides = sides};
+}
+
+SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
+                            double error) {
+  const ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
+  return {.position = at.position,
+          .smooth_position = at.position,
+          .incoming = incoming,
+          .geometric_normal = at.normal,
+          .normal = at.normal,
+          .du = at.du,
+          .dv = at.dv,
+          .u = at.u,
+          .v = at.v,
+          .error = error,
+          .instance = hit.instance,
+          .object = object,
+          .face = hit.face,
+          .piece = hit.piece};
 }
 
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
@@ -180,6 +224,7 @@ struct World::Compiled {
   std::vector<const Object*> objects;  // by the number that hits carry
   WorldStatistics statistics;
   bool transmits = false;
+  bool parameters = true;
   std::map<ShareKey, int> uses;
   std::map<ShareKey, std::shared_ptr<Hierarchy>> shared;
   std::map<const Group*, std::shared_ptr<Hierarchy>> groups;
@@ -188,7 +233,7 @@ struct World::Compiled {
   void count_uses(const std::vector<Object>& list) {
     for (const Object& object : list) {
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-        if (uses[{group->get(), -1, 0, 0, false}]++ == 0) count_uses((*group)->objects);
+        if (uses[{group->get(), -1, 0, 0, false, false}]++ == 0) count_uses((*group)->objects);
       } else {
         ++uses[key_of(object)];
       }
@@ -253,6 +298,7 @@ struct World::Compiled {
     leaf.object = number;
     leaf.visible_to = object.visible_to;
     leaf.flat = object.flat_shading;
+    leaf.parameters = parameters || uses_parameters(object);
     for (const CutPlane& plane : cuts_of(object, to_world)) leaf.clips.push_back(plane.half_space);
     const bool capped = has_caps(object);
     const bool as_mesh = object.representation == Representation::mesh;
@@ -339,9 +385,11 @@ struct World::Compiled {
   }
 };
 
-World::World(std::shared_ptr<const Model> model) : model_(std::move(model)), compiled_(std::make_unique<Compiled>()) {
+World::World(std::shared_ptr<const Model> model, bool parameters)
+    : model_(std::move(model)), compiled_(std::make_unique<Compiled>()) {
   const auto begin = std::chrono::steady_clock::now();
   Compiled& c = *compiled_;
+  c.parameters = parameters;
   c.camera = model_->camera;
   for (const LightPtr& light : model_->lights) {
     ambient_ += light->ambient();
@@ -377,9 +425,14 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
-  SurfacePoint point = leaf.mesh ? point_of_mesh(leaf, hit, ray.direction, place.object, place.error)
-                                 : point_of_surface(leaf, hit, place.to_world ? nullptr : &ray, ray.direction,
-                                                    place.object, place.error);
+  const auto point_in_leaf = [&] {
+    if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
+    const Vec3 near = place.to_world ? place.to_world->inverse().point(ray.at(hit.t)) : ray.at(hit.t);
+    if (leaf.shape) return point_of_shape(leaf, hit, near, ray.direction, place.object, place.error);
+    if (leaf.is_bare(hit.face)) return point_of_foot(leaf, hit, near, ray.direction, place.object, place.error);
+    return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
+  };
+  SurfacePoint point = point_in_leaf();
   if (place.to_world) {
     const Affine& map = *place.to_world;
     const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));

@@ -24,8 +24,9 @@ struct WorldStatistics {
 
 class World {
  public:
-  // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera.
-  explicit World(std::shared_ptr<const Model> model);
+  // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera. Without `parameters` the
+  // points of nearest hits may have none (u, v, du and dv zero) where no material asks for them.
+  explicit World(std::shared_ptr<const Model> model, bool parameters = true);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

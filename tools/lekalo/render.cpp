@@ -161,7 +161,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
     model->film.layers = {"color"};
 
-  const render::World world(model);
+  const render::World world(model, render::keeps_layer(model->film, "uv"));
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Progress progress(options.quiet);
   stop_tracing = interrupted.load();
