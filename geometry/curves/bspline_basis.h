@@ -46,15 +46,6 @@ struct SpanBasis {
       result[k] = sum;
     }
   }
-  // The sum and its first derivative alone, the same numbers.
-  template <class Point>
-  Point value_and_slope(const Point* points, Point& slope) const {
-    Point value(0);
-    slope = Point(0);
-    for (int m = 0; m <= degree; ++m) value += values[0][m] * points[m];
-    for (int m = 0; m < degree; ++m) slope += values[1][m] * (factors[1][m] * (points[m + 1] - points[m]));
-    return value;
-  }
 };
 
 // For derivatives up to order (0..kMaxCurveOrder). t may lie outside the span: the functions continue as the

@@ -2,7 +2,7 @@
 
 #include "geometry/curves/bspline_basis.h"
 #include "geometry/numerics/instruction_sets.h"
-#include "geometry/queries/lanes.h"
+#include "geometry/numerics/lanes.h"
 
 namespace lekalo::geometry {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/numerics/instruction_sets.h"
-#include "geometry/queries/lanes.h"
+#include "geometry/numerics/lanes.h"
 #include "geometry/queries/line_net.h"
 #include "geometry/tolerances.h"
 

@@ -10,5 +10,6 @@ namespace lekalo::geometry {
 // A homogeneous point in one register, or two where registers are short: GCC's and Clang's vector extension.
 using Lanes = double __attribute__((vector_size(32)));
 inline void load(const Vec4& p, Lanes& lanes) { std::memcpy(&lanes, &p, sizeof lanes); }
+inline void store(const Lanes& lanes, Vec4& p) { std::memcpy(&p, &lanes, sizeof lanes); }
 
 }  // namespace lekalo::geometry
