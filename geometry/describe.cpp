@@ -14,6 +14,8 @@ std::string_view name(Category category) {
       return "body";
     case Category::mesh:
       return "mesh";
+    case Category::shape:
+      return "shape";
     case Category::group:
       return "group";
     case Category::object:

@@ -23,9 +23,11 @@ namespace lekalo::geometry {
 
 class Body;
 class Mesh;
+class Shape;
 class Expression;
 using BodyPtr = std::shared_ptr<const Body>;
 using MeshPtr = std::shared_ptr<const Mesh>;
+using ShapePtr = std::shared_ptr<const Shape>;
 
 // What kind of thing a type builds; a reference field asks for one or more of these. The std::any that a builder
 // returns holds the named C++ type.
@@ -35,6 +37,7 @@ enum class Category {
   surface,  // SurfacePtr
   body,     // BodyPtr
   mesh,     // MeshPtr
+  shape,    // ShapePtr
   group,    // the categories below are built by lekalo::render
   object,
   material,

@@ -52,6 +52,8 @@ void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
       if (edge.curve) add_curve(*edge.curve, map, points);
     const Box3 limit = bounds(**body);
     for (const Face& face : (*body)->faces) add_surface(*face.surface, limit, map, points);
+  } else if (std::holds_alternative<ShapePtr>(entity)) {
+    add_corners(bounds(entity), map, points);
   } else if (const auto* mesh = std::get_if<MeshPtr>(&entity)) {
     for (const Vec3& p : (*mesh)->points) points.push_back(map.point(p));
   }

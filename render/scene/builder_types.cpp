@@ -14,6 +14,7 @@ namespace lekalo::render {
 using geometry::BodyPtr;
 using geometry::CurvePtr;
 using geometry::MeshPtr;
+using geometry::ShapePtr;
 using geometry::SurfacePtr;
 
 namespace {
@@ -190,6 +191,8 @@ std::optional<Built> Builder::transformed(Built built, const Affine& map, const 
       object.shape = std::any_cast<GroupPtr>(built.value);
       object.transform = map;
       built.value = GroupPtr(std::move(placed));
+    } else if (auto* shape = std::any_cast<ShapePtr>(&built.value)) {
+      built.value = geometry::transformed(*shape, map);
     } else if (auto* mesh = std::any_cast<MeshPtr>(&built.value)) {
       built.value = MeshPtr(std::make_shared<geometry::Mesh>(geometry::transformed(**mesh, map)));
     }

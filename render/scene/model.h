@@ -13,6 +13,7 @@
 #include "geometry/body.h"
 #include "geometry/curve.h"
 #include "geometry/mesh.h"
+#include "geometry/shape.h"
 #include "geometry/surface.h"
 #include "render/cameras/camera.h"
 #include "render/integrators/integrator.h"
@@ -29,7 +30,7 @@ using GroupPtr = std::shared_ptr<const Group>;
 // Anything that can be named in `geometry` or shown by an object. A set of patches is a vector of surfaces.
 using SurfaceSet = std::vector<geometry::SurfacePtr>;
 using Entity = std::variant<Vec3, geometry::CurvePtr, geometry::SurfacePtr, SurfaceSet, geometry::BodyPtr,
-                            geometry::MeshPtr, GroupPtr>;
+                            geometry::MeshPtr, geometry::ShapePtr, GroupPtr>;
 
 enum class Representation { direct, mesh };
 

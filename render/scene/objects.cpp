@@ -15,6 +15,7 @@ Entity entity_of(const std::any& thing) {
   if (const auto* set = std::any_cast<SurfaceSet>(&thing)) return *set;
   if (const auto* body = std::any_cast<BodyPtr>(&thing)) return *body;
   if (const auto* mesh = std::any_cast<MeshPtr>(&thing)) return *mesh;
+  if (const auto* shape = std::any_cast<ShapePtr>(&thing)) return *shape;
   if (const auto* group = std::any_cast<GroupPtr>(&thing)) return *group;
   throw std::logic_error("a builder returned something that is no geometry");
 }
@@ -91,6 +92,9 @@ Objects objects_of(const Fields& fields) {
         if (fields.given(field))
           throw FieldError(field, "'" + std::string(field) + "' is for single shapes, and this is a group",
                            "give it to the objects inside the group");
+    if (object.representation == Representation::mesh && std::holds_alternative<ShapePtr>(object.shape))
+      throw FieldError("representation", "this shape is met by rays only; it has no mesh",
+                       "leave out 'representation'");
     if (object.flat_shading && object.representation == Representation::direct &&
         !std::holds_alternative<MeshPtr>(object.shape))
       throw FieldError("shading", "flat shading is for meshes", "add representation: mesh");

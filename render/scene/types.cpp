@@ -82,8 +82,8 @@ std::string describe(std::span<const Category> categories) {
 }
 
 std::span<const Category> geometry_categories() {
-  static constexpr Category all[] = {Category::curve, Category::surface, Category::body,
-                                     Category::mesh,  Category::group,   Category::point};
+  static constexpr Category all[] = {Category::curve, Category::surface, Category::body, Category::mesh,
+                                     Category::shape, Category::group,   Category::point};
   return all;
 }
 

@@ -63,7 +63,11 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
   }
 }
 
-ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::Vec3& near) const {
+bool ClippedBody::is_closed() const {
+  return !caps_only_ && std::all_of(planes_.begin(), planes_.end(), [](const CutPlane& plane) { return plane.cap; });
+}
+
+geometry::ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::Vec3& near) const {
   const int faces = static_cast<int>(body_->faces.size());
   const bool cap = hit.face >= faces;
   const geometry::Surface& surface = cap ? *caps_[hit.face - faces] : *body_->faces[hit.face].surface;

@@ -17,7 +17,7 @@ struct CutPlane {
   bool cap = false;      // close the cut
 };
 
-class ClippedBody final : public Shape {
+class ClippedBody final : public geometry::Shape {
  public:
   // With `caps_only` the body itself is shown by something else: its mesh.
   ClippedBody(geometry::BodyPtr body, std::vector<CutPlane> planes, bool caps_only);
@@ -26,7 +26,8 @@ class ClippedBody final : public Shape {
   void all_hits(const geometry::Line& line, const geometry::Interval& t,
                 std::vector<geometry::SurfaceHit>& hits) const override;
   // Caps are numbered behind the body's faces.
-  ShapePoint point(const geometry::SurfaceHit& hit, const geometry::Vec3& near) const override;
+  geometry::ShapePoint point(const geometry::SurfaceHit& hit, const geometry::Vec3& near) const override;
+  bool is_closed() const override;
 
  private:
   geometry::BodyPtr body_;

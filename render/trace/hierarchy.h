@@ -8,9 +8,9 @@
 
 #include "geometry/mesh.h"
 #include "geometry/queries/line_intersections.h"
+#include "geometry/shape.h"
 #include "render/trace/obstacles.h"
 #include "render/trace/ray.h"
-#include "render/trace/shape.h"
 
 namespace lekalo::render {
 
@@ -31,7 +31,7 @@ struct Leaf {
   std::vector<geometry::SurfacePtr> mesh_surfaces;  // by Triangle::face, of a mesh that stands for surfaces
   bool flat = false;
   bool parameters = true;  // something shows them
-  std::unique_ptr<Shape> shape;
+  geometry::ShapePtr shape;
   std::vector<HalfSpace> clips;
   uint32_t visible_to = kVisibleToAll;
   int object = 0;

@@ -65,9 +65,11 @@ void test_instance(const GeometryRecord& record, Query& query) {
 }
 
 void test_shape(const GeometryRecord& record, Query& query) {
-  std::vector<geometry::SurfaceHit> hits;
+  static thread_local std::vector<geometry::SurfaceHit> hits;  // its room is kept
+  hits.clear();
   record.leaf->shape->all_hits(query.line(), {query.t_min, query.t_max}, hits);
   for (const geometry::SurfaceHit& h : hits) {
+    if (!keeps(record.leaf->clips, query.line().at(h.t))) continue;
     query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, h.face, h.piece});
     if (!query.all) break;
   }

@@ -132,7 +132,7 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
 
 SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
                             double error) {
-  const ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
+  const geometry::ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
   return {.position = at.position,
           .smooth_position = at.position,
           .incoming = incoming,
@@ -281,7 +281,7 @@ struct World::Compiled {
     Leaf caps;
     caps.object = number;
     caps.visible_to = object.visible_to;
-    caps.shape = std::make_unique<ClippedBody>(*body, cuts_of(object, to_world), true);
+    caps.shape = std::make_shared<ClippedBody>(*body, cuts_of(object, to_world), true);
     into.add(std::move(caps));
   }
 
@@ -332,13 +332,15 @@ struct World::Compiled {
               use_mesh_of(*shape, tolerance_of(object, to_world), leaf);
             } else if (capped) {
               leaf.clips.clear();
-              leaf.shape = std::make_unique<ClippedBody>(shape, cuts_of(object, to_world), false);
+              leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object, to_world), false);
             } else {
               leaf.targets = geometry::make_line_targets(*shape);
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
             }
           } else if constexpr (std::is_same_v<T, MeshPtr>) {
             leaf.mesh = shape;
+          } else if constexpr (std::is_same_v<T, geometry::ShapePtr>) {
+            leaf.shape = shape;
           } else {
             throw std::logic_error("points, curves and groups are not leaves");
           }

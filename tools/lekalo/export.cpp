@@ -47,6 +47,8 @@ class Collection {
       append(**mesh, to_world);
     } else if (const auto* group = std::get_if<render::GroupPtr>(&entity)) {
       for (const render::Object& object : (*group)->objects) add(object, to_world);
+    } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
+      left_out_.insert(fmt::format("'{}' is met by rays only and has no triangles", name));
     } else {
       left_out_.insert(fmt::format("'{}' is a point or a curve and has no triangles", name));
     }

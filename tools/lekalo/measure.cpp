@@ -114,6 +114,8 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       out["kind"] = "mesh";
       put(out, geometry::measure(**mesh));
+    } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
+      throw UsageError(fmt::format("'{}' is met by rays only: this version does not measure it", name));
     } else {
       throw UsageError(fmt::format("'{}' is a point or a group: there is nothing to measure", name));
     }

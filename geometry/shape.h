@@ -1,0 +1,46 @@
+// Shapes that answer for all their hits along a line at once, and need no parameters for it: implicit surfaces, CSG,
+// tubes, bodies cut by planes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/queries/line_intersections.h"
+
+namespace lekalo::geometry {
+
+// What a shape shows at a hit: point, outward unit normal, parameters and the derivatives by them (zero where it has
+// none).
+struct ShapePoint {
+  Vec3 position{0};
+  Vec3 normal{0, 0, 1};
+  Vec3 du{0};
+  Vec3 dv{0};
+  double u = 0;
+  double v = 0;
+};
+
+// Immutable; safe to use from many threads.
+class Shape {
+ public:
+  virtual ~Shape() = default;
+  // A box around it; everything() where it is unbounded.
+  virtual Box3 bounds() const = 0;
+  // Adds all hits with t in the interval, in order, one for each crossing; t in units of the line's direction. A line
+  // that only touches has two hits there or none.
+  virtual void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const = 0;
+  // `near` is the hit's place on the line that found it.
+  virtual ShapePoint point(const SurfaceHit& hit, const Vec3& near) const = 0;
+  // True if it bounds a region of space: every line crosses it an even number of times, in and out by turns, the
+  // normals looking out of the region.
+  virtual bool is_closed() const = 0;
+};
+using ShapePtr = std::shared_ptr<const Shape>;
+
+inline Box3 bounds(const Shape& shape) { return shape.bounds(); }
+
+// The image under an affine map; the identity gives the shape itself, maps of maps are multiplied out. Throws
+// std::invalid_argument for a singular map.
+ShapePtr transformed(const ShapePtr& shape, const Affine& map);
+
+}  // namespace lekalo::geometry
