@@ -4,40 +4,19 @@
 
 namespace lekalo::geometry {
 
-namespace {
+Box3 TransformedShape::bounds() const {
+  const Box3 box = original_->bounds();
+  return box.bounded() ? geometry::transformed(box, map_) : box;
+}
 
-// Lines are mapped back, t is kept; normals map with the inverse transpose (Golovanov 2016, 1.4).
-class TransformedShape final : public Shape {
- public:
-  TransformedShape(ShapePtr original, const Affine& map)
-      : original_(std::move(original)), map_(map), inverse_(map.inverse()) {}
-  const ShapePtr& original() const { return original_; }
-  const Affine& map() const { return map_; }
-
-  Box3 bounds() const override {
-    const Box3 box = original_->bounds();
-    return box.bounded() ? geometry::transformed(box, map_) : box;
-  }
-  void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override {
-    original_->all_hits({inverse_.point(line.origin), inverse_.direction(line.direction)}, t, hits);
-  }
-  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override {
-    ShapePoint at = original_->point(hit, inverse_.point(near));
-    at.position = map_.point(at.position);
-    at.normal = glm::normalize(glm::transpose(inverse_.linear) * at.normal);
-    at.du = map_.direction(at.du);
-    at.dv = map_.direction(at.dv);
-    return at;
-  }
-  bool is_closed() const override { return original_->is_closed(); }
-
- private:
-  ShapePtr original_;
-  Affine map_;
-  Affine inverse_;
-};
-
-}  // namespace
+ShapePoint TransformedShape::point(const SurfaceHit& hit, const Vec3& near) const {
+  ShapePoint at = original_->point(hit, inverse_.point(near));
+  at.position = map_.point(at.position);
+  at.normal = glm::normalize(glm::transpose(inverse_.linear) * at.normal);
+  at.du = map_.direction(at.du);
+  at.dv = map_.direction(at.dv);
+  return at;
+}
 
 ShapePtr transformed(const ShapePtr& shape, const Affine& map) {
   if (map.is_identity()) return shape;

@@ -31,13 +31,40 @@ class Shape {
   virtual void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const = 0;
   // `near` is the hit's place on the line that found it.
   virtual ShapePoint point(const SurfaceHit& hit, const Vec3& near) const = 0;
-  // True if it bounds a region of space: every line crosses it an even number of times, in and out by turns, the
-  // normals looking out of the region.
+  // True if it bounds a region of space: every line crosses it in and out by turns, the normals looking out of the
+  // region.
   virtual bool is_closed() const = 0;
+  // True if a line is in that region where t goes to minus infinity; of an unbounded one.
+  virtual bool begins_inside(const Line&) const { return false; }
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 
 inline Box3 bounds(const Shape& shape) { return shape.bounds(); }
+
+// The image of a shape: lines are mapped back, t is kept; normals map with the inverse transpose (Golovanov 2016, 1.4).
+class TransformedShape final : public Shape {
+ public:
+  // The map must not be singular.
+  TransformedShape(ShapePtr original, const Affine& map)
+      : original_(std::move(original)), map_(map), inverse_(map.inverse()) {}
+  const ShapePtr& original() const { return original_; }
+  const Affine& map() const { return map_; }
+
+  Box3 bounds() const override;
+  void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override {
+    original_->all_hits(moved_back(line), t, hits);
+  }
+  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  bool is_closed() const override { return original_->is_closed(); }
+  bool begins_inside(const Line& line) const override { return original_->begins_inside(moved_back(line)); }
+
+ private:
+  Line moved_back(const Line& line) const { return {inverse_.point(line.origin), inverse_.direction(line.direction)}; }
+
+  ShapePtr original_;
+  Affine map_;
+  Affine inverse_;
+};
 
 // The image under an affine map; the identity gives the shape itself, maps of maps are multiplied out. Throws
 // std::invalid_argument for a singular map.

@@ -324,29 +324,32 @@ std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body) {
 }
 
 void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
-                const std::function<Vec3(const SurfaceHit&)>& normal) {
-  std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
-    if (a.t != b.t) return a.t < b.t;
-    return a.face != b.face ? a.face < b.face : a.piece < b.piece;
-  });
+                const std::function<Vec3(const SurfaceHit&)>& normal, size_t first) {
+  if (hits.size() - first < 2) return;
+  std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
+            [](const SurfaceHit& a, const SurfaceHit& b) {
+              if (a.t != b.t) return a.t < b.t;
+              return a.face != b.face ? a.face < b.face : a.piece < b.piece;
+            });
   const double length = glm::length(line.direction);
-  std::vector<SurfaceHit> kept;
-  std::vector<double> slopes;
-  for (const SurfaceHit& hit : hits) {
-    const double slope = glm::dot(normal(hit), line.direction) / length;
+  const auto slope = [&](const SurfaceHit& hit) { return glm::dot(normal(hit), line.direction) / length; };
+  const auto rounding = [&](const SurfaceHit& hit) { return 4e-16 * std::abs(hit.t) * length; };
+  constexpr double kLeastSteepness = 1e-4;
+  size_t kept = first + 1;
+  for (size_t i = first + 1; i < hits.size(); ++i) {
+    const SurfaceHit hit = hits[i];
     bool again = false;
-    for (size_t k = kept.size(); k-- > 0;) {
-      const double apart = (hit.t - kept[k].t) * length;
-      const double steepness = std::max(std::min(std::abs(slope), std::abs(slopes[k])), 1e-4);
-      const double near = kSameHit * size / steepness + 4e-16 * std::abs(hit.t) * length;
-      if (apart > 1e4 * kSameHit * size + 4e-16 * std::abs(hit.t) * length) break;
-      if (apart <= near && (slope > 0) == (slopes[k] > 0)) again = true;
+    // Hits far from the one before them, as nearly all are, need no normals.
+    for (size_t k = kept; k-- > first && !again;) {
+      const double apart = (hit.t - hits[k].t) * length;
+      if (apart > kSameHit * size / kLeastSteepness + rounding(hit)) break;
+      const double a = slope(hit), b = slope(hits[k]);
+      const double steepness = std::max(std::min(std::abs(a), std::abs(b)), kLeastSteepness);
+      again = apart <= kSameHit * size / steepness + rounding(hit) && (a > 0) == (b > 0);
     }
-    if (again) continue;
-    kept.push_back(hit);
-    slopes.push_back(slope);
+    if (!again) hits[kept++] = hit;
   }
-  hits = std::move(kept);
+  hits.resize(kept);
 }
 
 struct LineIntersector::Parts {
@@ -391,6 +394,12 @@ LineIntersector& LineIntersector::operator=(LineIntersector&&) noexcept = defaul
 
 std::vector<SurfaceHit> LineIntersector::all_hits(const Line& line, const Interval& t) const {
   std::vector<SurfaceHit> result;
+  add_all_hits(line, t, result);
+  return result;
+}
+
+void LineIntersector::add_all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& result) const {
+  const size_t first = result.size();
   LineHits hits;
   const PreparedLine prepared(line);
   parts_->tree.along(line, t, [&](int index) {
@@ -400,11 +409,13 @@ std::vector<SurfaceHit> LineIntersector::all_hits(const Line& line, const Interv
     for (int i = 0; i < hits.size(); ++i)
       result.push_back({hits[i].t, hits[i].u, hits[i].v, piece.target, piece.piece});
   });
-  merge_hits(result, line, parts_->size, [&](const SurfaceHit& hit) {
-    const Surface& surface = parts_->targets[hit.face]->surface();
-    return parts_->signs[hit.face] * surface.normal(hit.u, hit.v);
-  });
-  return result;
+  merge_hits(
+      result, line, parts_->size,
+      [&](const SurfaceHit& hit) {
+        const Surface& surface = parts_->targets[hit.face]->surface();
+        return parts_->signs[hit.face] * surface.normal(hit.u, hit.v);
+      },
+      first);
 }
 
 }  // namespace lekalo::geometry

@@ -57,6 +57,8 @@ class LineIntersector {
   LineIntersector& operator=(LineIntersector&&) noexcept;
 
   std::vector<SurfaceHit> all_hits(const Line& line, const Interval& t = {-kInfinity, kInfinity}) const;
+  // The same, added to a list.
+  void add_all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const;
 
  private:
   struct Parts;
@@ -66,8 +68,9 @@ class LineIntersector {
 // Sorts hits of one surface or closed body by t and removes those that are one crossing reported by two neighbours:
 // nearer than kSameHit of the object's size (more where the line is shallow) and crossing in the same direction.
 // `normal` gives the outward normal at a hit.
+// Only the hits from the `first` on are looked at.
 void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
-                const std::function<Vec3(const SurfaceHit&)>& normal);
+                const std::function<Vec3(const SurfaceHit&)>& normal, size_t first = 0);
 
 // Line targets of a body's faces, trims included, in the order of its faces.
 std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body);

@@ -187,9 +187,13 @@ std::string Writer::object(const Object& object) {
     text = close(pov_shape(**body, name, options_, notes_));
   } else if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
     text = close(pov_shape(**mesh));
-  } else if (std::holds_alternative<ShapePtr>(object.shape)) {
-    notes_.add(name + ": shapes without surfaces (implicit, CSG) are not written");
-    return {};
+  } else if (const auto* shape = std::get_if<ShapePtr>(&object.shape)) {
+    const std::optional<PovShape> written = pov_shape(*shape, name, options_, notes_);
+    if (!written) {
+      notes_.add(name + ": POV-Ray has no such shape; left out");
+      return {};
+    }
+    text = close(*written);
   } else if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
     text = "union {\n";
     for (const Object& member : (*group)->objects) text += this->object(member);

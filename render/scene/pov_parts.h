@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/shape.h"
 #include "render/scene/pov_export.h"
 
 namespace lekalo::render {
@@ -41,6 +42,9 @@ PovShape pov_shape(const geometry::SurfacePtr& surface, const std::string& name,
                    PovNotes& notes);
 PovShape pov_shape(const geometry::Body& body, const std::string& name, const PovOptions& options, PovNotes& notes);
 PovShape pov_shape(const geometry::Mesh& mesh);
+// Nothing for a shape that POV-Ray does not have as exactly.
+std::optional<PovShape> pov_shape(const geometry::ShapePtr& shape, const std::string& name, const PovOptions& options,
+                                  PovNotes& notes);
 
 // ` material { ... }` of an object; `parameters` as in PovShape.
 std::string pov_material(const Material& material, const std::string& name,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/shapes/body_shape.h"
 #include "geometry/surfaces/plane.h"
 
 namespace lekalo::render {
@@ -69,11 +70,10 @@ bool ClippedBody::is_closed() const {
 
 geometry::ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::Vec3& near) const {
   const int faces = static_cast<int>(body_->faces.size());
-  const bool cap = hit.face >= faces;
-  const geometry::Surface& surface = cap ? *caps_[hit.face - faces] : *body_->faces[hit.face].surface;
-  const double sign = cap || body_->faces[hit.face].forward ? 1 : -1;
-  const geometry::SurfaceJet jet = surface.evaluate_near(near, hit.u, hit.v, 1);
-  return {jet.point(), sign * surface.normal(hit.u, hit.v, jet), jet.du(), jet.dv(), hit.u, hit.v};
+  if (hit.face < faces) return point_of_face(body_->faces[hit.face], hit, near);
+  geometry::Face cap;
+  cap.surface = caps_[hit.face - faces];
+  return geometry::point_of_face(cap, hit, near);
 }
 
 }  // namespace lekalo::render

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/queries/shape_measures.h"
 
 namespace lekalo::command {
 
@@ -114,8 +115,12 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       out["kind"] = "mesh";
       put(out, geometry::measure(**mesh));
-    } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
-      throw UsageError(fmt::format("'{}' is met by rays only: this version does not measure it", name));
+    } else if (const auto* shape = std::get_if<geometry::ShapePtr>(&entity)) {
+      const geometry::ShapeMeasures measured = geometry::measure(**shape);
+      out["kind"] = "shape";
+      put(out, "area", measured.area);
+      put(out, "volume", measured.volume);
+      put_centroid(out, measured.centroid, measured.centroid_error);
     } else {
       throw UsageError(fmt::format("'{}' is a point or a group: there is nothing to measure", name));
     }

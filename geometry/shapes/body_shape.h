@@ -1,0 +1,29 @@
+// A body as a shape: an operand of CSG.
+#pragma once
+
+#include "geometry/body.h"
+#include "geometry/shape.h"
+
+namespace lekalo::geometry {
+
+class BodyShape final : public Shape {
+ public:
+  // The body must be closed; throws std::invalid_argument.
+  explicit BodyShape(BodyPtr body);
+  const BodyPtr& body() const { return body_; }
+
+  Box3 bounds() const override { return box_; }
+  void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
+  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  bool is_closed() const override { return true; }
+
+ private:
+  BodyPtr body_;
+  LineIntersector intersector_;
+  Box3 box_;
+};
+
+// What a body's face shows at a hit.
+ShapePoint point_of_face(const Face& face, const SurfaceHit& hit, const Vec3& near);
+
+}  // namespace lekalo::geometry
