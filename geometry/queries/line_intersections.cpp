@@ -92,6 +92,26 @@ void FormulaTarget::trimmed_hits(const Line& line, const Interval& t, LineHits& 
     if (acceptance_.keeps(all[i], t, line, *surface_)) hits.add(all[i]);
 }
 
+// The cut that flattens more, judged by the second differences of the control points: across the direction in which the
+// patch bends more, or, where twist is most of it, across the longer of the cell's extents x and y.
+bool flattens_across_u(const PatchView& patch, double x, double y) {
+  const int p = patch.degree_u, q = patch.degree_v;
+  const auto size = [](const Vec4& d) { return std::abs(d.x) + std::abs(d.y) + std::abs(d.z) + std::abs(d.w); };
+  double bend_u = 0, bend_v = 0, twist = 0;
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) {
+      const Vec4& at = patch.at(i, j);
+      if (i > 0 && i < p) bend_u = std::max(bend_u, size(patch.at(i - 1, j) - at - at + patch.at(i + 1, j)));
+      if (j > 0 && j < q) bend_v = std::max(bend_v, size(patch.at(i, j - 1) - at - at + patch.at(i, j + 1)));
+      if (i > 0 && j > 0)
+        twist = std::max(twist, size(patch.at(i - 1, j - 1) - patch.at(i - 1, j) - patch.at(i, j - 1) + at));
+    }
+  bend_u *= p * (p - 1);
+  bend_v *= q * (q - 1);
+  twist *= p * q;
+  return twist >= std::max(bend_u, bend_v) ? x >= y : bend_u >= bend_v;
+}
+
 // Rational Bezier pieces, cut into flat cells.
 class PatchTarget final : public LineTarget {
  public:
@@ -200,22 +220,11 @@ class PatchTarget final : public LineTarget {
       return;
     }
     --budget;
-    // The cut whose halves are flatter.
     const PatchView view{part.points.data(), patches_[patch].degree_u, patches_[patch].degree_v};
-    const auto halves = [&](auto halve) {
-      std::vector<Vec4> first(part.points.size()), second(part.points.size());
-      halve(view, first.data(), second.data());
-      return std::array{part_of(std::move(first), patch), part_of(std::move(second), patch)};
-    };
-    const auto worst = [](const std::array<Part, 2>& two) {
-      return std::max(roughness(two[0].model), roughness(two[1].model));
-    };
-    std::array<Part, 2> two = halves(halve_u);
-    bool along_x = true;
-    if (std::array<Part, 2> others = halves(halve_v); worst(others) < worst(two)) {
-      two = std::move(others);
-      along_x = false;
-    }
+    const bool along_x = flattens_across_u(view, glm::length(part.model.dx), glm::length(part.model.dy));
+    std::vector<Vec4> first(part.points.size()), second(part.points.size());
+    along_x ? halve_u(view, first.data(), second.data()) : halve_v(view, first.data(), second.data());
+    const Part two[] = {part_of(std::move(first), patch), part_of(std::move(second), patch)};
     if (along_x)
       hx *= 0.5;
     else
