@@ -1,0 +1,74 @@
+#include "geometry/queries/arc_fraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Last coefficients of a series below this part of the first: what is cut off is rounding.
+constexpr double kConverged = 1e-15;
+
+}  // namespace
+
+ArcFraction::ArcFraction(const Curve& curve) {
+  const double shortest = kSmallestCell * curve.domain().width();
+  for (const CurvePiece& piece : curve.pieces()) cut(curve, piece.domain, shortest);
+  for (Stretch& stretch : stretches_) {
+    stretch.begin = length_;
+    length_ += stretch.length_to(stretch.t.hi);
+  }
+  if (!(length_ > 0 && length_ < kInfinity)) throw std::invalid_argument("the curve has no length");
+}
+
+void ArcFraction::cut(const Curve& curve, const Interval& t, double shortest) {
+  // Gauss-Chebyshev points lie inside, where a break at the end is not seen.
+  std::array<double, kTerms> speed, c;
+  for (int j = 0; j < kTerms; ++j)
+    speed[j] = glm::length(curve.evaluate(t.middle() + 0.5 * t.width() * std::cos(kPi * (j + 0.5) / kTerms), 1).d[1]);
+  for (int k = 0; k < kTerms; ++k) {
+    double sum = 0;
+    for (int j = 0; j < kTerms; ++j) sum += speed[j] * std::cos(kPi * k * (j + 0.5) / kTerms);
+    c[k] = (k == 0 ? 1 : 2) * sum / kTerms;
+  }
+  const double tail = std::max({std::abs(c[kTerms - 1]), std::abs(c[kTerms - 2]), std::abs(c[kTerms - 3])});
+  if (!(tail <= kConverged * c[0]) && t.width() > shortest) {
+    cut(curve, {t.lo, t.middle()}, shortest);
+    cut(curve, {t.middle(), t.hi}, shortest);
+    return;
+  }
+  Stretch stretch;
+  stretch.t = t;
+  // The integral of T_k is T_(k+1) / (2 (k + 1)) - T_(k-1) / (2 (k - 1)).
+  for (int k = 1; k <= kTerms; ++k) {
+    const double before = (k == 1 ? 2 : 1) * c[k - 1], after = k + 1 < kTerms ? c[k + 1] : 0;
+    stretch.integral[k] = 0.25 * t.width() * (before - after) / k;
+    stretch.integral[0] += (k % 2 == 1 ? 1 : -1) * stretch.integral[k];  // zero at t.lo
+  }
+  stretches_.push_back(stretch);
+}
+
+// Clenshaw's recurrence.
+double ArcFraction::Stretch::length_to(double at) const {
+  const double x = std::clamp((at - t.lo - (t.hi - at)) / t.width(), -1.0, 1.0);
+  double b = 0, next = 0;
+  for (int k = kTerms; k > 0; --k) {
+    const double now = integral[k] + 2 * x * b - next;
+    next = b;
+    b = now;
+  }
+  return integral[0] + x * b - next;
+}
+
+double ArcFraction::at(double t) const {
+  auto found = std::upper_bound(stretches_.begin(), stretches_.end(), t,
+                                [](double value, const Stretch& stretch) { return value < stretch.t.lo; });
+  if (found != stretches_.begin()) --found;
+  return std::clamp((found->begin + found->length_to(t)) / length_, 0.0, 1.0);
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,259 @@
+#include "geometry/shapes/ball_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/describe.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// A cell's derivatives r' differ from the one in its middle by at most this part of it: larger cells make larger boxes
+// and need halving for lines that see them from their ends, smaller ones are more for each line.
+constexpr double kStraight = 0.3;
+// The slope of the radius, R'/|r'|, changes by at most this on a cell. A law with a kink is cut at it.
+constexpr double kEven = 0.05;
+// Where the curve bends more than the tube, or has a cusp, cells have this part of the radius.
+constexpr double kSmall = 0.1;
+// Balls that differ by less than this part of the size are one.
+constexpr double kSamePlace = 1e-13;
+// Enough for any curve that can be drawn.
+constexpr size_t kMostCells = size_t{1} << 20;
+
+double farthest(const Box3& box, const Vec3& from) { return glm::length(glm::max(box.hi - from, from - box.lo)); }
+
+double farthest(const Interval& range, double from) { return std::max(range.hi - from, from - range.lo); }
+
+}  // namespace
+
+BallSweep::BallSweep(CurvePtr curve, RadiusLaw law) : curve_(std::move(curve)), law_(std::move(law)) {
+  const Box3 box = bounds(*curve_);
+  if (!box.bounded()) throw FieldError("of", "the curve is unbounded", "give it a domain");
+  size_ = box.diameter();
+  if (!(size_ > 0)) throw FieldError("of", "the curve has no length");
+  narrowest_ = 1e-15 * curve_->domain().width();
+  for (const CurvePiece& piece : curve_->pieces()) cut(piece.domain);
+}
+
+BallJet BallSweep::ball(double t) const {
+  const CurveJet jet = curve_->evaluate(t, 2);
+  return {{jet.d[0], jet.d[1], jet.d[2]}, law_.at(t, jet)};
+}
+
+void BallSweep::cut(const Interval& t) {
+  const CurveEnclosure boxes = curve_->enclose(t, 2);
+  const std::array<Interval, 3> radius = law_.over(t, boxes);
+  const double middle = t.middle(), h = 0.5 * t.width();
+  Cell cell;
+  cell.t = t;
+  cell.middle = ball(middle);
+  const auto& [r0, r1, r2] = cell.middle.center;
+  const auto& [R0, R1, R2] = cell.middle.radius;
+  if (!(R0 > 0 && R0 < kInfinity)) law_.refuse(middle, R0);
+  cell.wander = farthest(boxes.d[2], r2);
+  cell.radius_wander = farthest(radius[2], R2);
+  cell.least_radius = radius[0].lo;
+  const double speed = glm::length(r1), most = glm::length(r2) + cell.wander, turn = most * h;
+  const double extent = std::min(boxes.d[0].diameter(), 2 * h * (speed + 0.5 * turn)) + radius[0].width();
+
+  cell.is_place = extent <= kSamePlace * size_ || t.width() <= narrowest_;
+  const bool positive = radius[0].lo > 0 && radius[0].hi < kInfinity;
+  const bool even = radius[1].width() <= kEven * speed && radius[0].width() <= 2 * h * (std::abs(R1) + kEven * speed);
+  // At a critical point (p - r) . r' = -R R', so that only the part of r'' across r' counts in full.
+  const double along = speed > 0 ? glm::dot(r2, r1) / (speed * speed) : 0;
+  const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
+  const double slope = magnitude(radius[1]), R = radius[0].hi;
+  const double d = std::pow(std::max(0.0, speed - turn), 2) - slope * slope - magnitude(radius[0] * radius[2]) -
+                   std::abs(along) * R * slope - R * across;
+  cell.regular = d > 0;
+  const bool straight = turn <= kStraight * speed;
+  const bool small = extent <= kSmall * cell.least_radius &&
+                     (cell.wander <= 0.25 * glm::length(r2) || extent <= 0.01 * kSmall * cell.least_radius);
+  if (!cell.is_place && !(positive && even && ((straight && cell.regular) || (small && most < kInfinity)))) {
+    if (cells_.size() >= kMostCells)
+      throw FieldError("of", "the curve takes more than a million pieces", "make it simpler, or its domain smaller");
+    cut({t.lo, middle});
+    cut({middle, t.hi});
+    return;
+  }
+  if (!positive) law_.refuse(middle, radius[0].lo > 0 ? radius[0].hi : radius[0].lo);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * (farthest(boxes.d[0], Vec3(0)) + R);
+  cell.box = boxes.d[0].inflated(R + rounding);
+  size_ = std::max(size_, 2 * R);
+  cells_.push_back(cell);
+}
+
+namespace {
+
+// a and g with their derivatives at one parameter.
+struct Profile {
+  double a, a1, a2, g, g1, g2;
+  Vec3 across, across1, across2;  // f and its derivatives
+
+  Profile(const Line& line, const BallJet& ball) {
+    const auto& [r0, r1, r2] = ball.center;
+    const auto& [R0, R1, R2] = ball.radius;
+    const Vec3 e = r0 - line.origin;
+    a = glm::dot(e, line.direction), a1 = glm::dot(r1, line.direction), a2 = glm::dot(r2, line.direction);
+    across = e - a * line.direction, across1 = r1 - a1 * line.direction, across2 = r2 - a2 * line.direction;
+    g = R0 * R0 - glm::dot(across, across);
+    g1 = 2 * (R0 * R1 - glm::dot(across, across1));
+    g2 = 2 * (R1 * R1 + R0 * R2 - glm::dot(across1, across1) - glm::dot(across, across2));
+  }
+};
+
+// Bounds on them over the parameters within h of there.
+struct Range {
+  Interval a, a1, a2, g, g1, g2, root;
+
+  Range(const Profile& p, const BallJet& ball, double h, const BallSweep::Cell& cell) {
+    const auto about = [](double x, double by) { return Interval(x - by, x + by); };
+    const double w = cell.wander, v = cell.radius_wander;
+    const double most_a2 = std::abs(p.a2) + w;
+    a2 = about(p.a2, w);
+    a1 = about(p.a1, most_a2 * h);
+    a = about(p.a, (std::abs(p.a1) + 0.5 * most_a2 * h) * h);
+    // The terms of g''/2 = R'^2 + R R'' - f' . f' - f . f''.
+    const double f0 = glm::length(p.across), f1 = glm::length(p.across1), f2 = glm::length(p.across2) + w;
+    const double off1 = f2 * h, off0 = (f1 + 0.5 * off1) * h;
+    const auto& [R0, R1, R2] = ball.radius;
+    const double most_R2 = std::abs(R2) + v, off_R1 = most_R2 * h, off_R0 = (std::abs(R1) + 0.5 * off_R1) * h;
+    const double middle = R0 * R2 - glm::dot(p.across, p.across2);
+    const double off = off0 * f2 + f0 * w + off_R0 * most_R2 + R0 * v;
+    const auto square = [](double x, double by) {
+      const double lo = std::max(0.0, x - by);
+      return Interval(lo * lo, (x + by) * (x + by));
+    };
+    const Interval bend = square(f1, off1), widen = square(std::abs(R1), off_R1);
+    g2 = {2 * (middle - off + widen.lo - bend.hi), 2 * (middle + off + widen.hi - bend.lo)};
+    const double most_g2 = std::max(-g2.lo, g2.hi);
+    g1 = about(p.g1, most_g2 * h);
+    g = {p.g - (std::abs(p.g1) + 0.5 * std::max(0.0, -g2.lo) * h) * h,
+         p.g + (std::abs(p.g1) + 0.5 * std::max(0.0, g2.hi) * h) * h};
+    root = {std::sqrt(std::max(0.0, g.lo)), std::sqrt(std::max(0.0, g.hi))};
+  }
+
+  // True if a - sqrt(g) (a + sqrt(g) for the sign -1) certainly has at most one critical point.
+  bool is_simple(int sign) const {
+    const Interval b1 = sign > 0 ? a1 : -a1, b2 = sign > 0 ? a2 : -a2;
+    if ((sqr(a1) - 0.5 * g2 + b2 * root).lo > 0) return true;
+    return !(b1 * root - 0.5 * g1).contains(0);
+  }
+};
+
+class CellSolver {
+ public:
+  CellSolver(const BallSweep& sweep, int index, const Line& line, const SpanLimit& limit, LineSpans& spans)
+      : sweep_(sweep),
+        cell_(sweep.cells()[index]),
+        index_(index),
+        // At a break the curve's derivatives are those from the right.
+        last_(next_down(cell_.t.hi)),
+        same_(kSamePlace * sweep.size()),
+        line_(line),
+        limit_(limit),
+        spans_(spans) {}
+
+  void solve(const Interval& t, const BallJet& middle) {
+    const Profile p(line_, middle);
+    if (cell_.is_place) return add_ball(t.middle(), p);
+    const double h = 0.5 * t.width();
+    const Range range(p, middle, h, cell_);
+    if (range.g.hi < 0) return;
+    const bool whole = t == cell_.t;
+    if (!whole && spans_.cover(range.a.lo - range.root.hi, range.a.hi + range.root.hi, same_)) return;
+    const bool one_stretch = range.g.lo > 0 || range.g2.hi <= 0 || !range.g1.contains(0);
+    if (one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)))) {
+      SpanEnd in, out;
+      if (!extreme(1, t, p, in)) return;
+      if (!extreme(-1, t, p, out)) return;
+      add({in, out});
+      return;
+    }
+    const double extent = (glm::length(middle.center[1]) + (glm::length(middle.center[2]) + cell_.wander) * h) * h;
+    if (extent <= same_ || --left_ < 0) return add_ball(t.middle(), p);
+    if (!cell_.regular) add_ball(t.middle(), p);  // covers much of what follows
+    for (const Interval& half : {Interval(t.lo, t.middle()), Interval(t.middle(), t.hi)})
+      solve(half, sweep_.ball(half.middle()));
+  }
+
+ private:
+  // Halvings of one cell for one line. A line along a valley of equal balls (the axis of a ring that has no hole) never
+  // gets certain; after so many the cells are so small that their middles tell all.
+  static constexpr int kMostHalvings = 20000;
+
+  void add(Span span) {
+    if (span.in.s < limit_.lo) span.in.s = limit_.lo, span.in.face = limit_.face_lo;
+    if (span.out.s > limit_.hi) span.out.s = limit_.hi, span.out.face = limit_.face_hi;
+    if (span.in.s < span.out.s) spans_.add(span);
+  }
+
+  void add_ball(double t, const Profile& p) {
+    if (!(p.g >= 0)) return;
+    const double root = std::sqrt(p.g);
+    add({{p.a - root, t, index_, 0}, {p.a + root, t, index_, 0}});
+  }
+
+  // The minimum of b - sqrt(g), b = sign a, over the one stretch in t: the place where N = b' sqrt(g) - g'/2 changes
+  // its sign, which is that of -g' where g < 0. Newton's iteration inside a bracket; false if there is no stretch.
+  bool extreme(int sign, const Interval& t, const Profile& at_middle, SpanEnd& end) const {
+    double lo = t.lo, hi = std::min(t.hi, last_), x = std::clamp(start(sign, t, at_middle), lo, hi);
+    bool lo_tried = false, hi_tried = false;
+    constexpr int kMostSteps = 100;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Profile p(line_, sweep_.ball(x));
+      const double root = std::sqrt(std::max(0.0, p.g)), b1 = sign * p.a1;
+      const double n = b1 * root - 0.5 * p.g1;
+      const double d = p.a1 * p.a1 - 0.5 * p.g2 + sign * p.a2 * root;
+      const bool at_end = (x == lo && !lo_tried && n >= 0) || (x == hi && !hi_tried && n <= 0);
+      double next = d > 0 ? x - n / d : n > 0 ? lo : hi;
+      // A step so small that its square is rounding ends the search; the rest of the way is added to s.
+      const double last_step = 1e-7 * std::min(cell_.least_radius, root) / (glm::length(p.across1) + std::abs(p.a1));
+      const bool close = d > 0 && std::abs(next - x) <= last_step && next >= lo && next <= hi;
+      if (at_end || n == 0 || close || (lo_tried && hi_tried && !(hi - lo > 4e-16 * (std::abs(lo) + std::abs(hi))))) {
+        if (!(p.g >= 0)) return false;
+        const double rest = close && root > 0 && !at_end ? 0.5 * n * (next - x) / root : 0;
+        end = {sign * (sign * p.a - root + rest), close && !at_end ? next : x, index_, 0};
+        return true;
+      }
+      if (n < 0)
+        lo = x, lo_tried = true;
+      else
+        hi = x, hi_tried = true;
+      next = std::clamp(next, lo, hi);
+      if ((next == lo && lo_tried) || (next == hi && hi_tried)) next = 0.5 * lo + 0.5 * hi;
+      x = next;
+    }
+    const Profile p(line_, sweep_.ball(x));
+    if (!(p.g >= 0)) return false;
+    end = {sign * (sign * p.a - std::sqrt(p.g)), x, index_, 0};
+    return true;
+  }
+
+  // Where the minimum is for the parabola and the straight line that touch g and a in the middle.
+  static double start(int sign, const Interval& t, const Profile& p) {
+    const double k = -0.5 * p.g2;
+    if (!(k > 0)) return t.middle();
+    const double top = std::max(0.0, p.g + p.g1 * p.g1 / (4 * k));
+    return t.middle() + p.g1 / (2 * k) - sign * p.a1 * std::sqrt(top / (k * (k + p.a1 * p.a1)));
+  }
+
+  const BallSweep& sweep_;
+  const BallSweep::Cell& cell_;
+  int index_;
+  double last_;
+  double same_;
+  const Line& line_;
+  const SpanLimit& limit_;
+  LineSpans& spans_;
+  int left_ = kMostHalvings;
+};
+
+}  // namespace
+
+void BallSweep::add_spans(int cell, const Line& line, const SpanLimit& limit, LineSpans& spans) const {
+  CellSolver(*this, cell, line, limit, spans).solve(cells_[cell].t, cells_[cell].middle);
+}
+
+}  // namespace lekalo::geometry
