@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/numerics/chebyshev.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -26,15 +27,11 @@ ArcFraction::ArcFraction(const Curve& curve) {
 }
 
 void ArcFraction::cut(const Curve& curve, const Interval& t, double shortest) {
-  // Gauss-Chebyshev points lie inside, where a break at the end is not seen.
-  std::array<double, kTerms> speed, c;
+  // The points lie inside, where a break at the end is not seen.
+  std::array<double, kTerms> speed;
   for (int j = 0; j < kTerms; ++j)
-    speed[j] = glm::length(curve.evaluate(t.middle() + 0.5 * t.width() * std::cos(kPi * (j + 0.5) / kTerms), 1).d[1]);
-  for (int k = 0; k < kTerms; ++k) {
-    double sum = 0;
-    for (int j = 0; j < kTerms; ++j) sum += speed[j] * std::cos(kPi * k * (j + 0.5) / kTerms);
-    c[k] = (k == 0 ? 1 : 2) * sum / kTerms;
-  }
+    speed[j] = glm::length(curve.evaluate(t.middle() + 0.5 * t.width() * chebyshev_point(j, kTerms), 1).d[1]);
+  const std::array<double, kTerms> c = chebyshev_coefficients(speed);
   const double tail = std::max({std::abs(c[kTerms - 1]), std::abs(c[kTerms - 2]), std::abs(c[kTerms - 3])});
   if (!(tail <= kConverged * c[0]) && t.width() > shortest) {
     cut(curve, {t.lo, t.middle()}, shortest);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/describe.h"
+#include "geometry/numerics/chebyshev.h"
 
 namespace lekalo::geometry {
 
@@ -15,9 +16,13 @@ constexpr double kStraight = 0.3;
 // The slope of the radius, R'/|r'|, changes by at most this on a cell. A law with a kink is cut at it.
 constexpr double kEven = 0.05;
 // Where the curve bends more than the tube, or has a cusp, cells have this part of the radius.
-constexpr double kSmall = 0.1;
+constexpr double kSmall = 0.25;
 // Balls that differ by less than this part of the size are one.
 constexpr double kSamePlace = 1e-13;
+// A model agrees with its curve to this part of the size: unions are decided on it.
+constexpr double kModelError = 2e-15;
+// The longest last step of the search, of the radius: what it leaves is the square of that on s, and of no account.
+constexpr double kLastStep = 1e-6;
 // Enough for any curve that can be drawn.
 constexpr size_t kMostCells = size_t{1} << 20;
 
@@ -81,7 +86,37 @@ void BallSweep::cut(const Interval& t) {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * (farthest(boxes.d[0], Vec3(0)) + R);
   cell.box = boxes.d[0].inflated(R + rounding);
   size_ = std::max(size_, 2 * R);
+  add_model(cell);
   cells_.push_back(cell);
+}
+
+void BallSweep::add_model(Cell& cell) const {
+  const auto at = [&](double x) {
+    const BallJet ball = this->ball(cell.t.middle() + 0.5 * cell.t.width() * x);
+    return Vec4(ball.center[0] - cell.middle.center[0], ball.radius[0]);
+  };
+  std::array<Vec4, kModelTerms> values;
+  for (int j = 0; j < kModelTerms; ++j) values[j] = at(chebyshev_point(j, kModelTerms));
+  cell.model = powers_of_chebyshev(chebyshev_coefficients(values));
+  cell.is_modelled = true;
+  for (const double x : {-0.999, -0.6, -0.2, 0.35, 0.8, 0.999}) {
+    Vec4 sum(0);
+    for (int k = kModelTerms; k-- > 0;) sum = sum * x + cell.model[k];
+    cell.is_modelled = cell.is_modelled && glm::length(sum - at(x)) <= kModelError * size_;
+  }
+}
+
+BallJet BallSweep::ball(const Cell& cell, double t) const {
+  const double scale = 2 / cell.t.width(), x = (t - cell.t.middle()) * scale;
+  Vec4 f(0), f1(0), f2(0);
+  for (int k = kModelTerms; k-- > 0;) {
+    f2 = f2 * x + f1;
+    f1 = f1 * x + f;
+    f = f * x + cell.model[k];
+  }
+  f1 *= scale;
+  f2 *= 2 * scale * scale;
+  return {{cell.middle.center[0] + Vec3(f), Vec3(f1), Vec3(f2)}, {f.w, f1.w, f2.w}};
 }
 
 namespace {
@@ -102,6 +137,35 @@ struct Profile {
     g2 = 2 * (R1 * R1 + R0 * R2 - glm::dot(across1, across1) - glm::dot(across, across2));
   }
 };
+
+// The search for the minimum of b - sqrt(g), b = sign a, from one parameter.
+struct Critical {
+  int sign;
+  double root, n, d, speed;
+
+  Critical(const Profile& p, int sign)
+      : sign(sign),
+        root(std::sqrt(std::max(0.0, p.g))),
+        n(sign * p.a1 * root - 0.5 * p.g1),
+        d(p.a1 * p.a1 - 0.5 * p.g2 + sign * p.a2 * root),
+        speed(glm::length(p.across1) + std::abs(p.a1)) {}
+
+  // Newton's, or all the way down.
+  double step(double to_lo, double to_hi) const { return d > 0 ? -n / d : n > 0 ? to_lo : to_hi; }
+  // True if the square of the step is of no account.
+  bool is_close(double step, double radius) const {
+    return d > 0 && root > 0 && std::abs(step) * speed <= kLastStep * std::min(radius, root);
+  }
+  // The end of the ball's interval, moved by a step of Newton's iteration.
+  double s(const Profile& p, double step) const {
+    return p.a - sign * root + (step != 0 ? sign * 0.5 * n * step / root : 0);
+  }
+};
+
+// How far above its value a function can get within `width`, from its slope there and its largest second derivative.
+double farthest_up(double slope, double second, double width) {
+  return second < 0 && slope < -second * width ? -0.5 * slope * slope / second : (slope + 0.5 * second * width) * width;
+}
 
 // Bounds on them over the parameters within h of there.
 struct Range {
@@ -129,8 +193,9 @@ struct Range {
     g2 = {2 * (middle - off + widen.lo - bend.hi), 2 * (middle + off + widen.hi - bend.lo)};
     const double most_g2 = std::max(-g2.lo, g2.hi);
     g1 = about(p.g1, most_g2 * h);
-    g = {p.g - (std::abs(p.g1) + 0.5 * std::max(0.0, -g2.lo) * h) * h,
-         p.g + (std::abs(p.g1) + 0.5 * std::max(0.0, g2.hi) * h) * h};
+    // Below the parabola of the largest g'' that touches in the middle, above that of the least.
+    const double slope = std::abs(p.g1);
+    g = {p.g - farthest_up(slope, -g2.lo, h), p.g + farthest_up(slope, g2.hi, h)};
     root = {std::sqrt(std::max(0.0, g.lo)), std::sqrt(std::max(0.0, g.hi))};
   }
 
@@ -161,13 +226,12 @@ class CellSolver {
     const double h = 0.5 * t.width();
     const Range range(p, middle, h, cell_);
     if (range.g.hi < 0) return;
-    const bool whole = t == cell_.t;
-    if (!whole && spans_.cover(range.a.lo - range.root.hi, range.a.hi + range.root.hi, same_)) return;
+    if (spans_.cover(range.a.lo - range.root.hi, range.a.hi + range.root.hi, same_)) return;
     const bool one_stretch = range.g.lo > 0 || range.g2.hi <= 0 || !range.g1.contains(0);
     if (one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)))) {
       SpanEnd in, out;
-      if (!extreme(1, t, p, in)) return;
-      if (!extreme(-1, t, p, out)) return;
+      if (!extreme(1, t, p, range.g2.hi, in)) return;
+      if (!extreme(-1, t, p, range.g2.hi, out)) return;
       add({in, out});
       return;
     }
@@ -175,13 +239,15 @@ class CellSolver {
     if (extent <= same_ || --left_ < 0) return add_ball(t.middle(), p);
     if (!cell_.regular) add_ball(t.middle(), p);  // covers much of what follows
     for (const Interval& half : {Interval(t.lo, t.middle()), Interval(t.middle(), t.hi)})
-      solve(half, sweep_.ball(half.middle()));
+      solve(half, ball(half.middle()));
   }
 
  private:
   // Halvings of one cell for one line. A line along a valley of equal balls (the axis of a ring that has no hole) never
   // gets certain; after so many the cells are so small that their middles tell all.
   static constexpr int kMostHalvings = 20000;
+
+  BallJet ball(double t) const { return cell_.is_modelled ? sweep_.ball(cell_, t) : sweep_.ball(t); }
 
   void add(Span span) {
     if (span.in.s < limit_.lo) span.in.s = limit_.lo, span.in.face = limit_.face_lo;
@@ -197,27 +263,25 @@ class CellSolver {
 
   // The minimum of b - sqrt(g), b = sign a, over the one stretch in t: the place where N = b' sqrt(g) - g'/2 changes
   // its sign, which is that of -g' where g < 0. Newton's iteration inside a bracket; false if there is no stretch.
-  bool extreme(int sign, const Interval& t, const Profile& at_middle, SpanEnd& end) const {
+  // second: the largest g''.
+  bool extreme(int sign, const Interval& t, const Profile& at_middle, double second, SpanEnd& end) const {
     double lo = t.lo, hi = std::min(t.hi, last_), x = std::clamp(start(sign, t, at_middle), lo, hi);
     bool lo_tried = false, hi_tried = false;
     constexpr int kMostSteps = 100;
     for (int step = 0; step < kMostSteps; ++step) {
-      const Profile p(line_, sweep_.ball(x));
-      const double root = std::sqrt(std::max(0.0, p.g)), b1 = sign * p.a1;
-      const double n = b1 * root - 0.5 * p.g1;
-      const double d = p.a1 * p.a1 - 0.5 * p.g2 + sign * p.a2 * root;
-      const bool at_end = (x == lo && !lo_tried && n >= 0) || (x == hi && !hi_tried && n <= 0);
-      double next = d > 0 ? x - n / d : n > 0 ? lo : hi;
-      // A step so small that its square is rounding ends the search; the rest of the way is added to s.
-      const double last_step = 1e-7 * std::min(cell_.least_radius, root) / (glm::length(p.across1) + std::abs(p.a1));
-      const bool close = d > 0 && std::abs(next - x) <= last_step && next >= lo && next <= hi;
-      if (at_end || n == 0 || close || (lo_tried && hi_tried && !(hi - lo > 4e-16 * (std::abs(lo) + std::abs(hi))))) {
+      const Profile p(line_, ball(x));
+      if (p.g < 0 && p.g + farthest_up(std::abs(p.g1), second, p.g1 > 0 ? hi - x : x - lo) < 0) return false;
+      const Critical critical(p, sign);
+      const bool at_end = (x == lo && !lo_tried && critical.n >= 0) || (x == hi && !hi_tried && critical.n <= 0);
+      const bool narrow = lo_tried && hi_tried && !(hi - lo > 4e-16 * (std::abs(lo) + std::abs(hi)));
+      double next = x + critical.step(lo - x, hi - x);
+      const bool close = next > lo && next < hi && critical.is_close(next - x, cell_.least_radius);
+      if (at_end || close || critical.n == 0 || narrow || step + 1 == kMostSteps) {
         if (!(p.g >= 0)) return false;
-        const double rest = close && root > 0 && !at_end ? 0.5 * n * (next - x) / root : 0;
-        end = {sign * (sign * p.a - root + rest), close && !at_end ? next : x, index_, 0};
+        end = {critical.s(p, close && !at_end ? next - x : 0), close && !at_end ? next : x, index_, 0};
         return true;
       }
-      if (n < 0)
+      if (critical.n < 0)
         lo = x, lo_tried = true;
       else
         hi = x, hi_tried = true;
@@ -225,10 +289,7 @@ class CellSolver {
       if ((next == lo && lo_tried) || (next == hi && hi_tried)) next = 0.5 * lo + 0.5 * hi;
       x = next;
     }
-    const Profile p(line_, sweep_.ball(x));
-    if (!(p.g >= 0)) return false;
-    end = {sign * (sign * p.a - std::sqrt(p.g)), x, index_, 0};
-    return true;
+    return false;
   }
 
   // Where the minimum is for the parabola and the straight line that touch g and a in the middle.
@@ -254,6 +315,18 @@ class CellSolver {
 
 void BallSweep::add_spans(int cell, const Line& line, const SpanLimit& limit, LineSpans& spans) const {
   CellSolver(*this, cell, line, limit, spans).solve(cells_[cell].t, cells_[cell].middle);
+}
+
+void BallSweep::finish(SpanEnd& end, bool is_in, const Line& line) const {
+  const Cell& cell = cells_[end.piece];
+  const Profile p(line, ball(end.u));
+  if (!(p.g > 0)) return;  // a touch, which the model sees by a hair
+  const Critical critical(p, is_in ? 1 : -1);
+  // At an end of its cell a minimum need not be critical.
+  const double step = critical.step(0, 0);
+  const bool moves = end.u + step > cell.t.lo && end.u + step < cell.t.hi && critical.is_close(step, cell.least_radius);
+  end.s = critical.s(p, moves ? step : 0);
+  if (moves) end.u += step;
 }
 
 }  // namespace lekalo::geometry

@@ -17,6 +17,9 @@
 // D = r'^2 - R'^2 - R R'' - (p - r) . r'' at the meeting p does not depend on the line's direction: where the radius of
 // curvature is larger than the tube's, cells are found out at build on which it is positive for every line. What is
 // not certain on a cell is halved.
+//
+// Lines are searched on a polynomial model of each cell that agrees with the curve to rounding, where there is one (it
+// is some ten times as fast as a formula); every end that is left of the union takes its last step on the curve itself.
 #pragma once
 
 #include "geometry/shapes/line_spans.h"
@@ -38,9 +41,13 @@ struct SpanLimit {
 
 class BallSweep {
  public:
+  static constexpr int kModelTerms = 10;
   struct Cell {
     Interval t;
     BallJet middle;
+    // r and R as polynomials of (t - middle)/half the width: what lines are searched on.
+    std::array<Vec4, kModelTerms> model;
+    bool is_modelled = false;  // else on the curve itself
     double wander = 0;         // r'' is this near to that of the middle
     double radius_wander = 0;  // the same of R''
     bool regular = false;      // D > 0 for every line
@@ -57,13 +64,17 @@ class BallSweep {
   const std::vector<Cell>& cells() const { return cells_; }
   double size() const { return size_; }
   BallJet ball(double t) const;
+  BallJet ball(const Cell& cell, double t) const;  // of the cell's model
 
   // Adds what the balls of a cell fill of the line, whose direction is a unit vector and whose origin is near; u of the
   // ends is the parameter t of the ball, their piece the cell.
   void add_spans(int cell, const Line& line, const SpanLimit& limit, LineSpans& spans) const;
+  // Moves an end of a span that is left of the union onto the curve's own balls.
+  void finish(SpanEnd& end, bool is_in, const Line& line) const;
 
  private:
   void cut(const Interval& t);
+  void add_model(Cell& cell) const;
 
   CurvePtr curve_;
   RadiusLaw law_;

@@ -108,13 +108,14 @@ void Tube::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>
   const double start = glm::dot(center_ - line.origin, line.direction) / (speed * speed);
   const Line near{line.at(start), line.direction / speed};
   tree_.along(line, t, [&](int cell) { sweep_.add_spans(cell, near, limit(cell, near), spans); });
-  const auto add = [&](const SpanEnd& end) {
+  const auto add = [&](SpanEnd end, bool is_in) {
+    if (end.face == 0) sweep_.finish(end, is_in, near);
     const double at = start + end.s / speed;
     if (t.contains(at) && (end.face == 0 || caps_ != Caps::none)) hits.push_back({at, end.u, 0, end.face, end.piece});
   };
   for (const Span& span : spans) {
-    add(span.in);
-    add(span.out);
+    add(span.in, true);
+    add(span.out, false);
   }
 }
 
