@@ -227,16 +227,16 @@ class CellSolver {
     const Range range(p, middle, h, cell_);
     if (range.g.hi < 0) return;
     if (spans_.cover(range.a.lo - range.root.hi, range.a.hi + range.root.hi, same_)) return;
+    const double extent = (glm::length(middle.center[1]) + (glm::length(middle.center[2]) + cell_.wander) * h) * h;
+    if (extent <= same_) return add_ball(t.middle(), p);
     const bool one_stretch = range.g.lo > 0 || range.g2.hi <= 0 || !range.g1.contains(0);
-    if (one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)))) {
+    const bool certain = one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)));
+    if (certain || left_ == 0) {
       SpanEnd in, out;
-      if (!extreme(1, t, p, range.g2.hi, in)) return;
-      if (!extreme(-1, t, p, range.g2.hi, out)) return;
-      add({in, out});
+      if (extreme(1, t, p, range.g2.hi, in) && extreme(-1, t, p, range.g2.hi, out)) add({in, out});
       return;
     }
-    const double extent = (glm::length(middle.center[1]) + (glm::length(middle.center[2]) + cell_.wander) * h) * h;
-    if (extent <= same_ || --left_ < 0) return add_ball(t.middle(), p);
+    --left_;
     if (!cell_.regular) add_ball(t.middle(), p);  // covers much of what follows
     for (const Interval& half : {Interval(t.lo, t.middle()), Interval(t.middle(), t.hi)})
       solve(half, ball(half.middle()));
@@ -244,8 +244,8 @@ class CellSolver {
 
  private:
   // Halvings of one cell for one line. A line along a valley of equal balls (the axis of a ring that has no hole) never
-  // gets certain; after so many the cells are so small that their middles tell all.
-  static constexpr int kMostHalvings = 20000;
+  // gets certain; after so many halvings one search a part is enough.
+  static constexpr int kMostHalvings = 1000;
 
   BallJet ball(double t) const { return cell_.is_modelled ? sweep_.ball(cell_, t) : sweep_.ball(t); }
 
