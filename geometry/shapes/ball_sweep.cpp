@@ -13,7 +13,7 @@ namespace {
 // A cell's derivatives r' differ from the one in its middle by at most this part of it: larger cells make larger boxes
 // and need halving for lines that see them from their ends, smaller ones are more for each line.
 constexpr double kStraight = 0.3;
-// The slope of the radius, R'/|r'|, changes by at most this on a cell. A law with a kink is cut at it.
+// The same for the slope of the radius, R'/|r'|, where its law is made of branches: it is cut at kinks and jumps.
 constexpr double kEven = 0.05;
 // Where the curve bends more than the tube, or has a cusp, cells have this part of the radius.
 constexpr double kSmall = 0.25;
@@ -64,18 +64,27 @@ void BallSweep::cut(const Interval& t) {
 
   cell.is_place = extent <= kSamePlace * size_ || t.width() <= narrowest_;
   const bool positive = radius[0].lo > 0 && radius[0].hi < kInfinity;
-  const bool even = radius[1].width() <= kEven * speed && radius[0].width() <= 2 * h * (std::abs(R1) + kEven * speed);
+  const double uneven = (law_.has_branches() ? kEven : kStraight) * speed;
+  const bool even = radius[1].width() <= uneven && radius[0].width() <= 2 * h * (std::abs(R1) + uneven);
   // At a critical point (p - r) . r' = -R R', so that only the part of r'' across r' counts in full.
   const double along = speed > 0 ? glm::dot(r2, r1) / (speed * speed) : 0;
   const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
   const double slope = magnitude(radius[1]), R = radius[0].hi;
-  const double d = std::pow(std::max(0.0, speed - turn), 2) - slope * slope - magnitude(radius[0] * radius[2]) -
-                   std::abs(along) * R * slope - R * across;
-  cell.regular = d > 0;
+  const double slowest = std::max(0.0, speed - turn);
+  const double d =
+      slowest * slowest - slope * slope - (radius[0] * radius[2]).hi - std::abs(along) * R * slope - R * across;
+  // Where one ball holds all others there is no critical point.
+  cell.regular = d > 0 || mignitude(radius[1]) > speed + turn;
   const bool straight = turn <= kStraight * speed;
   const bool small = extent <= kSmall * cell.least_radius &&
                      (cell.wander <= 0.25 * glm::length(r2) || extent <= 0.01 * kSmall * cell.least_radius);
-  if (!cell.is_place && !(positive && even && ((straight && cell.regular) || (small && most < kInfinity)))) {
+  bool is_good = cell.is_place || (positive && even && ((straight && cell.regular) || (small && most < kInfinity)));
+  if (is_good) {
+    add_model(cell);
+    // Where two halves may have models they are worth more than the whole without one.
+    is_good = cell.is_modelled || cell.is_place || extent < cell.least_radius;
+  }
+  if (!is_good) {
     if (cells_.size() >= kMostCells)
       throw FieldError("of", "the curve takes more than a million pieces", "make it simpler, or its domain smaller");
     cut({t.lo, middle});
@@ -86,7 +95,6 @@ void BallSweep::cut(const Interval& t) {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * (farthest(boxes.d[0], Vec3(0)) + R);
   cell.box = boxes.d[0].inflated(R + rounding);
   size_ = std::max(size_, 2 * R);
-  add_model(cell);
   cells_.push_back(cell);
 }
 
@@ -231,13 +239,13 @@ class CellSolver {
     if (extent <= same_) return add_ball(t.middle(), p);
     const bool one_stretch = range.g.lo > 0 || range.g2.hi <= 0 || !range.g1.contains(0);
     const bool certain = one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)));
+    if (!certain && !cell_.regular) add_ball(t.middle(), p);  // covers much of what follows
     if (certain || left_ == 0) {
       SpanEnd in, out;
       if (extreme(1, t, p, range.g2.hi, in) && extreme(-1, t, p, range.g2.hi, out)) add({in, out});
       return;
     }
     --left_;
-    if (!cell_.regular) add_ball(t.middle(), p);  // covers much of what follows
     for (const Interval& half : {Interval(t.lo, t.middle()), Interval(t.middle(), t.hi)})
       solve(half, ball(half.middle()));
   }

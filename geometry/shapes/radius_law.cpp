@@ -33,6 +33,9 @@ RadiusLaw::RadiusLaw(const Expression& law, const Curve& curve) : law_(law) {
   } catch (const std::invalid_argument& error) {
     throw FieldError("of", error.what());
   }
+  // A name that holds one of these words only makes more pieces.
+  for (const char* word : {"if", "abs", "min", "max", "clamp", "floor", "ceil", "round", "sign", "mod"})
+    has_branches_ = has_branches_ || law.text().find(word) != std::string::npos;
   const Interval domain = curve.domain();
   for (int i = 0; i <= kTried; ++i) {
     const double t = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried;

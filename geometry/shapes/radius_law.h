@@ -15,6 +15,8 @@ class RadiusLaw {
   // `law` is bound to the variable s. The curve's domain must be finite; throws FieldError (fields radius and of).
   RadiusLaw(const Expression& law, const Curve& curve);
 
+  // True if the law may have kinks or jumps.
+  bool has_branches() const { return has_branches_; }
   // R, R', R'' where the curve has this jet.
   std::array<double, 3> at(double t, const CurveJet& jet) const;
   // Certified enclosures of them over parameters where the curve has these. A law made of branches (if, min, abs) is
@@ -25,6 +27,7 @@ class RadiusLaw {
 
  private:
   double constant_ = 0;
+  bool has_branches_ = false;
   Expression law_;
   ArcFraction fraction_;  // of a formula
 };

@@ -161,6 +161,7 @@ TypeDeclaration tube_type() {
              "Round tube about a curve: all that a ball sweeps whose center moves along it. What lies inside, where "
              "it meets itself or bends more than its radius allows, is not seen. Parameters: u is that of the "
              "curve, v the angle about it.")
+      .example("of: my_curve, radius: 0.1")
       .field("of", reference({Category::curve}), "the curve in the middle")
       .field("radius", formula({"s"}),
              "radius of the tube, a length or a formula of s, which runs from 0 to 1 with the length of the curve")
