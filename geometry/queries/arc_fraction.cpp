@@ -62,6 +62,8 @@ double ArcFraction::Stretch::length_to(double at) const {
 }
 
 double ArcFraction::at(double t) const {
+  if (t <= stretches_.front().t.lo) return 0;
+  if (t >= stretches_.back().t.hi) return 1;
   auto found = std::upper_bound(stretches_.begin(), stretches_.end(), t,
                                 [](double value, const Stretch& stretch) { return value < stretch.t.lo; });
   if (found != stretches_.begin()) --found;

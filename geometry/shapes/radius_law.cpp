@@ -46,10 +46,11 @@ RadiusLaw::RadiusLaw(const Expression& law, const Curve& curve) : law_(law) {
 
 void RadiusLaw::refuse(double t, double radius) const {
   const double s = fraction_.at(t);
-  if (!std::isfinite(radius)) throw FieldError("radius", fmt::format("the formula has no value at s = {:.4g}", s));
-  throw FieldError("radius",
-                   fmt::format("the radius must be greater than 0, and at s = {:.4g} it is {:.4g}", s, radius),
-                   "s runs from 0 to 1 along the curve");
+  const std::string message =
+      std::isfinite(radius)
+          ? fmt::format("the radius must be greater than 0, and at s = {:.4g} it is {:.4g}", s, radius)
+          : fmt::format("the formula has no value at s = {:.4g}", s);
+  throw FieldError("radius", message, "s runs from 0 to 1 along the curve");
 }
 
 std::array<double, 3> RadiusLaw::at(double t, const CurveJet& jet) const {
