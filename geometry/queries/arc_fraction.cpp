@@ -11,14 +11,15 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Last coefficients of a series below this part of the first: what is cut off is rounding.
+// Last coefficients whose share of the length is below this part of it: what is cut off is rounding.
 constexpr double kConverged = 1e-15;
 
 }  // namespace
 
 ArcFraction::ArcFraction(const Curve& curve) {
   const double shortest = kSmallestCell * curve.domain().width();
-  for (const CurvePiece& piece : curve.pieces()) cut(curve, piece.domain, shortest);
+  const double size = bounds(curve).diameter();  // about the least that the length can be
+  for (const CurvePiece& piece : curve.pieces()) cut(curve, piece.domain, size, shortest);
   for (Stretch& stretch : stretches_) {
     stretch.begin = length_;
     length_ += stretch.length_to(stretch.t.hi);
@@ -26,16 +27,16 @@ ArcFraction::ArcFraction(const Curve& curve) {
   if (!(length_ > 0 && length_ < kInfinity)) throw std::invalid_argument("the curve has no length");
 }
 
-void ArcFraction::cut(const Curve& curve, const Interval& t, double shortest) {
+void ArcFraction::cut(const Curve& curve, const Interval& t, double size, double shortest) {
   // The points lie inside, where a break at the end is not seen.
   std::array<double, kTerms> speed;
   for (int j = 0; j < kTerms; ++j)
     speed[j] = glm::length(curve.evaluate(t.middle() + 0.5 * t.width() * chebyshev_point(j, kTerms), 1).d[1]);
   const std::array<double, kTerms> c = chebyshev_coefficients(speed);
   const double tail = std::max({std::abs(c[kTerms - 1]), std::abs(c[kTerms - 2]), std::abs(c[kTerms - 3])});
-  if (!(tail <= kConverged * c[0]) && t.width() > shortest) {
-    cut(curve, {t.lo, t.middle()}, shortest);
-    cut(curve, {t.middle(), t.hi}, shortest);
+  if (!(tail * t.width() <= kConverged * size) && t.width() > shortest) {
+    cut(curve, {t.lo, t.middle()}, size, shortest);
+    cut(curve, {t.middle(), t.hi}, size, shortest);
     return;
   }
   Stretch stretch;

@@ -29,7 +29,7 @@ class ArcFraction {
     std::array<double, kTerms + 1> integral{};
     double length_to(double t) const;  // from t.lo
   };
-  void cut(const Curve& curve, const Interval& t, double shortest);
+  void cut(const Curve& curve, const Interval& t, double size, double shortest);
 
   std::vector<Stretch> stretches_;
   double length_ = 0;
