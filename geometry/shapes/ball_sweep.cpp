@@ -11,9 +11,10 @@ namespace lekalo::geometry {
 namespace {
 
 // A cell's derivatives r' differ from the one in its middle by at most this part of it: larger cells make larger boxes
-// and need halving for lines that see them from their ends, smaller ones are more for each line.
+// and need halving for lines that see them from their ends, smaller ones are more for each line. Nor does the slope of
+// the radius, R'/|r'|, change by more.
 constexpr double kStraight = 0.3;
-// The same for the slope of the radius, R'/|r'|, where its law is made of branches: it is cut at kinks and jumps.
+// The same for the slope of a law that is made of branches: it is cut at kinks and jumps.
 constexpr double kEven = 0.05;
 // Where the curve bends more than the tube, or has a cusp, cells have this part of the radius.
 constexpr double kSmall = 0.25;
