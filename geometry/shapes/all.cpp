@@ -5,7 +5,9 @@
   X(union_type)               \
   X(intersection_type)        \
   X(difference_type)          \
-  X(half_space_type)
+  X(half_space_type)          \
+  X(tube_type)                \
+  X(balls_type)
 
 namespace lekalo::geometry {
 

@@ -1,0 +1,33 @@
+// Balls about points: a union of as many as there are.
+#pragma once
+
+#include <span>
+
+#include "geometry/queries/box_tree.h"
+#include "geometry/shape.h"
+
+namespace lekalo::geometry {
+
+// Where balls overlap only the outside of their union is seen. Parameters: longitude and latitude as on a sphere in
+// place, z up. face and piece of a hit: 0 and the ball's number.
+class Balls final : public Shape {
+ public:
+  // One radius for all, or as many as centers; all positive. Throws FieldError (fields at, radius).
+  Balls(std::span<const Vec3> centers, std::span<const double> radii);
+
+  Box3 bounds() const override { return box_; }
+  void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
+  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  bool is_closed() const override { return true; }
+
+ private:
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
+  std::vector<Ball> balls_;
+  Box3 box_;
+  BoxTree tree_;
+};
+
+}  // namespace lekalo::geometry
