@@ -1,5 +1,6 @@
 #include "geometry/shape.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace lekalo::geometry {
@@ -21,12 +22,16 @@ class TransformedShape final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override {
     original_->all_hits({inverse_.point(line.origin), inverse_.direction(line.direction)}, t, hits);
   }
+  bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override {
+    return original_->first_hit({inverse_.point(line.origin), inverse_.direction(line.direction)}, t, hit);
+  }
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override {
     ShapePoint at = original_->point(hit, inverse_.point(near));
     at.position = map_.point(at.position);
     at.normal = glm::normalize(glm::transpose(inverse_.linear) * at.normal);
     at.du = map_.direction(at.du);
     at.dv = map_.direction(at.dv);
+    at.error *= largest_stretch(map_);
     return at;
   }
   bool is_closed() const override { return original_->is_closed(); }
@@ -38,6 +43,21 @@ class TransformedShape final : public Shape {
 };
 
 }  // namespace
+
+double largest_stretch(const Affine& map) {
+  double square = 0;
+  for (int k = 0; k < 3; ++k) square += glm::dot(map.linear[k], map.linear[k]);
+  return std::sqrt(square);
+}
+
+bool Shape::first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const {
+  static thread_local std::vector<SurfaceHit> hits;  // its room is kept
+  hits.clear();
+  all_hits(line, t, hits);
+  if (hits.empty()) return false;
+  hit = hits.front();
+  return true;
+}
 
 ShapePtr transformed(const ShapePtr& shape, const Affine& map) {
   if (map.is_identity()) return shape;
