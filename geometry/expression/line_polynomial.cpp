@@ -207,6 +207,57 @@ bool LinePolynomial::finish() {
   return true;
 }
 
+Vec4 LinePolynomial::at(const Vec3& p) const {
+  Vec4 values[kMostForms];
+  Vec4* top = values - 1;
+  for (const Instruction& in : program_) {
+    switch (in.step) {
+      case Step::variable:
+        *++top = Vec4(0, 0, 0, p[in.variable]);
+        (*top)[in.variable] = 1;
+        break;
+      case Step::constant:
+        *++top = Vec4(0, 0, 0, in.value);
+        break;
+      case Step::copy:
+        top[1] = top[0];
+        ++top;
+        break;
+      case Step::negate:
+        *top = -*top;
+        break;
+      case Step::scale:
+        *top *= in.value;
+        break;
+      case Step::shift:
+        top->w += in.value;
+        break;
+      case Step::square: {
+        const double value = top->w;
+        *top *= 2 * value;
+        top->w = value * value;
+        break;
+      }
+      case Step::multiply: {
+        const double a = top[-1].w, b = top->w;
+        top[-1] = b * top[-1] + a * *top;
+        top[-1].w = a * b;
+        --top;
+        break;
+      }
+      case Step::add:
+        top[-1] += *top;
+        --top;
+        break;
+      case Step::subtract:
+        top[-1] -= *top;
+        --top;
+        break;
+    }
+  }
+  return *top;
+}
+
 void LinePolynomial::along(const Vec3& p, const Vec3& q, double* b) const {
   Form forms[kMostForms];
   Form* top = forms - 1;

@@ -27,6 +27,8 @@ class LinePolynomial {
   static std::optional<LinePolynomial> of(const Expression& formula);
 
   int degree() const { return degree_; }
+  // Gradient (x, y, z) and value (w).
+  Vec4 at(const Vec3& p) const;
   // b_0 ... b_n on the segment from p to q, n = degree().
   void along(const Vec3& p, const Vec3& q, double* b) const;
   // A bound on the rounding error of each b_i for all segments in the box, whose ends are taken as exact.

@@ -15,7 +15,6 @@ constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 64;
 constexpr int kMostCuts = 36;
-constexpr int kMostHalvings = 6;  // of a line's part in a cell, before interval arithmetic takes over
 
 Box3 with_slack(const Box3& box) { return box.inflated(kCellSlack * (glm::length(box.lo) + glm::length(box.hi))); }
 
@@ -37,6 +36,7 @@ double zero_of(const Bernstein& b) {
 ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
                              const std::function<bool(const Box3&)>& outside, int most, bool models)
     : formula_(std::move(formula)) {
+  size_ = glm::length(region.size());
   models = models && formula_.smoothness() == Expression::Smoothness::smooth;
   struct Open {
     int node;
@@ -56,6 +56,7 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
     if (good || at.cuts == kMostCuts || count() + static_cast<int>(open.size()) + 1 >= most) {
       nodes_[at.node].child = count();
       cells_.push_back(cell);
+      rounding_ = std::max(rounding_, cell.rounding);
       where_zero_.include(at.box);
       continue;
     }
@@ -80,6 +81,7 @@ bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) co
   using Pair = Jet2<Interval, 2>;
   // Value and slopes at the middle, slopes and second derivatives over the box. Kinks have the slopes of both sides.
   const Interval value = formula_.enclose({cell.center, cell.center});
+  cell.rounding = 4 * value.width();
   Interval slope[3], slope_over[3], second[3][3];
   const auto side = [&](int k) { return Interval(box.lo[k], box.hi[k]); };
   if (formula_.smoothness() == Expression::Smoothness::jumps) return true;
@@ -105,15 +107,17 @@ bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) co
     second[k][other] = second[other][k] = pair.derivative(1, 1);
   }
   // Twice the rounding at the middle stands for that of F and of the model elsewhere in the cell.
-  double error = 4 * value.width();
+  double error = cell.rounding;
   for (int i = 0; i < 3; ++i) {
     cell.g[i] = slope[i].middle();
-    cell.slope_error[i] = 2 * slope[i].width();
+    cell.slope_error[i] = cell.slope_rounding[i] = 4 * slope[i].width();
     for (int j = 0; j < 3; ++j) {
       cell.h[i][j] = second[i][j].middle();
-      cell.slope_error[i] += (0.5 + 1e-12) * second[i][j].width() * half[j];
+      cell.h_error[i][j] = (0.5 + 1e-12) * second[i][j].width();
+      cell.slope_error[i] += cell.h_error[i][j] * half[j];
     }
-    error += cell.slope_error[i] * half[i];
+    // By Taylor's formula half of the second derivatives' part is enough.
+    error += 0.5 * (cell.slope_error[i] + cell.slope_rounding[i]) * half[i];
   }
   cell.f = value.middle();
   if (std::isfinite(error) && std::isfinite(cell.f)) cell.error = error;
@@ -160,46 +164,81 @@ void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& 
   }
 }
 
+namespace {
+
+// A stretch of a line with a model of F on it.
+struct Stretch {
+  double t0, t1;
+  Bernstein b;
+  double error;
+  double slope_error;  // of dF/dt
+};
+
+// What a model tells.
+enum class Told { no_zero, monotone, nothing };
+Told tell(const Stretch& stretch) {
+  const auto& [b0, b1, b2] = stretch.b;
+  if (std::min({b0, b1, b2}) > stretch.error || std::max({b0, b1, b2}) < -stretch.error) return Told::no_zero;
+  const double slack = 0.5 * stretch.slope_error * (stretch.t1 - stretch.t0);
+  const double first = b1 - b0, second = b2 - b1;
+  return (first > slack && second > slack) || (first < -slack && second < -slack) ? Told::monotone : Told::nothing;
+}
+
+}  // namespace
+
 void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const {
-  const double error = cell.error, size = 2 * glm::length(where_zero_.hi - where_zero_.lo);
-  if (error == kInfinity) return follow_by_intervals(formula_, line, t0, t1, size, changes);
-  struct Part {
-    double begin, width;  // of the way from t0 to t1
-    Bernstein b;
-  };
-  Part stack[kMostHalvings + 1];
+  if (cell.error == kInfinity) return follow_by_intervals(formula_, line, t0, t1, size_, changes);
+  constexpr int kRoom = 64;
+  Stretch stack[kRoom];
   int top = 0;
   {
     const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center, hp = cell.h * p, hq = cell.h * q;
     const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
-    stack[0] = {0, 1, {gp + 0.5 * glm::dot(p, hp), 0.5 * (gp + gq + glm::dot(p, hq)), gq + 0.5 * glm::dot(q, hq)}};
+    stack[0] = {t0, t1, {}, cell.error, glm::dot(cell.slope_error, glm::abs(line.direction))};
+    stack[0].b = {gp + 0.5 * glm::dot(p, hp), 0.5 * (gp + gq + glm::dot(p, hq)), gq + 0.5 * glm::dot(q, hq)};
   }
-  const double slope_error = 0.5 * (t1 - t0) * glm::dot(cell.slope_error, glm::abs(line.direction));
-  const double smallest = std::ldexp(1.0, -kMostHalvings);
-  const auto sign_at = [&](double model, double t) {
+  const auto sign_at = [&](double model, double error, double t) {
     return model > error || (!(model < -error) && is_positive(formula_(line.at(t))));
   };
-  const auto place = [&](double s) { return s == 1 ? t1 : t0 + s * (t1 - t0); };
+  // A model of its own, from the middle.
+  const auto with_model = [&](double from, double to) -> Stretch {
+    const Vec3& d = line.direction;
+    const Vec3 size = glm::abs(d);
+    const double half = 0.5 * (to - from), second = glm::dot(d, cell.h * d);
+    const double second_error = glm::dot(size, cell.h_error * size);
+    const auto at = formula_.along(line, Jet<double, 1>::variable(0.5 * (from + to)));
+    const double f = at.c[0], change = at.c[1] * half, bend = 0.5 * second * half * half;
+    return {from,
+            to,
+            {f - change + bend, f - bend, f + change + bend},
+            cell.rounding + 0.5 * second_error * half * half,
+            glm::dot(cell.slope_rounding, size) + second_error * half};
+  };
   while (top >= 0) {
-    const Part part = stack[top--];
-    const auto& [b0, b1, b2] = part.b;
-    const double lo = std::min({b0, b1, b2}), hi = std::max({b0, b1, b2});
-    const double begin = place(part.begin), end = place(part.begin + part.width);
-    const double slack = part.width * slope_error;
-    if (lo > error || hi < -error) {
-      changes.pass(begin, lo > error);
-    } else if ((b1 - b0 > slack && b2 - b1 > slack) || (b1 - b0 < -slack && b2 - b1 < -slack)) {
-      const bool from = sign_at(b0, begin), to = sign_at(b2, end);
-      changes.pass(begin, from);
-      if (from != to) changes.add(find_zero(formula_, line, begin, end, to, begin + zero_of(part.b) * (end - begin)));
-    } else if (part.width <= smallest || hi - lo <= 4 * error) {
-      changes.pass(begin, is_positive(formula_(line.at(begin))));
-      follow_by_intervals(formula_, line, begin, end, size, changes);
-    } else {
-      const double left = 0.5 * (b0 + b1), right = 0.5 * (b1 + b2), middle = 0.5 * (left + right);
-      const double half = 0.5 * part.width;
-      stack[++top] = {part.begin + half, half, {middle, right, b2}};
-      stack[++top] = {part.begin, half, {b0, left, middle}};
+    const Stretch stretch = stack[top--];
+    const Bernstein& b = stretch.b;
+    switch (tell(stretch)) {
+      case Told::no_zero:
+        changes.pass(stretch.t0, b.b0 > 0);
+        break;
+      case Told::monotone: {
+        const bool from = sign_at(b.b0, stretch.error, stretch.t0), to = sign_at(b.b2, stretch.error, stretch.t1);
+        changes.pass(stretch.t0, from);
+        if (from != to)
+          changes.add(find_zero(formula_, line, stretch.t0, stretch.t1, to,
+                                stretch.t0 + zero_of(b) * (stretch.t1 - stretch.t0)));
+        break;
+      }
+      case Told::nothing: {
+        const double middle = 0.5 * (stretch.t0 + stretch.t1);
+        if (stretch.error <= 2 * cell.rounding || top + 3 > kRoom || !(stretch.t0 < middle && middle < stretch.t1)) {
+          changes.pass(stretch.t0, is_positive(formula_(line.at(stretch.t0))));
+          follow_by_intervals(formula_, line, stretch.t0, stretch.t1, size_, changes);
+          break;
+        }
+        stack[++top] = with_model(middle, stretch.t1);
+        stack[++top] = with_model(stretch.t0, middle);
+      }
     }
     if (changes.is_done()) return;
   }

@@ -8,8 +8,10 @@
 // They come from enclosures of the second derivatives over the cell (jets of intervals), and hold the rounding. A line
 // goes through the cells in order. In each the model is a quadratic polynomial in Bernstein form: stretches where it
 // exceeds the error have no zero; where its slope exceeds its own error F is monotone, and the signs at the ends tell
-// whether there is a zero, which Newton's iteration on F itself finds. What stays open (lines that graze, singular
-// points, kinks) is searched by interval arithmetic along the line (Moore, Kearfott, Cloud 2009, ch. 8).
+// whether there is a zero, which Newton's iteration on F itself finds. A stretch that stays open gets a model of its
+// own, F and its slope in the stretch's middle with the cell's second derivatives, whose error shrinks with the square
+// of the length. What is left at the size of the rounding (lines that graze, singular points), and formulas with kinks
+// or jumps, are searched by interval arithmetic along the line (Moore, Kearfott, Cloud 2009, ch. 8).
 //
 // The sign at a place is the model's where that is certain and else that of the computed F, zero counted as positive:
 // neighbours agree on it, and crossings alternate.
@@ -34,6 +36,8 @@ class ImplicitCells {
 
   // A box around all that may be zero; empty where F certainly has one sign.
   const Box3& where_zero() const { return where_zero_; }
+  // A bound on the rounding of F where it may be zero.
+  double rounding() const { return rounding_; }
   int count() const { return static_cast<int>(cells_.size()); }
 
   // Follows the sign of F along the line from t0 to t1, both in the region. The origin of the line lies near it.
@@ -44,9 +48,11 @@ class ImplicitCells {
     Vec3 center{0};
     double f = 0;
     Vec3 g{0};
-    Mat3 h{0};
+    Mat3 h{0}, h_error{0};
     double error = kInfinity;  // infinite: there is no model
     Vec3 slope_error{0};
+    double rounding = 0;  // of F
+    Vec3 slope_rounding{0};
   };
   struct Node {
     int axis = -1;  // of the cut; -1: a leaf
@@ -62,6 +68,8 @@ class ImplicitCells {
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;
   Box3 where_zero_;
+  double size_ = 0;  // of the region
+  double rounding_ = 0;
 };
 
 }  // namespace lekalo::geometry

@@ -18,6 +18,4 @@ Interval ImplicitFormula::enclose(const Box3& box) const {
   return (*this)(Interval(box.lo.x, box.hi.x), Interval(box.lo.y, box.hi.y), Interval(box.lo.z, box.hi.z));
 }
 
-double ImplicitFormula::rounding(const Vec3& p) const { return enclose({p, p}).width(); }
-
 }  // namespace lekalo::geometry

@@ -31,8 +31,6 @@ class ImplicitFormula {
   }
 
   Interval enclose(const Box3& box) const;
-  // Bound on the difference of the computed value at a point from the true one: rounding.
-  double rounding(const Vec3& p) const;
 
  private:
   Expression formula_;

@@ -13,11 +13,12 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kTried = 16;             // places along each axis where F must have a value
-constexpr int kMostCells = 8192;       // with models
+constexpr int kMostCells = 4096;       // with models
 constexpr int kMostBoundCells = 1024;  // that only bound a polynomial's surface
 // The computed place of a point is never further from the surface, of the region's size: at singular points the
 // formula's rounding is all that is known.
 constexpr double kWorstPlace = 1e-7;
+constexpr double kGoodPlace = 1e-11;
 
 // A bound on the errors of F - level in Bernstein form, halvings included, on segments in the box.
 double noise_of(const LinePolynomial& polynomial, double level, const Box3& box) {
@@ -201,12 +202,25 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
   const double size = glm::length(region_.box.size()), worst = kWorstPlace * size;
   ShapePoint at;
   at.position = near;
-  Vec3 slope = gradient(near);
+  Vec3 slope;
+  double value;
+  if (polynomial_) {
+    const Vec4 both = polynomial_->at(near);
+    slope = Vec3(both);
+    value = both.w - formula_.level();
+  } else {
+    slope = gradient(near);
+    value = formula_(near);
+  }
   double square = glm::dot(slope, slope);
   if (square > 0) {
-    const Vec3 step = value(near) / square * slope;
+    const Vec3 step = value / square * slope;
     if (glm::length(step) <= worst) at.position -= step;
-    at.error = std::min(4 * formula_.rounding(near) / std::sqrt(square), worst);
+    // The bound for the whole region is mostly good enough.
+    double rounding = polynomial_ ? noise_ : cells_->rounding();
+    if (polynomial_ && rounding > kGoodPlace * size * std::sqrt(square))
+      rounding = noise_of(*polynomial_, formula_.level(), {near, near});
+    at.error = std::min(2 * rounding / std::sqrt(square), worst);
   } else {
     // A singular point: a normal of its surroundings.
     at.error = worst;
