@@ -224,9 +224,10 @@ void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, d
       case Told::monotone: {
         const bool from = sign_at(b.b0, stretch.error, stretch.t0), to = sign_at(b.b2, stretch.error, stretch.t1);
         changes.pass(stretch.t0, from);
+        const double length = stretch.t1 - stretch.t0;
         if (from != to)
-          changes.add(find_zero(formula_, line, stretch.t0, stretch.t1, to,
-                                stretch.t0 + zero_of(b) * (stretch.t1 - stretch.t0)));
+          changes.add(find_zero(formula_, line, stretch.t0, stretch.t1, to, stretch.t0 + zero_of(b) * length,
+                                2 * (b.b0 - 2 * b.b1 + b.b2) / (length * length)));
         break;
       }
       case Told::nothing: {

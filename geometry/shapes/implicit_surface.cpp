@@ -241,7 +241,7 @@ TypeDeclaration implicit_type() {
              "the gradient of F, so F < level is the inner side. Polynomials up to degree 24 are fastest; any "
              "formula goes, and the surface may meet itself and have singular points. It has no parameters: to "
              "textures u = v = 0.")
-      .example("formula: x^4 + y^4 + z^4 - 1, box: { min: [-1, -1, -1], max: [1, 1, 1] }")
+      .example("formula: x^4 + y^4 + z^4 - 1, ball: { radius: 1.5 }")
       .field("formula", formula({"x", "y", "z"}), "F, a formula of x, y and z")
       .field("level", number(), "value of F on the surface", "0")
       .optional("box",
