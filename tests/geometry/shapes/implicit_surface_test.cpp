@@ -2,13 +2,14 @@
 // halving of the line with enclosures of a formula written here, and signs in 113 bits.
 #include "geometry/shapes/implicit_surface.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "geometry/quad.h"
 #include "geometry/surfaces/surface_checks.h"
 #include "geometry/surfaces/torus.h"
+#include "support/sign_oracle.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry {
@@ -72,60 +73,6 @@ struct Gyroid {
   }
 };
 
-// Zeros of F on a line between t0 and t1 where the sign changes.
-template <class F>
-class Oracle {
- public:
-  struct Answer {
-    std::vector<double> t;
-    bool doubtful = false;  // something touches, or nearly
-  };
-  Answer ask(const Line& line, double t0, double t1) {
-    line_ = line;
-    cells_.clear();
-    halve(t0, t1, 1e-9 * (t1 - t0));
-    Answer answer;
-    for (size_t first = 0, last; first < cells_.size(); first = last) {
-      for (last = first + 1; last < cells_.size() && cells_[last].lo == cells_[last - 1].hi;) ++last;
-      Quad lo = cells_[first].lo, hi = cells_[last - 1].hi;
-      const bool begins = at(lo) > Quad(0), ends = at(hi) > Quad(0);
-      answer.doubtful = answer.doubtful || begins == ends || cells_[first].lo == t0 || cells_[last - 1].hi == t1;
-      if (begins == ends) continue;
-      for (int step = 0; step < 60; ++step) {
-        const Quad middle = (lo + hi) * Quad(0.5);
-        ((at(middle) > Quad(0)) == ends ? hi : lo) = middle;
-      }
-      answer.t.push_back(static_cast<double>(lo));
-    }
-    return answer;
-  }
-  double slope(double t) const {
-    const Quad h = 1e-10;
-    return static_cast<double>((at(Quad(t) + h) - at(Quad(t) - h)) / (Quad(2.0) * h));
-  }
-
- private:
-  template <class T>
-  T along(const T& t) const {
-    return F()(T(line_.origin.x) + t * T(line_.direction.x), T(line_.origin.y) + t * T(line_.direction.y),
-               T(line_.origin.z) + t * T(line_.direction.z));
-  }
-  Quad at(const Quad& t) const { return along(t); }
-  void halve(double lo, double hi, double smallest) {
-    if (!along(Interval(lo, hi)).contains(0.0)) return;
-    if (hi - lo < smallest) {
-      cells_.push_back({lo, hi});
-      return;
-    }
-    const double middle = 0.5 * (lo + hi);
-    halve(lo, middle, smallest);
-    halve(middle, hi, smallest);
-  }
-
-  Line line_;
-  std::vector<Interval> cells_;
-};
-
 // What a line has inside a box.
 Interval inside(const Line& line, const Box3& box) {
   Interval t{-kInfinity, kInfinity};
@@ -140,7 +87,7 @@ Interval inside(const Line& line, const Box3& box) {
 template <class F, class Lines>
 void compare(const ImplicitSurface& shape, const Box3& box, int count, const char* name, const Lines& next_line,
              double most_doubtful = 0.002) {
-  Oracle<F> oracle;
+  oracle::SignOracle<F> oracle;
   const double size = box.diameter();
   int hits = 0, doubtful = 0;
   double worst = 0;
@@ -174,12 +121,9 @@ TEST(ImplicitSurface, LinesMeetASphereWhereItsClosedFormSays) {
   for (const Vec3& center : {Vec3(0), Vec3(1000, -700, 300)})
     for (const double distance : {0.0, 5.0, 1000.0})
       for (const char* way : {"", kNoPolynomial}) {
-        const auto coordinate = [&](const char* name, double c) {
-          return "(" + std::string(name) + " - (" + std::to_string(c) + "))^2";
-        };
-        const ImplicitSurface shape = surface(coordinate("x", center.x) + " + " + coordinate("y", center.y) + " + " +
-                                                  coordinate("z", center.z) + " - 1" + way,
-                                              cube(1.25, center), true);
+        const ImplicitSurface shape =
+            surface(fmt::format("(x - ({}))^2 + (y - ({}))^2 + (z - ({}))^2 - 1{}", center.x, center.y, center.z, way),
+                    cube(1.25, center), true);
         EXPECT_EQ(shape.degree(), *way ? 0 : 2);
         const int count = tests::tier_count(*way ? 20000 : 100000);
         for (int i = 0; i < count; ++i) {
