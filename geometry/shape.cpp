@@ -51,12 +51,15 @@ double largest_stretch(const Affine& map) {
 }
 
 bool Shape::first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const {
-  static thread_local std::vector<SurfaceHit> hits;  // its room is kept
+  // The room is kept from call to call, but for calls within calls.
+  static thread_local std::vector<SurfaceHit> room;
+  std::vector<SurfaceHit> hits = std::move(room);
   hits.clear();
   all_hits(line, t, hits);
-  if (hits.empty()) return false;
-  hit = hits.front();
-  return true;
+  const bool found = !hits.empty();
+  if (found) hit = hits.front();
+  room = std::move(hits);
+  return found;
 }
 
 ShapePtr transformed(const ShapePtr& shape, const Affine& map) {

@@ -30,37 +30,31 @@ struct Form {
 };
 
 void multiply(const double* a, int n, const double* b, int m, double* product) {
-  for (int k = 0; k <= n + m; ++k) product[k] = 0;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= m; ++j) product[i + j] += a[i] * b[j];
+  for (int j = 0; j <= m; ++j) product[j] = a[0] * b[j];
+  for (int i = 1; i <= n; ++i) {
+    for (int j = 0; j < m; ++j) product[i + j] += a[i] * b[j];
+    product[i + m] = a[i] * b[m];
+  }
 }
 
-void multiply(Form& a, const Form& b) {
-  Form product;
+void multiply(const Form& a, const Form& b, Form& product) {
+  product.degree = a.degree + b.degree;
   multiply(a.a, a.degree, b.a, b.degree, product.a);
-  a.degree += b.degree;
-  for (int i = 0; i <= a.degree; ++i) a.a[i] = product.a[i];
 }
 
-void square(Form& a) {
-  Form product;
+void square(const Form& a, Form& product) {
   const int n = a.degree;
+  product.degree = 2 * n;
   for (int k = 0; k <= 2 * n; ++k) {
     double sum = 0;
     for (int i = std::max(0, k - n); 2 * i < k; ++i) sum += a.a[i] * a.a[k - i];
     product.a[k] = k % 2 == 0 ? 2 * sum + a.a[k / 2] * a.a[k / 2] : 2 * sum;
   }
-  a.degree = 2 * n;
-  for (int i = 0; i <= a.degree; ++i) a.a[i] = product.a[i];
 }
 
-void raise(Form& a, int degree) {
-  const int by = degree - a.degree;
-  if (by <= 0) return;
-  Form raised;
-  multiply(a.a, a.degree, kBinomials[by].data(), by, raised.a);
-  for (int i = 0; i <= degree; ++i) a.a[i] = raised.a[i];
-  a.degree = degree;
+void raise(const Form& a, int degree, Form& raised) {
+  raised.degree = degree;
+  multiply(a.a, a.degree, kBinomials[degree - a.degree].data(), degree - a.degree, raised.a);
 }
 
 // What bounds a form on all segments of a box: the range of its b_i, their rounding error.
@@ -259,56 +253,72 @@ Vec4 LinePolynomial::at(const Vec3& p) const {
 }
 
 void LinePolynomial::along(const Vec3& p, const Vec3& q, double* b) const {
-  Form forms[kMostForms];
-  Form* top = forms - 1;
+  // Results are written beside the stack and take their operand's place in it.
+  Form room[kMostForms + 1];
+  Form* stack[kMostForms];
+  for (int i = 0; i < kMostForms; ++i) stack[i] = &room[i];
+  Form* spare = &room[kMostForms];
+  Form** top = stack - 1;
   for (const Instruction& in : program_) {
     switch (in.step) {
       case Step::variable:
         ++top;
-        top->degree = 1;
-        top->a[0] = p[in.variable];
-        top->a[1] = q[in.variable];
+        (*top)->degree = 1;
+        (*top)->a[0] = p[in.variable];
+        (*top)->a[1] = q[in.variable];
         break;
       case Step::constant:
         ++top;
-        top->degree = 0;
-        top->a[0] = in.value;
+        (*top)->degree = 0;
+        (*top)->a[0] = in.value;
         break;
       case Step::copy:
-        top[1] = top[0];
+        *top[1] = *top[0];
         ++top;
         break;
-      case Step::negate:
-        for (int i = 0; i <= top->degree; ++i) top->a[i] = -top->a[i];
+      case Step::negate: {
+        Form& a = **top;
+        for (int i = 0; i <= a.degree; ++i) a.a[i] = -a.a[i];
         break;
-      case Step::scale:
-        for (int i = 0; i <= top->degree; ++i) top->a[i] *= in.value;
+      }
+      case Step::scale: {
+        Form& a = **top;
+        for (int i = 0; i <= a.degree; ++i) a.a[i] *= in.value;
         break;
-      case Step::shift:
-        for (int i = 0; i <= top->degree; ++i) top->a[i] += in.value * kBinomials[top->degree][i];
+      }
+      case Step::shift: {
+        Form& a = **top;
+        for (int i = 0; i <= a.degree; ++i) a.a[i] += in.value * kBinomials[a.degree][i];
         break;
+      }
       case Step::square:
-        square(*top);
+        square(**top, *spare);
+        std::swap(*top, spare);
         break;
       case Step::multiply:
-        multiply(top[-1], *top);
+        multiply(*top[-1], **top, *spare);
         --top;
+        std::swap(*top, spare);
         break;
       case Step::add:
       case Step::subtract: {
-        Form& a = top[-1];
-        raise(a, top->degree);
-        raise(*top, a.degree);
+        const int degree = std::max(top[-1]->degree, top[0]->degree);
+        for (Form** form : {top - 1, top})
+          if ((*form)->degree < degree) {
+            raise(**form, degree, *spare);
+            std::swap(*form, spare);
+          }
+        Form &a = *top[-1], &c = **top;
         if (in.step == Step::add)
-          for (int i = 0; i <= a.degree; ++i) a.a[i] += top->a[i];
+          for (int i = 0; i <= degree; ++i) a.a[i] += c.a[i];
         else
-          for (int i = 0; i <= a.degree; ++i) a.a[i] -= top->a[i];
+          for (int i = 0; i <= degree; ++i) a.a[i] -= c.a[i];
         --top;
         break;
       }
     }
   }
-  for (int i = 0; i <= degree_; ++i) b[i] = top->a[i] / kBinomials[degree_][i];
+  for (int i = 0; i <= degree_; ++i) b[i] = (*top)->a[i] / kBinomials[degree_][i];
 }
 
 double LinePolynomial::rounding(const Box3& box) const {

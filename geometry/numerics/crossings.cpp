@@ -120,7 +120,8 @@ class Search {
         changes += is_positive(cell[i]) != is_positive(cell[i - 1]);
         smallest = std::min(smallest, std::abs(cell[i]));
       }
-      const bool open = changes > 1 || (changes == 0 && smallest <= noise);
+      const double ends = std::min(std::abs(cell[0]), std::abs(cell[n_]));
+      const bool open = changes > 1 || (changes == 1 ? ends : smallest) <= noise;
       const bool deepest = places[top].depth == kDeepest;
       if (open && (deepest || largest(cell) <= noise)) {
         if (!unclear) unclear_begin = begin;
@@ -169,7 +170,7 @@ class Search {
   void add_unclear(double s0, double s1, bool positive_after, const Slopes& slopes) {
     if (positive_after != positive_) return add(0.5 * (s0 + s1));
     const double sign = positive_ ? 1 : -1;
-    if (sign * slopes.before < 0 && sign * slopes.after > 0) {
+    if (sign * slopes.before < 0 && sign * slopes.after > 0 && polynomial_.is_touched(0.5 * (s0 + s1), positive_)) {
       add(s0);
       add(s1);
     }

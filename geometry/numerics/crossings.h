@@ -7,8 +7,8 @@
 // crossings between which the polynomial does not differ from zero by more count as a touch, which has two or none.
 //
 // Where all coefficients of a cell are below the noise no halving can tell more. Such a stretch is asked for once more
-// on its own, where the noise is that of its surroundings alone. A touch that is left is two crossings, at the ends of
-// the stretch, so that sheets that meet in a line or a point have no hole there.
+// on its own, where the noise is that of its surroundings alone. A touch that is left, if it counts, is two crossings,
+// at the ends of the stretch, so that sheets that meet in a line or a point have no hole there.
 #pragma once
 
 #include <array>
@@ -21,6 +21,8 @@ class BernsteinSource {
   static constexpr int kMostDegree = 24;
   // Writes the coefficients over [s0, s1]; the result bounds their errors.
   virtual double coefficients(double s0, double s1, double* b) const = 0;
+  // Whether a touch at s counts; the sign beside it.
+  virtual bool is_touched(double s, bool positive) const = 0;
 
  protected:
   ~BernsteinSource() = default;

@@ -31,6 +31,10 @@ class ImplicitFormula {
   }
 
   Interval enclose(const Box3& box) const;
+  // Where a line touches F = 0 and F has that sign beside: whether the surface is more than the point there. It is not
+  // if the gradient is zero and the second derivatives make a form of the sign: an isolated point or line, such as the
+  // handle of Whitney's umbrella.
+  bool has_sheets(const Vec3& p, bool positive) const;
 
  private:
   Expression formula_;

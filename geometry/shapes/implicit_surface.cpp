@@ -29,22 +29,25 @@ double noise_of(const LinePolynomial& polynomial, double level, const Box3& box)
 class OnChord final : public BernsteinSource {
  public:
   // `noise` bounds the errors on all chords of the region.
-  OnChord(const LinePolynomial& polynomial, double level, double noise, const Vec3& from, const Vec3& to)
-      : polynomial_(polynomial), level_(level), noise_(noise), from_(from), to_(to) {}
+  OnChord(const LinePolynomial& polynomial, const ImplicitFormula& formula, double noise, const Vec3& from,
+          const Vec3& to)
+      : polynomial_(polynomial), formula_(formula), noise_(noise), from_(from), to_(to) {}
 
   double coefficients(double s0, double s1, double* b) const override {
     const bool whole = s0 == 0 && s1 == 1;
     const Vec3 p = whole ? from_ : at(s0), q = whole ? to_ : at(s1);
     polynomial_.along(p, q, b);
-    for (int i = 0; i <= polynomial_.degree(); ++i) b[i] -= level_;
-    return whole ? noise_ : noise_of(polynomial_, level_, {glm::min(p, q), glm::max(p, q)});
+    for (int i = 0; i <= polynomial_.degree(); ++i) b[i] -= formula_.level();
+    return whole ? noise_ : noise_of(polynomial_, formula_.level(), {glm::min(p, q), glm::max(p, q)});
   }
+  bool is_touched(double s, bool positive) const override { return formula_.has_sheets(at(s), positive); }
 
  private:
   Vec3 at(double s) const { return (1 - s) * from_ + s * to_; }
 
   const LinePolynomial& polynomial_;
-  double level_, noise_;
+  const ImplicitFormula& formula_;
+  double noise_;
   Vec3 from_, to_;
 };
 
@@ -156,7 +159,7 @@ void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only
     meet_border(chord.t1, chord.leave, !end);
     return;
   }
-  const OnChord on_chord(*polynomial_, formula_.level(), noise_, from, to);
+  const OnChord on_chord(*polynomial_, formula_, noise_, from, to);
   Crossings crossings;
   find_crossings(on_chord, polynomial_->degree(), first_only, crossings);
   meet_border(chord.t0, chord.enter, !crossings.begins_positive);

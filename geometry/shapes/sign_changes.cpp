@@ -73,6 +73,7 @@ class Follower {
     in_cluster_ = false;
     if (after == changes_.positive()) {
       if (is_jump()) return;
+      if (!formula_.has_sheets(line_.at(cluster_.middle()), after)) return;
       changes_.add(cluster_.lo);
       changes_.add(cluster_.hi);
     } else if (is_jump()) {

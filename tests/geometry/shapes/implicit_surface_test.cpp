@@ -333,6 +333,29 @@ TEST(ImplicitSurface, KinksJumpsAndPoles) {
   EXPECT_EQ(places(surface("floor(x) + 0.5 + 0*y", cube(1), true), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 2U);
 }
 
+// Whitney's umbrella x^2 = y^2 z: for z > 0 two sheets cross in the axis, which must not be a gap; for z < 0 the axis
+// alone is F = 0, its handle, which no line is to meet.
+TEST(ImplicitSurface, SheetsThatCrossHaveNoGapAndHandlesDoNotShow) {
+  for (const char* way : {"", kNoPolynomial})
+    for (const bool negated : {false, true}) {
+      const ImplicitSurface umbrella =
+          surface(std::string(negated ? "y^2*z - x^2" : "x^2 - y^2*z") + way, ImplicitRegion::ball(Vec3(0), 1));
+      for (int i = 0; i < 50; ++i) {
+        const double angle = 0.1 + 0.12 * i;
+        const Vec3 d(std::cos(angle), std::sin(angle), 0);
+        for (const double z : {0.1, 0.5, 0.75}) {
+          const std::vector<double> above = places(umbrella, {Vec3(0, 0, z) - 2.0 * d, d});
+          ASSERT_EQ(above.size() % 2, 0U);
+          ASSERT_TRUE(std::any_of(above.begin(), above.end(), [](double t) { return std::abs(t - 2) < 1e-6; }))
+              << angle;
+          // Cells may end in the axis itself, where zero counts as positive.
+          const size_t at_handle = places(umbrella, {Vec3(0, 0, -z) - 2.0 * d, d}).size();
+          ASSERT_TRUE(at_handle == 0 || (*way && negated && at_handle == 2)) << angle;
+        }
+      }
+    }
+}
+
 TEST(ImplicitSurface, LevelMovesTheSurface) {
   const ImplicitSurface shape = surface("x^2 + y^2 + z^2", cube(3), false, 4);
   const std::vector<double> t = places(shape, {{-5, 0, 0}, {2, 0, 0}});
