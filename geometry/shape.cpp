@@ -1,5 +1,6 @@
 #include "geometry/shape.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace lekalo::geometry {
@@ -15,7 +16,26 @@ ShapePoint TransformedShape::point(const SurfaceHit& hit, const Vec3& near) cons
   at.normal = glm::normalize(glm::transpose(inverse_.linear) * at.normal);
   at.du = map_.direction(at.du);
   at.dv = map_.direction(at.dv);
+  at.error *= largest_stretch(map_);
   return at;
+}
+
+double largest_stretch(const Affine& map) {
+  double square = 0;
+  for (int k = 0; k < 3; ++k) square += glm::dot(map.linear[k], map.linear[k]);
+  return std::sqrt(square);
+}
+
+bool Shape::first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const {
+  // The room is kept from call to call, but for calls within calls.
+  static thread_local std::vector<SurfaceHit> room;
+  std::vector<SurfaceHit> hits = std::move(room);
+  hits.clear();
+  all_hits(line, t, hits);
+  const bool found = !hits.empty();
+  if (found) hit = hits.front();
+  room = std::move(hits);
+  return found;
 }
 
 ShapePtr transformed(const ShapePtr& shape, const Affine& map) {

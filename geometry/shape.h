@@ -18,6 +18,7 @@ struct ShapePoint {
   Vec3 dv{0};
   double u = 0;
   double v = 0;
+  double error = 0;  // bound on the distance of the position from the shape, beyond the rounding of its coordinates
 };
 
 // Immutable; safe to use from many threads.
@@ -29,6 +30,8 @@ class Shape {
   // Adds all hits with t in the interval, in order, one for each crossing; t in units of the line's direction. A line
   // that only touches has two hits there or none.
   virtual void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const = 0;
+  // The first of them; false if there is none.
+  virtual bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const;
   // `near` is the hit's place on the line that found it.
   virtual ShapePoint point(const SurfaceHit& hit, const Vec3& near) const = 0;
   // True if it bounds a region of space: every line crosses it in and out by turns, the normals looking out of the
@@ -54,6 +57,9 @@ class TransformedShape final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override {
     original_->all_hits(moved_back(line), t, hits);
   }
+  bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override {
+    return original_->first_hit(moved_back(line), t, hit);
+  }
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return original_->is_closed(); }
   bool begins_inside(const Line& line) const override { return original_->begins_inside(moved_back(line)); }
@@ -65,6 +71,9 @@ class TransformedShape final : public Shape {
   Affine map_;
   Affine inverse_;
 };
+
+// A bound on how much longer the map makes a vector.
+double largest_stretch(const Affine& map);
 
 // The image under an affine map; the identity gives the shape itself, maps of maps are multiplied out. Throws
 // std::invalid_argument for a singular map.

@@ -304,6 +304,31 @@ std::optional<ExpressionError> Expression::bind(std::span<const Variable> variab
   return ExpressionBinder(*this, variables, constants).run();
 }
 
+Expression::Smoothness Expression::smoothness() const {
+  Smoothness result = Smoothness::smooth;
+  for (const Instruction& in : program_) {
+    switch (static_cast<Operation>(in.operation)) {
+      case Operation::floor:
+      case Operation::ceil:
+      case Operation::round:
+      case Operation::sign:
+      case Operation::mod:
+      case Operation::atan2:
+      case Operation::select:
+        return Smoothness::jumps;
+      case Operation::abs:
+      case Operation::min:
+      case Operation::max:
+      case Operation::clamp:
+        result = Smoothness::kinks;
+        break;
+      default:
+        break;
+    }
+  }
+  return result;
+}
+
 std::optional<ExpressionError> Expression::convert_to_angle() {
   if (measure_ == Measure::angle) return {};
   if (measure_ == Measure::truth)

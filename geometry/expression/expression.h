@@ -84,6 +84,10 @@ class Expression {
   Measure measure() const { return measure_; }
   // A plain value in which pi survives: probably meant as radians.
   bool holds_pi() const { return holds_pi_; }
+  // By its operations: kinks are those of abs, min, max and clamp, jumps those of floor, ceil, round, sign, mod, atan2
+  // and if. Jets know neither.
+  enum class Smoothness { smooth, kinks, jumps };
+  Smoothness smoothness() const;
   // Makes the value an angle by the rule above: a plain one is taken as degrees. Errors: pi without a unit, a truth.
   std::optional<ExpressionError> convert_to_angle();
 
@@ -112,6 +116,7 @@ class Expression {
  private:
   friend class ExpressionParser;
   friend class ExpressionBinder;
+  friend class LinePolynomial;
 
   // The program is in postfix order: operands push a value, operators replace theirs by the result.
   struct Instruction {

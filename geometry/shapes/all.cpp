@@ -2,12 +2,13 @@
 #include "geometry/describe.h"
 
 #define LEKALO_SHAPE_TYPES(X) \
+  X(implicit_type)            \
+  X(tube_type)                \
+  X(balls_type)               \
   X(union_type)               \
   X(intersection_type)        \
   X(difference_type)          \
-  X(half_space_type)          \
-  X(tube_type)                \
-  X(balls_type)
+  X(half_space_type)
 
 namespace lekalo::geometry {
 

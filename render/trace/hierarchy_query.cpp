@@ -65,12 +65,20 @@ void test_instance(const GeometryRecord& record, Query& query) {
 }
 
 void test_shape(const GeometryRecord& record, Query& query) {
+  const auto accept = [&](const geometry::SurfaceHit& h) {
+    query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, h.face, h.piece});
+  };
+  if (!query.all && record.leaf->clips.empty()) {
+    geometry::SurfaceHit first;
+    if (record.leaf->shape->first_hit(query.line(), {query.t_min, query.t_max}, first)) accept(first);
+    return;
+  }
   static thread_local std::vector<geometry::SurfaceHit> hits;  // its room is kept
   hits.clear();
   record.leaf->shape->all_hits(query.line(), {query.t_min, query.t_max}, hits);
   for (const geometry::SurfaceHit& h : hits) {
     if (!keeps(record.leaf->clips, query.line().at(h.t))) continue;
-    query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, h.face, h.piece});
+    accept(h);
     if (!query.all) break;
   }
 }

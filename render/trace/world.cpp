@@ -130,8 +130,8 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
           .free_sides = sides};
 }
 
-SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
-                            double error) {
+SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming,
+                            const Hierarchy::Place& place) {
   const geometry::ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
   return {.position = at.position,
           .smooth_position = at.position,
@@ -142,9 +142,9 @@ SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, 
           .dv = at.dv,
           .u = at.u,
           .v = at.v,
-          .error = error,
+          .error = place.error + at.error * (place.to_world ? geometry::largest_stretch(*place.to_world) : 1),
           .instance = hit.instance,
-          .object = object,
+          .object = place.object,
           .face = hit.face,
           .piece = hit.piece};
 }
@@ -430,7 +430,7 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const auto point_in_leaf = [&] {
     if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
     const Vec3 near = place.to_world ? place.to_world->inverse().point(ray.at(hit.t)) : ray.at(hit.t);
-    if (leaf.shape) return point_of_shape(leaf, hit, near, ray.direction, place.object, place.error);
+    if (leaf.shape) return point_of_shape(leaf, hit, near, ray.direction, place);
     if (leaf.is_bare(hit.face)) return point_of_foot(leaf, hit, near, ray.direction, place.object, place.error);
     return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
   };

@@ -45,7 +45,7 @@ class Schema(unittest.TestCase):
 
     def test_every_example_of_a_type_validates(self):
         sections = {"curves": "geometry", "surfaces": "geometry", "bodies": "geometry", "meshes": "geometry",
-                    "materials": "materials", "lights": "lights", "groups": "geometry"}
+                    "shapes": "geometry", "materials": "materials", "lights": "lights", "groups": "geometry"}
         for page, section in sections.items():
             for line in (ROOT / "docs/reference" / f"{page}.md").read_text().splitlines():
                 if line.startswith("    { type: "):
