@@ -23,4 +23,4 @@ plane { <0, 0, 1>, 0
     checker
     texture { pigment { rgb <0.40000004, 1, 0.6> } finish { ambient rgb <0.1, 0.1, 0.1> diffuse 0.4 } }
     texture { pigment { rgb <1, 1, 1> } finish { ambient rgb <0.16000001, 0.16000001, 0.16000001> diffuse 0.64000005 } }
-    matrix <5, 0, 0, 0, 5, 0, 0, 0, 1, 0, 0, -0.5> } } }
+    matrix <20, 0, 0, 0, 20, 0, 0, 0, 1, 0, 0, -0.5> } } }

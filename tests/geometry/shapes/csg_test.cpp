@@ -175,9 +175,10 @@ TEST_F(RandomTrees, CrossWhereTheOracleDoes) {
         continue;
       }
       for (size_t h = 0; h < found.size(); ++h) {
-        worst = std::max(worst, std::abs(static_cast<double>(found[h].t - expected[h])) * glm::length(line.direction) /
-                                    std::max(1.0, 1e-3 * away));
         const ShapePoint at = shape->point(found[h], line.at(found[h].t));
+        // Along the normal: a line that grazes moves its hits by more.
+        worst = std::max(worst,
+                         std::abs(static_cast<double>(found[h].t - expected[h]) * glm::dot(at.normal, line.direction)));
         inside = !inside;
         if ((glm::dot(at.normal, line.direction) < 0) != inside) ++odd;
       }
@@ -191,8 +192,8 @@ TEST_F(RandomTrees, CrossWhereTheOracleDoes) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(odd, 0) << "normals that do not look outward";
-  EXPECT_LT(worst, 1e-11);
-  EXPECT_GT(compared, trees * lines / 2);
+  EXPECT_LT(worst, 1e-12);  // coordinates up to 1000
+  EXPECT_GT(compared, trees * lines / 4);
   tests::report_figure("lines", compared);
   tests::report_figure("wrong_counts", wrong);
   tests::report_figure("largest_error_of_t", worst);

@@ -90,7 +90,8 @@ TEST(BuilderErrors, WrongKinds) {
   EXPECT_EQ(about("{ type: torus_surface, major_radius: 1 < 2, minor_radius: 1 }"),
             "3:43 expected a number, found a condition\n");
   EXPECT_EQ(about("5"),
-            "3:6 expected a curve, a surface, a body, a mesh, a group or a point as a map with a type, found a single "
+            "3:6 expected a curve, a surface, a body, a mesh, a shape, a group or a point as a map with a type, found "
+            "a single "
             "value\n");
   EXPECT_EQ(about("{ type: sphere_surface, radius: 1, reversed: yes }"), "3:51 expected true or false, found 'yes'\n");
   EXPECT_EQ(said("image: { filter: boxx }"), "2:18 unknown word 'boxx' (did you mean 'box'?)\n");
@@ -119,7 +120,8 @@ TEST(BuilderErrors, AbsurdSizes) {
 
 TEST(BuilderErrors, MissingFields) {
   EXPECT_EQ(about("{ type: bezier_curve }"), "3:6 missing field 'points' of 'bezier_curve'\n");
-  EXPECT_EQ(about("{ radius: 1 }"), "3:6 missing 'type' of a curve, a surface, a body, a mesh, a group or a point\n");
+  EXPECT_EQ(about("{ radius: 1 }"),
+            "3:6 missing 'type' of a curve, a surface, a body, a mesh, a shape, a group or a point\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, center: { of: { type: segment, from: x0, to: [1, 0] } } }"),
             "3:68 there is no geometry called 'x0'\n");
   EXPECT_EQ(said("geometry: { l: { type: segment, from: [0, 0], to: [1, 0] }, b: { type: ball, radius: 1, center: "
@@ -147,9 +149,9 @@ TEST(BuilderErrors, ThingsOfTheWrongCategory) {
             "3:46 'ball' makes a body, but a curve is wanted here\n");
   EXPECT_EQ(said("geometry:\n  b: { type: ball, radius: 1 }\n  a: { type: revolution_surface, of: b, axis: z }\n"),
             "4:38 'b' is a body, but a curve is wanted here\n");
-  EXPECT_EQ(
-      about("{ type: diffuse }"),
-      "3:14 'diffuse' makes a material, but a curve, a surface, a body, a mesh, a group or a point is wanted here\n");
+  EXPECT_EQ(about("{ type: diffuse }"),
+            "3:14 'diffuse' makes a material, but a curve, a surface, a body, a mesh, a shape, a group or a point is "
+            "wanted here\n");
 }
 
 TEST(BuilderErrors, UnknownTypes) {
