@@ -33,7 +33,7 @@ struct PictureLimits {
 
 /// Numbers that the geometry of a test's scene must have.
 struct Expectation {
-  std::string name;  ///< of the curve, surface, body or mesh
+  std::string name;  ///< of the curve, surface, body, shape or mesh
   /// measure: length, area, volume; they hold to `tolerance` times the expected number (to `tolerance` itself for 0).
   std::map<std::string, double> measures;
   /// evaluate: a table with columns t, x, y, z or u, v, x, y, z; no distance exceeds `tolerance`. Empty: none.

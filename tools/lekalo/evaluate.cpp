@@ -81,6 +81,8 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   const auto* surface = std::get_if<geometry::SurfacePtr>(&entity);
   const auto* set = std::get_if<render::SurfaceSet>(&entity);
   const auto* body = std::get_if<geometry::BodyPtr>(&entity);
+  if (std::holds_alternative<geometry::ShapePtr>(entity))
+    throw UsageError(fmt::format("'{}' is met by rays only: 'lekalo trace' tells its points", options.name));
   if (!surface && !set && !body) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
   if (surface) return *surface;
   const size_t count = set ? set->size() : (*body)->faces.size();

@@ -162,7 +162,7 @@ void add_measure(CLI::App& app, Action& action) {
       "Exit code 1 if a sample is farther away than the tolerance.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
-  sub->add_option("name", options->name, "name of the curve, surface, body or mesh")->required();
+  sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
   sub->add_option("--against", options->against, "table of points with columns t,x,y,z or u,v,x,y,z")
       ->type_name("FILE")

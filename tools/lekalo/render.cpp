@@ -277,7 +277,7 @@ void add_render(CLI::App& app, Action& action) {
   sub->footer(
       "Examples:\n"
       "  lekalo render scenes/primer/teapot.yaml\n"
-      "  lekalo render ring.yaml --set tube=0.3 --size 1920x1080 --samples 256 -o ring.exr -o ring.png\n"
+      "  lekalo render ring.yaml --set r=0.3 --size 1920x1080 --samples 256 -o ring.exr -o ring.png\n"
       "  lekalo render ring.yaml --frames tube=0.1..0.5:24     (ring_0001.png to ring_0024.png)\n"
       "  lekalo render ring.yaml --watch                       (again whenever the scene changes)\n"
       "Without -o the scene's own outputs are written, or SCENE.png.");
