@@ -5,6 +5,11 @@
 
 namespace lekalo::geometry {
 
+ShapePoint point_on(const Surface& surface, double sign, double u, double v, const Vec3& near) {
+  const SurfaceJet jet = surface.evaluate_near(near, u, v, 1);
+  return {jet.point(), sign * surface.normal(u, v, jet), jet.du(), jet.dv(), u, v};
+}
+
 Box3 TransformedShape::bounds() const {
   const Box3 box = original_->bounds();
   return box.bounded() ? geometry::transformed(box, map_) : box;

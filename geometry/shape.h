@@ -21,6 +21,9 @@ struct ShapePoint {
   double error = 0;  // bound on the distance of the position from the shape, beyond the rounding of its coordinates
 };
 
+// The same of a surface; `sign` turns its normal.
+ShapePoint point_on(const Surface& surface, double sign, double u, double v, const Vec3& near);
+
 // Immutable; safe to use from many threads.
 class Shape {
  public:

@@ -11,7 +11,7 @@ namespace {
 constexpr int kShifts = 16;
 constexpr int kLines = 1 << 13;  // of one shift
 
-// Mean of several estimates, with three standard deviations of it.
+// Mean of several estimates, and the standard deviation of that mean.
 template <class T>
 class Estimates {
  public:

@@ -13,14 +13,8 @@ void BodyShape::all_hits(const Line& line, const Interval& t, std::vector<Surfac
 }
 
 ShapePoint BodyShape::point(const SurfaceHit& hit, const Vec3& near) const {
-  return point_of_face(body_->faces[hit.face], hit, near);
-}
-
-ShapePoint point_of_face(const Face& face, const SurfaceHit& hit, const Vec3& near) {
-  const Surface& surface = *face.surface;
-  const SurfaceJet jet = surface.evaluate_near(near, hit.u, hit.v, 1);
-  const double sign = face.forward ? 1 : -1;
-  return {jet.point(), sign * surface.normal(hit.u, hit.v, jet), jet.du(), jet.dv(), hit.u, hit.v};
+  const Face& face = body_->faces[hit.face];
+  return point_on(*face.surface, face.forward ? 1 : -1, hit.u, hit.v, near);
 }
 
 }  // namespace lekalo::geometry

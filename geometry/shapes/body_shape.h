@@ -23,7 +23,4 @@ class BodyShape final : public Shape {
   Box3 box_;
 };
 
-// What a body's face shows at a hit.
-ShapePoint point_of_face(const Face& face, const SurfaceHit& hit, const Vec3& near);
-
 }  // namespace lekalo::geometry

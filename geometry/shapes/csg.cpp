@@ -122,13 +122,14 @@ void Csg::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>&
   // to one before it.
   const Interval whole{-kInfinity, t.hi < kInfinity ? t.hi + tolerance(t.hi) : t.hi};
   const auto cross = [&](int leaf) {
-    const Shape& shape = *leaves_[leaf].shape;
-    scratch->inside[leaf] = shape.begins_inside(line);
     scratch->hits.clear();
-    shape.all_hits(line, whole, scratch->hits);
+    leaves_[leaf].shape->all_hits(line, whole, scratch->hits);
     for (const SurfaceHit& hit : scratch->hits) crossings.push_back({hit.t, leaf, hit});
   };
-  for (const int leaf : unbounded_) cross(leaf);
+  for (const int leaf : unbounded_) {
+    scratch->inside[leaf] = leaves_[leaf].shape->begins_inside(line);
+    cross(leaf);
+  }
   tree_.along(line, whole, [&](int k) { cross(bounded_[k]); });
   std::sort(crossings.begin(), crossings.end(), [](const Scratch::Crossing& a, const Scratch::Crossing& b) {
     return a.t != b.t ? a.t < b.t : a.leaf < b.leaf;

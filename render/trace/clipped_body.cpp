@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/shapes/body_shape.h"
 #include "geometry/surfaces/plane.h"
 
 namespace lekalo::render {
@@ -70,10 +69,9 @@ bool ClippedBody::is_closed() const {
 
 geometry::ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::Vec3& near) const {
   const int faces = static_cast<int>(body_->faces.size());
-  if (hit.face < faces) return point_of_face(body_->faces[hit.face], hit, near);
-  geometry::Face cap;
-  cap.surface = caps_[hit.face - faces];
-  return geometry::point_of_face(cap, hit, near);
+  if (hit.face >= faces) return geometry::point_on(*caps_[hit.face - faces], 1, hit.u, hit.v, near);
+  const geometry::Face& face = body_->faces[hit.face];
+  return geometry::point_on(*face.surface, face.forward ? 1 : -1, hit.u, hit.v, near);
 }
 
 }  // namespace lekalo::render

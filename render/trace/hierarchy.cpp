@@ -229,8 +229,7 @@ Hierarchy::Place Hierarchy::place(int instance) const {
   }
   Place result = record.child->place(instance - record.leaf_number);
   result.to_world = result.to_world ? record.to_parent * *result.to_world : record.to_parent;
-  const geometry::Mat3& a = record.to_parent.linear;
-  result.error *= std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));
+  result.error *= geometry::largest_stretch(record.to_parent);
   if (record.object >= 0) result.object = record.object;
   return result;
 }

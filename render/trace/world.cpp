@@ -83,56 +83,10 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
   return glm::clamp(foot, lo + inside, hi - inside);
 }
 
-// What a hit shows in the space of its leaf. All members are written at once: these run for every hit of every ray.
-SurfacePoint point_of_foot(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
-                           double error) {
-  const Surface& surface = leaf.targets[hit.face]->surface();
-  const geometry::Foot foot = surface.foot(near);
-  const double sign = leaf.signs[hit.face];
-  const Vec3 normal = sign * foot.normal;
-  geometry::Sides sides = surface.free_sides(0, 0);
-  if (sign * surface.normal_sign() < 0) sides = sides.turned();
-  return {.position = foot.point,
-          .smooth_position = foot.point,
-          .incoming = incoming,
-          .geometric_normal = normal,
-          .normal = normal,
-          .error = error,
-          .instance = hit.instance,
-          .object = object,
-          .face = hit.face,
-          .piece = hit.piece,
-          .free_sides = sides};
-}
-
-SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
-                              double error) {
-  const Surface& surface = leaf.targets[hit.face]->surface();
-  const double sign = leaf.signs[hit.face];
-  const geometry::SurfaceJet jet = surface.evaluate_near(near, hit.u, hit.v, 1);
-  const Vec3 normal = sign * surface.normal(hit.u, hit.v, jet);
-  geometry::Sides sides = surface.free_sides(hit.u, hit.v);
-  if (sign * surface.normal_sign() < 0) sides = sides.turned();
-  return {.position = jet.point(),
-          .smooth_position = jet.point(),
-          .incoming = incoming,
-          .geometric_normal = normal,
-          .normal = normal,
-          .du = jet.du(),
-          .dv = jet.dv(),
-          .u = hit.u,
-          .v = hit.v,
-          .error = error,
-          .instance = hit.instance,
-          .object = object,
-          .face = hit.face,
-          .piece = hit.piece,
-          .free_sides = sides};
-}
-
-SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming,
-                            const Hierarchy::Place& place) {
-  const geometry::ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
+// A point of a surface or shape in the space of its leaf. All members are written at once: this runs for every hit of
+// every ray.
+SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides& free_sides, const Hit& hit,
+                           const Vec3& incoming, int object, double error) {
   return {.position = at.position,
           .smooth_position = at.position,
           .incoming = incoming,
@@ -142,11 +96,26 @@ SurfacePoint point_of_shape(const Leaf& leaf, const Hit& hit, const Vec3& near, 
           .dv = at.dv,
           .u = at.u,
           .v = at.v,
-          .error = place.error + at.error * (place.to_world ? geometry::largest_stretch(*place.to_world) : 1),
+          .error = error,
           .instance = hit.instance,
-          .object = place.object,
+          .object = object,
           .face = hit.face,
-          .piece = hit.piece};
+          .piece = hit.piece,
+          .free_sides = free_sides};
+}
+
+// What a hit on a surface shows; `near` is its place on the line that found it.
+SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
+                              double error) {
+  const Surface& surface = leaf.targets[hit.face]->surface();
+  const double sign = leaf.signs[hit.face];
+  geometry::Sides sides = surface.free_sides(hit.u, hit.v);
+  if (sign * surface.normal_sign() < 0) sides = sides.turned();
+  if (leaf.is_bare(hit.face)) {
+    const geometry::Foot foot = surface.foot(near);
+    return point_as_seen({foot.point, sign * foot.normal}, sides, hit, incoming, object, error);
+  }
+  return point_as_seen(geometry::point_on(surface, sign, hit.u, hit.v, near), sides, hit, incoming, object, error);
 }
 
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
@@ -427,17 +396,19 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
+  const Affine to_leaf = place.to_world ? place.to_world->inverse() : Affine();
   const auto point_in_leaf = [&] {
     if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
-    const Vec3 near = place.to_world ? place.to_world->inverse().point(ray.at(hit.t)) : ray.at(hit.t);
-    if (leaf.shape) return point_of_shape(leaf, hit, near, ray.direction, place);
-    if (leaf.is_bare(hit.face)) return point_of_foot(leaf, hit, near, ray.direction, place.object, place.error);
-    return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
+    const Vec3 near = place.to_world ? to_leaf.point(ray.at(hit.t)) : ray.at(hit.t);
+    if (!leaf.shape) return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
+    const geometry::ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
+    const double stretch = place.to_world ? geometry::largest_stretch(*place.to_world) : 1;
+    return point_as_seen(at, {}, hit, ray.direction, place.object, place.error + at.error * stretch);
   };
   SurfacePoint point = point_in_leaf();
   if (place.to_world) {
     const Affine& map = *place.to_world;
-    const geometry::Mat3 normals = glm::transpose(glm::inverse(map.linear));
+    const geometry::Mat3 normals = glm::transpose(to_leaf.linear);
     point.position = map.point(point.position);
     point.smooth_position = map.point(point.smooth_position);
     point.du = map.direction(point.du);
