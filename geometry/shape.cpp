@@ -6,7 +6,10 @@
 namespace lekalo::geometry {
 
 ShapePoint point_on(const Surface& surface, double sign, double u, double v, const Vec3& near) {
-  const SurfaceJet jet = surface.evaluate_near(near, u, v, 1);
+  return point_on(surface, sign, u, v, surface.evaluate_near(near, u, v, 1));
+}
+
+ShapePoint point_on(const Surface& surface, double sign, double u, double v, const SurfaceJet& jet) {
   return {jet.point(), sign * surface.normal(u, v, jet), jet.du(), jet.dv(), u, v};
 }
 

@@ -21,8 +21,9 @@ struct ShapePoint {
   double error = 0;  // bound on the distance of the position from the shape, beyond the rounding of its coordinates
 };
 
-// The same of a surface; `sign` turns its normal.
+// The same of a surface; `sign` turns its normal. `jet`: of the first order there.
 ShapePoint point_on(const Surface& surface, double sign, double u, double v, const Vec3& near);
+ShapePoint point_on(const Surface& surface, double sign, double u, double v, const SurfaceJet& jet);
 
 // Immutable; safe to use from many threads.
 class Shape {

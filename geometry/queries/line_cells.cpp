@@ -24,14 +24,15 @@ constexpr double kInjective = 0.9;
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
 
-// A rational Bezier patch as a whole.
+// A cell of a rational Bezier patch.
 struct PatchCells {
   PatchView patch;
+  CellPlace place;
 
   PatchPoint at(double x, double y) const {
-    PatchPoint p = evaluate(patch, 0.5 * (x + 1), 0.5 * (y + 1));
-    p.ds *= 0.5;
-    p.dt *= 0.5;
+    PatchPoint p = evaluate(patch, 0.5 * (place.x + place.hx * x + 1), 0.5 * (place.y + place.hy * y + 1));
+    p.ds *= 0.5 * place.hx;
+    p.dt *= 0.5 * place.hy;
     return p;
   }
 };
@@ -59,8 +60,9 @@ struct SurfaceCells {
 
 enum class Verdict { none, one, unsure };
 
+// `t`: roots certainly outside this interval need not be found.
 template <class Cells>
-Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, CellHit& hit) {
+Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, const Interval& t, CellHit& hit) {
   const Vec3 r = m.point - line.line.origin;
   double a = glm::dot(line.n1, m.dx), b = glm::dot(line.n1, m.dy);
   double c = glm::dot(line.n2, m.dx), d = glm::dot(line.n2, m.dy);
@@ -75,6 +77,13 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, Ce
   const double ey = m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend;
   const double reach = 1 + kBorderSlack;
   if (std::abs(x0) > reach + ex || std::abs(y0) > reach + ey) return Verdict::none;
+  // How far along the line.
+  const double along_x = glm::dot(line.line.direction, m.dx), along_y = glm::dot(line.line.direction, m.dy);
+  const double place = (glm::dot(line.line.direction, r) + along_x * x0 + along_y * y0) * line.inverse_length2;
+  const double spread = (std::abs(along_x) * (ex + m.shift_x + 1e-6) + std::abs(along_y) * (ey + m.shift_y + 1e-6) +
+                         std::abs(glm::dot(line.line.direction, m.normal)) * m.bend) *
+                        line.inverse_length2;
+  if (place + spread < t.lo || place - spread > t.hi) return Verdict::none;
   if (!(ex <= kInjective && ey <= kInjective)) return Verdict::unsure;
   const bool contracts = ex <= kContraction && ey <= kContraction;
 
@@ -164,7 +173,7 @@ struct Search {
 bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
   if (++s.cells > kMostCells) return true;
   CellHit hit;
-  const Verdict verdict = decide(cells, m, s.line, hit);
+  const Verdict verdict = decide(cells, m, s.line, {-kInfinity, kInfinity}, hit);
   if (verdict == Verdict::none) return true;
   if (verdict == Verdict::one) {
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
@@ -369,6 +378,51 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   return m;
 }
 
+CellModel in_floats(const CellModel& model) {
+  const auto rounded = [](const Vec3& p) { return Vec3(static_cast<glm::vec3>(p)); };
+  const auto upward = [](double x) {
+    const float f = static_cast<float>(x);
+    return static_cast<double>(f >= x ? f : std::nextafter(f, INFINITY));
+  };
+  CellModel m = model;
+  m.point = rounded(model.point);
+  m.dx = rounded(model.dx);
+  m.dy = rounded(model.dy);
+  m.normal = rounded(model.normal);
+  const CellFrame frame(m.dx, m.dy);
+  if (!frame.regular || !(model.shift_x < kInfinity)) {
+    m.shift_x = m.shift_y = kInfinity;
+  } else {
+    const double of_x = glm::length(m.dx - model.dx), of_y = glm::length(m.dy - model.dy);
+    const double off = glm::length(m.point - model.point) + (1 + model.shift_x) * of_x + (1 + model.shift_y) * of_y +
+                       glm::length(m.normal - model.normal) * model.bend;
+    m.shift_x = upward(model.shift_x + off * glm::length(frame.dual_x));
+    m.shift_y = upward(model.shift_y + off * glm::length(frame.dual_y));
+    // The part along the true normal is at most all of it; the normal kept differs from that by its own rounding.
+    m.bend = upward((model.bend + off) * (1 + 1e-6));
+  }
+  m.variation = upward(model.variation);
+  return m;
+}
+
+bool flattens_across_u(const PatchView& patch, double x, double y) {
+  const int p = patch.degree_u, q = patch.degree_v;
+  const auto size = [](const Vec4& d) { return std::abs(d.x) + std::abs(d.y) + std::abs(d.z) + std::abs(d.w); };
+  double bend_u = 0, bend_v = 0, twist = 0;
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) {
+      const Vec4& at = patch.at(i, j);
+      if (i > 0 && i < p) bend_u = std::max(bend_u, size(patch.at(i - 1, j) - at - at + patch.at(i + 1, j)));
+      if (j > 0 && j < q) bend_v = std::max(bend_v, size(patch.at(i, j - 1) - at - at + patch.at(i, j + 1)));
+      if (i > 0 && j > 0)
+        twist = std::max(twist, size(patch.at(i - 1, j - 1) - patch.at(i - 1, j) - patch.at(i, j - 1) + at));
+    }
+  bend_u *= p * (p - 1);
+  bend_v *= q * (q - 1);
+  twist *= p * q;
+  return twist >= std::max(bend_u, bend_v) ? x >= y : bend_u >= bend_v;
+}
+
 bool meets_once(const CellModel& m, const Vec3& direction) {
   // The normal is alpha dx + beta dy + gamma direction: what `decide` has of the line's two planes.
   const Vec3 across_x = glm::cross(direction, m.dx), across_y = glm::cross(m.dy, direction);
@@ -385,17 +439,18 @@ double roughness(const CellModel& m) {
   return r < kInfinity ? r : kInfinity;
 }
 
-void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits) {
+void intersect(const PatchView& patch, const CellPlace& place, const CellModel& model, const LineBasis& line,
+               const Interval& t, CellHits& hits) {
   // Most cells are decided at once; the search's bookkeeping starts only if not.
   CellHit hit;
-  const Verdict verdict = decide(PatchCells{patch}, model, line, hit);
+  const Verdict verdict = decide(PatchCells{patch, place}, model, line, t, hit);
   if (verdict == Verdict::none) return;
   if (verdict == Verdict::one) {
     hits.add(hit);
     return;
   }
   const Vec2 reach = extent(model);
-  search_net(patch, reach.x, reach.y, line, hits);
+  search_net(patch, place, reach.x, reach.y, line, hits);
 }
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,

@@ -72,8 +72,18 @@ class CellHits {
   std::vector<CellHit> more_;
 };
 
-// All meetings of the line with a rational Bezier patch; `model` is model_of(patch), kept by the caller.
-void intersect(const PatchView& patch, const CellModel& model, const LineBasis& line, CellHits& hits);
+// The same with all its numbers rounded to floats, and its bounds enlarged by what that changes.
+CellModel in_floats(const CellModel& model);
+
+// A cell's place in the square of a patch: [x - hx, x + hx] times [y - hy, y + hy].
+struct CellPlace {
+  double x = 0, y = 0, hx = 1, hy = 1;
+};
+
+// All meetings of the line with a cell of a rational Bezier patch, but for some with a t certainly outside the
+// interval; `model` is that of the cell, kept by the caller.
+void intersect(const PatchView& patch, const CellPlace& place, const CellModel& model, const LineBasis& line,
+               const Interval& t, CellHits& hits);
 
 // The same for a rectangle of any surface, from evaluate and enclose.
 CellModel model_of(const Surface& surface, const Rectangle& box);
@@ -87,5 +97,13 @@ bool meets_once(const CellModel& model, const Vec3& direction);
 // How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
 // not graze a cell of roughness below 1/4 are decided without halving.
 double roughness(const CellModel& model);
+
+// Cells up to this roughness are not cut further when a target is built: few enough to be found quickly, flat enough
+// that most lines are decided without halving.
+inline constexpr double kFlat = 0.2;
+
+// The cut that flattens more, judged by the second differences of the control points: across the direction in which the
+// patch bends more, or, where twist is most of it, across the longer of the cell's extents x and y.
+bool flattens_across_u(const PatchView& patch, double x, double y);
 
 }  // namespace lekalo::geometry

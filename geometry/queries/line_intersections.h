@@ -41,11 +41,17 @@ class LineTarget {
   // come back to it.
   virtual bool meets_once(int, const Vec3&) const { return false; }
   virtual const Surface& surface() const = 0;
+  // Point and first derivatives of the surface at a hit on the piece, which lies at `near` but for rounding.
+  virtual SurfaceJet jet_at(int /*piece*/, double u, double v, const Vec3& near) const {
+    return surface().evaluate_near(near, u, v, 1);
+  }
   virtual size_t memory() const = 0;  // bytes
 };
 
-// Unbounded surfaces give one piece with an unbounded box. `trim` may be null.
-std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim = nullptr);
+// Unbounded surfaces give one piece with an unbounded box. `trim` may be null. Cells smaller than `least_area` are not
+// cut further, which costs time and saves memory, nothing else.
+std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim = nullptr,
+                                             double least_area = 0);
 
 // All hits of a line with a surface or body, sorted by t, one for each crossing: a small hierarchy over the pieces.
 class LineIntersector {
@@ -73,6 +79,6 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
                 const std::function<Vec3(const SurfaceHit&)>& normal, size_t first = 0);
 
 // Line targets of a body's faces, trims included, in the order of its faces.
-std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body);
+std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double least_area = 0);
 
 }  // namespace lekalo::geometry

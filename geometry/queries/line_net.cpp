@@ -78,8 +78,10 @@ constexpr int kAnyDegree = -1;
 template <int kP, int kQ>
 class NetSearch {
  public:
-  NetSearch(const PatchView& patch, const Vec2& whole, NearSurface* near, const LineBasis& line, CellHits& hits)
+  NetSearch(const PatchView& patch, const CellPlace& place, const Vec2& whole, NearSurface* near, const LineBasis& line,
+            CellHits& hits)
       : patch_(patch),
+        place_(place),
         whole_(whole),
         near_(near),
         line_(line),
@@ -96,6 +98,8 @@ class NetSearch {
     // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that halving takes.
     rounding_ *= 1e-15;
     if (near_) rounding_ += near_->off;
+    clip_x(room_, place.x - place.hx, place.x + place.hx);
+    clip_y(room_, place.y - place.hy, place.y + place.hy);
   }
 
   void run() { visit(room_, 0, 0, 1, 1, 0); }
@@ -251,7 +255,12 @@ class NetSearch {
     return false;
   }
 
-  PatchPoint surface_at(double x, double y) const { return evaluate(patch_, 0.5 * (x + 1), 0.5 * (y + 1)); }
+  PatchPoint surface_at(double x, double y) const {
+    PatchPoint p = evaluate(patch_, 0.5 * (place_.x + place_.hx * x + 1), 0.5 * (place_.y + place_.hy * y + 1));
+    p.ds *= place_.hx;
+    p.dt *= place_.hy;
+    return p;
+  }
   double along(const Vec3& point) const {
     return glm::dot(point - line_.line.origin, line_.line.direction) * line_.inverse_length2;
   }
@@ -401,6 +410,7 @@ class NetSearch {
   }
 
   const PatchView& patch_;
+  CellPlace place_;
   Vec2 whole_;
   NearSurface* near_;  // nullptr: the patch stands for itself
   const LineBasis& line_;
@@ -412,18 +422,19 @@ class NetSearch {
 
 }  // namespace
 
-void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits) {
+void search_net(const PatchView& patch, const CellPlace& place, double reach_x, double reach_y, const LineBasis& line,
+                CellHits& hits) {
   const Vec2 reach(reach_x, reach_y);
   if (patch.degree_u == 3 && patch.degree_v == 3)
-    NetSearch<3, 3>(patch, reach, nullptr, line, hits).run();
+    NetSearch<3, 3>(patch, place, reach, nullptr, line, hits).run();
   else if (patch.degree_u == 2 && patch.degree_v == 2)
-    NetSearch<2, 2>(patch, reach, nullptr, line, hits).run();
+    NetSearch<2, 2>(patch, place, reach, nullptr, line, hits).run();
   else
-    NetSearch<kAnyDegree, kAnyDegree>(patch, reach, nullptr, line, hits).run();
+    NetSearch<kAnyDegree, kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
 }
 
 void search_net(const PatchView& patch, NearSurface& near, const LineBasis& line, CellHits& hits) {
-  NetSearch<3, 3>(patch, Vec2(0), &near, line, hits).run();
+  NetSearch<3, 3>(patch, {}, Vec2(0), &near, line, hits).run();
 }
 
 }  // namespace lekalo::geometry

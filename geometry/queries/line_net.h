@@ -36,9 +36,10 @@ class NearSurface {
   virtual void undecided(double x, double y, double hx, double hy) = 0;
 };
 
-// Adds the roots, in local coordinates x = 2 s - 1, y = 2 t - 1 of the patch. `reach_x`, `reach_y` bound the patch's
-// extent in space along x and y from its centre.
-void search_net(const PatchView& patch, double reach_x, double reach_y, const LineBasis& line, CellHits& hits);
+// Adds the roots in a cell of the patch, in the cell's coordinates. `reach_x`, `reach_y` bound its extent in space
+// along x and y from its centre.
+void search_net(const PatchView& patch, const CellPlace& place, double reach_x, double reach_y, const LineBasis& line,
+                CellHits& hits);
 
 // The same for the surface near to the patch: cells are treated with the bounds added, and Newton's iteration runs on
 // the surface itself.

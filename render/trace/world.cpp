@@ -107,7 +107,8 @@ SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides
 // What a hit on a surface shows; `near` is its place on the line that found it.
 SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
                               double error) {
-  const Surface& surface = leaf.targets[hit.face]->surface();
+  const geometry::LineTarget& target = *leaf.targets[hit.face];
+  const Surface& surface = target.surface();
   const double sign = leaf.signs[hit.face];
   geometry::Sides sides = surface.free_sides(hit.u, hit.v);
   if (sign * surface.normal_sign() < 0) sides = sides.turned();
@@ -115,7 +116,8 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
     const geometry::Foot foot = surface.foot(near);
     return point_as_seen({foot.point, sign * foot.normal}, sides, hit, incoming, object, error);
   }
-  return point_as_seen(geometry::point_on(surface, sign, hit.u, hit.v, near), sides, hit, incoming, object, error);
+  const geometry::SurfaceJet jet = target.jet_at(hit.piece, hit.u, hit.v, near);
+  return point_as_seen(geometry::point_on(surface, sign, hit.u, hit.v, jet), sides, hit, incoming, object, error);
 }
 
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {

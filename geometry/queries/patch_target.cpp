@@ -1,0 +1,188 @@
+#include "geometry/queries/patch_target.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Cells of one piece when the target is built; what is not flat by then is halved along the line that asks.
+constexpr int kMostCellsPerPiece = 1024;
+constexpr int kDeepestCut = 9;
+
+std::array<float, 3> in_floats(const Vec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+Vec3 in_doubles(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+
+float downward(double x) {
+  const float f = static_cast<float>(x);
+  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+// Cuts one piece after the other.
+class PatchTarget::Cutter {
+ public:
+  Cutter(PatchTarget& target, double least_area) : target_(target), least_area_(least_area) {}
+
+  void cut(int patch) {
+    const PatchView view = target_.view_of(target_.patches_[patch]);
+    patch_ = patch;
+    budget_ = kMostCellsPerPiece;
+    room_.resize(static_cast<size_t>(view.count()) * (2 * kDeepestCut + 1));
+    std::copy(view.points, view.points + view.count(), room_.begin());
+    cut(room_.data(), geometry::model_of({room_.data(), view.degree_u, view.degree_v}), {}, 0);
+  }
+
+ private:
+  bool is_done(const CellModel& model, int depth) const {
+    return roughness(model) <= kFlat || depth == kDeepestCut || budget_ <= 1 ||
+           glm::length(glm::cross(model.dx, model.dy)) < 0.25 * least_area_;
+  }
+
+  // What lies behind the cell's points is free for its halves.
+  void cut(const Vec4* points, const CellModel& model, const CellPlace& place, int depth) {
+    const Patch& patch = target_.patches_[patch_];
+    const PatchView view{points, patch.degree_u, patch.degree_v};
+    if (is_done(model, depth)) return add(view, geometry::in_floats(model), place);
+    --budget_;
+    Vec4 *const first = room_.data() + (2 * depth + 1) * view.count(), *const second = first + view.count();
+    const bool along_x = flattens_across_u(view, glm::length(model.dx), glm::length(model.dy));
+    along_x ? halve_u(view, first, second) : halve_v(view, first, second);
+    CellPlace half = place;
+    (along_x ? half.hx : half.hy) *= 0.5;
+    const CellModel models[] = {geometry::model_of({first, view.degree_u, view.degree_v}),
+                                geometry::model_of({second, view.degree_u, view.degree_v})};
+    for (const int side : {-1, 1}) {
+      CellPlace at = half;
+      (along_x ? at.x : at.y) += side * (along_x ? half.hx : half.hy);
+      cut(side < 0 ? first : second, models[side > 0], at, depth + 1);
+    }
+  }
+
+  void add(const PatchView& view, const CellModel& m, const CellPlace& place) {
+    Box3 box;
+    double size = 0;
+    for (int k = 0; k < view.count(); ++k) {
+      const Vec4& p = view.points[k];
+      if (!(p.w > 0)) {
+        box = Box3::everything();
+        break;
+      }
+      const Vec3 q = Vec3(p) / p.w;
+      box.include(q);
+      size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    }
+    box = box.inflated(1e-15 * size);
+    Cell cell;
+    cell.point = in_floats(m.point);
+    cell.dx = in_floats(m.dx);
+    cell.dy = in_floats(m.dy);
+    cell.normal = in_floats(m.normal);
+    cell.shift_x = static_cast<float>(m.shift_x);
+    cell.shift_y = static_cast<float>(m.shift_y);
+    cell.bend = static_cast<float>(m.bend);
+    cell.variation = static_cast<float>(m.variation);
+    cell.x = static_cast<float>(place.x);
+    cell.y = static_cast<float>(place.y);
+    cell.hx = static_cast<float>(place.hx);
+    cell.hy = static_cast<float>(place.hy);
+    for (int k = 0; k < 3; ++k) {
+      cell.lo[k] = downward(box.lo[k]);
+      cell.hi[k] = -downward(-box.hi[k]);
+    }
+    cell.patch = patch_;
+    target_.cells_.push_back(cell);
+  }
+
+  PatchTarget& target_;
+  double least_area_;
+  std::vector<Vec4> room_;
+  int patch_ = 0, budget_ = 0;
+};
+
+PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim,
+                         double least_area)
+    : surface_(std::move(surface)), acceptance_(std::move(trim)) {
+  Cutter cutter(*this, least_area);
+  for (const SurfacePiece& piece : pieces) {
+    Patch patch;
+    patch.map_u = piece.map_u;
+    patch.map_v = piece.map_v;
+    patch.domain = piece.domain;
+    patch.s = {piece.map_u.rational(piece.domain.u.lo), piece.map_u.rational(piece.domain.u.hi)};
+    patch.t = {piece.map_v.rational(piece.domain.v.lo), piece.map_v.rational(piece.domain.v.hi)};
+    patch.degree_u = piece.degree_u;
+    patch.degree_v = piece.degree_v;
+    patch.first_point = points_.size();
+    Box3 box;
+    for (const Vec4& p : piece.points)
+      if (p.w > 0) box.include(Vec3(p) / p.w);
+    if (!box.empty()) patch.center = box.center();
+    for (const Vec4& p : piece.points) points_.push_back(Vec4(Vec3(p) - p.w * patch.center, p.w));
+    patches_.push_back(patch);
+    cutter.cut(static_cast<int>(patches_.size()) - 1);
+  }
+  cells_.shrink_to_fit();
+  points_.shrink_to_fit();
+}
+
+Box3 PatchTarget::piece_bounds(int i) const {
+  const Cell& cell = cells_[i];
+  const Box3 box{in_doubles(cell.lo), in_doubles(cell.hi)};
+  if (!box.bounded()) return bounds(*surface_);  // weights that are not positive
+  const Vec3& center = patches_[cell.patch].center;
+  return Box3{box.lo + center, box.hi + center}.inflated(1e-15 * glm::length(center));
+}
+
+CellModel PatchTarget::model_of(const Cell& cell) {
+  return {in_doubles(cell.point), in_doubles(cell.dx), in_doubles(cell.dy), in_doubles(cell.normal),
+          cell.shift_x,           cell.shift_y,        cell.bend,           cell.variation};
+}
+
+void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const {
+  const Cell& cell = cells_[i];
+  const Patch& patch = patches_[cell.patch];
+  double foot;
+  const LineBasis basis = line.near(patch.center, foot);
+  const CellPlace place{cell.x, cell.y, cell.hx, cell.hy};
+  CellHits found;
+  intersect(view_of(patch), place, model_of(cell), basis, {t.lo - foot, t.hi - foot}, found);
+  for (int k = 0; k < found.size(); ++k) {
+    LineHit hit;
+    hit.t = foot + found[k].t;
+    const double x = place.x + place.hx * found[k].x, y = place.y + place.hy * found[k].y;
+    hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
+    hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
+    if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
+  }
+}
+
+bool PatchTarget::meets_once(int i, const Vec3& direction) const {
+  return geometry::meets_once(model_of(cells_[i]), direction);
+}
+
+SurfaceJet PatchTarget::jet_at(int i, double u, double v, const Vec3& near) const {
+  const Patch& patch = patches_[cells_[i].patch];
+  constexpr auto affine = ParameterMap::Kind::affine;
+  if (patch.map_u.kind != affine || patch.map_v.kind != affine) return LineTarget::jet_at(i, u, v, near);
+  const double of_s = 1 / patch.s.width(), of_t = 1 / patch.t.width();
+  const PatchPoint p = evaluate(view_of(patch), (u - patch.s.lo) * of_s, (v - patch.t.lo) * of_t);
+  SurfaceJet jet;
+  jet.order = 1;
+  jet.d(0, 0) = patch.center + p.point;
+  jet.d(1, 0) = of_s * p.ds;
+  jet.d(0, 1) = of_t * p.dt;
+  return jet;
+}
+
+size_t PatchTarget::memory() const {
+  return sizeof *this + cells_.size() * sizeof(Cell) + points_.size() * sizeof(Vec4) + patches_.size() * sizeof(Patch);
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,61 @@
+// Rational Bezier pieces prepared for lines: cut into flat cells, each of which keeps a first-order model only and
+// finds its points on the whole piece.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/queries/acceptance.h"
+#include "geometry/queries/line_cells.h"
+#include "geometry/queries/line_intersections.h"
+
+namespace lekalo::geometry {
+
+class PatchTarget final : public LineTarget {
+ public:
+  // All pieces rational. Cells with an area below `least_area` are not cut (scene units squared; 0: no limit).
+  PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim,
+              double least_area);
+
+  int piece_count() const override { return static_cast<int>(cells_.size()); }
+  Box3 piece_bounds(int i) const override;
+  void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override;
+  bool meets_once(int i, const Vec3& direction) const override;
+  SurfaceJet jet_at(int i, double u, double v, const Vec3& near) const override;
+  const Surface& surface() const override { return *surface_; }
+  size_t memory() const override;
+
+ private:
+  struct Patch {
+    ParameterMap map_u, map_v;
+    Rectangle domain;  // natural
+    Interval s, t;     // rational parameters of the piece
+    // Coordinates are relative to the piece's own centre: cutting and evaluation then round at the piece's size, not at
+    // its distance from the origin.
+    Vec3 center{0};
+    int degree_u = 0, degree_v = 0;
+    size_t first_point = 0;
+  };
+  // Numbers in floats whose rounding is part of the bounds: a cell is read by every ray that comes near it.
+  struct Cell {
+    std::array<float, 3> point, dx, dy, normal;  // of the CellModel, relative to the piece's centre
+    float shift_x, shift_y, bend, variation;
+    float x, y, hx, hy;           // place in the piece's square [-1, 1]^2, exactly
+    std::array<float, 3> lo, hi;  // box, relative to the centre
+    int32_t patch;
+  };
+  class Cutter;
+
+  PatchView view_of(const Patch& patch) const {
+    return {points_.data() + patch.first_point, patch.degree_u, patch.degree_v};
+  }
+  static CellModel model_of(const Cell& cell);
+
+  SurfacePtr surface_;
+  Acceptance acceptance_;
+  std::vector<Patch> patches_;
+  std::vector<Cell> cells_;
+  std::vector<Vec4> points_;
+};
+
+}  // namespace lekalo::geometry
