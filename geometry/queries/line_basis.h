@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/numerics/lanes.h"
 #include "geometry/vectors.h"
 
 namespace lekalo::geometry {
@@ -12,16 +13,20 @@ struct LineBasis {
   Line line;
   Vec3 n1{0}, n2{0};           // unit vectors across the line
   double inverse_length2 = 1;  // 1 / |direction|^2
+  double inverse_length = 1;
+  Lanes axes[3];  // (n1, n2, direction / length) as columns; the fourth lane is 0
 
   explicit LineBasis(const Line& l) : line(l) {
     const double length2 = glm::dot(l.direction, l.direction);
     inverse_length2 = 1 / length2;
-    const Vec3 d = l.direction / std::sqrt(length2);
+    inverse_length = 1 / std::sqrt(length2);
+    const Vec3 d = inverse_length * l.direction;
     // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
     const double sign = std::copysign(1.0, d.z);
     const double a = -1 / (sign + d.z), b = d.x * d.y * a;
     n1 = {1 + sign * d.x * d.x * a, sign * b, -sign * d.x};
     n2 = {b, sign + d.y * d.y * a, -d.y};
+    for (int k = 0; k < 3; ++k) axes[k] = Lanes{n1[k], n2[k], d[k], 0};
   }
 };
 
@@ -34,13 +39,12 @@ class PreparedLine {
   const Line& line() const { return line_; }
 
   // The same line measured from its point nearest to `center` (whose parameter goes to `foot`), in coordinates relative
-  // to `center`: what follows rounds at the size of things there.
-  LineBasis near(const Vec3& center, double& foot) const {
+  // to `center`: what follows rounds at the size of things there. Holds until the next call.
+  const LineBasis& near(const Vec3& center, double& foot) const {
     if (!basis_) basis_.emplace(line_);
     foot = glm::dot(center - line_.origin, line_.direction) * basis_->inverse_length2;
-    LineBasis result = *basis_;
-    result.line.origin = line_.at(foot) - center;
-    return result;
+    basis_->line.origin = line_.at(foot) - center;
+    return *basis_;
   }
 
  private:

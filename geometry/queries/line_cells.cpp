@@ -5,6 +5,7 @@
 
 #include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/lanes.h"
+#include "geometry/queries/bezier_sums.h"
 #include "geometry/queries/line_net.h"
 #include "geometry/tolerances.h"
 
@@ -24,16 +25,41 @@ constexpr double kInjective = 0.9;
 // (tangent along a curve) get there.
 constexpr int kMostCells = 20000;
 
-// A cell of a rational Bezier patch.
-struct PatchCells {
-  PatchView patch;
-  CellPlace place;
+// A vector's parts along a line's n1, n2 and the line.
+inline void see(const LineBasis& line, double x, double y, double z, Lanes& parts) {
+  parts = x * line.axes[0] + y * line.axes[1] + z * line.axes[2];
+}
+inline void see(const LineBasis& line, const Vec3& v, Lanes& parts) { see(line, v.x, v.y, v.z, parts); }
 
-  PatchPoint at(double x, double y) const {
-    PatchPoint p = evaluate(patch, 0.5 * (place.x + place.hx * x + 1), 0.5 * (place.y + place.hy * y + 1));
-    p.ds *= 0.5 * place.hx;
-    p.dt *= 0.5 * place.hy;
-    return p;
+// A place of a cell as its line sees it: the parts of the vector from the line's origin and of its derivatives by the
+// cell's x and y, all times the same positive scale.
+struct SeenPoint {
+  Lanes from_origin, dx, dy;
+  double scale = 1;
+};
+
+template <int kP, int kQ>
+struct PatchCells {
+  const PatchView& patch;
+  const PatchCell& cell;
+  Lanes origin;  // the line's, as it sees it
+
+  PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place) {
+    see(line, line.line.origin, origin);
+  }
+  // The derivative of a ratio A / w is (w A' - A w') / w^2: without a division, times w^2.
+  void see_at(double x, double y, const LineBasis& line, SeenPoint& p) const {
+    const double hx = 0.5 * cell.hx, hy = 0.5 * cell.hy;
+    const PatchSums at = sums<kP, kQ>(patch, 0.5 * (cell.x + 1.0) + hx * x, 0.5 * (cell.y + 1.0) + hy * y);
+    const double w = at.point[3];
+    Lanes a, by_s, by_t;
+    see(line, at.point[0], at.point[1], at.point[2], a);
+    see(line, at.ds[0], at.ds[1], at.ds[2], by_s);
+    see(line, at.dt[0], at.dt[1], at.dt[2], by_t);
+    p.from_origin = w * (a - w * origin);
+    p.dx = hx * (w * by_s - at.ds[3] * a);
+    p.dy = hy * (w * by_t - at.dt[3] * a);
+    p.scale = w * w;
   }
 };
 
@@ -46,6 +72,12 @@ struct SurfaceCells {
     const double hu = 0.5 * box.u.width(), hv = 0.5 * box.v.width();
     const SurfaceJet jet = surface->evaluate(box.u.middle() + hu * x, box.v.middle() + hv * y, 1);
     return {jet.point(), hu * jet.du(), hv * jet.dv()};
+  }
+  void see_at(double x, double y, const LineBasis& line, SeenPoint& p) const {
+    const PatchPoint here = at(x, y);
+    see(line, here.point - line.line.origin, p.from_origin);
+    see(line, here.ds, p.dx);
+    see(line, here.dt, p.dy);
   }
   CellModel model() const { return model_of(*surface, box); }
   bool excluded(const LineBasis& line) const {
@@ -60,45 +92,33 @@ struct SurfaceCells {
 
 enum class Verdict { none, one, unsure };
 
-// `t`: roots certainly outside this interval need not be found.
-template <class Cells>
-Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, const Interval& t, CellHit& hit) {
-  const Vec3 r = m.point - line.line.origin;
-  double a = glm::dot(line.n1, m.dx), b = glm::dot(line.n1, m.dy);
-  double c = glm::dot(line.n2, m.dx), d = glm::dot(line.n2, m.dy);
-  const double f = glm::dot(line.n1, r), g = glm::dot(line.n2, r);
-  double determinant = a * d - b * c;
-  if (determinant == 0 || !(m.shift_x < kInfinity)) return Verdict::unsure;
-  const double inverse = 1 / determinant;
-  const double x0 = -(d * f - b * g) * inverse, y0 = -(a * g - c * f) * inverse;
-  // How far a root may lie from the linear guess.
-  const double n1 = glm::dot(line.n1, m.normal), n2 = glm::dot(line.n2, m.normal);
-  const double ex = m.shift_x + std::abs((d * n1 - b * n2) * inverse) * m.bend;
-  const double ey = m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend;
-  const double reach = 1 + kBorderSlack;
-  if (std::abs(x0) > reach + ex || std::abs(y0) > reach + ey) return Verdict::none;
-  // How far along the line.
-  const double along_x = glm::dot(line.line.direction, m.dx), along_y = glm::dot(line.line.direction, m.dy);
-  const double place = (glm::dot(line.line.direction, r) + along_x * x0 + along_y * y0) * line.inverse_length2;
-  const double spread = (std::abs(along_x) * (ex + m.shift_x + 1e-6) + std::abs(along_y) * (ey + m.shift_y + 1e-6) +
-                         std::abs(glm::dot(line.line.direction, m.normal)) * m.bend) *
-                        line.inverse_length2;
-  if (place + spread < t.lo || place - spread > t.hi) return Verdict::none;
-  if (!(ex <= kInjective && ey <= kInjective)) return Verdict::unsure;
-  const bool contracts = ex <= kContraction && ey <= kContraction;
+// Where the linear model has the root, and how far from there it may lie.
+struct Guess {
+  double x, y, ex, ey;
+};
 
-  double x = std::clamp(x0, -1.0, 1.0), y = std::clamp(y0, -1.0, 1.0);
+// What the guess tells alone; unsure: Newton's iteration has to say.
+inline Verdict judge(const Guess& guess) {
+  const double reach = 1 + kBorderSlack;
+  return std::abs(guess.x) > reach + guess.ex || std::abs(guess.y) > reach + guess.ey ? Verdict::none : Verdict::unsure;
+}
+
+inline bool is_certain(const Guess& guess) { return guess.ex <= kInjective && guess.ey <= kInjective; }
+
+template <class Cells>
+inline Verdict iterate(const Cells& cells, const Guess& guess, const LineBasis& line, CellHit& hit) {
+  const bool contracts = guess.ex <= kContraction && guess.ey <= kContraction;
+  double x = std::clamp(guess.x, -1.0, 1.0), y = std::clamp(guess.y, -1.0, 1.0);
   bool settled = false;
   const int most = contracts ? 40 : 8;
   for (int iteration = 0; iteration < most; ++iteration) {
-    const PatchPoint p = cells.at(x, y);
-    const Vec3 q = p.point - line.line.origin;
-    a = glm::dot(line.n1, p.ds), b = glm::dot(line.n1, p.dt);
-    c = glm::dot(line.n2, p.ds), d = glm::dot(line.n2, p.dt);
-    const double f1 = glm::dot(line.n1, q), g1 = glm::dot(line.n2, q);
-    determinant = a * d - b * c;
+    SeenPoint p;
+    cells.see_at(x, y, line, p);
+    const double determinant = p.dx[0] * p.dy[1] - p.dy[0] * p.dx[1];
     if (determinant == 0) return Verdict::unsure;
-    const double sx = -(d * f1 - b * g1) / determinant, sy = -(a * g1 - c * f1) / determinant;
+    const double inverse = 1 / determinant;
+    const double sx = (p.dy[0] * p.from_origin[1] - p.dy[1] * p.from_origin[0]) * inverse,
+                 sy = (p.dx[1] * p.from_origin[0] - p.dx[0] * p.from_origin[1]) * inverse;
     const double nx = std::clamp(x + sx, -1.0, 1.0), ny = std::clamp(y + sy, -1.0, 1.0);
     // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
     // end: a step that ends farther outside means none.
@@ -114,8 +134,7 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, co
       } else {
         hit.x = nx;
         hit.y = ny;
-        const Vec3 end = q + (nx - x) * p.ds + (ny - y) * p.dt;
-        hit.t = glm::dot(end, line.line.direction) * line.inverse_length2;
+        hit.t = (p.from_origin[2] + (nx - x) * p.dx[2] + (ny - y) * p.dy[2]) / p.scale * line.inverse_length;
         return Verdict::one;
       }
     }
@@ -123,6 +142,65 @@ Verdict decide(const Cells& cells, const CellModel& m, const LineBasis& line, co
     y = ny;
   }
   return Verdict::unsure;
+}
+
+Verdict decide(const SurfaceCells& cells, const CellModel& m, const LineBasis& line, CellHit& hit) {
+  const Vec3 r = m.point - line.line.origin;
+  const double a = glm::dot(line.n1, m.dx), b = glm::dot(line.n1, m.dy);
+  const double c = glm::dot(line.n2, m.dx), d = glm::dot(line.n2, m.dy);
+  const double f = glm::dot(line.n1, r), g = glm::dot(line.n2, r);
+  const double determinant = a * d - b * c;
+  if (determinant == 0 || !(m.shift_x < kInfinity)) return Verdict::unsure;
+  const double inverse = 1 / determinant;
+  const double n1 = glm::dot(line.n1, m.normal), n2 = glm::dot(line.n2, m.normal);
+  const Guess guess{-(d * f - b * g) * inverse, -(a * g - c * f) * inverse,
+                    m.shift_x + std::abs((d * n1 - b * n2) * inverse) * m.bend,
+                    m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend};
+  if (judge(guess) == Verdict::none) return Verdict::none;
+  return is_certain(guess) ? iterate(cells, guess, line, hit) : Verdict::unsure;
+}
+
+inline void widen(const PatchCell::Four& floats, Lanes& lanes) {
+  using Floats = float __attribute__((vector_size(16)));
+  Floats four;
+  std::memcpy(&four, floats.data(), sizeof four);
+  lanes = __builtin_convertvector(four, Lanes);
+}
+
+// A vector's parts in the frame of a cell; the fourth lane means nothing.
+struct LocalFrame {
+  Lanes x, y, z;
+  explicit LocalFrame(const PatchCell& cell) {
+    widen(cell.frame[0], x);
+    widen(cell.frame[1], y);
+    widen(cell.frame[2], z);
+  }
+  void parts(const Vec3& v, Lanes& result) const { result = v.x * x + v.y * y + v.z * z; }
+};
+
+LEKALO_WIDE Verdict decide(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t,
+                           CellHit& hit) {
+  const LocalFrame frame(cell);
+  Lanes from, along, lo, hi;
+  frame.parts(line.line.origin - Vec3(frame.x[3], frame.y[3], frame.z[3]), from);
+  frame.parts(line.line.direction, along);
+  widen(cell.lo, lo);
+  widen(cell.hi, hi);
+  // When the line is in the box; what is no number (a line in the plane of a side) excludes nothing.
+  const Lanes per = 1 / along, at_lo = (lo - from) * per, at_hi = (hi - from) * per;
+  const Lanes enters = at_lo < at_hi ? at_lo : at_hi, leaves = at_lo < at_hi ? at_hi : at_lo;
+  if (std::max(std::max(std::max(t.lo, enters[0]), enters[1]), enters[2]) >
+      std::min(std::min(std::min(t.hi, leaves[0]), leaves[1]), leaves[2]))
+    return Verdict::none;
+
+  const double shift_x = lo[3], shift_y = hi[3], lean_x = along[0] * per[2], lean_y = along[1] * per[2];
+  const Guess guess{from[0] - from[2] * lean_x, from[1] - from[2] * lean_y, shift_x + std::abs(lean_x) * cell.bend,
+                    shift_y + std::abs(lean_y) * cell.bend};
+  if (judge(guess) == Verdict::none) return Verdict::none;
+  if (!is_certain(guess)) return Verdict::unsure;
+  if (patch.degree_u == 3 && patch.degree_v == 3) return iterate(PatchCells<3, 3>(patch, cell, line), guess, line, hit);
+  if (patch.degree_u == 2 && patch.degree_v == 2) return iterate(PatchCells<2, 2>(patch, cell, line), guess, line, hit);
+  return iterate(PatchCells<0, 0>(patch, cell, line), guess, line, hit);
 }
 
 // At a pole one derivative, or the cross product, vanishes faster than the cell.
@@ -173,7 +251,7 @@ struct Search {
 bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
   if (++s.cells > kMostCells) return true;
   CellHit hit;
-  const Verdict verdict = decide(cells, m, s.line, {-kInfinity, kInfinity}, hit);
+  const Verdict verdict = decide(cells, m, s.line, hit);
   if (verdict == Verdict::none) return true;
   if (verdict == Verdict::one) {
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
@@ -378,31 +456,55 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   return m;
 }
 
-CellModel in_floats(const CellModel& model) {
-  const auto rounded = [](const Vec3& p) { return Vec3(static_cast<glm::vec3>(p)); };
-  const auto upward = [](double x) {
-    const float f = static_cast<float>(x);
-    return static_cast<double>(f >= x ? f : std::nextafter(f, INFINITY));
+PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place)
+    : x(static_cast<float>(place.x)),
+      y(static_cast<float>(place.y)),
+      hx(static_cast<float>(place.hx)),
+      hy(static_cast<float>(place.hy)) {
+  const auto upward = [](double value) {
+    const auto f = static_cast<float>(value);
+    return f >= value ? f : std::nextafter(f, INFINITY);
   };
-  CellModel m = model;
-  m.point = rounded(model.point);
-  m.dx = rounded(model.dx);
-  m.dy = rounded(model.dy);
-  m.normal = rounded(model.normal);
-  const CellFrame frame(m.dx, m.dy);
-  if (!frame.regular || !(model.shift_x < kInfinity)) {
-    m.shift_x = m.shift_y = kInfinity;
-  } else {
-    const double of_x = glm::length(m.dx - model.dx), of_y = glm::length(m.dy - model.dy);
-    const double off = glm::length(m.point - model.point) + (1 + model.shift_x) * of_x + (1 + model.shift_y) * of_y +
-                       glm::length(m.normal - model.normal) * model.bend;
-    m.shift_x = upward(model.shift_x + off * glm::length(frame.dual_x));
-    m.shift_y = upward(model.shift_y + off * glm::length(frame.dual_y));
-    // The part along the true normal is at most all of it; the normal kept differs from that by its own rounding.
-    m.bend = upward((model.bend + off) * (1 + 1e-6));
+  const CellFrame own(model.dx, model.dy);
+  const double size = glm::length(model.dx) + glm::length(model.dy);
+  const bool regular = own.regular && model.shift_x < kInfinity;
+  // Singular cells have the axes of space.
+  const double unit = size > 0 ? 1 / size : 1;
+  const Vec3 rows[] = {regular ? own.dual_x : Vec3(unit, 0, 0), regular ? own.dual_y : Vec3(0, unit, 0),
+                       regular ? own.normal : Vec3(0, 0, 1)};
+  Vec3 middle, rounded[3];
+  for (int k = 0; k < 3; ++k) {
+    for (int row = 0; row < 3; ++row) rounded[row][k] = frame[k][row] = static_cast<float>(rows[row][k]);
+    middle[k] = frame[k][3] = static_cast<float>(model.point[k]);
   }
-  m.variation = upward(model.variation);
-  return m;
+  const auto parts = [&](const Vec3& v) {
+    return Vec3(glm::dot(rounded[0], v), glm::dot(rounded[1], v), glm::dot(rounded[2], v));
+  };
+  Box3 box;
+  for (int k = 0; k < part.count(); ++k) {
+    const Vec4& p = part.points[k];
+    if (!(p.w > 0)) {
+      box = Box3::everything();
+      break;
+    }
+    box.include(parts(Vec3(p) / p.w - middle));
+  }
+  // Much more than the doubles' rounding and the slack of borders, much less than matters.
+  const Vec3 slack = 1e-9 * (Vec3(1) + glm::max(glm::abs(box.lo), glm::abs(box.hi))) * Vec3(1, 1, size);
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = -upward(slack[k] - box.lo[k]);
+    hi[k] = upward(box.hi[k] + slack[k]);
+  }
+  // The bounds of the model are about its own middle in its own frame. With the frame's rounding in a vector of that
+  // length in the derivatives:
+  const double length = glm::length(model.dx) + glm::length(model.dy) + model.variation;
+  const Vec3 off = glm::abs(parts(model.point - middle));
+  const auto turned = [&](int row) { return glm::length(rounded[row] - rows[row]) * length; };
+  lo[3] = regular ? upward(model.shift_x + off.x + turned(0)) : INFINITY;
+  hi[3] = regular ? upward(model.shift_y + off.y + turned(1)) : INFINITY;
+  bend = upward(model.bend + off.z + turned(2));
+  reach_x = upward(glm::length(model.dx) + model.variation);
+  reach_y = upward(glm::length(model.dy) + model.variation);
 }
 
 bool flattens_across_u(const PatchView& patch, double x, double y) {
@@ -433,24 +535,31 @@ bool meets_once(const CellModel& m, const Vec3& direction) {
          m.shift_y + std::abs(glm::dot(m.normal, across_x)) * bend <= kInjective;
 }
 
+bool meets_once(const PatchCell& cell, const Vec3& direction) {
+  const LocalFrame frame(cell);
+  Lanes along;
+  frame.parts(direction, along);
+  const double bend = cell.bend / std::abs(along[2]);
+  return cell.lo[3] + std::abs(along[0]) * bend <= kInjective && cell.hi[3] + std::abs(along[1]) * bend <= kInjective;
+}
+
 double roughness(const CellModel& m) {
   const double shorter = std::min(glm::length(m.dx), glm::length(m.dy));
   const double r = std::max(m.shift_x, m.shift_y) + m.bend / shorter;
   return r < kInfinity ? r : kInfinity;
 }
 
-void intersect(const PatchView& patch, const CellPlace& place, const CellModel& model, const LineBasis& line,
-               const Interval& t, CellHits& hits) {
+void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t,
+               CellHits& hits) {
   // Most cells are decided at once; the search's bookkeeping starts only if not.
   CellHit hit;
-  const Verdict verdict = decide(PatchCells{patch, place}, model, line, t, hit);
+  const Verdict verdict = decide(patch, cell, line, t, hit);
   if (verdict == Verdict::none) return;
   if (verdict == Verdict::one) {
     hits.add(hit);
     return;
   }
-  const Vec2 reach = extent(model);
-  search_net(patch, place, reach.x, reach.y, line, hits);
+  search_net(patch, cell.place(), cell.reach_x, cell.reach_y, line, hits);
 }
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,

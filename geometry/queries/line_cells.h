@@ -19,6 +19,7 @@
 // or a tangency of the line, reported not at all: a tangent line has two hits or none.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "geometry/queries/bezier_patch.h"
@@ -72,18 +73,28 @@ class CellHits {
   std::vector<CellHit> more_;
 };
 
-// The same with all its numbers rounded to floats, and its bounds enlarged by what that changes.
-CellModel in_floats(const CellModel& model);
-
 // A cell's place in the square of a patch: [x - hx, x + hx] times [y - hy, y + hy].
 struct CellPlace {
   double x = 0, y = 0, hx = 1, hy = 1;
 };
 
-// All meetings of the line with a cell of a rational Bezier patch, but for some with a t certainly outside the
-// interval; `model` is that of the cell, kept by the caller.
-void intersect(const PatchView& patch, const CellPlace& place, const CellModel& model, const LineBasis& line,
-               const Interval& t, CellHits& hits);
+// A cell of a rational Bezier patch for many lines, small because every line that comes near reads it: in floats whose
+// rounding is part of the bounds. Its frame measures a vector in shares of dx and dy and by its part along the normal.
+struct PatchCell {
+  using Four = std::array<float, 4>;
+  std::array<Four, 3> frame;  // columns: the parts of (1, 0, 0), (0, 1, 0), (0, 0, 1); fourth, the middle's x, y, z
+  Four lo, hi;                // box of the cell in its frame, about the middle; fourth, shift_x and shift_y
+  float bend;
+  float reach_x, reach_y;  // bounds on the extent in space along x and y from the middle
+  float x, y, hx, hy;      // its place, exactly
+
+  // `part`: the patch restricted to the place; `model`: of the part.
+  PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place);
+  CellPlace place() const { return {x, y, hx, hy}; }
+};
+
+// All meetings of the line with a cell of a patch, but for some with a t certainly outside the interval.
+void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t, CellHits& hits);
 
 // The same for a rectangle of any surface, from evaluate and enclose.
 CellModel model_of(const Surface& surface, const Rectangle& box);
@@ -93,6 +104,7 @@ void intersect(const Surface& surface, const Rectangle& box, const CellModel& mo
 
 // True if no line of that direction meets the cell twice.
 bool meets_once(const CellModel& model, const Vec3& direction);
+bool meets_once(const PatchCell& cell, const Vec3& direction);
 
 // How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
 // not graze a cell of roughness below 1/4 are decided without halving.

@@ -13,9 +13,6 @@ namespace {
 constexpr int kMostCellsPerPiece = 1024;
 constexpr int kDeepestCut = 9;
 
-std::array<float, 3> in_floats(const Vec3& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
 Vec3 in_doubles(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 float downward(double x) {
@@ -49,7 +46,7 @@ class PatchTarget::Cutter {
   void cut(const Vec4* points, const CellModel& model, const CellPlace& place, int depth) {
     const Patch& patch = target_.patches_[patch_];
     const PatchView view{points, patch.degree_u, patch.degree_v};
-    if (is_done(model, depth)) return add(view, geometry::in_floats(model), place);
+    if (is_done(model, depth)) return add(view, model, place);
     --budget_;
     Vec4 *const first = room_.data() + (2 * depth + 1) * view.count(), *const second = first + view.count();
     const bool along_x = flattens_across_u(view, glm::length(model.dx), glm::length(model.dy));
@@ -79,24 +76,11 @@ class PatchTarget::Cutter {
       size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     }
     box = box.inflated(1e-15 * size);
-    Cell cell;
-    cell.point = in_floats(m.point);
-    cell.dx = in_floats(m.dx);
-    cell.dy = in_floats(m.dy);
-    cell.normal = in_floats(m.normal);
-    cell.shift_x = static_cast<float>(m.shift_x);
-    cell.shift_y = static_cast<float>(m.shift_y);
-    cell.bend = static_cast<float>(m.bend);
-    cell.variation = static_cast<float>(m.variation);
-    cell.x = static_cast<float>(place.x);
-    cell.y = static_cast<float>(place.y);
-    cell.hx = static_cast<float>(place.hx);
-    cell.hy = static_cast<float>(place.hy);
+    Cell cell{PatchCell(view, m, place), {}, {}, patch_};
     for (int k = 0; k < 3; ++k) {
       cell.lo[k] = downward(box.lo[k]);
       cell.hi[k] = -downward(-box.hi[k]);
     }
-    cell.patch = patch_;
     target_.cells_.push_back(cell);
   }
 
@@ -140,19 +124,14 @@ Box3 PatchTarget::piece_bounds(int i) const {
   return Box3{box.lo + center, box.hi + center}.inflated(1e-15 * glm::length(center));
 }
 
-CellModel PatchTarget::model_of(const Cell& cell) {
-  return {in_doubles(cell.point), in_doubles(cell.dx), in_doubles(cell.dy), in_doubles(cell.normal),
-          cell.shift_x,           cell.shift_y,        cell.bend,           cell.variation};
-}
-
 void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const {
   const Cell& cell = cells_[i];
   const Patch& patch = patches_[cell.patch];
   double foot;
-  const LineBasis basis = line.near(patch.center, foot);
-  const CellPlace place{cell.x, cell.y, cell.hx, cell.hy};
+  const LineBasis& basis = line.near(patch.center, foot);
+  const CellPlace place = cell.cell.place();
   CellHits found;
-  intersect(view_of(patch), place, model_of(cell), basis, {t.lo - foot, t.hi - foot}, found);
+  intersect(view_of(patch), cell.cell, basis, {t.lo - foot, t.hi - foot}, found);
   for (int k = 0; k < found.size(); ++k) {
     LineHit hit;
     hit.t = foot + found[k].t;
@@ -164,7 +143,7 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
 }
 
 bool PatchTarget::meets_once(int i, const Vec3& direction) const {
-  return geometry::meets_once(model_of(cells_[i]), direction);
+  return geometry::meets_once(cells_[i].cell, direction);
 }
 
 SurfaceJet PatchTarget::jet_at(int i, double u, double v, const Vec3& near) const {

@@ -2,6 +2,7 @@
 // finds its points on the whole piece.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -36,12 +37,9 @@ class PatchTarget final : public LineTarget {
     int degree_u = 0, degree_v = 0;
     size_t first_point = 0;
   };
-  // Numbers in floats whose rounding is part of the bounds: a cell is read by every ray that comes near it.
   struct Cell {
-    std::array<float, 3> point, dx, dy, normal;  // of the CellModel, relative to the piece's centre
-    float shift_x, shift_y, bend, variation;
-    float x, y, hx, hy;           // place in the piece's square [-1, 1]^2, exactly
-    std::array<float, 3> lo, hi;  // box, relative to the centre
+    PatchCell cell;
+    std::array<float, 3> lo, hi;  // box, relative to the piece's centre
     int32_t patch;
   };
   class Cutter;
@@ -49,7 +47,6 @@ class PatchTarget final : public LineTarget {
   PatchView view_of(const Patch& patch) const {
     return {points_.data() + patch.first_point, patch.degree_u, patch.degree_v};
   }
-  static CellModel model_of(const Cell& cell);
 
   SurfacePtr surface_;
   Acceptance acceptance_;

@@ -58,7 +58,8 @@ void compare(const RandomPatch& patch, std::mt19937_64& random, int count, doubl
     // As callers do: the line's foot near the patch.
     const double foot = glm::dot(model.point - line.origin, line.direction);
     CellHits cell_hits;
-    intersect(patch.view(), {}, model, LineBasis({line.at(foot), line.direction}), {-kInfinity, kInfinity}, cell_hits);
+    intersect(patch.view(), PatchCell(patch.view(), model, {}), LineBasis({line.at(foot), line.direction}),
+              {-kInfinity, kInfinity}, cell_hits);
     std::vector<CellHit> found;
     for (int i = 0; i < cell_hits.size(); ++i) found.push_back(cell_hits[i]);
     std::sort(found.begin(), found.end(), [](const CellHit& a, const CellHit& b) { return a.t < b.t; });
@@ -123,7 +124,7 @@ TEST(LineCells, FindEveryRootNearACollapsedEdge) {
       const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
       const Vec3 past = Vec3(0.1, 0.5, 0.4) + off * Vec3(normal(random), normal(random), normal(random));
       CellHits found;
-      intersect(patch.view(), {}, model, LineBasis({past, d}), {-kInfinity, kInfinity}, found);
+      intersect(patch.view(), PatchCell(patch.view(), model, {}), LineBasis({past, d}), {-kInfinity, kInfinity}, found);
       EXPECT_EQ(found.size(), static_cast<int>(oracle::PatchOracle(patch.points, 3, 3).roots({past, d}).size()));
     }
   }
@@ -134,8 +135,8 @@ TEST(LineCells, ALineThroughACollapsedEdgeHitsItOnce) {
   std::mt19937_64 random(4);
   const RandomPatch patch = random_patch(random, 3, 3, 1, true);
   CellHits found;
-  intersect(patch.view(), {}, model_of(patch.view()), LineBasis({Vec3(0.1, 0.5, 2), Vec3(0, 0, -1)}),
-            {-kInfinity, kInfinity}, found);
+  intersect(patch.view(), PatchCell(patch.view(), model_of(patch.view()), {}),
+            LineBasis({Vec3(0.1, 0.5, 2), Vec3(0, 0, -1)}), {-kInfinity, kInfinity}, found);
   int at_the_pole = 0;
   for (int i = 0; i < found.size(); ++i) at_the_pole += std::abs(found[i].t - 1.6) < 1e-9;
   EXPECT_EQ(at_the_pole, 1);
