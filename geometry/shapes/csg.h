@@ -29,6 +29,7 @@ class Csg final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
+  LineMethod method() const override { return {"CSG of leaves", leaves_.size(), leaves_.size() * sizeof(Leaf)}; }
   bool begins_inside(const Line& line) const override;
 
  private:

@@ -39,6 +39,7 @@ class ImplicitCells {
   // A bound on the rounding of F where it may be zero.
   double rounding() const { return rounding_; }
   int count() const { return static_cast<int>(cells_.size()); }
+  size_t memory() const { return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node); }
 
   // Follows the sign of F along the line from t0 to t1, both in the region. The origin of the line lies near it.
   void follow(const Line& line, double t0, double t1, SignChanges& changes) const;

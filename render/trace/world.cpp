@@ -261,8 +261,21 @@ struct World::Compiled {
     return std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; });
   }
 
-  void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) const {
-    into.add(compile(object, number, to_world));
+  void count_method(const geometry::LineMethod& method) {
+    auto& methods = statistics.methods;
+    auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == method.name; });
+    if (found == methods.end()) found = methods.insert(found, {std::string(method.name)});
+    ++found->count;
+    found->pieces += method.pieces;
+    found->bytes += method.bytes;
+  }
+
+  void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) {
+    Leaf leaf = compile(object, number, to_world);
+    for (const auto& target : leaf.targets)
+      count_method({target->method(), static_cast<size_t>(target->piece_count()), target->memory()});
+    if (leaf.shape) count_method(leaf.shape->method());
+    into.add(std::move(leaf));
     const auto* body = std::get_if<BodyPtr>(&object.shape);
     if (!body || object.representation != Representation::mesh || !has_caps(object)) return;
     // A mesh knows no inside: its caps are those of the exact body.

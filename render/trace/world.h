@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/scene/model.h"
@@ -19,6 +20,14 @@ struct WorldStatistics {
   size_t triangles = 0;
   size_t instances = 0;
   size_t bytes = 0;
+  // How lines meet the surfaces and shapes, by name: those of one method together.
+  struct Method {
+    std::string name;
+    size_t count = 0;  // of surfaces and shapes
+    size_t pieces = 0;
+    size_t bytes = 0;
+  };
+  std::vector<Method> methods;
   double build_seconds = 0;
 };
 
