@@ -108,6 +108,16 @@ void ExternalSurface::fit() {
     return fitting_breaks(samples, std::size(kLines), range, kShareOfLines * allowed);
   };
   std::vector<double> breaks_u = breaks_along(true), breaks_v = breaks_along(false);
+  const auto patches = [](const std::vector<double>& u, const std::vector<double>& v) {
+    return (u.size() - 1) * (v.size() - 1);
+  };
+  if (patches(breaks_u, breaks_v) > kMostFitPatches)
+    throw FieldError(
+        "tolerance",
+        fmt::format("a spline so near to the function needs more than {} x {} pieces", breaks_u.size() - 1,
+                    breaks_v.size() - 1),
+        "the function is not smooth, or its numbers are not that exact: allow more with 'tolerance', or cut "
+        "the domain");
   const int order = std::min(order_, 2);
   for (int round = 0;; ++round) {
     fit_ = std::make_shared<NurbsSurface>(fitted(breaks_u, breaks_v));
@@ -130,7 +140,7 @@ void ExternalSurface::fit() {
         mark(breaks_v, uv[i].y, wrong_v);
       }
     std::vector<double> finer_u = halved(breaks_u, wrong_u), finer_v = halved(breaks_v, wrong_v);
-    if (round == kMostRounds || std::max(finer_u.size(), finer_v.size()) > kMostFitSpans + 1 ||
+    if (round == kMostRounds || patches(finer_u, finer_v) > kMostFitPatches ||
         finer_u.size() + finer_v.size() == breaks_u.size() + breaks_v.size())
       break;
     breaks_u = std::move(finer_u);

@@ -44,12 +44,15 @@ typedef int lekalo_surface(const double* parameters, double u, double v, int ord
 /* The same for a curve at t: r, r', r'', ...; the derivative k begins at out[3 * k], room for 3 (order + 1) numbers. */
 typedef int lekalo_curve(const double* parameters, double t, int order, double* out);
 
-/* Declares functions of these types, visible outside the library. */
-#define LEKALO_SURFACE(name) __attribute__((visibility("default"))) lekalo_surface name;
-#define LEKALO_CURVE(name) __attribute__((visibility("default"))) lekalo_curve name;
-
 #ifdef __cplusplus
 }
+#define LEKALO_EXTERN extern "C"
+#else
+#define LEKALO_EXTERN extern
 #endif
+
+/* Declares functions of these types under their plain names, visible outside the library. */
+#define LEKALO_SURFACE(name) LEKALO_EXTERN __attribute__((visibility("default"))) lekalo_surface name;
+#define LEKALO_CURVE(name) LEKALO_EXTERN __attribute__((visibility("default"))) lekalo_curve name;
 
 #endif

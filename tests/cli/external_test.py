@@ -120,6 +120,11 @@ class Library(External):
         self.refused(self.faulty("good", ", command: [python3]"), "'library' and 'command' exclude each other")
         self.refused(self.faulty("good", ", timeout: 3"), "'timeout' belongs to a program")
 
+    def test_fault_found_later(self):
+        error = self.run_program("evaluate", self.faulty("returns_7_at_one"), "theirs", "--at", "0.123,0.5", ALLOW,
+                                 code=FILE_ERROR)[1]
+        self.assertEqual(error, "lekalo: 'returns_7_at_one' returned 7 at u = 0.123, v = 0.5, order 2\n")
+
     def test_wrong_derivatives_are_doubted(self):
         error = self.run_program("check", self.faulty("wrong_dv"), ALLOW)[1]
         self.assertIn("warning: scene.yaml:4: dv is not the derivative of the points: (0, 1, 1.001) at u = 1", error)

@@ -5,6 +5,7 @@
 
 LEKALO_SURFACE(good)
 LEKALO_SURFACE(returns_7_at_some)
+LEKALO_SURFACE(returns_7_at_one)
 LEKALO_SURFACE(not_a_number)
 LEKALO_SURFACE(forgets_duv)
 LEKALO_SURFACE(takes_a_second_parameter)
@@ -32,6 +33,12 @@ int returns_7_at_some(const double* parameters, double u, double v, int order, d
   (void)parameters;
   saddle(u, v, order, out);
   return u > 0.7 && v > 0.6 ? 7 : 0;
+}
+
+int returns_7_at_one(const double* parameters, double u, double v, int order, double* out) {
+  (void)parameters;
+  saddle(u, v, order, out);
+  return u == 0.123 ? 7 : 0;
 }
 
 int not_a_number(const double* parameters, double u, double v, int order, double* out) {
