@@ -35,6 +35,11 @@ constexpr size_t kToldOfLine = 200;
 // No answer is longer.
 constexpr size_t kLongestLine = 1 << 16;
 
+// With this many answers to come a program is left to itself for a while: woken for each line that it flushes, both
+// would spend their time changing places. Its pipe holds what it writes meanwhile.
+constexpr size_t kManyAnswers = 100;
+constexpr auto kLull = std::chrono::microseconds(300);
+
 // After the end of its input a program may take this long to end by itself.
 constexpr auto kFarewell = std::chrono::seconds(1);
 
@@ -61,7 +66,8 @@ class File {
 
 FieldError not_started(const std::string& program, int error) {
   return FieldError("command", fmt::format("'{}' cannot be started: {}", program, std::strerror(error)),
-                    "a program in PATH, or its path with a slash: ./evaluator");
+                    program.find(' ') == std::string::npos ? "a program in PATH, or its path with a slash: ./evaluator"
+                                                           : "write its words apart: [program, argument, ...]");
 }
 
 std::string shortened(std::string_view line) {
@@ -263,6 +269,7 @@ void Evaluator::evaluate(std::span<const double> places, int order, std::span<do
       answers_.erase(0, begin);
       begin = 0;
       if (answers_.size() > kLongestLine) fail("writes a line without an end", place(answered));
+      if (sent > 0 && count - answered > kManyAnswers) std::this_thread::sleep_for(kLull);
       exchange({requests.data(), requests.size()}, sent, deadline, place(answered));
       continue;
     }

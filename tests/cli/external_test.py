@@ -174,6 +174,8 @@ class Program(External):
         scene = "lekalo: 1\ngeometry: {{ a: {{ type: external_curve, command: [{}], domain: [0, 1] }} }}\n"
         self.write("scene.yaml", scene.format("no_such_program"))
         self.refused("scene.yaml", "'no_such_program' cannot be started: No such file or directory")
+        self.write("scene.yaml", scene.format("'python3 wave.py'"))
+        self.refused("scene.yaml", "'python3 wave.py' cannot be started", "hint: write its words apart")
         self.write("scene.yaml", scene.format("./no_such_program"))
         self.refused("scene.yaml", "there is no program './no_such_program'")
         self.write("scene.yaml", scene.format("python3") .replace("domain", "function: f, domain"))
