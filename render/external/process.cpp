@@ -207,7 +207,7 @@ void Evaluator::exchange(std::string_view requests, size_t& sent, Clock::time_po
   if (writing) files.push_back({input_.number(), POLLOUT, 0});
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
   if (left <= 0)
-    fail(fmt::format("gave no answer for {:.9g} s; does it write each line at once (flush)?",
+    fail(fmt::format("gave no answer for {:.9g} s (it must flush each line, or the system keeps it back)",
                      std::chrono::duration<double>(timeout_).count()),
          waiting_for);
   const int ready = poll(files.data(), files.size(), static_cast<int>(std::min<long>(left, 1000)));

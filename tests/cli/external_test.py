@@ -168,7 +168,7 @@ class Program(External):
     def test_timeout(self):
         scene = self.script("import sys\nfor line in sys.stdin:\n  pass\nimport time\ntime.sleep(100)", "",
                             "    timeout: 0.3\n")
-        self.refused(scene, "gave no answer for 0.3 s; does it write each line at once (flush)?")
+        self.refused(scene, "gave no answer for 0.3 s (it must flush each line, or the system keeps it back); asked for u = 0, v = 0")
 
     def test_no_such_program(self):
         scene = "lekalo: 1\ngeometry: {{ a: {{ type: external_curve, command: [{}], domain: [0, 1] }} }}\n"
