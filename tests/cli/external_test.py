@@ -72,16 +72,18 @@ class Library(External):
     def test_rays(self):
         ours = self.write("ours.yaml", "lekalo: 1\ngeometry: { s: { type: formula_surface, point: [u*cos(v), u*sin(v), "
                           "0.25*v], domain: { u: [-1, 1], v: [0, 2*pi] } } }\n")
-        theirs = self.write("theirs.yaml", "lekalo: 1\ngeometry: { s: { type: external_surface, library: libhelicoid.so, "
-                            "function: helicoid, parameters: [0.25], domain: { u: [-1, 1], v: [0, 2*pi] } } }\n")
-        for ray in ("0.3,0.2,5,0.1,0.05,-1", "-3,0.1,0.6,1,0.02,0.1", "0.5,-4,1,0,1,0"):
-            a = self.json_of("trace", ours, "--ray", ray)["hits"]
-            b = self.json_of("trace", theirs, "--ray", ray, ALLOW)["hits"]
-            self.assertGreater(len(a), 0)
-            self.assertEqual(len(a), len(b))
-            for x, y in zip(a, b):
-                for key in ("t", "u", "v", "point", "normal"):
-                    self.assert_near(x[key], y[key], 2e-8)
+        for fit, tolerance in ((1e-9, 2e-8), (1e-12, 2e-11)):
+            theirs = self.write("theirs.yaml", "lekalo: 1\ngeometry: { s: { type: external_surface, library: libhelicoid.so, "
+                                "function: helicoid, parameters: [0.25], domain: { u: [-1, 1], v: [0, 2*pi] }, "
+                                f"tolerance: {fit} }} }}\n")
+            for ray in ("0.3,0.2,5,0.1,0.05,-1", "-3,0.1,0.6,1,0.02,0.1", "0.5,-4,1,0,1,0"):
+                a = self.json_of("trace", ours, "--ray", ray)["hits"]
+                b = self.json_of("trace", theirs, "--ray", ray, ALLOW)["hits"]
+                self.assertGreater(len(a), 0)
+                self.assertEqual(len(a), len(b))
+                for x, y in zip(a, b):
+                    for key in ("t", "u", "v", "point", "normal"):
+                        self.assert_near(x[key], y[key], tolerance)
 
     def test_picture(self):
         self.run_program("render", "kernel.yaml", ALLOW, "--size", "60x45", "--samples", 1, "--representation", "mesh")
