@@ -146,6 +146,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
   if (!options.quiet && first)
     for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
+  if (first && (!options.quiet || options.stats)) print_external_notes(scene, options.stats);
   if (const std::string missing = left_to_drawings(*model); !options.quiet && first && !missing.empty())
     fmt::print(stderr, "note: not in the picture, but in drawings: {}\n", missing);
   if (!options.crop.empty()) set_crop(options.crop, *model);
