@@ -47,7 +47,7 @@ TEST(Primitives, CountsOfTheBook) {
   expect_counts(frustum(kTilted, 2, 0, 3), 2, 2, 2, 2, 2);
   expect_counts(frustum(kTilted, 0, 2, 3), 2, 2, 2, 2, 2);
   expect_counts(ball(kTilted, 2), 1, 1, 2, 1, 2);
-  expect_counts(arrow_body(kTilted, 4, 0.2, 1, 0.5), 4, 6, 4, 5, 2);
+  expect_counts(arrow_body(kTilted, 4, 0.2, 1, 0.5), 4, 5, 4, 5, 2);
   expect_counts(pyramid(kTilted, {{0, 0}, {1, 0}, {0, 1}}, {0, 0, 1}), 4, 6, 4, 4, 2);
 }
 
