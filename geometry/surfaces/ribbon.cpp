@@ -312,7 +312,7 @@ TypeDeclaration ribbon_type() {
   return declare(Category::surface, "ribbon",
                  "Strip of constant width along a smooth curve, which is its middle line. Parameters: u is that of the "
                  "curve, v the distance from it; the normal is (tangent of the curve) x (direction across).")
-      .example("of: my_curve, width: 0.2")
+      .example("of: round, width: 0.2")
       .field("of", reference({Category::curve}), "the curve in the middle")
       .field("width", length().positive(), "from border to border")
       .field("across", direction().or_word({"rotation_minimizing", "normal", "binormal"}),
