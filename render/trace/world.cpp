@@ -467,6 +467,8 @@ void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
 
 const Object& World::object(const SurfacePoint& point) const { return *compiled_->objects[point.object]; }
 
+const std::vector<const Object*>& World::objects() const { return compiled_->objects; }
+
 const Material& World::material(const SurfacePoint& point, bool front) const {
   const Object& object = this->object(point);
   const MaterialPtr& back = object.back_material;

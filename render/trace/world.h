@@ -58,6 +58,8 @@ class World {
 
   // The object that a point belongs to, which may stand in a group.
   const Object& object(const SurfacePoint& point) const;
+  // All objects by the number that points carry, those without surfaces too: groups before their members.
+  const std::vector<const Object*>& objects() const;
   const Material& material(const SurfacePoint& point, bool front) const;
   // True if some material lets light through, so that what occludes may only tint.
   bool has_transmitting_materials() const;

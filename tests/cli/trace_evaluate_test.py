@@ -25,6 +25,7 @@ SURFACES = {
     "nurbs_surface": f"points: [{NET}], degree: 2",
     "formula_surface": "point: ['(2 + cos(v))*cos(u)', '(2 + cos(v))*sin(u)', sin(v) + 0.3*sin(3*u)], "
                        "domain: { u: [0, 2*pi], v: [0, 2*pi] }, closed: true",
+    "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 
 
