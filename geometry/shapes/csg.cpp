@@ -104,6 +104,7 @@ int Csg::append(const ShapePtr& operand, int parent, bool taken_away, bool turne
 void Csg::finish(Node& node) {
   if (node.leaf >= 0) {
     node.box = leaves_[node.leaf].shape->bounds();
+    node.convex = leaves_[node.leaf].convex.has_value();
     return;
   }
   const auto box_of = [&](size_t k) -> const Box3& { return nodes_[node.operands[k]].box; };
@@ -112,6 +113,9 @@ void Csg::finish(Node& node) {
     if (node.operation == Operation::unite) node.box.include(box_of(k));
     if (node.operation == Operation::intersect) node.box = common(node.box, box_of(k));
   }
+  node.convex = node.operation == Operation::intersect &&
+                std::all_of(node.operands.begin(), node.operands.end(),
+                            [&](int operand) { return nodes_[operand].leaf >= 0 && nodes_[operand].convex; });
   node.needed = node.operation == Operation::unite ? 1 : static_cast<int>(node.operands.size());
   node.first_in_tree = static_cast<int>(node.operands.size());
   if (node.operation == Operation::intersect || node.operands.size() <= kFewOperands) return;
@@ -123,10 +127,16 @@ void Csg::finish(Node& node) {
 
 struct Csg::Crossing {
   double t;
+  int node;  // what is entered or left
   int leaf, face;
   // Of leaves without a closed form.
   int piece = 0;
   double u = 0, v = 0;
+};
+
+// From one crossing to another, either of which may be at infinity.
+struct Csg::Stretch {
+  Crossing in, out;
 };
 
 struct Csg::Search {
@@ -145,47 +155,72 @@ namespace {
 constexpr Interval kNowhere{kInfinity, -kInfinity};
 }
 
-Interval Csg::gather_leaf(const Leaf& leaf, const Interval& range, Search& search) const {
-  const int number = nodes_[leaf.node].leaf;
-  if (leaf.convex) {
-    ConvexSolid::Stretch inside;
-    if (!leaf.convex->stretch(search.solids, inside)) return kNowhere;
-    const Interval result{std::max(range.lo, inside.in), std::min(range.hi, inside.out)};
-    if (result.empty()) return kNowhere;
-    search.crossings.add({inside.in, number, inside.face_in});
-    if (inside.out < kInfinity) search.crossings.add({inside.out, number, inside.face_out});
-    return result;
+bool Csg::stretch(const Node& node, const Search& search, Stretch& inside) const {
+  const int number = static_cast<int>(&node - nodes_.data());
+  ConvexSolid::Stretch one;
+  if (node.leaf >= 0) {
+    if (!leaves_[node.leaf].convex->stretch(search.solids, one)) return false;
+    inside.in = {one.in, number, node.leaf, one.face_in};
+    inside.out = {one.out, number, node.leaf, one.face_out};
+    return true;
   }
-  const Box3& box = nodes_[leaf.node].box;
-  const bool begins = !box.bounded() && leaf.shape->begins_inside(search.line());
-  if (box.bounded() && !BoxTree::meets(box, search.to_boxes, range)) return kNowhere;
+  inside.in = {-kInfinity, number, -1, 0};
+  inside.out = {kInfinity, number, -1, 0};
+  for (const int operand : node.operands) {
+    const int leaf = nodes_[operand].leaf;
+    if (!leaves_[leaf].convex->stretch(search.solids, one)) return false;
+    // Of faces in one place that of the first operand counts.
+    if (one.in > inside.in.t + search.tolerance(one.in)) inside.in = {one.in, number, leaf, one.face_in};
+    if (one.out < inside.out.t - search.tolerance(one.out)) inside.out = {one.out, number, leaf, one.face_out};
+    if (!(inside.in.t < inside.out.t)) return false;
+  }
+  return true;
+}
+
+Interval Csg::gather_convex(int number, const Interval& range, Search& search) const {
+  Stretch inside;
+  if (!stretch(nodes_[number], search, inside)) return kNowhere;
+  const Interval result{std::max(range.lo, inside.in.t), std::min(range.hi, inside.out.t)};
+  if (result.empty()) return kNowhere;
+  search.crossings.add(inside.in);
+  if (inside.out.t < kInfinity) search.crossings.add(inside.out);
+  return result;
+}
+
+Interval Csg::gather_leaf(int number, const Interval& range, Search& search) const {
+  const Node& node = nodes_[number];
+  const Shape& shape = *leaves_[node.leaf].shape;
+  const bool begins = !node.box.bounded() && shape.begins_inside(search.line());
+  if (node.box.bounded() && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
   // The room is kept from call to call, but for calls within calls.
   static thread_local std::vector<SurfaceHit> room;
   std::vector<SurfaceHit> hits = std::move(room);
   hits.clear();
-  leaf.shape->all_hits(search.line(), {-kInfinity, range.hi}, hits);
+  shape.all_hits(search.line(), {-kInfinity, range.hi}, hits);
   const bool ends = begins != (hits.size() % 2 != 0);  // inside at the end of the range
   Interval result = kNowhere;
   if (begins || !hits.empty())
     result = {std::max(range.lo, begins ? -kInfinity : hits.front().t),
               std::min(range.hi, ends ? kInfinity : hits.back().t)};
   if (!result.empty()) {
-    if (begins) search.crossings.add({-kInfinity, number, 0});
-    for (const SurfaceHit& hit : hits) search.crossings.add({hit.t, number, hit.face, hit.piece, hit.u, hit.v});
+    if (begins) search.crossings.add({-kInfinity, number, node.leaf, 0});
+    for (const SurfaceHit& hit : hits)
+      search.crossings.add({hit.t, number, node.leaf, hit.face, hit.piece, hit.u, hit.v});
   }
   room = std::move(hits);
   return result.empty() ? kNowhere : result;
 }
 
-Interval Csg::gather(const Node& node, const Interval& range, Search& search) const {
-  if (node.leaf >= 0) return gather_leaf(leaves_[node.leaf], range, search);
+Interval Csg::gather(int number, const Interval& range, Search& search) const {
+  const Node& node = nodes_[number];
+  if (node.convex) return gather_convex(number, range, search);
+  if (node.leaf >= 0) return gather_leaf(number, range, search);
   if (node.parent >= 0 && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
-  const auto operand = [&](int k) -> const Node& { return nodes_[node.operands[k]]; };
   Interval result = range;
   if (node.operation == Operation::intersect) {
     const size_t before = search.crossings.size();
     for (int k = 0; k < static_cast<int>(node.operands.size()); ++k) {
-      result = gather(operand(k), result, search);
+      result = gather(node.operands[k], result, search);
       if (!result.empty()) continue;
       search.crossings.keep(before);
       return kNowhere;
@@ -194,13 +229,13 @@ Interval Csg::gather(const Node& node, const Interval& range, Search& search) co
   }
   const bool unite = node.operation == Operation::unite;
   if (!unite) {
-    result = gather(operand(0), range, search);
+    result = gather(node.operands[0], range, search);
     if (result.empty()) return kNowhere;
   }
   Interval any = kNowhere;
   const Interval within = result;
   const auto visit = [&](int k) {
-    const Interval one = gather(operand(k), within, search);
+    const Interval one = gather(node.operands[k], within, search);
     any = {std::min(any.lo, one.lo), std::max(any.hi, one.hi)};
   };
   for (int k = unite ? 0 : 1; k < node.first_in_tree; ++k) visit(k);
@@ -208,11 +243,10 @@ Interval Csg::gather(const Node& node, const Interval& range, Search& search) co
   return unite ? any : result;
 }
 
-// Changes what a leaf is, and all that changes with it.
-void Csg::turn(int leaf, int* inside) const {
-  int number = leaves_[leaf].node;
-  bool now = inside[number] == 0;
-  inside[number] = now;
+// Changes the side of a leaf or convex node, and all that changes with it.
+void Csg::turn(int number, int* inside) const {
+  bool now = inside[number] < nodes_[number].needed;
+  inside[number] = now ? nodes_[number].needed : 0;
   for (int parent = nodes_[number].parent; parent >= 0; number = parent, parent = nodes_[parent].parent) {
     const int needed = nodes_[parent].needed;
     const bool before = inside[parent] >= needed;
@@ -225,9 +259,19 @@ void Csg::turn(int leaf, int* inside) const {
 template <class Visit>
 void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
   Search search(line, size_);
+  const auto hit_of = [&](const Crossing& at) -> SurfaceHit {
+    return {at.t, at.u, at.v, at.leaf + leaf_count() * at.face, at.piece};
+  };
+  if (nodes_[0].convex) {
+    Stretch inside;
+    if (!stretch(nodes_[0], search, inside) || inside.out.t - inside.in.t <= search.tolerance(inside.in.t)) return;
+    if (t.contains(inside.in.t) && !visit(hit_of(inside.in))) return;
+    if (t.contains(inside.out.t)) visit(hit_of(inside.out));
+    return;
+  }
   // A crossing just beyond either end may be one with a crossing inside.
   const Interval range{t.lo - 4 * search.tolerance(t.lo), t.hi + 4 * search.tolerance(t.hi)};
-  if (gather(nodes_[0], range, search).empty()) return;
+  if (gather(0, range, search).empty()) return;
   Crossing *const begin = search.crossings.begin(), *const end = begin + search.crossings.size();
   std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
 
@@ -236,23 +280,22 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
   int* const inside_node = counts.begin();
   const auto is_inside = [&] { return inside_node[0] >= nodes_[0].needed; };
   Crossing* first = begin;
-  for (; first < end && first->t == -kInfinity; ++first) turn(first->leaf, inside_node);
+  for (; first < end && first->t == -kInfinity; ++first) turn(first->node, inside_node);
   bool inside = is_inside();
   for (Crossing* last; first < end && first->t <= t.hi; first = last) {
     const double place = first->t + search.tolerance(first->t);
-    for (last = first; last < end && last->t <= place; ++last) turn(last->leaf, inside_node);
+    for (last = first; last < end && last->t <= place; ++last) turn(last->node, inside_node);
     const bool before = inside;
     inside = is_inside();
     if (inside == before) continue;
     // The face of the first operand that was crossed in this sense.
     const Crossing* best = nullptr;
     for (const Crossing* one = first; one < last; ++one) {
-      const Leaf& leaf = leaves_[one->leaf];
-      const bool entered = (inside_node[leaf.node] != 0) != leaf.turned;
+      const bool entered = (inside_node[one->node] >= nodes_[one->node].needed) != leaves_[one->leaf].turned;
       if (entered == inside && (!best || one->leaf < best->leaf)) best = one;
     }
     if (!best || !t.contains(best->t)) continue;
-    if (!visit(SurfaceHit{best->t, best->u, best->v, best->leaf + leaf_count() * best->face, best->piece})) return;
+    if (!visit(hit_of(*best))) return;
   }
 }
 
@@ -291,7 +334,7 @@ bool Csg::begins_inside(const Line& line) const {
     ConvexSolid::Stretch stretch;
     const bool begins = leaf.convex ? leaf.convex->stretch(solids, stretch) && stretch.in == -kInfinity
                                     : leaf.shape->begins_inside(line);
-    if (begins) turn(number, inside.data());
+    if (begins) turn(leaf.node, inside.data());
   }
   return inside[0] >= nodes_[0].needed;
 }

@@ -47,6 +47,7 @@ class Csg final : public Shape {
     int leaf = -1;              // else
     int parent = -1;
     bool taken_away = false;  // by its parent
+    bool convex = false;      // a leaf with a closed form, or an intersection of such
     int needed = 1;
     Box3 box = Box3::everything();
     BoxTree tree;  // of many operands that need not all be looked at: operands[first_in_tree] and on
@@ -59,16 +60,21 @@ class Csg final : public Shape {
     int node;
   };
   struct Crossing;
+  struct Stretch;
   struct Search;
 
   int leaf_count() const { return static_cast<int>(leaves_.size()); }
   int append(const ShapePtr& operand, int parent, bool taken_away, bool turned);
   void finish(Node& node);
-  // Adds the crossings of all leaves that may matter where t is in the range, and returns where in it the node may be
-  // inside; adds none where that is empty. A leaf that is inside where t goes to minus infinity is crossed there.
-  Interval gather(const Node& node, const Interval& range, Search& search) const;
-  Interval gather_leaf(const Leaf& leaf, const Interval& range, Search& search) const;
-  void turn(int leaf, int* inside) const;
+  // Adds the crossings of all leaves and convex nodes that may matter where t is in the range, and returns where in it
+  // the node may be inside; adds none where that is empty. One that is inside where t goes to minus infinity is crossed
+  // there.
+  Interval gather(int number, const Interval& range, Search& search) const;
+  Interval gather_convex(int number, const Interval& range, Search& search) const;
+  Interval gather_leaf(int number, const Interval& range, Search& search) const;
+  // Where the line is inside a convex node; false if nowhere.
+  bool stretch(const Node& node, const Search& search, Stretch& inside) const;
+  void turn(int node, int* inside) const;
   // Calls visit(hit) for the hits in order until it returns false.
   template <class Visit>
   void walk(const Line& line, const Interval& t, Visit&& visit) const;
