@@ -115,20 +115,21 @@ bool ConvexSolid::holds_corners_of(const Body& body) const {
   const double slack = kFlatCorner * (box.diameter() + glm::length(box.center()));
   return std::all_of(body.vertices.begin(), body.vertices.end(), [&](const Vertex& vertex) {
     return std::all_of(slabs_.begin(), slabs_.end(), [&](const Slab& slab) {
-      const double x = glm::dot(slab.normal, vertex.point);
-      return x >= slab.lo - slack && x <= slab.hi + slack;
+      const double x = glm::dot(slab.normal, vertex.point - slab.at_hi);
+      return x >= -slab.depth - slack && x <= slack;
     });
   });
 }
 
 void ConvexSolid::add_plane(int face, const Vec3& through, const Vec3& normal) {
   for (Slab& slab : slabs_) {
-    if (slab.normal != -normal || slab.lo > -kInfinity) continue;
-    slab.lo = glm::dot(slab.normal, through);
+    if (slab.normal != -normal || slab.depth < kInfinity) continue;
+    slab.depth = glm::dot(slab.normal, slab.at_hi - through);
+    slab.at_lo = through;
     slab.face_lo = face;
     return;
   }
-  slabs_.push_back({normal, -kInfinity, glm::dot(normal, through), face, face});
+  slabs_.push_back({normal, through, through, kInfinity, face, face});
 }
 
 void ConvexSolid::add_round(int face) {
@@ -174,13 +175,13 @@ LEKALO_FUSED bool ConvexSolid::clip_to_slabs(const Line& line, Stretch& inside) 
   const Slab *slab_in = nullptr, *slab_out = nullptr;
   double speed_in = 1, speed_out = 1;  // inverse
   for (const Slab& slab : slabs_) {
-    const double speed = glm::dot(slab.normal, d), x = glm::dot(slab.normal, o);
+    const double speed = glm::dot(slab.normal, d), x = glm::dot(slab.normal, slab.at_hi - o);
     if (std::abs(speed) <= kParallel * length) {
-      if (x < slab.lo || x > slab.hi) return false;
+      if (x < 0 || x > slab.depth) return false;
       continue;
     }
     const double inverse = 1 / speed;
-    const double at_lo = (slab.lo - x) * inverse, at_hi = (slab.hi - x) * inverse;
+    const double at_hi = x * inverse, at_lo = (x - slab.depth) * inverse;
     const double in = inverse > 0 ? at_lo : at_hi, out = inverse > 0 ? at_hi : at_lo;
     if (in > inside.in) {
       inside.in = in;
@@ -194,20 +195,13 @@ LEKALO_FUSED bool ConvexSolid::clip_to_slabs(const Line& line, Stretch& inside) 
     }
     if (inside.in > inside.out) return false;
   }
-  const auto refine = [&](const Slab& slab, double side, double inverse, double& t) {
+  const auto refine = [&](const Slab& slab, bool hi, double inverse, double& t) {
     const Vec3 p(std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z));
-    t += (side - glm::dot(slab.normal, p)) * inverse;
+    t -= glm::dot(p - (hi ? slab.at_hi : slab.at_lo), slab.normal) * inverse;
+    return hi ? slab.face_hi : slab.face_lo;
   };
-  if (slab_in) {
-    const bool lo = speed_in > 0;
-    refine(*slab_in, lo ? slab_in->lo : slab_in->hi, speed_in, inside.in);
-    inside.face_in = lo ? slab_in->face_lo : slab_in->face_hi;
-  }
-  if (slab_out) {
-    const bool hi = speed_out > 0;
-    refine(*slab_out, hi ? slab_out->hi : slab_out->lo, speed_out, inside.out);
-    inside.face_out = hi ? slab_out->face_hi : slab_out->face_lo;
-  }
+  if (slab_in) inside.face_in = refine(*slab_in, speed_in < 0, speed_in, inside.in);
+  if (slab_out) inside.face_out = refine(*slab_out, speed_out > 0, speed_out, inside.out);
   return inside.in < inside.out;
 }
 

@@ -43,10 +43,10 @@ class ConvexSolid {
   ShapePoint point(int face, const Vec3& near) const;
 
  private:
-  // lo <= dot(p, normal) <= hi; one of them may be infinite.
+  // -depth <= dot(p - at_hi, normal) <= 0; the depth may be infinite.
   struct Slab {
-    Vec3 normal;
-    double lo, hi;
+    Vec3 normal, at_hi, at_lo;  // a point of either side
+    double depth;
     int face_lo, face_hi;
   };
   // A face's surface, which may be the image of one of three.

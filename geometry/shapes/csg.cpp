@@ -1,11 +1,15 @@
 #include "geometry/shapes/csg.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
+#include "geometry/bodies/sew.h"
 #include "geometry/describe.h"
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/half_space.h"
@@ -264,9 +268,11 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
   };
   if (nodes_[0].convex) {
     Stretch inside;
-    if (!stretch(nodes_[0], search, inside) || inside.out.t - inside.in.t <= search.tolerance(inside.in.t)) return;
-    if (t.contains(inside.in.t) && !visit(hit_of(inside.in))) return;
-    if (t.contains(inside.out.t)) visit(hit_of(inside.out));
+    if (!stretch(nodes_[0], search, inside)) return;
+    const double in = inside.in.t, out = inside.out.t;
+    if (in > -kInfinity && out - in <= search.tolerance(in)) return;
+    if (in > -kInfinity && t.contains(in) && !visit(hit_of(inside.in))) return;
+    if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out));
     return;
   }
   // A crossing just beyond either end may be one with a crossing inside.
@@ -348,6 +354,17 @@ ShapePtr operand(const std::any& thing, const std::string& field) {
       throw FieldError(field, "this body is not closed: it has no inside", "close it, or take a solid body");
     return std::make_shared<BodyShape>(*body);
   }
+  const auto* surface = std::any_cast<SurfacePtr>(&thing);
+  const auto* set = std::any_cast<std::vector<SurfacePtr>>(&thing);
+  if (surface || set) {
+    try {
+      const std::span<const SurfacePtr> all = set ? std::span<const SurfacePtr>(*set) : std::span(surface, 1);
+      return std::make_shared<BodyShape>(std::make_shared<Body>(enclosed_by(all)));
+    } catch (const std::invalid_argument& error) {
+      throw FieldError(field, fmt::format("this surface bounds no solid: {}", error.what()),
+                       "operands are bodies, closed surfaces, and sets of surfaces whose edges meet all round");
+    }
+  }
   const ShapePtr& shape = std::any_cast<const ShapePtr&>(thing);
   if (!shape->is_closed())
     throw FieldError(field, "this shape is not closed: it has no inside",
@@ -363,11 +380,12 @@ ShapePtr combined(Csg::Operation operation, const std::vector<ShapePtr>& operand
   }
 }
 
-const std::vector<Category> kSolids{Category::body, Category::shape};
+const std::vector<Category> kSolids{Category::body, Category::shape, Category::surface};
 
 TypeDeclaration of_several(const std::string& name, const std::string& description, Csg::Operation operation) {
   return declare(Category::shape, name, description)
-      .field("of", references(kSolids).count(1), "bodies and closed shapes; where faces coincide the first counts")
+      .field("of", references(kSolids).count(1),
+             "bodies, closed shapes and closed surfaces; where faces coincide the first counts")
       .built_by([operation](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands;
         for (const std::any& one : f.references("of")) operands.push_back(operand(one, "of"));
@@ -387,8 +405,8 @@ TypeDeclaration intersection_type() {
 
 TypeDeclaration difference_type() {
   return declare(Category::shape, "difference", "A solid without what lies in others.")
-      .field("of", reference(kSolids), "body or closed shape")
-      .field("minus", references(kSolids).count(1), "bodies and closed shapes to take away")
+      .field("of", reference(kSolids), "body, closed shape or closed surface")
+      .field("minus", references(kSolids).count(1), "bodies, closed shapes and closed surfaces to take away")
       .built_by([](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands{operand(f.any("of"), "of")};
         for (const std::any& one : f.references("minus")) operands.push_back(operand(one, "minus"));
