@@ -43,6 +43,7 @@ class PatchTarget final : public LineTarget {
     float x, y, hx, hy;           // place in the piece's square [-1, 1]^2, exactly
     std::array<float, 3> lo, hi;  // box, relative to the centre
     int32_t patch;
+    bool whole;  // all of it lies within the trim
   };
   class Cutter;
 
