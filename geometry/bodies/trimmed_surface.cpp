@@ -40,6 +40,7 @@ class Trimming {
     if (outside) add_border();
     for (Loop2& loop : loops_) outline(loop);
     check_crossings();
+    check_areas();
     nest();
   }
 
@@ -198,8 +199,6 @@ class Trimming {
       const Vec2 a = loop.polygon[i] - o, b = loop.polygon[(i + 1) % loop.polygon.size()] - o;
       loop.area += 0.5 * (a.x * b.y - a.y * b.x);
     }
-    if (!(std::abs(loop.area) > 1e-14 * size_ * size_))
-      throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
   }
 
   // Sides in the order of u; those that overlap in u are compared.
@@ -235,9 +234,10 @@ class Trimming {
         const auto loop_name = [&](const Side& side) { return name(loops_[side.loop].uses[0].edge); };
         if (s.loop == r.loop)
           throw TrimError(fmt::format("the loop that begins with {} crosses itself near {}", loop_name(s), place), "");
-        throw TrimError(
-            fmt::format("the loops that begin with {} and {} cross near {}", loop_name(s), loop_name(r), place),
-            "loops lie inside or beside each other");
+        const bool in_order = s.loop < r.loop;
+        throw TrimError(fmt::format("the loops that begin with {} and {} cross near {}", loop_name(in_order ? s : r),
+                                    loop_name(in_order ? r : s), place),
+                        "loops lie inside or beside each other");
       }
     }
   }
@@ -250,6 +250,12 @@ class Trimming {
       if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
     }
     return inside;
+  }
+
+  void check_areas() const {
+    for (const Loop2& loop : loops_)
+      if (!(std::abs(loop.area) > 1e-14 * size_ * size_))
+        throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
   }
 
   // Loops may touch: of the points of one that do not lie on the other's border most decide.
@@ -279,21 +285,38 @@ class Trimming {
 Body Trimming::body() const {
   Body result;
   std::vector<int> edge_of(curves_.size());
+  const Box3 box = bounds(*surface_);
+  const double length = box.bounded() ? box.diameter() : 0;
   const auto add_edges = [&](const Loop2& loop) {
     const auto place = [&](const Body::Use& use) {
       const Interval t = use.image->domain();
       return Vec2(use.image->point(use.forward ? t.lo : t.hi));
     };
+    // Along a pole the surface stays at one point.
+    std::vector<char> is_pole;
     std::vector<int> vertices;
     for (const Body::Use& use : loop.uses) {
       const Vec2 p = place(use);
-      vertices.push_back(result.add_vertex(surface_->point(p.x, p.y)));
+      const Vec3 at = surface_->point(p.x, p.y);
+      const bool after_pole = !is_pole.empty() && is_pole.back() != 0;
+      vertices.push_back(after_pole ? vertices.back() : result.add_vertex(at));
+      bool pole = true;
+      for (const double part : {0.13, 0.31, 0.5, 0.69, 0.87, 1.0}) {
+        const Interval t = use.image->domain();
+        const Vec3 q = use.image->point(t.lo + part * t.width());
+        pole = pole && glm::length(surface_->point(q.x, q.y) - at) <= kCollapsedEdge * length;
+      }
+      is_pole.push_back(pole);
     }
+    if (is_pole.back()) vertices.back() = vertices.front();
     for (size_t i = 0; i < loop.uses.size(); ++i) {
       const Body::Use& use = loop.uses[i];
       const int from = vertices[i], to = vertices[(i + 1) % vertices.size()];
-      edge_of[use.edge] = result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image), use.forward ? from : to,
-                                          use.forward ? to : from, {"", "edge", use.edge});
+      const Origin origin{"", "edge", use.edge};
+      edge_of[use.edge] = is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point),
+                                                       from, from, origin, EdgeKind::pole)
+                                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image),
+                                                       use.forward ? from : to, use.forward ? to : from, origin);
     }
   };
   for (const Loop2& loop : loops_) add_edges(loop);
