@@ -10,7 +10,8 @@
   X(wedge_type)              \
   X(prism_type)              \
   X(pyramid_type)            \
-  X(arrow_body_type)
+  X(arrow_body_type)         \
+  X(trimmed_surface_type)
 
 namespace lekalo::geometry {
 

@@ -42,6 +42,7 @@ class PatchTarget final : public LineTarget {
     PatchCell cell;
     std::array<float, 3> lo, hi;  // box, relative to the piece's centre
     int32_t patch;
+    bool whole;  // all of it lies within the trim
   };
   class Cutter;
 

@@ -31,7 +31,6 @@ void put_centroid(ordered_json& out, const Vec3& centroid, double error) {
 void put(ordered_json& out, const MassProperties& mass) {
   put(out, "area", mass.area);
   out["closed"] = mass.closed;
-  // An open shell bounds nothing.
   if (!mass.closed) return;
   put(out, "volume", mass.volume);
   put_centroid(out, mass.centroid, mass.centroid_error);
@@ -46,11 +45,9 @@ void put(ordered_json& out, const geometry::SurfaceMeasures& measures) {
   put_centroid(out, measures.centroid, measures.centroid_error);
 }
 
-geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
+geometry::SurfaceMeasures sum_of(const std::vector<geometry::SurfaceMeasures>& parts) {
   geometry::SurfaceMeasures sum;
-  std::vector<geometry::SurfaceMeasures> parts;
-  for (const geometry::SurfacePtr& surface : set) {
-    const geometry::SurfaceMeasures& one = parts.emplace_back(geometry::measure(*surface));
+  for (const geometry::SurfaceMeasures& one : parts) {
     sum.area.value += one.area.value;
     sum.area.error += one.area.error;
     sum.centroid += one.area.value * one.centroid;
@@ -62,6 +59,24 @@ geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
         (one.area.value * one.centroid_error + glm::length(one.centroid - sum.centroid) * one.area.error) /
         sum.area.value;
   return sum;
+}
+
+geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
+  std::vector<geometry::SurfaceMeasures> parts;
+  for (const geometry::SurfacePtr& surface : set) parts.push_back(geometry::measure(*surface));
+  return sum_of(parts);
+}
+
+// An open shell bounds nothing: it has an area and a centroid as a surface has.
+void put_body(ordered_json& out, const geometry::Body& body) {
+  const MassProperties mass = geometry::measure(body);
+  put(out, mass);
+  if (mass.closed) return;
+  std::vector<geometry::SurfaceMeasures> parts;
+  for (int face = 0; face < static_cast<int>(body.faces.size()); ++face)
+    parts.push_back(geometry::measure_face(body, face));
+  const geometry::SurfaceMeasures sum = sum_of(parts);
+  put_centroid(out, sum.centroid, sum.centroid_error);
 }
 
 // Places in each direction where two curves or surfaces are compared.
@@ -147,7 +162,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       put(out, measure_set(*set));
     } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
       out["kind"] = "body";
-      put(out, geometry::measure(**body));
+      put_body(out, **body);
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       out["kind"] = "mesh";
       put(out, geometry::measure(**mesh));
