@@ -35,7 +35,8 @@ extern "C" {
  *   order        0 to the scene's field `order`: all derivatives up to this one are wanted
  *   out          room for 3 (order + 1) (order + 2) / 2 numbers
  *
- * Returns 0, or any other number that says what is wrong: lekalo prints it with u and v and ends.
+ * Returns 0, or any other number that says what is wrong: lekalo prints it with u and v and ends. Where the function
+ * crashes lekalo crashes; a program (the scene's field `command`) would be apart from it.
  *
  * Calls come from several threads, one at a time for each library file; with `threads: safe` in the scene several at
  * once. A function may be called any number of times at the same place, and must give the same numbers. */

@@ -122,6 +122,11 @@ class Library(External):
         self.refused(self.faulty("good", ", command: [python3]"), "'library' and 'command' exclude each other")
         self.refused(self.faulty("good", ", timeout: 3"), "'timeout' belongs to a program")
 
+    def test_calls_are_serialized(self):
+        # Meshes are shaded by the surface itself: many threads ask it.
+        render = ["render", ALLOW, "--threads", 4, "--size", "80x60", "--samples", 4, "--representation", "mesh"]
+        self.run_program(*render, self.faulty("one_call_at_a_time"))
+
     def test_fault_found_later(self):
         error = self.run_program("evaluate", self.faulty("returns_7_at_one"), "theirs", "--at", "0.123,0.5", ALLOW,
                                  code=FILE_ERROR)[1]

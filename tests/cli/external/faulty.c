@@ -13,6 +13,7 @@ LEKALO_SURFACE(wrong_in_the_ninth_digit)
 LEKALO_SURFACE(wrong_dv)
 LEKALO_SURFACE(has_an_edge)
 LEKALO_SURFACE(points_only)
+LEKALO_SURFACE(one_call_at_a_time)
 LEKALO_SURFACE(constant)
 LEKALO_CURVE(wrong_second_derivative)
 
@@ -89,6 +90,17 @@ int points_only(const double* parameters, double u, double v, int order, double*
   if (order > 0) return 1;
   saddle(u, v, 0, out);
   return 0;
+}
+
+/* Returns 9 if it is called while another call lasts. */
+int one_call_at_a_time(const double* parameters, double u, double v, int order, double* out) {
+  static int inside;
+  const int others = __atomic_fetch_add(&inside, 1, __ATOMIC_SEQ_CST);
+  (void)parameters;
+  for (volatile int i = 0; i < 300; ++i) continue;
+  saddle(u, v, order, out);
+  __atomic_fetch_sub(&inside, 1, __ATOMIC_SEQ_CST);
+  return others > 0 ? 9 : 0;
 }
 
 int constant(const double* parameters, double u, double v, int order, double* out) {
