@@ -26,6 +26,10 @@ constexpr double kNarrowest = 1e-9;
 constexpr double kSameDirection = 1e-8;
 // A direction is not defined where what is left of it across the curve is below this part of it.
 constexpr double kAcross = 1e-6;
+// A curve this near a surface lies on it, relative to the surface's size.
+constexpr double kOnSurface = 1e-6;
+// Points each way among which the search for the foot of a point begins.
+constexpr int kGrid = 48;
 // On a part the tangent stays this near (cosine) to that in the middle.
 constexpr double kTurned = 0.7;
 
@@ -35,10 +39,60 @@ struct Tangent {
   double speed;
 };
 
+// The normal of a surface at the points of a curve that lies on it.
+class Base {
+ public:
+  explicit Base(SurfacePtr surface) : surface_(std::move(surface)), domain_(surface_->domain()) {
+    if (!(domain_.u.width() < kInfinity && domain_.v.width() < kInfinity))
+      throw FieldError("on", "the surface is unbounded", "give it a domain");
+    size_ = bounds(*surface_).diameter();
+    for (int i = 0; i <= kGrid; ++i)
+      for (int j = 0; j <= kGrid; ++j) {
+        const Vec2 uv(domain_.u.lo + domain_.u.width() * i / kGrid, domain_.v.lo + domain_.v.width() * j / kGrid);
+        grid_.push_back({uv, surface_->point(uv.x, uv.y)});
+      }
+  }
+
+  // None where the point does not lie on the surface.
+  std::optional<Vec3> normal(const Vec3& point) const {
+    const auto distance = [&](const Start& start) { return glm::dot(start.point - point, start.point - point); };
+    Vec2 uv = std::min_element(grid_.begin(), grid_.end(), [&](const Start& a, const Start& b) {
+                return distance(a) < distance(b);
+              })->uv;
+    // Gauss and Newton: of the second order, as nothing is left of the distance in the end.
+    for (int i = 0; i < 50; ++i) {
+      const SurfaceJet at = surface_->evaluate(uv.x, uv.y, 1);
+      const Vec3 off = point - at.point();
+      const double e = glm::dot(at.du(), at.du()), f = glm::dot(at.du(), at.dv()), g = glm::dot(at.dv(), at.dv());
+      const double det = e * g - f * f;
+      if (!(det > 0)) break;
+      const double a = glm::dot(at.du(), off), b = glm::dot(at.dv(), off);
+      const Vec2 next(domain_.u.clamp(uv.x + (g * a - f * b) / det), domain_.v.clamp(uv.y + (e * b - f * a) / det));
+      const bool stays = glm::length((next - uv) / Vec2(domain_.u.width(), domain_.v.width())) <= 1e-15;
+      uv = next;
+      if (stays) break;
+    }
+    if (!(glm::length(surface_->point(uv.x, uv.y) - point) <= kOnSurface * size_)) return std::nullopt;
+    return surface_->normal(uv.x, uv.y);
+  }
+
+ private:
+  struct Start {
+    Vec2 uv;
+    Vec3 point;
+  };
+  SurfacePtr surface_;
+  Rectangle domain_;
+  double size_ = 0;
+  std::vector<Start> grid_;
+};
+
 class Builder {
  public:
   Builder(const Curve& curve, const RibbonDirection& direction)
-      : curve_(curve), direction_(direction), domain_(curve.domain()) {}
+      : curve_(curve), direction_(direction), domain_(curve.domain()) {
+    if (direction.kind == RibbonKind::flat) base_.emplace(direction.on);
+  }
 
   std::vector<Part> build() {
     if (direction_.kind != RibbonKind::rotation_minimizing) {
@@ -87,6 +141,11 @@ class Builder {
   Vec3 direct(double t) const {
     if (direction_.kind == RibbonKind::fixed) return across(t, direction_.fixed, "across");
     const Tangent at = tangent(t);
+    if (base_) {
+      const auto normal = base_->normal(curve_.point(t));
+      if (!normal) refuse("the curve does not lie on the surface", t, "to lie flat it must lie on it", "on");
+      return across(t, glm::cross(*normal, at.unit), "on");
+    }
     if (!(glm::length(at.turn) > 0)) refuse_straight(t);
     const Vec3 normal = glm::normalize(at.turn);
     return direction_.kind == RibbonKind::normal ? normal : glm::cross(at.unit, normal);
@@ -136,7 +195,11 @@ class Builder {
   template <class Direction>
   void cut(const Interval& t, const Direction& w) {
     if (add_part(t, w)) return;
-    if (t.width() <= kNarrowest * domain_.width()) refuse_straight(t.middle());
+    if (t.width() <= kNarrowest * domain_.width()) {
+      if (base_)
+        refuse("the surface has a crease or a pole", t.middle(), "a ribbon lies flat on smooth surfaces", "on");
+      refuse_straight(t.middle());
+    }
     cut({t.lo, t.middle()}, w);
     cut({t.middle(), t.hi}, w);
   }
@@ -210,6 +273,7 @@ class Builder {
 
   const Curve& curve_;
   const RibbonDirection& direction_;
+  std::optional<Base> base_;
   Interval domain_;
   std::vector<Part> parts_;
   Vec3 start_{0}, end_{0};
@@ -320,6 +384,7 @@ TypeDeclaration ribbon_type() {
              "curve), the curve's normal or binormal, or what lies across the curve of a given direction",
              "rotation_minimizing")
       .optional("start", direction(), "of rotation_minimizing: the direction of its width where the curve begins")
+      .optional("on", reference({Category::surface}), "a surface that the curve lies on: the ribbon lies flat on it")
       .field("twist", angle(),
              "of rotation_minimizing: turns by so much more from the beginning to the end; 180 makes a Moebius band",
              "0")
@@ -331,6 +396,13 @@ TypeDeclaration ribbon_type() {
                          : word == "rotation_minimizing" ? RibbonKind::rotation_minimizing
                                                          : RibbonKind::fixed;
         if (direction.kind == RibbonKind::fixed) direction.fixed = f.vec3("across");
+        if (f.has("on")) {
+          if (f.given("across"))
+            throw FieldError("across", "a ribbon lies across a direction or flat on a surface, not both",
+                             "leave out 'across' or 'on'");
+          direction.kind = RibbonKind::flat;
+          direction.on = f.surface("on");
+        }
         for (const char* field : {"start", "twist"})
           if (f.given(field) && direction.kind != RibbonKind::rotation_minimizing)
             throw FieldError(field, fmt::format("'{}' is of ribbons that turn no more than they must", field),

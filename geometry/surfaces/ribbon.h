@@ -8,6 +8,7 @@
 //   rotation_minimizing    turns about the tangent no more than it must, w' = -(w . T') T (Bishop 1975); of a closed
 //                          curve it turns beside that by the angle that closes it, evenly with the length
 //   fixed                  as near as possible to a given direction
+//   flat                   N x T, N the normal of a surface on which the curve lies
 //
 // w has no closed form by the derivatives of c alone that would give bounds on r_uu. So it is a polynomial on each of
 // some parts of the curve that agrees with the direction meant to 1e-13; the points r(u, 0) are those of the curve.
@@ -17,7 +18,7 @@
 
 namespace lekalo::geometry {
 
-enum class RibbonKind { normal, binormal, rotation_minimizing, fixed };
+enum class RibbonKind { normal, binormal, rotation_minimizing, fixed, flat };
 
 struct RibbonDirection {
   RibbonKind kind = RibbonKind::rotation_minimizing;
@@ -26,13 +27,14 @@ struct RibbonDirection {
   // which w turns more than it must from there to the end, evenly with the length.
   Vec3 start{0};
   double twist = 0;
+  SurfacePtr on;  // of the kind flat
 };
 
 // u is the curve's own parameter, v in [-width/2, width/2] a length; the normal is (tangent) x (w).
 class Ribbon final : public Surface {
  public:
-  // Throws FieldError (fields of, width, across, start) for a curve without such directions: with a corner, resting
-  // somewhere, straight somewhere for the normals, or along the fixed direction.
+  // Throws FieldError (fields of, width, across, start, on) for a curve without such directions: with a corner, resting
+  // somewhere, straight somewhere for the normals, along the fixed direction, or not on the surface.
   Ribbon(CurvePtr curve, double width, const RibbonDirection& direction);
 
   Rectangle domain() const override { return domain_; }

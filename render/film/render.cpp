@@ -266,8 +266,8 @@ class TileTracer {
     set3(kNgX, point.geometric_normal);
     set(kU, point.u);
     set(kV, point.v);
-    if (sample.line_color) {
-      set3(kAlbedoR, *sample.line_color);
+    if (const auto color = lines_.color(point)) {
+      set3(kAlbedoR, *color);
       if (Channel* object = film_.channel(kObject)) {
         object->ids[i] = static_cast<uint32_t>(point.object + 1);
         film_.channel(kMaterial)->ids[i] = 0;

@@ -22,12 +22,9 @@ struct RaySample {
   float alpha = 0;                    // 0 where nothing was hit
   std::optional<SurfacePoint> point;  // first hit
   double depth = 0;                   // distance along the ray to it
-  // Set where a line of the picture is what is seen: its colour. `point` is then the place on the curve, which has no
-  // material; u is the curve's parameter.
-  std::optional<Vec3> line_color;
-  int line = 0;        // tells the lines of the picture apart that the sample shows, however faint; 0: none
   Spectrum direct;     // light of sources (ambient ones too) on the first hit, without reflections and refractions
   bool noisy = false;  // another sample of the same place might have shown another colour: a penumbra
+  int line = 0;        // tells the lines of the picture apart that the sample shows, however faint; 0: none
   uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample
   uint32_t shadow_rays = 0;  // one that goes on behind a clear surface is another, as for POV-Ray
   uint32_t other_rays = 0;   // reflected and refracted

@@ -17,6 +17,8 @@ constexpr double kCurved = 2;
 // Data layers show a line of at least this opacity.
 constexpr double kShown = 0.5;
 constexpr double kSteepest = 1e9;
+// Lines count as instances from here downwards, so that no point of a surface is taken for one of a line.
+constexpr int32_t kFirstLine = -2;
 const Vec3 kLampOfBalls = glm::normalize(Vec3(-0.5, -0.6, 0.7));
 
 // Slope of the depth along the picture of a surface that the ray meets at this cosine.
@@ -102,6 +104,9 @@ std::optional<Spectrum> color_at(const Mark& mark, const Vec2& p, double line) {
 
 PictureLines::PictureLines(const World& world) : world_(world), camera_(world.model().camera.get()) {
   LineWork work = line_work(world);
+  colors_.resize(work.strokes.size() + work.marks.size());
+  for (const Stroke& stroke : work.strokes) colors_[stroke.order] = rgb(stroke.look.color);
+  for (const Mark& mark : work.marks) colors_[mark.order] = rgb(mark.line.color);
   for (Stroke& stroke : work.strokes) {
     const bool square =
         stroke.look.cap == LineLook::Cap::square || (stroke.hidden && stroke.hidden->cap == LineLook::Cap::square);
@@ -114,7 +119,7 @@ PictureLines::PictureLines(const World& world) : world_(world), camera_(world.mo
     const PicturePoint at = camera_->project(mark.point);
     if (at.visible_side) marks_.push_back({mark, at, mark.radius});
   }
-  if (!empty()) sort_into_bins();
+  sort_into_bins();
 }
 
 void PictureLines::sort_into_bins() {
@@ -289,11 +294,15 @@ void PictureLines::draw(const Vec2& q, RaySample& sample) const {
   point.geometric_normal = top->geometric_normal;
   point.normal = top->normal;
   point.u = top->parameter;
-  point.instance = -2 - top->order;  // of no surface
+  point.instance = kFirstLine - top->order;
   point.object = top->object;
   sample.point = point;
   sample.depth = top->depth;
-  sample.line_color = rgb(top->color);
+}
+
+std::optional<Vec3> PictureLines::color(const SurfacePoint& point) const {
+  if (point.instance > kFirstLine) return std::nullopt;
+  return colors_[kFirstLine - point.instance];
 }
 
 }  // namespace lekalo::render

@@ -28,9 +28,12 @@ class PictureLines {
   // The lines of the world's model before its camera, on its film. The world must stay.
   explicit PictureLines(const World& world);
 
-  bool empty() const { return strokes_.empty() && marks_.empty(); }
-  // Puts what lines show at the picture point q over what the sample brings from its ray through it.
+  bool empty() const { return items_.empty(); }
+  // Puts what lines show at the picture point q over what the sample brings from its ray through it. Where that is a
+  // line, the sample's point is a place on the curve, u its parameter; it has no material but a color().
   void draw(const Vec2& q, RaySample& sample) const;
+  // Of the line or mark that the point belongs to, if it does to one.
+  std::optional<Vec3> color(const SurfacePoint& point) const;
 
  private:
   struct PlacedStroke {
@@ -77,6 +80,7 @@ class PictureLines {
   const Camera* camera_ = nullptr;
   std::vector<PlacedStroke> strokes_;
   std::vector<PlacedMark> marks_;
+  std::vector<Vec3> colors_;     // of strokes and marks by their order
   int columns_ = 0, rows_ = 0;   // of bins
   std::vector<uint32_t> first_;  // of a bin's items, and the end of all
   std::vector<Item> items_;

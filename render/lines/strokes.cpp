@@ -38,6 +38,9 @@ bool shows(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// De Casteljau's and de Boor's triangles, which are shown of curves.
+bool is_triangle(const Helper& helper) { return helper.type == "de_casteljau" || helper.type == "de_boor"; }
+
 // Evenly spaced values with both ends of the range, or without the second where it is the first again.
 std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
   std::vector<double> values;
@@ -281,6 +284,8 @@ class Collector {
         polygon(points, closed, helper.style, helper.hidden);
         marks(points);
       }
+    } else if (is_triangle(helper) && curve) {
+      if (const auto form = (*curve)->as_nurbs()) add_triangle(*form, sign, helper);
     } else if (helper.type == "knots" && curve) {
       if (const auto form = (*curve)->as_nurbs()) {
         const std::set<double> knots(form->knots.begin(), form->knots.end());
@@ -301,6 +306,31 @@ class Collector {
         }
       if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
     });
+  }
+
+  // De Boor's points of each level (Golovanov 2016, 2.9), which for a Bezier curve are de Casteljau's:
+  //
+  //   d_i^r = (1 - a) d_(i-1)^(r-1) + a d_i^(r-1),   a = (t - t_i)/(t_(i+p-r+1) - t_i)
+  void add_triangle(const NurbsCurveForm& form, const std::string& sign, const Helper& helper) {
+    const int p = form.degree, last = static_cast<int>(form.points.size()) - 1;
+    const double t = helper.values.number("t");
+    int span = p;
+    while (span < last && form.knots[span + 1] <= t) ++span;
+    std::vector<Vec4> points(form.points.begin() + (span - p), form.points.begin() + (span + 1));
+    for (int level = 1; level <= p; ++level) {
+      for (int k = p; k >= level; --k) {
+        const int i = span - p + k;
+        const double a = (t - form.knots[i]) / (form.knots[i + p - level + 1] - form.knots[i]);
+        points[k] = (1 - a) * points[k - 1] + a * points[k];
+      }
+      if (helper.values.has("levels")) {
+        const std::vector<double>& levels = helper.values.numbers("levels");
+        if (std::find(levels.begin(), levels.end(), level) == levels.end()) continue;
+      }
+      const std::vector<Vec3> shown = control_points(points, level, 1, p + 1 - level);
+      polygon(shown, false, helper.style, helper.hidden);
+      for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
+    }
   }
 
   // A periodic direction repeats its first points, as many as the degree.
@@ -370,7 +400,9 @@ std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {
         for (const auto& [kind, style] : object.look->lines->styles)
           if (!shows(kLinesShown, kind)) lines.insert(kind);
       for (const Helper& helper : object.look->helpers)
-        if (!shows(kHelpersShown, helper.type)) helpers.insert(helper.type);
+        if (!shows(kHelpersShown, helper.type) &&
+            !(is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape)))
+          helpers.insert(helper.type);
     }
   };
   visit(visit, objects);

@@ -10,6 +10,7 @@
 #include "geometry/describe.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/surface_checks.h"
 #include "support/tier.h"
 
@@ -110,6 +111,21 @@ TEST(Ribbon, NormalsAreThoseOfTheCurve) {
   }
 }
 
+// A circle of latitude on a sphere, and a helix on its cylinder: the ribbon's normal is that of the surface.
+TEST(Ribbon, LiesFlatOnASurface) {
+  Frame raised;
+  raised.origin.z = 3 * std::sin(0.6);
+  const auto circle = std::make_shared<Circle>(raised, 3 * std::cos(0.6));
+  const Ribbon on_sphere(circle, 0.4, {.kind = RibbonKind::flat, .on = std::make_shared<SphereSurface>(Frame(), 3)});
+  const Ribbon on_cylinder(helix(), 0.4,
+                           {.kind = RibbonKind::flat, .on = std::make_shared<CylinderSurface>(Frame(), 2, 12)});
+  for (const double u : {0.0, 0.7, 2.9, 6.2}) {
+    EXPECT_LE(glm::length(on_sphere.normal(u, 0) - glm::normalize(circle->point(u))), 1e-12);
+    EXPECT_LE(glm::length(on_cylinder.normal(u, 0) - Vec3(std::cos(u), std::sin(u), 0)), 1e-12);
+  }
+  checks::check_enclosures(on_sphere, on_sphere.domain());
+}
+
 // About a circle, along its axis: a cylinder.
 TEST(Ribbon, LinesMeetThoseOfACircleWhereClosedFormsSay) {
   const auto circle = std::make_shared<Circle>(Frame(), 2);
@@ -161,6 +177,9 @@ TEST(Ribbon, RefusesCurvesWithoutDirections) {
   EXPECT_EQ(field_of(std::make_shared<NurbsCurve>(polyline(corners)), 1, {}), "of: the curve has a corner at t = 1");
   EXPECT_EQ(field_of(wave, 1, {RibbonKind::normal}), "across: the curve's normal jumps at t = 0");
   EXPECT_EQ(field_of(wave, 1, {}), "");
+  EXPECT_EQ(
+      field_of(segment, 1, {.kind = RibbonKind::flat, .on = std::make_shared<SphereSurface>(Frame(), 3)}).substr(0, 41),
+      "on: the curve does not lie on the surface");
   EXPECT_EQ(field_of(cusp, 1, {}), "of: the curve rests at t = 0");
 }
 
