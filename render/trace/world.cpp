@@ -336,7 +336,7 @@ struct World::Compiled {
               leaf.clips.clear();
               leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object, to_world), false);
             } else {
-              leaf.targets = geometry::make_line_targets(*shape, least_cell(shape->bounds(), to_world));
+              leaf.targets = geometry::make_line_targets(*shape, least_cell(bounds(*shape), to_world));
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
             }
           } else if constexpr (std::is_same_v<T, MeshPtr>) {
