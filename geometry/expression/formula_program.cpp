@@ -104,6 +104,18 @@ T product(const T& a, const T& b) {
 }
 
 template <class T>
+T quotient(const T& a, const T& b) {
+  if constexpr (kIsFirstOrder<T>) {
+    T r;
+    r.c[0] = a.c[0] / b.c[0];
+    for (int k = 1; k < T::kCount; ++k) r.c[k] = (a.c[k] - r.c[0] * b.c[k]) / b.c[0];
+    return r;
+  } else {
+    return a / b;
+  }
+}
+
+template <class T>
 void sine_and_cosine(const T& a, T& sine, T& cosine) {
   using std::cos, std::sin;
   if constexpr (kIsFirstOrder<T>) {
@@ -175,7 +187,7 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
     case Operation::multiply:
       return a * b;
     case Operation::divide:
-      return a / b;
+      return quotient(a, b);
     case Operation::square:
       return sqr(a);
     case Operation::power:
@@ -203,9 +215,14 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
     case Operation::select:
       return chosen(truth(b), a, c);
     case Operation::sin:
-      return sin(a);
     case Operation::cos:
-      return cos(a);
+      if constexpr (kIsFirstOrder<T>) {
+        T sine, cosine;
+        sine_and_cosine(a, sine, cosine);
+        return operation == Operation::sin ? sine : cosine;
+      } else {
+        return operation == Operation::sin ? sin(a) : cos(a);
+      }
     case Operation::tan:
       return tan(a);
     case Operation::asin:

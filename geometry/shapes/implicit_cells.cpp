@@ -134,12 +134,10 @@ bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) co
   cell.f = value.middle();
   if (std::isfinite(error) && std::isfinite(cell.f)) cell.error = error;
   // What the model itself can reach.
-  double reach = cell.error;
-  for (int i = 0; i < 3; ++i) {
-    reach += std::abs(cell.g[i]) * half[i];
-    for (int j = 0; j < 3; ++j) reach += 0.5 * std::abs(cell.h[i][j]) * half[i] * half[j];
-  }
-  return !(std::abs(cell.f) > reach);
+  cell.bend = cell.error;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) cell.bend += 0.5 * std::abs(cell.h[i][j]) * half[i] * half[j];
+  return !(std::abs(cell.f) > cell.bend + glm::dot(glm::abs(cell.g), half));
 }
 
 void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
@@ -204,8 +202,10 @@ void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, d
   Stretch stack[kRoom];
   int top = 0;
   {
-    const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center, hp = cell.h * p, hq = cell.h * q;
+    const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center;
     const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
+    if (std::min(gp, gq) > cell.bend || std::max(gp, gq) < -cell.bend) return changes.pass(t0, gp > 0);
+    const Vec3 hp = cell.h * p, hq = cell.h * q;
     stack[0] = {t0, t1, {}, cell.error, glm::dot(cell.slope_error, glm::abs(line.direction))};
     stack[0].b = {gp + 0.5 * glm::dot(p, hp), 0.5 * (gp + gq + glm::dot(p, hq)), gq + 0.5 * glm::dot(q, hq)};
   }

@@ -49,8 +49,9 @@ class ImplicitCells {
     Vec3 center{0};
     double f = 0;
     Vec3 g{0};
-    Mat3 h{0}, h_error{0};
+    double bend = kInfinity;   // bounds |F(c + q) - (f + g q)|
     double error = kInfinity;  // infinite: there is no model
+    Mat3 h{0}, h_error{0};
     Vec3 slope_error{0};
     double rounding = 0;  // of F
     Vec3 slope_rounding{0};
