@@ -25,6 +25,7 @@ std::string text_of(const Vec2& p) { return fmt::format("({:.6g}, {:.6g})", p.x,
 struct Loop2 {
   std::vector<Body::Use> uses;  // edges are numbers of curves
   std::vector<Vec2> polygon;    // closed: the last goes on with the first
+  Box3 box;                     // of the polygon
   double area = 0;              // positive where it runs counterclockwise
   int depth = 0;                // loops around it
   int around = -1;              // the innermost of them
@@ -194,6 +195,7 @@ class Trimming {
       }
       loop.polygon.insert(loop.polygon.end(), points.begin(), points.end());
     }
+    for (const Vec2& p : loop.polygon) loop.box.include(Vec3(p, 0));
     const Vec2 o = loop.polygon[0];
     for (size_t i = 0; i < loop.polygon.size(); ++i) {
       const Vec2 a = loop.polygon[i] - o, b = loop.polygon[(i + 1) % loop.polygon.size()] - o;
@@ -260,7 +262,7 @@ class Trimming {
 
   // Loops may touch: of the points of one that do not lie on the other's border most decide.
   bool lies_in(const Loop2& inner, const Loop2& outer) const {
-    if (std::abs(inner.area) >= std::abs(outer.area)) return false;
+    if (std::abs(inner.area) >= std::abs(outer.area) || !outer.box.contains(inner.box.center())) return false;
     size_t inside = 0;
     for (const Vec2& p : inner.polygon) inside += is_in(p, outer.polygon) ? 1 : 0;
     return 2 * inside > inner.polygon.size();

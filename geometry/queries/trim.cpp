@@ -389,7 +389,8 @@ TrimRegion::Coverage TrimRegion::coverage_unshifted(const Rectangle& rectangle) 
 }
 
 TrimRegion::Coverage TrimRegion::coverage(const Rectangle& rectangle) const {
-  const Rectangle wide = widened(rectangle, kTrimSlack * std::max(u_.width(), v_.width()));
+  // Hits of lines that hardly cross the surface count so far beyond the border.
+  const Rectangle wide = widened(rectangle, kShallowReach * std::max(u_.width(), v_.width()));
   Coverage result = Coverage::outside;
   any_shift(wide, [&](const Vec2& by) {
     const Coverage one = coverage_unshifted({wide.u + Interval(by.x), wide.v + Interval(by.y)});
