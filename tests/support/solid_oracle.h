@@ -17,7 +17,7 @@ struct Solid {
   using Vec3 = geometry::Vec3;
 
   enum class Kind { ball, box, half_space, unite, intersect, subtract } kind;
-  Vec3 a{0}, b{0};    // ball: centre; box: corners; half-space: a point of the plane and its normal, which looks outward
+  Vec3 a{0}, b{0};  // ball: centre; box: corners; half-space: a point of the plane and its normal, which looks outward
   double radius = 0;  // of a ball
   std::vector<Solid> operands;
 

@@ -29,8 +29,10 @@ struct Subject {
   Truth truth;       // of it as shown
   // A place on a seam, pole, edge or border between pieces, and another on the same one; empty: there is none.
   std::function<std::pair<Vec3, Vec3>(Random&)> special;
-  // Differences from the oracle's t up to this share of the size count as none: what the oracle's own arithmetic allows.
+  // Differences from the oracle's t up to this share of the size count as none: what the oracle's own arithmetic
+  // allows.
   double same = 1e-9;
+  double band = 1e-9;   // half its width, of the size
   bool closed = false;  // a line from outside crosses it an even number of times
 };
 
@@ -63,8 +65,8 @@ inline Line moved_near(const Line& line, const Vec3& point, double& by) {
   by = static_cast<double>(along / square);
   Line result = line;
   for (int k = 0; k < 3; ++k)
-    result.origin[k] =
-        static_cast<double>(line.origin[k] + static_cast<long double>(by) * line.direction[k] - static_cast<long double>(point[k]));
+    result.origin[k] = static_cast<double>(line.origin[k] + static_cast<long double>(by) * line.direction[k] -
+                                           static_cast<long double>(point[k]));
   return result;
 }
 
@@ -78,7 +80,8 @@ inline Truth moved(const Vec3& offset, const Truth& truth) {
   };
 }
 
-// ---------------------------------------------------------------------------------------- surfaces with rational pieces
+// ---------------------------------------------------------------------------------------- surfaces with rational
+// pieces
 
 // A corner of the dyadic net of a piece, or a place on its lines; half of them on the border of the piece.
 inline std::function<std::pair<Vec3, Vec3>(Random&)> borders_of(const SurfaceSet& surfaces) {
@@ -108,14 +111,15 @@ inline std::function<std::pair<Vec3, Vec3>(Random&)> borders_of(const SurfaceSet
   };
 }
 
-// The halving oracle over all pieces. A root on the border of two pieces is found by both.
+// The halving oracle over all pieces. A root on the border of two pieces is found by both; two that are as near without
+// being the same to the oracle's own rounding may be two.
 inline Truth truth_of(const SurfaceSet& surfaces, double size) {
   std::vector<oracle::PatchOracle> patches;
   for (const SurfacePtr& surface : surfaces)
     for (const SurfacePiece& piece : surface->pieces())
       patches.emplace_back(piece.points, piece.degree_u, piece.degree_v);
-  return [patches = std::make_shared<std::vector<oracle::PatchOracle>>(std::move(patches)), size](
-             const Line& line, bool& undecided) {
+  return [patches = std::make_shared<std::vector<oracle::PatchOracle>>(std::move(patches)), size](const Line& line,
+                                                                                                  bool& undecided) {
     struct Found {
       double t;
       size_t patch;
@@ -128,9 +132,13 @@ inline Truth truth_of(const SurfaceSet& surfaces, double size) {
     }
     std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.t < b.t; });
     std::vector<double> t;
-    for (size_t k = 0; k < found.size(); ++k)
-      if (k == 0 || found[k].patch == found[k - 1].patch || found[k].t - found[k - 1].t > 1e-9 * size)
+    for (size_t k = 0; k < found.size(); ++k) {
+      const double apart = k == 0 ? kInfinity : found[k].t - found[k - 1].t;
+      if (apart > 1e-9 * size || found[k].patch == found[k - 1].patch)
         t.push_back(found[k].t);
+      else
+        undecided = undecided || apart > 1e-11 * size;
+    }
     return t;
   };
 }
