@@ -1,7 +1,7 @@
 # cmake --install: a tree that can be moved as a whole, for Debian 12 packages of the libraries it uses.
 #
 #   bin/lekalo                     lib/liblekalo_*.a              lib/cmake/lekalo (find_package(lekalo))
-#   include/lekalo/{geometry,render}                              share/lekalo/scenes
+#   include/lekalo/{geometry,render}  include/lekalo/external.h   share/lekalo/scenes
 #   share/man, share/bash-completion, share/zsh, share/fish
 
 include(CMakePackageConfigHelpers)
@@ -17,6 +17,7 @@ endif()
 install(TARGETS ${lekalo_libraries} EXPORT lekalo ARCHIVE DESTINATION lib)
 install(EXPORT lekalo NAMESPACE lekalo:: FILE lekaloTargets.cmake DESTINATION lib/cmake/lekalo)
 install(DIRECTORY geometry render DESTINATION include/lekalo FILES_MATCHING PATTERN "*.h")
+install(FILES include/lekalo/external.h DESTINATION include/lekalo)
 
 configure_package_config_file(cmake/lekaloConfig.cmake.in ${CMAKE_BINARY_DIR}/lekaloConfig.cmake
   INSTALL_DESTINATION lib/cmake/lekalo NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

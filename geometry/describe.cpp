@@ -156,6 +156,7 @@ FieldType groups(std::vector<Field> fields) {
 FieldType transform() { return of_kind(Kind::transform); }
 FieldType page_length() { return of_kind(Kind::page_length); }
 FieldType texts() { return of_kind(Kind::texts); }
+FieldType command() { return of_kind(Kind::command); }
 FieldType page_lengths() { return of_kind(Kind::page_lengths); }
 FieldType anchor() { return of_kind(Kind::anchor); }
 FieldType counts() { return of_kind(Kind::counts); }

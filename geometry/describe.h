@@ -128,6 +128,7 @@ enum class Kind {
   picture_size,  // PictureSize: [960, 540], [84 mm, auto]
   words,         // std::vector<std::string>, each one of `choices`
   texts,         // std::vector<std::string>
+  command,       // std::vector<std::string>: a program and its words; names of files beside the scene made absolute
   page_lengths,  // std::vector<double> in millimetres
   anchor,        // Anchor: a place, or { page: [5 mm, 8 mm] }
   counts,        // ParameterValues: a count, a list, or a range 0..6
@@ -203,6 +204,7 @@ FieldType page_length();
 FieldType picture_size();
 FieldType words(std::vector<std::string> words);
 FieldType texts();
+FieldType command();
 FieldType page_lengths();
 FieldType anchor();
 FieldType counts();
@@ -325,6 +327,8 @@ struct TypeDeclaration {
   std::vector<std::string> helpers;
   // Fields of an example for the manual, "height: 2, radius: 1", where the needed ones alone make none that is good.
   std::string example_fields;
+  // Building one runs code from outside the program: refused unless the user allows it.
+  bool runs_foreign_code = false;
 
   TypeDeclaration& field(std::string name, FieldType type, std::string description);
   TypeDeclaration& field(std::string name, FieldType type, std::string description, std::string default_text);

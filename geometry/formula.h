@@ -153,8 +153,10 @@ SurfaceEnclosure enclose_surface_centered(const Formula& formula, const Rectangl
   const bool is_place = box.u.width() == 0 && box.v.width() == 0;
   if (order == 0 || (is_place && order == 1))
     detail::surface_enclosure<1>(formula, box, result);
-  else
+  else if (order <= 2)
     detail::surface_enclosure<2>(formula, box, result);
+  else
+    detail::surface_enclosure<kMaxSurfaceOrder>(formula, box, result);
   if (is_place) return result;
   const Interval u(box.u.middle()), v(box.v.middle()), off_u = box.u - u, off_v = box.v - v;
   if (order == 0) {

@@ -24,10 +24,9 @@ std::string short_form(const std::vector<std::string>& variables) { return varia
 
 PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std::vector<std::string>& variables,
                              Coordinates coordinates) {
-  PointFormulas result;
-  for (size_t k = 0; k < 3; ++k) result.formulas[k] = formula_of(texts[k], variables);
-  result.coordinates = coordinates;
-  return result;
+  std::array<Expression, 3> result;
+  for (size_t k = 0; k < 3; ++k) result[k] = formula_of(texts[k], variables);
+  return {result, coordinates};
 }
 
 void declare_formulas(TypeDeclaration& type, const std::vector<std::string>& variables) {
@@ -50,7 +49,7 @@ void declare_formulas(TypeDeclaration& type, const std::vector<std::string>& var
 
 PointFormulas read_formulas(const Fields& fields, const std::vector<std::string>& variables) {
   const std::string other = short_form(variables);
-  PointFormulas result;
+  std::array<Expression, 3> result;
   if (fields.has("point") == fields.has(other)) {
     const std::string hint =
         "write point: [...], or " + other + ": a formula of " + (variables.size() == 1 ? "x" : "x and y");
@@ -60,20 +59,19 @@ PointFormulas read_formulas(const Fields& fields, const std::vector<std::string>
   const std::string& coordinates = fields.text("coordinates");
   if (fields.has(other)) {
     if (coordinates != "cartesian") throw FieldError("coordinates", "'" + other + "' is a Cartesian coordinate");
-    for (size_t k = 0; k < variables.size(); ++k) result.formulas[k] = formula_of(variables[k], variables);
-    result.formulas[variables.size()] = fields.get<Expression>(other);
-    if (variables.size() == 1) result.formulas[2] = formula_of("0", variables);
-    return result;
+    for (size_t k = 0; k < variables.size(); ++k) result[k] = formula_of(variables[k], variables);
+    result[variables.size()] = fields.get<Expression>(other);
+    if (variables.size() == 1) result[2] = formula_of("0", variables);
+    return {result, Coordinates::cartesian};
   }
   const auto& given = fields.get<std::vector<Expression>>("point");
-  for (size_t k = 0; k < 3; ++k) result.formulas[k] = k < given.size() ? given[k] : formula_of("0", variables);
+  for (size_t k = 0; k < 3; ++k) result[k] = k < given.size() ? given[k] : formula_of("0", variables);
   const size_t needed = coordinates == "cartesian" ? given.size() : coordinates == "polar" ? 2 : 3;
   if (given.size() != needed)
     throw FieldError("point", coordinates + " coordinates are " + std::to_string(needed) + ", found " +
                                   std::to_string(given.size()));
-  if (coordinates == "polar" || coordinates == "cylindrical") result.coordinates = Coordinates::cylindrical;
-  if (coordinates == "spherical") result.coordinates = Coordinates::spherical;
-  return result;
+  if (coordinates == "polar" || coordinates == "cylindrical") return {result, Coordinates::cylindrical};
+  return {result, coordinates == "spherical" ? Coordinates::spherical : Coordinates::cartesian};
 }
 
 }  // namespace lekalo::geometry

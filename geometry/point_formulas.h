@@ -36,15 +36,23 @@ Triple<T> point_of(Coordinates coordinates, const T& a, const T& b, const T& c) 
 }
 
 // Three formulas, bound to the variables, and what they mean.
-struct PointFormulas {
-  std::array<Expression, 3> formulas;
-  Coordinates coordinates = Coordinates::cartesian;
+class PointFormulas {
+ public:
+  PointFormulas(const std::array<Expression, 3>& formulas, Coordinates coordinates)
+      : program_(formulas), coordinates_(coordinates) {}
 
-  // The point at t, or at (u, v), over the number types of Expression::evaluate.
-  template <class... T>
-  auto operator()(const T&... at) const {
-    return point_of(coordinates, formulas[0](at...), formulas[1](at...), formulas[2](at...));
+  // The point at t, or at (u, v), over the number types of FormulaProgram.
+  template <class T, class... More>
+  Triple<T> operator()(const T& t, const More&... more) const {
+    const std::array<T, 1 + sizeof...(More)> at{t, more...};
+    std::array<T, 3> r;
+    program_.evaluate(std::span<const T>(at), std::span<T>(r));
+    return point_of(coordinates_, r[0], r[1], r[2]);
   }
+
+ private:
+  FormulaProgram program_;
+  Coordinates coordinates_;
 };
 
 // From texts. Throws std::invalid_argument for one that is no formula of the variables.

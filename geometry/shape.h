@@ -41,6 +41,8 @@ class Shape {
   // True if it bounds a region of space: every line crosses it in and out by turns, the normals looking out of the
   // region.
   virtual bool is_closed() const = 0;
+  // The method taken for lines; that of a shape of shapes is its own.
+  virtual LineMethod method() const { return {}; }
   // True if a line is in that region where t goes to minus infinity; of an unbounded one.
   virtual bool begins_inside(const Line&) const { return false; }
 };
@@ -66,6 +68,7 @@ class TransformedShape final : public Shape {
   }
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return original_->is_closed(); }
+  LineMethod method() const override { return original_->method(); }
   bool begins_inside(const Line& line) const override { return original_->begins_inside(moved_back(line)); }
 
  private:

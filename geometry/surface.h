@@ -48,9 +48,9 @@ struct SurfaceJet {
   const Vec3& dvv() const { return values[5]; }
 };
 
-// Boxes that contain the point and derivatives for every parameter of a rectangle; the same indexing, order <= 2.
+// Boxes that contain the point and derivatives for every parameter of a rectangle; the same indexing.
 struct SurfaceEnclosure {
-  std::array<Box3, 6> values{};
+  std::array<Box3, (kMaxSurfaceOrder + 1) * (kMaxSurfaceOrder + 2) / 2> values{};
   const Box3& d(int i, int j) const { return values[SurfaceJet::index(i, j)]; }
 };
 
@@ -165,8 +165,11 @@ class Surface {
   virtual bool knows_feet() const { return false; }
   virtual Foot foot(const Vec3& near) const;
 
-  // Certified enclosure of point and derivatives up to `order` (0..2) over a rectangle inside the domain.
+  // Certified enclosure of point and derivatives up to `order` (0..enclosure_order()) over a rectangle inside the
+  // domain.
   virtual SurfaceEnclosure enclose(const Rectangle& box, int order) const = 0;
+  // 2, or kMaxSurfaceOrder of a surface that encloses all its derivatives.
+  virtual int enclosure_order() const { return 2; }
 
   // Smooth pieces that cover the domain without gaps or overlap; rational where an exact form exists.
   // An unbounded surface (bounded() false) has none.

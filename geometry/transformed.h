@@ -38,6 +38,7 @@ class TransformedSurface final : public Surface {
   Periods periods() const override { return original_->periods(); }
   SurfaceJet evaluate(double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return original_->enclosure_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   DegenerateEdges degenerate_edges() const override { return original_->degenerate_edges(); }

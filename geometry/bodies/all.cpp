@@ -9,7 +9,9 @@
   X(torus_body_type)         \
   X(wedge_type)              \
   X(prism_type)              \
-  X(pyramid_type)
+  X(pyramid_type)            \
+  X(arrow_body_type)         \
+  X(trimmed_surface_type)
 
 namespace lekalo::geometry {
 

@@ -101,7 +101,12 @@ void include_face(const Body& body, const Face& face, Box3& box) {
   for (int loop : face.loops)
     for (int coedge : body.loops[loop].coedges) plane.include(bounds(*body.coedges[coedge].image));
   if (plane.empty()) return;
-  const Rectangle all{{plane.lo.x, plane.hi.x}, {plane.lo.y, plane.hi.y}};
+  Rectangle all{{plane.lo.x, plane.hi.x}, {plane.lo.y, plane.hi.y}};
+  // Boxes are a little wide.
+  const Rectangle domain = face.surface->domain();
+  const Periods periods = face.surface->periods();
+  if (periods.u == 0) all.u = intersect(all.u, domain.u);
+  if (periods.v == 0) all.v = intersect(all.v, domain.v);
   const SurfaceEnclosure whole = face.surface->enclose(all, 2);
   const auto vanishes = [](const Box3& b) { return b.lo == Vec3(0) && b.hi == Vec3(0); };
   if (vanishes(whole.d(2, 0)) && vanishes(whole.d(1, 1)) && vanishes(whole.d(0, 2))) return;

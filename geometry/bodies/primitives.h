@@ -19,6 +19,10 @@ inline Body cylinder_body(const Frame& frame, double radius, double height) {
   return frustum(frame, radius, radius, height);
 }
 
+// Straight arrow along z from the frame's origin: a shaft and a cone whose apex is at the height `length`.
+// 0 < radius < head_radius, 0 < head_length < length. Faces start, shaft, back (of the head), head.
+Body arrow_body(const Frame& frame, double length, double radius, double head_length, double head_radius);
+
 // 0 < minor_radius < major_radius.
 Body torus_body(const Frame& frame, double major_radius, double minor_radius);
 

@@ -1,11 +1,14 @@
 #include "geometry/bodies/sew.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "geometry/bodies/construct.h"
+#include "geometry/queries/mass_properties.h"
 
 namespace lekalo::geometry {
 
@@ -177,7 +180,74 @@ class Sewing {
   std::multimap<double, int> vertices_by_x_;
 };
 
+std::string text_of(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+
+void check_no_opening(const Body& body) {
+  int open = 0;
+  const Edge* first = nullptr;
+  for (const Edge& edge : body.edges) {
+    if (edge.kind == EdgeKind::pole || edge.coedges.size() == 2) continue;
+    if (open++ == 0) first = &edge;
+  }
+  if (!first) return;
+  throw std::invalid_argument(fmt::format("it is open: {} of its edges {} free, one of them at {}", open,
+                                          open == 1 ? "is" : "are",
+                                          text_of(first->curve->point(first->curve->domain().middle()))));
+}
+
+void turn(Body& body, Face& face) {
+  face.forward = !face.forward;
+  for (const int loop : face.loops) {
+    std::vector<int>& coedges = body.loops[loop].coedges;
+    std::reverse(coedges.begin(), coedges.end());
+    for (const int coedge : coedges) body.coedges[coedge].forward = !body.coedges[coedge].forward;
+  }
+}
+
+// Turns faces until each edge is used once in either sense, from the first face on.
+void turn_alike(Body& body) {
+  std::vector<char> reached(body.faces.size(), 0);
+  std::vector<int> waiting{0};
+  reached[0] = 1;
+  const auto face_of = [&](int coedge) { return body.loops[body.coedges[coedge].loop].face; };
+  while (!waiting.empty()) {
+    const int face = waiting.back();
+    waiting.pop_back();
+    for (const int loop : body.faces[face].loops)
+      for (const int coedge : body.loops[loop].coedges) {
+        const Edge& edge = body.edges[body.coedges[coedge].edge];
+        if (edge.kind == EdgeKind::pole) continue;
+        const int other = edge.coedges[0] == coedge ? edge.coedges[1] : edge.coedges[0];
+        const bool alike = body.coedges[coedge].forward != body.coedges[other].forward;
+        const int next = face_of(other);
+        if (reached[next]) {
+          if (!alike)
+            throw std::invalid_argument("it has only one side, like a Klein bottle: see the edge at " +
+                                        text_of(edge.curve->point(edge.curve->domain().middle())));
+          continue;
+        }
+        reached[next] = 1;
+        waiting.push_back(next);
+        if (!alike) turn(body, body.faces[next]);
+      }
+  }
+  if (std::find(reached.begin(), reached.end(), 0) != reached.end())
+    throw std::invalid_argument("it is in several parts that do not touch along edges");
+}
+
 }  // namespace
+
+Body enclosed_by(std::span<const SurfacePtr> surfaces, double tolerance) {
+  Body body = sew(surfaces, tolerance);
+  check_no_opening(body);
+  turn_alike(body);
+  body.shells[0].closed = true;
+  // Enough to tell the sign.
+  constexpr double kAccuracy = 1e-3;
+  if (signed_volume(body, 0, kAccuracy) < 0)
+    for (Face& face : body.faces) turn(body, face);
+  return body;
+}
 
 Body sew(std::span<const SurfacePtr> surfaces, double tolerance) { return Sewing(surfaces, tolerance).take(); }
 

@@ -14,4 +14,8 @@ namespace lekalo::geometry {
 // an unbounded surface.
 Body sew(std::span<const SurfacePtr> surfaces, double tolerance = 1e-9);
 
+// The solid that surfaces enclose: sewn, its faces turned to look outward. Throws std::invalid_argument where they
+// leave an opening (and says where), have only one side, or are in several parts.
+Body enclosed_by(std::span<const SurfacePtr> surfaces, double tolerance = 1e-9);
+
 }  // namespace lekalo::geometry

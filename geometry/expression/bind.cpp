@@ -39,13 +39,13 @@ class ExpressionBinder {
 
   std::optional<ExpressionError> run() {
     expression_.program_.clear();
-    expression_.stack_size_ = 0;
     for (const Expression::Instruction& instruction : expression_.parsed_) {
       offset_ = instruction.offset;
       if (!step(instruction)) return error_;
     }
     expression_.measure_ = top().measure;
     expression_.holds_pi_ = top().measure == Measure::plain && top().holds_pi;
+    expression_.compile();
     return {};
   }
 
@@ -63,7 +63,6 @@ class ExpressionBinder {
   bool replace(int operands, Known result) {
     stack_.resize(stack_.size() - operands);
     stack_.push_back(result);
-    expression_.stack_size_ = std::max(expression_.stack_size_, stack_.size());
     return true;
   }
   bool is_literal(const Expression::Instruction& i) const {
@@ -304,6 +303,8 @@ std::optional<ExpressionError> Expression::bind(std::span<const Variable> variab
   return ExpressionBinder(*this, variables, constants).run();
 }
 
+void Expression::compile() { code_ = FormulaProgram(std::span<const Expression>(this, 1)); }
+
 Expression::Smoothness Expression::smoothness() const {
   Smoothness result = Smoothness::smooth;
   for (const Instruction& in : program_) {
@@ -338,6 +339,7 @@ std::optional<ExpressionError> Expression::convert_to_angle() {
                            fmt::format("write '({}) rad', or give the angle in degrees", text_)};
   }
   program_.push_back({static_cast<std::uint8_t>(Operation::degrees)});
+  compile();
   measure_ = Measure::angle;
   return {};
 }

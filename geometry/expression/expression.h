@@ -36,8 +36,7 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/numerics/interval.h"
-#include "geometry/numerics/jet.h"
+#include "geometry/expression/formula_program.h"
 
 namespace lekalo::geometry {
 
@@ -93,9 +92,13 @@ class Expression {
 
   // The value with `values` for the variables, in their order in bind(). Truth is 1 or 0, over intervals also [0, 1];
   // an `if` that is open over an interval gives the hull of both branches.
-  // T: double, Interval, Jet<double, 1..6>, Jet2<double, 1..4>, Jet<Interval, 1..2>, Jet2<Interval, 1..2>.
+  // T: those of FormulaProgram.
   template <class T>
-  T evaluate(std::span<const T> values) const;
+  T evaluate(std::span<const T> values) const {
+    T result;
+    code_.evaluate(values, std::span<T>(&result, 1));
+    return result;
+  }
 
   double operator()() const { return evaluate<double>({}); }
   template <class T>
@@ -116,6 +119,7 @@ class Expression {
  private:
   friend class ExpressionParser;
   friend class ExpressionBinder;
+  friend class FormulaProgram;
   friend class LinePolynomial;
 
   // The program is in postfix order: operands push a value, operators replace theirs by the result.
@@ -128,8 +132,10 @@ class Expression {
 
   std::string text_;
   std::vector<std::string> names_;
+  void compile();
+
   std::vector<Instruction> parsed_, program_;
-  std::size_t stack_size_ = 0;  // values that the program holds at a time
+  FormulaProgram code_;  // what the program computes
   Measure measure_ = Measure::plain;
   bool holds_pi_ = false;
 };

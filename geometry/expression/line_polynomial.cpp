@@ -123,7 +123,7 @@ std::optional<LinePolynomial> LinePolynomial::of(const Expression& formula) {
         part.program_.push_back(literal);
       }
       part.program_.push_back(in);
-      part.stack_size_ = operands + 1;
+      part.compile();
       stack.resize(stack.size() - operands);
       stack.push_back(part.evaluate<double>({}));
       continue;

@@ -65,7 +65,15 @@ enum class Operation : std::uint8_t {
   max,
   hypot,
   mod,
-  clamp
+  clamp,
+  // what FormulaProgram makes of the others: one operand, and a constant in the step
+  square,
+  scale,        // a * constant
+  shift,        // a + constant
+  divide_by,    // a / constant
+  subtract_of,  // constant - a
+  divide_of,    // constant / a
+  sin_cos       // two results
 };
 
 // How a function's measures go together; see expression.h.

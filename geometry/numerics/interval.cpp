@@ -43,6 +43,10 @@ struct Multiples {
 };
 Multiples multiples_of_pi(const Interval& x, double shift) {
   if (!(magnitude(x) < kLargestAngle)) return {true, true};
+  // Mostly there is none, and certainly so where the ends, moved by more than their rounding, lie between the same two.
+  constexpr double kInverse = 1 / std::numbers::pi;
+  const double slack = 1e-12 * (1 + magnitude(x));
+  if (std::floor(x.lo * kInverse - shift - slack) == std::floor(x.hi * kInverse - shift + slack)) return {};
   const Interval turns = x / kPi - shift;
   const double first = std::ceil(turns.lo), last = std::floor(turns.hi);
   if (first > last) return {};

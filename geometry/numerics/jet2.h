@@ -73,27 +73,41 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
     return r;
   }
 
-  // f of a jet, where f takes jets in one variable. Most arguments in surfaces depend on u or on v alone (cos u, sin
-  // v): these need no composition.
-  template <class F>
-  static Jet2 apply(F f, const Jet2& a) {
-    Jet<S, N> along_u, along_v;
+  // A jet as the argument of a function of one variable. Most arguments in surfaces depend on u or on v alone (cos u,
+  // sin v): these need no composition.
+  struct Argument {
+    Jet<S, N> along;  // the argument itself, or a variable at its value
     bool only_u = true, only_v = true;
+  };
+  static Argument argument(const Jet2& a) {
+    Argument r;
+    Jet<S, N> along_v;
     for (int degree = 0; degree <= N; ++degree) {
       for (int j = 0; j <= degree; ++j) {
         const S& x = a.c[index(degree - j, j)];
-        if (j == 0) along_u.c[degree] = x;
+        if (j == 0) r.along.c[degree] = x;
         if (j == degree) along_v.c[degree] = x;
         if (x == S(0)) continue;
-        if (j > 0) only_u = false;
-        if (j < degree) only_v = false;
+        if (j > 0) r.only_u = false;
+        if (j < degree) r.only_v = false;
       }
     }
-    if (!only_u && !only_v) return compose(f(Jet<S, N>::variable(a.value())), a);
-    const Jet<S, N> along = f(only_u ? along_u : along_v);
-    Jet2 r;
-    for (int degree = 0; degree <= N; ++degree) r.c[only_u ? index(degree, 0) : index(0, degree)] = along.c[degree];
+    if (!r.only_u) r.along = r.only_v ? along_v : Jet<S, N>::variable(a.value());
     return r;
+  }
+  // The function's jet of the argument, as one in two variables.
+  static Jet2 applied(const Jet<S, N>& function, const Argument& argument, const Jet2& a) {
+    if (!argument.only_u && !argument.only_v) return compose(function, a);
+    Jet2 r;
+    for (int degree = 0; degree <= N; ++degree)
+      r.c[argument.only_u ? index(degree, 0) : index(0, degree)] = function.c[degree];
+    return r;
+  }
+  // f of a jet, where f takes jets in one variable.
+  template <class F>
+  static Jet2 apply(F f, const Jet2& a) {
+    const Argument of = argument(a);
+    return applied(f(of.along), of, a);
   }
 
   friend Jet2 atan2(const Jet2& y, const Jet2& x) {  // as for Jet
@@ -163,6 +177,15 @@ constexpr Jet2<S, N> sqr(const Jet2<S, N>& a) {
     }
   }
   return r;
+}
+
+template <class S, int N>
+void sin_cos(const Jet2<S, N>& a, Jet2<S, N>& sine, Jet2<S, N>& cosine) {
+  const auto of = Jet2<S, N>::argument(a);
+  Jet<S, N> s, c;
+  sin_cos(of.along, s, c);
+  sine = Jet2<S, N>::applied(s, of, a);
+  cosine = Jet2<S, N>::applied(c, of, a);
 }
 
 #define LEKALO_COMPOSED_FUNCTION(function)                                       \

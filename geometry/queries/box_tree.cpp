@@ -42,24 +42,4 @@ void BoxTree::build(int node, int begin, int end) {
   build(children + 1, middle, end);
 }
 
-bool BoxTree::meets(const Box3& box, const Line& line, const Interval& t) {
-  double enter = t.lo, leave = t.hi;
-  for (int k = 0; k < 3; ++k) {
-    const double o = line.origin[k], d = line.direction[k];
-    // The slack covers the rounding of the differences and quotients below.
-    const double slack = 4e-16 * (std::abs(o) + std::max(std::abs(box.lo[k]), std::abs(box.hi[k])));
-    if (d == 0) {
-      if (o < box.lo[k] - slack || o > box.hi[k] + slack) return false;
-      continue;
-    }
-    double a = (box.lo[k] - slack - o) / d, b = (box.hi[k] + slack - o) / d;
-    if (a > b) std::swap(a, b);
-    const double pad = 4e-16 * std::max(std::abs(a), std::abs(b));
-    if (std::isfinite(a)) enter = std::max(enter, a - (std::isfinite(pad) ? pad : 0));
-    if (std::isfinite(b)) leave = std::min(leave, b + (std::isfinite(pad) ? pad : 0));
-    if (enter > leave) return false;
-  }
-  return true;
-}
-
 }  // namespace lekalo::geometry

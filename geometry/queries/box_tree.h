@@ -13,9 +13,20 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box3>& boxes);
 
+  // A line with what every box asks for.
+  struct LineToBoxes {
+    Vec3 origin, direction, inverse;
+    explicit LineToBoxes(const Line& line)
+        : origin(line.origin), direction(line.direction), inverse(1.0 / line.direction) {}
+  };
+
   // Calls visit(index) for every box that the line meets with t in the interval.
   template <class Visit>
   void along(const Line& line, const Interval& t, Visit&& visit) const {
+    if (!nodes_.empty()) along(LineToBoxes(line), t, visit);
+  }
+  template <class Visit>
+  void along(const LineToBoxes& line, const Interval& t, Visit&& visit) const {
     if (nodes_.empty()) return;
     int stack[64];
     int top = 0;
@@ -36,7 +47,24 @@ class BoxTree {
   }
 
   // Whether the line meets the box with t in the interval; boxes are taken a rounding error larger.
-  static bool meets(const Box3& box, const Line& line, const Interval& t);
+  static bool meets(const Box3& box, const LineToBoxes& line, const Interval& t) {
+    double enter = t.lo, leave = t.hi;
+    for (int k = 0; k < 3; ++k) {
+      const double o = line.origin[k];
+      // The slack covers the rounding of the differences below.
+      const double slack = 4e-16 * (std::abs(o) + std::max(std::abs(box.lo[k]), std::abs(box.hi[k])));
+      const double lo = box.lo[k] - slack - o, hi = box.hi[k] + slack - o;
+      if (line.direction[k] == 0) {
+        if (lo > 0 || hi < 0) return false;
+        continue;
+      }
+      const double a = lo * line.inverse[k], b = hi * line.inverse[k];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    // That of the products.
+    return enter - 1e-15 * std::abs(enter) <= leave + 1e-15 * std::abs(leave);
+  }
 
  private:
   struct Node {

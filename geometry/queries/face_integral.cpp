@@ -60,7 +60,7 @@ Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, i
     for (int index : body.loops[loop].coedges) {
       const Coedge& coedge = body.coedges[index];
       const Curve& image = *coedge.image;
-      double inner_share = 0;  // largest error of an inner integral relative to its size
+      std::vector<double> inner_error(count, 0);  // the largest of an inner integral, times the speed
       const auto along = [&](double t, std::span<double> values) {
         const CurveJet at = image.evaluate(t, 1);
         const double u = at.d[0].x, v = at.d[0].y, speed = at.d[1].y;
@@ -73,8 +73,7 @@ Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, i
         const double factor = u > start ? speed : -speed;
         for (int k = 0; k < count; ++k) {
           values[k] = factor * inner.value[k];
-          if (inner.value[k] != 0)
-            inner_share = std::max(inner_share, std::min(1.0, inner.error[k] / std::abs(inner.value[k])));
+          inner_error[k] = std::max(inner_error[k], std::abs(speed) * inner.error[k]);
         }
       };
       std::vector<double> breaks;
@@ -101,7 +100,7 @@ Integral integrate_over(const Body& body, int face, const SurfaceIntegrand& f, i
       const double sign = coedge.forward ? 1 : -1;
       for (int k = 0; k < count; ++k) {
         total.value[k] += sign * part.value[k];
-        total.error[k] += part.error[k] + inner_share * std::abs(part.value[k]);
+        total.error[k] += part.error[k] + inner_error[k] * domain.width();
       }
       total.evaluations += part.evaluations;
       total.converged = total.converged && part.converged;

@@ -1,9 +1,11 @@
 #include "geometry/queries/line_intersections.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 
 #include "geometry/queries/acceptance.h"
 #include "geometry/queries/box_tree.h"
@@ -28,6 +30,7 @@ class FormulaTarget final : public LineTarget {
       box_ = surface_->enclose({region->u_range(), region->v_range()}, 0).values[0];
   }
   int piece_count() const override { return 1; }
+  std::string_view method() const override { return "closed form"; }
   Box3 piece_bounds(int) const override { return box_; }
   void piece_hits(int, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     if (acceptance_.trim())
@@ -63,6 +66,7 @@ class EnclosureTarget final : public LineTarget {
     cut(boxes);
   }
   int piece_count() const override { return static_cast<int>(cells_.size()); }
+  std::string_view method() const override { return "enclosed pieces"; }
   Box3 piece_bounds(int i) const override { return surface_->enclose(cells_[i].box, 0).values[0]; }
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     const Cell& cell = cells_[i];
@@ -92,33 +96,44 @@ class EnclosureTarget final : public LineTarget {
     ProxyPatch proxy;
   };
   // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
+  // What is halved next depends only on what there is, so that any number of threads makes the same cells.
   void cut(const std::vector<Rectangle>& boxes) {
     const auto size_of = [](const Cell& cell) {
       return glm::length(cell.model.dx) + glm::length(cell.model.dy) + cell.model.variation;
     };
-    const auto smaller = [&](const Cell& a, const Cell& b) { return size_of(a) < size_of(b); };
-    std::priority_queue<Cell, std::vector<Cell>, decltype(smaller)> rough(smaller);
-    const auto add = [&](const Rectangle& box) {
-      const Cell cell{model_of(*surface_, box), box, {}};
-      if (roughness(cell.model) <= kFlat)
-        cells_.push_back(cell);
-      else
-        rough.push(cell);
+    const auto for_each = [](size_t count, const auto& make) {
+      tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const tbb::blocked_range<size_t>& part) {
+        for (size_t i = part.begin(); i < part.end(); ++i) make(i);
+      });
     };
-    for (const Rectangle& box : boxes) add(box);
-    while (!rough.empty() && cells_.size() + rough.size() < kMostEnclosedCells) {
-      const Cell cell = rough.top();
-      rough.pop();
-      Rectangle first = cell.box, second = cell.box;
-      if (glm::length(cell.model.dx) >= glm::length(cell.model.dy))
-        first.u.hi = second.u.lo = cell.box.u.middle();
-      else
-        first.v.hi = second.v.lo = cell.box.v.middle();
-      add(first);
-      add(second);
+    std::vector<Cell> fresh(boxes.size()), rough;
+    for (size_t i = 0; i < boxes.size(); ++i) fresh[i].box = boxes[i];
+    for (;;) {
+      for_each(fresh.size(), [&](size_t i) { fresh[i].model = model_of(*surface_, fresh[i].box); });
+      for (const Cell& cell : fresh) (roughness(cell.model) <= kFlat ? cells_ : rough).push_back(cell);
+      const size_t count = cells_.size() + rough.size();
+      if (rough.empty() || count >= kMostEnclosedCells) break;
+      // The largest, and those not much smaller.
+      std::stable_sort(rough.begin(), rough.end(),
+                       [&](const Cell& a, const Cell& b) { return size_of(a) > size_of(b); });
+      const double least = 0.7 * size_of(rough.front());
+      fresh.clear();
+      size_t halved = 0;
+      for (; halved < rough.size() && count + halved < kMostEnclosedCells; ++halved) {
+        const Cell& cell = rough[halved];
+        if (size_of(cell) < least) break;
+        Cell first{{}, cell.box, {}}, second = first;
+        if (glm::length(cell.model.dx) >= glm::length(cell.model.dy))
+          first.box.u.hi = second.box.u.lo = cell.box.u.middle();
+        else
+          first.box.v.hi = second.box.v.lo = cell.box.v.middle();
+        fresh.push_back(first);
+        fresh.push_back(second);
+      }
+      rough.erase(rough.begin(), rough.begin() + static_cast<std::ptrdiff_t>(halved));
     }
-    for (; !rough.empty(); rough.pop()) cells_.push_back(rough.top());
-    for (Cell& cell : cells_) cell.proxy = proxy_of(*surface_, cell.box);
+    cells_.insert(cells_.end(), rough.begin(), rough.end());
+    for_each(cells_.size(), [&](size_t i) { cells_[i].proxy = proxy_of(*surface_, cells_[i].box); });
   }
 
   SurfacePtr surface_;

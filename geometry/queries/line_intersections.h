@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "geometry/body.h"
@@ -28,6 +29,13 @@ struct SurfaceHit {
 
 class TrimRegion;
 
+// How lines are met, for statistics: a name ("closed form", "Bezier pieces"), the pieces prepared and their memory.
+struct LineMethod {
+  std::string_view name = "closed form";
+  size_t pieces = 1;
+  size_t bytes = 0;
+};
+
 // A surface prepared for lines. Pieces are independent of each other; hits of a line on a border shared by two pieces
 // may be reported by both (merge_hits removes the second).
 class LineTarget {
@@ -46,6 +54,7 @@ class LineTarget {
     return surface().evaluate_near(near, u, v, 1);
   }
   virtual size_t memory() const = 0;  // bytes
+  virtual std::string_view method() const = 0;
 };
 
 // Unbounded surfaces give one piece with an unbounded box. `trim` may be null. Cells smaller than `least_area` are not

@@ -62,7 +62,22 @@ class PatchTarget::Cutter {
     }
   }
 
+  // What of a cell the trim keeps.
+  TrimRegion::Coverage coverage(const CellPlace& place) const {
+    const TrimRegion* trim = target_.acceptance_.trim();
+    if (!trim) return TrimRegion::Coverage::inside;
+    const Patch& patch = target_.patches_[patch_];
+    const auto natural = [](const ParameterMap& map, const Interval& range, double x, double half) -> Interval {
+      const double middle = range.middle(), reach = 0.5 * range.width();
+      return {map.natural(middle + reach * (x - half)), map.natural(middle + reach * (x + half))};
+    };
+    return trim->coverage(
+        {natural(patch.map_u, patch.s, place.x, place.hx), natural(patch.map_v, patch.t, place.y, place.hy)});
+  }
+
   void add(const PatchView& view, const CellModel& m, const CellPlace& place) {
+    const TrimRegion::Coverage kept = coverage(place);
+    if (kept == TrimRegion::Coverage::outside) return;
     Box3 box;
     double size = 0;
     for (int k = 0; k < view.count(); ++k) {
@@ -76,7 +91,7 @@ class PatchTarget::Cutter {
       size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     }
     box = box.inflated(1e-15 * size);
-    Cell cell{PatchCell(view, m, place), {}, {}, patch_};
+    Cell cell{PatchCell(view, m, place), {}, {}, patch_, kept == TrimRegion::Coverage::inside};
     for (int k = 0; k < 3; ++k) {
       cell.lo[k] = downward(box.lo[k]);
       cell.hi[k] = -downward(-box.hi[k]);
@@ -141,7 +156,8 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
     const double x = place.x + place.hx * found[k].x, y = place.y + place.hy * found[k].y;
     hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
     hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
-    if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
+    const bool keeps = cell.whole ? t.contains(hit.t) : acceptance_.keeps(hit, t, line.line(), *surface_);
+    if (keeps) hits.add(hit);
   }
 }
 

@@ -19,6 +19,7 @@ class PatchTarget final : public LineTarget {
               double least_area);
 
   int piece_count() const override { return static_cast<int>(cells_.size()); }
+  std::string_view method() const override { return "Bezier pieces"; }
   Box3 piece_bounds(int i) const override;
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override;
   bool meets_once(int i, const Vec3& direction) const override;
@@ -41,6 +42,7 @@ class PatchTarget final : public LineTarget {
     PatchCell cell;
     std::array<float, 3> lo, hi;  // box, relative to the piece's centre
     int32_t patch;
+    bool whole;  // all of it lies within the trim
   };
   class Cutter;
 

@@ -1,175 +1,348 @@
 #include "geometry/shapes/csg.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
+#include "geometry/bodies/sew.h"
 #include "geometry/describe.h"
 #include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/half_space.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
+// Operands in a list longer than this have a tree of boxes.
+constexpr size_t kFewOperands = 4;
+
 Box3 common(const Box3& a, const Box3& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
+
+std::optional<ConvexSolid> closed_form(const Shape& shape) {
+  if (const auto* body = dynamic_cast<const BodyShape*>(&shape)) return ConvexSolid::of(*body->body());
+  if (const auto* half_space = dynamic_cast<const HalfSpaceShape*>(&shape))
+    return ConvexSolid::half_space(half_space->frame());
+  return std::nullopt;
+}
+
+// A list that takes memory of its own only where it is longer than usual.
+template <class T, size_t kUsual>
+class GrowingRoom {
+ public:
+  void add(const T& value) {
+    if (size_ == capacity_) grow();
+    values_[size_++] = value;
+  }
+  size_t size() const { return size_; }
+  // Drops all but the first ones.
+  void keep(size_t size) { size_ = size; }
+  T* begin() { return values_; }
+
+ private:
+  void grow() {
+    std::vector<T> larger(2 * capacity_);
+    std::copy(values_, values_ + size_, larger.begin());
+    many_ = std::move(larger);
+    values_ = many_.data();
+    capacity_ *= 2;
+  }
+
+  size_t size_ = 0, capacity_ = kUsual;
+  std::array<T, kUsual> few_;  // not initialised
+  std::vector<T> many_;
+  T* values_ = few_.data();
+};
 
 }  // namespace
 
 Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands) : operands_(operands) {
   if (operands.empty()) throw std::invalid_argument("there is nothing to combine");
-  nodes_.push_back({operation, {}, -1});
+  nodes_.emplace_back().operation = operation;
   for (size_t k = 0; k < operands.size(); ++k) {
-    const Box3 box = operands[k]->bounds();
-    const int operand = append(operands[k], operation == Operation::subtract && k > 0);
+    const bool taken_away = operation == Operation::subtract && k > 0;
+    const int operand = append(operands[k], 0, taken_away, taken_away);
     nodes_[0].operands.push_back(operand);
-    if (k == 0)
-      box_ = box;
-    else if (operation == Operation::unite)
-      box_.include(box);
-    else if (operation == Operation::intersect)
-      box_ = common(box_, box);
   }
-  if (box_.empty()) throw std::invalid_argument("the operands have nothing in common: nothing is left");
-  std::vector<Box3> boxes;
+  for (size_t k = nodes_.size(); k-- > 0;) finish(nodes_[k]);
+  if (nodes_[0].box.empty()) throw std::invalid_argument("the operands have nothing in common: nothing is left");
   Box3 all;
-  for (int leaf = 0; leaf < leaf_count(); ++leaf) {
-    const Box3 box = leaves_[leaf].shape->bounds();
-    (box.bounded() ? bounded_ : unbounded_).push_back(leaf);
-    if (!box.bounded()) continue;
-    boxes.push_back(box);
-    all.include(box);
-  }
-  tree_ = BoxTree(boxes);
+  for (const Leaf& leaf : leaves_)
+    if (const Box3 box = leaf.shape->bounds(); box.bounded()) all.include(box);
   if (!all.empty()) size_ = all.diameter();
+  outside_.assign(nodes_.size(), 0);
+  for (const Node& node : nodes_)
+    if (node.taken_away) ++outside_[node.parent];
 }
 
 // The trees of operands that are operations themselves are taken apart, so that all leaves meet in one list.
-int Csg::append(const ShapePtr& operand, bool turned) {
+int Csg::append(const ShapePtr& operand, int parent, bool taken_away, bool turned) {
   if (!operand->is_closed()) throw std::invalid_argument("an operand is not closed: it has no inside");
   const int number = static_cast<int>(nodes_.size());
+  {
+    Node& node = nodes_.emplace_back();
+    node.parent = parent;
+    node.taken_away = taken_away;
+  }
   const auto* tree = dynamic_cast<const Csg*>(operand.get());
   if (!tree) {
-    nodes_.push_back({Operation::unite, {}, leaf_count()});
-    leaves_.push_back({operand, turned});
+    nodes_[number].leaf = leaf_count();
+    leaves_.push_back({operand, closed_form(*operand), turned, number});
     return number;
   }
-  const int first_leaf = leaf_count();
-  for (Node node : tree->nodes_) {
-    for (int& child : node.operands) child += number;
-    if (node.leaf >= 0) node.leaf += first_leaf;
-    nodes_.push_back(std::move(node));
+  nodes_[number].operation = tree->operation();
+  for (size_t k = 0; k < tree->operands_.size(); ++k) {
+    const bool inner = tree->operation() == Operation::subtract && k > 0;
+    const int child = append(tree->operands_[k], number, inner, turned != inner);
+    nodes_[number].operands.push_back(child);
   }
-  for (Leaf leaf : tree->leaves_) leaves_.push_back({leaf.shape, leaf.turned != turned});
   return number;
 }
 
-bool Csg::is_inside(int number, const std::vector<char>& inside_leaf) const {
-  const Node& node = nodes_[number];
-  if (node.leaf >= 0) return inside_leaf[node.leaf] != 0;
-  // The first operand that decides ends the search: an inside one of a union, an outside one of an intersection, of a
-  // difference the first if outside, another if inside.
-  for (size_t k = 0; k < node.operands.size(); ++k) {
-    const bool inside = is_inside(node.operands[k], inside_leaf);
-    if (node.operation == Operation::unite && inside) return true;
-    if (node.operation == Operation::intersect && !inside) return false;
-    if (node.operation == Operation::subtract && inside != (k == 0)) return false;
+// Its operands are finished.
+void Csg::finish(Node& node) {
+  if (node.leaf >= 0) {
+    node.box = leaves_[node.leaf].shape->bounds();
+    node.convex = leaves_[node.leaf].convex.has_value();
+    return;
   }
-  return node.operation != Operation::unite;
+  const auto box_of = [&](size_t k) -> const Box3& { return nodes_[node.operands[k]].box; };
+  node.box = box_of(0);
+  for (size_t k = 1; k < node.operands.size(); ++k) {
+    if (node.operation == Operation::unite) node.box.include(box_of(k));
+    if (node.operation == Operation::intersect) node.box = common(node.box, box_of(k));
+  }
+  node.convex = node.operation == Operation::intersect &&
+                std::all_of(node.operands.begin(), node.operands.end(),
+                            [&](int operand) { return nodes_[operand].leaf >= 0 && nodes_[operand].convex; });
+  node.needed = node.operation == Operation::unite ? 1 : static_cast<int>(node.operands.size());
+  node.first_in_tree = static_cast<int>(node.operands.size());
+  if (node.operation == Operation::intersect || node.operands.size() <= kFewOperands) return;
+  node.first_in_tree = node.operation == Operation::unite ? 0 : 1;
+  std::vector<Box3> boxes;
+  for (size_t k = node.first_in_tree; k < node.operands.size(); ++k) boxes.push_back(box_of(k));
+  node.tree = BoxTree(boxes);
 }
 
-// Room for one line, kept for the next; a leaf that holds a tree of its own takes another.
-struct Csg::Scratch {
-  struct Crossing {
-    double t;
-    int leaf;
-    SurfaceHit hit;
-  };
-  std::vector<SurfaceHit> hits;
-  std::vector<Crossing> crossings;
-  std::vector<char> inside;
-
-  class Loan {
-   public:
-    Loan() {
-      if (free_.empty()) {
-        scratch_ = std::make_unique<Scratch>();
-      } else {
-        scratch_ = std::move(free_.back());
-        free_.pop_back();
-      }
-    }
-    ~Loan() { free_.push_back(std::move(scratch_)); }
-    Loan(const Loan&) = delete;
-    Loan& operator=(const Loan&) = delete;
-    Scratch* operator->() { return scratch_.get(); }
-
-   private:
-    static thread_local std::vector<std::unique_ptr<Scratch>> free_;
-    std::unique_ptr<Scratch> scratch_;
-  };
+struct Csg::Crossing {
+  double t;
+  int node;  // what is entered or left
+  int leaf, face;
+  // Of leaves without a closed form.
+  int piece = 0;
+  double u = 0, v = 0;
 };
-thread_local std::vector<std::unique_ptr<Csg::Scratch>> Csg::Scratch::Loan::free_;
 
-void Csg::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const {
-  Scratch::Loan scratch;
-  auto& crossings = scratch->crossings;
-  crossings.clear();
-  scratch->inside.assign(leaves_.size(), 0);
-  const double length = glm::length(line.direction);
-  const auto tolerance = [&](double at) { return kSameHit * size_ / length + 4e-16 * std::abs(at); };
-  // What lies before the interval decides what is inside where it begins, and a crossing just behind its end may belong
-  // to one before it.
-  const Interval whole{-kInfinity, t.hi < kInfinity ? t.hi + tolerance(t.hi) : t.hi};
-  const auto cross = [&](int leaf) {
-    scratch->hits.clear();
-    leaves_[leaf].shape->all_hits(line, whole, scratch->hits);
-    for (const SurfaceHit& hit : scratch->hits) crossings.push_back({hit.t, leaf, hit});
-  };
-  for (const int leaf : unbounded_) {
-    scratch->inside[leaf] = leaves_[leaf].shape->begins_inside(line);
-    cross(leaf);
+// From one crossing to another, either of which may be at infinity.
+struct Csg::Stretch {
+  Crossing in, out;
+};
+
+struct Csg::Search {
+  explicit Search(const Line& line, double size)
+      : solids(line), to_boxes(line), tolerance_at_zero(kSameHit * size * std::sqrt(solids.inverse_square)) {}
+  double tolerance(double t) const { return tolerance_at_zero + 4e-16 * std::abs(t); }
+  const Line& line() const { return solids.line; }
+
+  LineOfSolids solids;
+  BoxTree::LineToBoxes to_boxes;
+  double tolerance_at_zero;  // in units of the line's direction
+  GrowingRoom<Crossing, 16> crossings;
+};
+
+namespace {
+constexpr Interval kNowhere{kInfinity, -kInfinity};
+}
+
+bool Csg::stretch(const Node& node, const Search& search, Stretch& inside) const {
+  const int number = static_cast<int>(&node - nodes_.data());
+  ConvexSolid::Stretch one;
+  if (node.leaf >= 0) {
+    if (!leaves_[node.leaf].convex->stretch(search.solids, one)) return false;
+    inside.in = {one.in, number, node.leaf, one.face_in};
+    inside.out = {one.out, number, node.leaf, one.face_out};
+    return true;
   }
-  tree_.along(line, whole, [&](int k) { cross(bounded_[k]); });
-  std::sort(crossings.begin(), crossings.end(), [](const Scratch::Crossing& a, const Scratch::Crossing& b) {
-    return a.t != b.t ? a.t < b.t : a.leaf < b.leaf;
-  });
+  inside.in = {-kInfinity, number, -1, 0};
+  inside.out = {kInfinity, number, -1, 0};
+  for (const int operand : node.operands) {
+    const int leaf = nodes_[operand].leaf;
+    if (!leaves_[leaf].convex->stretch(search.solids, one)) return false;
+    // Of faces in one place that of the first operand counts.
+    if (one.in > inside.in.t + search.tolerance(one.in)) inside.in = {one.in, number, leaf, one.face_in};
+    if (one.out < inside.out.t - search.tolerance(one.out)) inside.out = {one.out, number, leaf, one.face_out};
+    if (!(inside.in.t < inside.out.t)) return false;
+  }
+  return true;
+}
 
-  bool inside = is_inside(0, scratch->inside);
-  for (size_t first = 0, last; first < crossings.size(); first = last) {
-    const double end = crossings[first].t + tolerance(crossings[first].t);
-    for (last = first; last < crossings.size() && crossings[last].t <= end; ++last)
-      scratch->inside[crossings[last].leaf] ^= 1;
+Interval Csg::gather_convex(int number, const Interval& range, Search& search) const {
+  Stretch inside;
+  if (!stretch(nodes_[number], search, inside)) return kNowhere;
+  const Interval result{std::max(range.lo, inside.in.t), std::min(range.hi, inside.out.t)};
+  if (result.empty()) return kNowhere;
+  search.crossings.add(inside.in);
+  if (inside.out.t < kInfinity) search.crossings.add(inside.out);
+  return result;
+}
+
+Interval Csg::gather_leaf(int number, const Interval& range, Search& search) const {
+  const Node& node = nodes_[number];
+  const Shape& shape = *leaves_[node.leaf].shape;
+  const bool begins = !node.box.bounded() && shape.begins_inside(search.line());
+  if (node.box.bounded() && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
+  // The room is kept from call to call, but for calls within calls.
+  static thread_local std::vector<SurfaceHit> room;
+  std::vector<SurfaceHit> hits = std::move(room);
+  hits.clear();
+  shape.all_hits(search.line(), {-kInfinity, range.hi}, hits);
+  const bool ends = begins != (hits.size() % 2 != 0);  // inside at the end of the range
+  Interval result = kNowhere;
+  if (begins || !hits.empty())
+    result = {std::max(range.lo, begins ? -kInfinity : hits.front().t),
+              std::min(range.hi, ends ? kInfinity : hits.back().t)};
+  if (!result.empty()) {
+    if (begins) search.crossings.add({-kInfinity, number, node.leaf, 0});
+    for (const SurfaceHit& hit : hits)
+      search.crossings.add({hit.t, number, node.leaf, hit.face, hit.piece, hit.u, hit.v});
+  }
+  room = std::move(hits);
+  return result.empty() ? kNowhere : result;
+}
+
+Interval Csg::gather(int number, const Interval& range, Search& search) const {
+  const Node& node = nodes_[number];
+  if (node.convex) return gather_convex(number, range, search);
+  if (node.leaf >= 0) return gather_leaf(number, range, search);
+  if (node.parent >= 0 && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
+  Interval result = range;
+  if (node.operation == Operation::intersect) {
+    const size_t before = search.crossings.size();
+    for (int k = 0; k < static_cast<int>(node.operands.size()); ++k) {
+      result = gather(node.operands[k], result, search);
+      if (!result.empty()) continue;
+      search.crossings.keep(before);
+      return kNowhere;
+    }
+    return result;
+  }
+  const bool unite = node.operation == Operation::unite;
+  if (!unite) {
+    result = gather(node.operands[0], range, search);
+    if (result.empty()) return kNowhere;
+  }
+  Interval any = kNowhere;
+  const Interval within = result;
+  const auto visit = [&](int k) {
+    const Interval one = gather(node.operands[k], within, search);
+    any = {std::min(any.lo, one.lo), std::max(any.hi, one.hi)};
+  };
+  for (int k = unite ? 0 : 1; k < node.first_in_tree; ++k) visit(k);
+  node.tree.along(search.to_boxes, within, [&](int k) { visit(node.first_in_tree + k); });
+  return unite ? any : result;
+}
+
+// Changes the side of a leaf or convex node, and all that changes with it.
+void Csg::turn(int number, int* inside) const {
+  bool now = inside[number] < nodes_[number].needed;
+  inside[number] = now ? nodes_[number].needed : 0;
+  for (int parent = nodes_[number].parent; parent >= 0; number = parent, parent = nodes_[parent].parent) {
+    const int needed = nodes_[parent].needed;
+    const bool before = inside[parent] >= needed;
+    inside[parent] += now != nodes_[number].taken_away ? 1 : -1;
+    now = inside[parent] >= needed;
+    if (now == before) return;
+  }
+}
+
+template <class Visit>
+void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
+  Search search(line, size_);
+  const auto hit_of = [&](const Crossing& at) -> SurfaceHit {
+    return {at.t, at.u, at.v, at.leaf + leaf_count() * at.face, at.piece};
+  };
+  if (nodes_[0].convex) {
+    Stretch inside;
+    if (!stretch(nodes_[0], search, inside)) return;
+    const double in = inside.in.t, out = inside.out.t;
+    if (in > -kInfinity && out - in <= search.tolerance(in)) return;
+    if (in > -kInfinity && t.contains(in) && !visit(hit_of(inside.in))) return;
+    if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out));
+    return;
+  }
+  // A crossing just beyond either end may be one with a crossing inside.
+  const Interval range{t.lo - 4 * search.tolerance(t.lo), t.hi + 4 * search.tolerance(t.hi)};
+  if (gather(0, range, search).empty()) return;
+  Crossing *const begin = search.crossings.begin(), *const end = begin + search.crossings.size();
+  std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
+
+  GrowingRoom<int, 64> counts;
+  for (const int count : outside_) counts.add(count);
+  int* const inside_node = counts.begin();
+  const auto is_inside = [&] { return inside_node[0] >= nodes_[0].needed; };
+  Crossing* first = begin;
+  for (; first < end && first->t == -kInfinity; ++first) turn(first->node, inside_node);
+  bool inside = is_inside();
+  for (Crossing* last; first < end && first->t <= t.hi; first = last) {
+    const double place = first->t + search.tolerance(first->t);
+    for (last = first; last < end && last->t <= place; ++last) turn(last->node, inside_node);
     const bool before = inside;
-    inside = is_inside(0, scratch->inside);
+    inside = is_inside();
     if (inside == before) continue;
     // The face of the first operand that was crossed in this sense.
-    const Scratch::Crossing* best = nullptr;
-    for (size_t k = first; k < last; ++k) {
-      const Scratch::Crossing& one = crossings[k];
-      const bool entered = (scratch->inside[one.leaf] != 0) != leaves_[one.leaf].turned;
-      if (entered == inside && (!best || one.leaf < best->leaf)) best = &one;
+    const Crossing* best = nullptr;
+    for (const Crossing* one = first; one < last; ++one) {
+      const bool entered = (inside_node[one->node] >= nodes_[one->node].needed) != leaves_[one->leaf].turned;
+      if (entered == inside && (!best || one->leaf < best->leaf)) best = one;
     }
     if (!best || !t.contains(best->t)) continue;
-    SurfaceHit hit = best->hit;
-    hit.face = best->leaf + leaf_count() * hit.face;
-    hits.push_back(hit);
+    if (!visit(hit_of(*best))) return;
   }
+}
+
+void Csg::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const {
+  walk(line, t, [&](const SurfaceHit& hit) {
+    hits.push_back(hit);
+    return true;
+  });
+}
+
+bool Csg::first_hit(const Line& line, const Interval& t, SurfaceHit& first) const {
+  bool found = false;
+  walk(line, t, [&](const SurfaceHit& hit) {
+    first = hit;
+    found = true;
+    return false;
+  });
+  return found;
 }
 
 ShapePoint Csg::point(const SurfaceHit& hit, const Vec3& near) const {
   const Leaf& leaf = leaves_[hit.face % leaf_count()];
   SurfaceHit of_leaf = hit;
   of_leaf.face = hit.face / leaf_count();
-  ShapePoint point = leaf.shape->point(of_leaf, near);
+  ShapePoint point = leaf.convex ? leaf.convex->point(of_leaf.face, near) : leaf.shape->point(of_leaf, near);
   if (leaf.turned) point.normal = -point.normal;
   return point;
 }
 
 bool Csg::begins_inside(const Line& line) const {
-  std::vector<char> inside(leaves_.size());
-  for (const int leaf : unbounded_) inside[leaf] = leaves_[leaf].shape->begins_inside(line);
-  return is_inside(0, inside);
+  std::vector<int> inside = outside_;
+  const LineOfSolids solids(line);
+  for (int number = 0; number < leaf_count(); ++number) {
+    const Leaf& leaf = leaves_[number];
+    if (nodes_[leaf.node].box.bounded()) continue;
+    ConvexSolid::Stretch stretch;
+    const bool begins = leaf.convex ? leaf.convex->stretch(solids, stretch) && stretch.in == -kInfinity
+                                    : leaf.shape->begins_inside(line);
+    if (begins) turn(leaf.node, inside.data());
+  }
+  return inside[0] >= nodes_[0].needed;
 }
 
 namespace {
@@ -180,6 +353,17 @@ ShapePtr operand(const std::any& thing, const std::string& field) {
     if (!(*body)->is_closed())
       throw FieldError(field, "this body is not closed: it has no inside", "close it, or take a solid body");
     return std::make_shared<BodyShape>(*body);
+  }
+  const auto* surface = std::any_cast<SurfacePtr>(&thing);
+  const auto* set = std::any_cast<std::vector<SurfacePtr>>(&thing);
+  if (surface || set) {
+    try {
+      const std::span<const SurfacePtr> all = set ? std::span<const SurfacePtr>(*set) : std::span(surface, 1);
+      return std::make_shared<BodyShape>(std::make_shared<Body>(enclosed_by(all)));
+    } catch (const std::invalid_argument& error) {
+      throw FieldError(field, fmt::format("this surface bounds no solid: {}", error.what()),
+                       "operands are bodies, closed surfaces, and sets of surfaces whose edges meet all round");
+    }
   }
   const ShapePtr& shape = std::any_cast<const ShapePtr&>(thing);
   if (!shape->is_closed())
@@ -196,11 +380,12 @@ ShapePtr combined(Csg::Operation operation, const std::vector<ShapePtr>& operand
   }
 }
 
-const std::vector<Category> kSolids{Category::body, Category::shape};
+const std::vector<Category> kSolids{Category::body, Category::shape, Category::surface};
 
 TypeDeclaration of_several(const std::string& name, const std::string& description, Csg::Operation operation) {
   return declare(Category::shape, name, description)
-      .field("of", references(kSolids).count(1), "bodies and closed shapes; where faces coincide the first counts")
+      .field("of", references(kSolids).count(1),
+             "bodies, closed shapes and closed surfaces; where faces coincide the first counts")
       .built_by([operation](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands;
         for (const std::any& one : f.references("of")) operands.push_back(operand(one, "of"));
@@ -220,8 +405,8 @@ TypeDeclaration intersection_type() {
 
 TypeDeclaration difference_type() {
   return declare(Category::shape, "difference", "A solid without what lies in others.")
-      .field("of", reference(kSolids), "body or closed shape")
-      .field("minus", references(kSolids).count(1), "bodies and closed shapes to take away")
+      .field("of", reference(kSolids), "body, closed shape or closed surface")
+      .field("minus", references(kSolids).count(1), "bodies, closed shapes and closed surfaces to take away")
       .built_by([](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands{operand(f.any("of"), "of")};
         for (const std::any& one : f.references("minus")) operands.push_back(operand(one, "minus"));

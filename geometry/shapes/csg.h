@@ -2,15 +2,20 @@
 // and 6.1 speak of the bodies; the rule for lines is Roth's, "Ray Casting for Modeling Solids", 1982).
 //
 // A line crosses each leaf of the tree in and out by turns; the tree says of every stretch between crossings whether it
-// is inside. A crossing of a leaf is one of the whole where that changes.
+// is inside. A crossing of a leaf is one of the whole where that changes. What cannot matter is not looked at: the
+// operands beyond where the first of an intersection or difference lies, and parts of the tree whose boxes the line
+// misses.
 //
 // Crossings of several leaves nearer than a tolerance (kSameHit of the size) are one place: operands that share a face
 // are decided there together. So union and intersection keep one face of two that coincide, that of the first operand;
 // in A minus B a shared face vanishes; two bodies that touch from outside unite without a wall between them.
 #pragma once
 
+#include <optional>
+
 #include "geometry/queries/box_tree.h"
 #include "geometry/shape.h"
+#include "geometry/shapes/convex_solid.h"
 
 namespace lekalo::geometry {
 
@@ -25,35 +30,60 @@ class Csg final : public Shape {
   Operation operation() const { return nodes_[0].operation; }
   const std::vector<ShapePtr>& operands() const { return operands_; }
 
-  Box3 bounds() const override { return box_; }
+  Box3 bounds() const override { return nodes_[0].box; }
+  // The parameters of hits on leaves with closed forms are zero; point() finds them.
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
+  bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
+  LineMethod method() const override { return {"CSG of leaves", leaves_.size(), leaves_.size() * sizeof(Leaf)}; }
   bool begins_inside(const Line& line) const override;
 
  private:
-  // Nodes stand behind their parent; the root is the first.
+  // Nodes stand behind their parent; the root is the first. A node is inside where at least `needed` of its operands
+  // are, those that it takes away counted where they are outside.
   struct Node {
-    Operation operation;
+    Operation operation = Operation::unite;
     std::vector<int> operands;  // of an operation: numbers of nodes
-    int leaf;                   // else -1
+    int leaf = -1;              // else
+    int parent = -1;
+    bool taken_away = false;  // by its parent
+    bool convex = false;      // a leaf with a closed form, or an intersection of such
+    int needed = 1;
+    Box3 box = Box3::everything();
+    BoxTree tree;  // of many operands that need not all be looked at: operands[first_in_tree] and on
+    int first_in_tree = 0;
   };
   struct Leaf {
     ShapePtr shape;
-    bool turned;  // taken away: its normals look into the result
+    std::optional<ConvexSolid> convex;  // the same in closed form
+    bool turned;                        // taken away: its normals look into the result
+    int node;
   };
-  struct Scratch;
+  struct Crossing;
+  struct Stretch;
+  struct Search;
 
   int leaf_count() const { return static_cast<int>(leaves_.size()); }
-  int append(const ShapePtr& operand, bool turned);
-  bool is_inside(int node, const std::vector<char>& inside_leaf) const;
+  int append(const ShapePtr& operand, int parent, bool taken_away, bool turned);
+  void finish(Node& node);
+  // Adds the crossings of all leaves and convex nodes that may matter where t is in the range, and returns where in it
+  // the node may be inside; adds none where that is empty. One that is inside where t goes to minus infinity is crossed
+  // there.
+  Interval gather(int number, const Interval& range, Search& search) const;
+  Interval gather_convex(int number, const Interval& range, Search& search) const;
+  Interval gather_leaf(int number, const Interval& range, Search& search) const;
+  // Where the line is inside a convex node; false if nowhere.
+  bool stretch(const Node& node, const Search& search, Stretch& inside) const;
+  void turn(int node, int* inside) const;
+  // Calls visit(hit) for the hits in order until it returns false.
+  template <class Visit>
+  void walk(const Line& line, const Interval& t, Visit&& visit) const;
 
   std::vector<ShapePtr> operands_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
-  std::vector<int> bounded_, unbounded_;  // leaves
-  BoxTree tree_;                          // of the bounded ones
-  Box3 box_;
+  std::vector<int> outside_;  // how many operands count, by node, where all leaves are outside
   double size_ = 1;
 };
 

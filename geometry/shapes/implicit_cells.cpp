@@ -1,5 +1,8 @@
 #include "geometry/shapes/implicit_cells.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 #include <deque>
 
@@ -43,13 +46,27 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
     Box3 box;
     int cuts;
   };
+  struct Made {
+    Cell cell;
+    bool may_be_zero;
+  };
   std::deque<Open> open{{0, region, 0}};  // the largest first
+  std::deque<Made> ready;                 // cells of the first of them
   nodes_.emplace_back();
   while (!open.empty()) {
+    if (ready.empty()) {
+      // All that is open comes before its parts: threads make the cells, in any order.
+      ready.resize(open.size());
+      tbb::parallel_for(tbb::blocked_range<size_t>(0, open.size()), [&](const tbb::blocked_range<size_t>& part) {
+        for (size_t i = part.begin(); i < part.end(); ++i)
+          ready[i].may_be_zero = !outside(open[i].box) && make_cell(open[i].box, models, ready[i].cell);
+      });
+    }
     const Open at = open.front();
+    const auto [cell, may_be_zero] = ready.front();
     open.pop_front();
-    Cell cell;
-    if (outside(at.box) || !make_cell(at.box, models, cell)) continue;
+    ready.pop_front();
+    if (!may_be_zero) continue;
     const Vec3 size = at.box.size();
     const double change = glm::dot(glm::abs(cell.g), 0.5 * size);
     const bool good = models && cell.error <= kGoodModel * change;
@@ -77,27 +94,22 @@ bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) co
   if (!formula_.enclose(box).contains(0.0)) return false;
   cell.center = given.center();
   const Vec3 half = 0.5 * box.size() + kCellSlack * glm::abs(cell.center);
-  using Jet = geometry::Jet<Interval, 1>;
   using Pair = Jet2<Interval, 2>;
   // Value and slopes at the middle, slopes and second derivatives over the box. Kinks have the slopes of both sides.
   const Interval value = formula_.enclose({cell.center, cell.center});
   cell.rounding = 4 * value.width();
-  Interval slope[3], slope_over[3], second[3][3];
+  Interval slope[3], second[3][3];
   const auto side = [&](int k) { return Interval(box.lo[k], box.hi[k]); };
   if (formula_.smoothness() == Expression::Smoothness::jumps) return true;
+  const auto over_box = formula_.with_gradient(side(0), side(1), side(2));
   Interval range = value;
-  for (int k = 0; k < 3; ++k) {
-    const auto over = [&](int axis) { return axis == k ? Jet::variable(side(axis)) : Jet(side(axis)); };
-    slope_over[k] = formula_(over(0), over(1), over(2)).c[1];
-    range += slope_over[k] * Interval(-half[k], half[k]);
-  }
+  for (int k = 0; k < 3; ++k) range += over_box.c[1 + k] * Interval(-half[k], half[k]);
   if (!range.contains(0.0)) return false;
   if (!with_model) return true;
+  const auto at_center =
+      formula_.with_gradient(Interval(cell.center.x), Interval(cell.center.y), Interval(cell.center.z));
   for (int k = 0; k < 3; ++k) {
-    const auto at = [&](int axis) {
-      return axis == k ? Jet::variable(Interval(cell.center[axis])) : Jet(Interval(cell.center[axis]));
-    };
-    slope[k] = formula_(at(0), at(1), at(2)).c[1];
+    slope[k] = at_center.c[1 + k];
     const int other = (k + 1) % 3;
     const auto over = [&](int axis) {
       return axis == k ? Pair::u_variable(side(axis)) : axis == other ? Pair::v_variable(side(axis)) : Pair(side(axis));
@@ -122,12 +134,10 @@ bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) co
   cell.f = value.middle();
   if (std::isfinite(error) && std::isfinite(cell.f)) cell.error = error;
   // What the model itself can reach.
-  double reach = cell.error;
-  for (int i = 0; i < 3; ++i) {
-    reach += std::abs(cell.g[i]) * half[i];
-    for (int j = 0; j < 3; ++j) reach += 0.5 * std::abs(cell.h[i][j]) * half[i] * half[j];
-  }
-  return !(std::abs(cell.f) > reach);
+  cell.bend = cell.error;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) cell.bend += 0.5 * std::abs(cell.h[i][j]) * half[i] * half[j];
+  return !(std::abs(cell.f) > cell.bend + glm::dot(glm::abs(cell.g), half));
 }
 
 void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
@@ -192,8 +202,10 @@ void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, d
   Stretch stack[kRoom];
   int top = 0;
   {
-    const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center, hp = cell.h * p, hq = cell.h * q;
+    const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center;
     const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
+    if (std::min(gp, gq) > cell.bend || std::max(gp, gq) < -cell.bend) return changes.pass(t0, gp > 0);
+    const Vec3 hp = cell.h * p, hq = cell.h * q;
     stack[0] = {t0, t1, {}, cell.error, glm::dot(cell.slope_error, glm::abs(line.direction))};
     stack[0].b = {gp + 0.5 * glm::dot(p, hp), 0.5 * (gp + gq + glm::dot(p, hq)), gq + 0.5 * glm::dot(q, hq)};
   }

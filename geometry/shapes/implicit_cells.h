@@ -39,6 +39,7 @@ class ImplicitCells {
   // A bound on the rounding of F where it may be zero.
   double rounding() const { return rounding_; }
   int count() const { return static_cast<int>(cells_.size()); }
+  size_t memory() const { return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node); }
 
   // Follows the sign of F along the line from t0 to t1, both in the region. The origin of the line lies near it.
   void follow(const Line& line, double t0, double t1, SignChanges& changes) const;
@@ -48,8 +49,9 @@ class ImplicitCells {
     Vec3 center{0};
     double f = 0;
     Vec3 g{0};
-    Mat3 h{0}, h_error{0};
+    double bend = kInfinity;   // bounds |F(c + q) - (f + g q)|
     double error = kInfinity;  // infinite: there is no model
+    Mat3 h{0}, h_error{0};
     Vec3 slope_error{0};
     double rounding = 0;  // of F
     Vec3 slope_rounding{0};

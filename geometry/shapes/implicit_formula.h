@@ -21,7 +21,16 @@ class ImplicitFormula {
     return formula_(x, y, z) - level_;
   }
   double operator()(const Vec3& p) const { return (*this)(p.x, p.y, p.z); }
-  Vec3 gradient(const Vec3& p) const;
+  // Value and gradient.
+  template <class S>
+  Gradient<S> with_gradient(const S& x, const S& y, const S& z) const {
+    using G = Gradient<S>;
+    return (*this)(G::variable(x, 0), G::variable(y, 1), G::variable(z, 2));
+  }
+  Vec3 gradient(const Vec3& p) const {
+    const auto at = with_gradient(p.x, p.y, p.z);
+    return {at.c[1], at.c[2], at.c[3]};
+  }
 
   // Along a line: x = o + t d over the number types of Expression::evaluate.
   template <class T>

@@ -147,16 +147,16 @@ void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only
     if (closed_ && inside && face > 0) hits.push_back({at + foot, 0, 0, face, 0});
   };
   if (!polynomial_) {
-    const bool begin = is_positive(formula_(from));
-    meet_border(chord.t0, chord.enter, !begin);
-    if (first_only && !hits.empty()) return;
     SignChanges changes(hits, foot, first_only, closed_);
-    changes.begin(begin);
+    if (closed_) {
+      changes.begin(is_positive(formula_(from)));
+      meet_border(chord.t0, chord.enter, !changes.positive());
+      if (first_only && !hits.empty()) return;
+    }
     cells_->follow(line, chord.t0, chord.t1, changes);
-    if (changes.is_done()) return;
-    const bool end = is_positive(formula_(to));
-    changes.pass(chord.t1, end);
-    meet_border(chord.t1, chord.leave, !end);
+    if (changes.is_done() || !closed_) return;
+    changes.pass(chord.t1, is_positive(formula_(to)));
+    meet_border(chord.t1, chord.leave, !changes.positive());
     return;
   }
   const OnChord on_chord(*polynomial_, formula_, noise_, from, to);
@@ -212,8 +212,9 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
     slope = Vec3(both);
     value = both.w - formula_.level();
   } else {
-    slope = gradient(near);
-    value = formula_(near);
+    const auto both = formula_.with_gradient(near.x, near.y, near.z);
+    slope = {both.c[1], both.c[2], both.c[3]};
+    value = both.c[0];
   }
   double square = glm::dot(slope, slope);
   if (square > 0) {

@@ -22,6 +22,7 @@ class Follower {
         changes_(changes) {}
 
   void run(double t0, double t1) {
+    if (!changes_.has_begun()) changes_.begin(sign_at(t0));
     Interval stack[64];
     int top = 0;
     stack[0] = {t0, t1};

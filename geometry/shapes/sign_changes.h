@@ -19,7 +19,12 @@ class SignChanges {
   SignChanges(std::vector<SurfaceHit>& hits, double shift, bool first_only, bool with_jumps)
       : hits_(hits), shift_(shift), first_only_(first_only), with_jumps_(with_jumps) {}
 
-  void begin(bool positive) { positive_ = positive; }
+  // Where this is not called the first pass() tells.
+  void begin(bool positive) {
+    positive_ = positive;
+    has_begun_ = true;
+  }
+  bool has_begun() const { return has_begun_; }
   // The sign changes here.
   void add(double t) {
     hits_.push_back({t + shift_});
@@ -28,7 +33,10 @@ class SignChanges {
   }
   // The sign at t is known. Where it is not the last one, the change lies here to within the rounding.
   void pass(double t, bool positive) {
-    if (positive != positive_) add(t);
+    if (!has_begun_)
+      begin(positive);
+    else if (positive != positive_)
+      add(t);
   }
   // The same, but what changed is no zero.
   void jump(double t) {
@@ -44,7 +52,7 @@ class SignChanges {
   std::vector<SurfaceHit>& hits_;
   double shift_;
   bool first_only_, with_jumps_;
-  bool positive_ = true;
+  bool positive_ = true, has_begun_ = false;
   bool found_ = false;
 };
 

@@ -30,6 +30,9 @@ class Tube final : public Shape {
   // du is zero on ends, and so is dv on flat ones.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return caps_ != Caps::none; }
+  LineMethod method() const override {
+    return {"ball sweep", sweep_.cells().size(), sweep_.cells().size() * sizeof(BallSweep::Cell)};
+  }
 
  private:
   struct End {

@@ -16,7 +16,8 @@
   X(revolution_surface_type)     \
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
-  X(formula_surface_type)
+  X(formula_surface_type)        \
+  X(ribbon_type)
 
 namespace lekalo::geometry {
 

@@ -24,6 +24,7 @@ class FormulaSurface final : public Surface {
   Periods periods() const override { return {closed_.u ? domain_.u.width() : 0, closed_.v ? domain_.v.width() : 0}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return kMaxSurfaceOrder; }
   DegenerateEdges degenerate_edges() const override { return degenerate_; }
 
  private:

@@ -40,7 +40,8 @@ double density_at(const Curve& curve, double t, const TessellationTolerance& tol
   if (!(speed > 0) || !(bend > 0)) return 0;
   const double radius = speed * speed * speed / bend;
   const double sag = std::min(tolerance.sag_near(jet.d[0]) / radius, 1.0);
-  const double turn = std::min(2 * std::acos(1 - sag), tolerance.angle);
+  // arccos(1 - x), which loses all figures of a small x: on a curve straight but for rounding.
+  const double turn = std::min(4 * std::asin(std::sqrt(0.5 * sag)), tolerance.angle);
   return speed / (radius * turn);
 }
 

@@ -1,6 +1,7 @@
 // From picture points to rays and back.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "geometry/vectors.h"
@@ -16,12 +17,20 @@ struct PicturePoint {
   bool visible_side = true;  // false for points behind the eye
 };
 
+// The projection of points before the viewer as a map of homogeneous coordinates, for what is projected whole: curves
+// with their derivatives and bounds. x = row[0] . p / row[2] . p, y = row[1] . p / row[2] . p with p = (point, 1), in
+// pixels; row[2] . p > 0 on the visible side.
+struct PictureMap {
+  std::array<geometry::Vec4, 3> row{};
+};
+
 class Camera {
  public:
   virtual ~Camera() = default;
   // Ray through the picture point (x, y) in pixels from the upper left corner of the full picture.
   virtual Ray ray(double x, double y) const = 0;
   virtual PicturePoint project(const Vec3& point) const = 0;
+  virtual PictureMap picture_map() const = 0;  // agrees with project()
   // Width of one pixel at the given place, in scene units.
   virtual double pixel_size(const Vec3& point) const = 0;
   virtual bool is_parallel() const = 0;

@@ -29,6 +29,11 @@ class GraphCamera final : public Camera {
     return picture;
   }
 
+  PictureMap picture_map() const override {
+    const double right = width_ / (x_.hi - x_.lo), down = -height_ / (y_.hi - y_.lo);
+    return {{Vec4(right, 0, 0, -right * x_.lo), Vec4(0, down, 0, -down * y_.hi), Vec4(0, 0, 0, 1)}};
+  }
+
   double pixel_size(const Vec3&) const override {
     return std::min((x_.hi - x_.lo) / width_, (y_.hi - y_.lo) / height_);
   }

@@ -40,6 +40,15 @@ class ParallelCamera final : public Camera {
     return picture;
   }
 
+  PictureMap picture_map() const override {
+    // What is left of a vector in the picture plane when it is moved there along the rays.
+    const double slant = glm::dot(along_, normal_);
+    const auto in_plane = [&](const Vec3& axis) { return (axis - glm::dot(axis, along_) / slant * normal_) / pixel_; };
+    const Vec3 right = in_plane(axes_.right), down = -in_plane(axes_.up);
+    return {{Vec4(right, 0.5 * width_ - glm::dot(right, origin_)), Vec4(down, 0.5 * height_ - glm::dot(down, origin_)),
+             Vec4(0, 0, 0, 1)}};
+  }
+
   double pixel_size(const Vec3&) const override { return pixel_; }
   bool is_parallel() const override { return true; }
   Vec3 view_direction() const override { return along_; }

@@ -44,6 +44,13 @@ class PerspectiveCamera final : public Camera {
     return picture;
   }
 
+  PictureMap picture_map() const override {
+    const Vec4 depth(forward_, -glm::dot(forward_, from_));
+    const Vec3 right = axes_.right / pixel_, down = -axes_.up / pixel_;
+    return {{Vec4(right, -glm::dot(right, from_)) + 0.5 * width_ * depth,
+             Vec4(down, -glm::dot(down, from_)) + 0.5 * height_ * depth, depth}};
+  }
+
   double pixel_size(const Vec3& point) const override { return pixel_ * std::fabs(glm::dot(point - from_, forward_)); }
   bool is_parallel() const override { return false; }
   Vec3 view_direction() const override { return forward_; }

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "render/film/tiles.h"
+#include "render/lines/picture_lines.h"
 
 namespace lekalo::render {
 
@@ -56,6 +57,7 @@ bool differ(const Shown& a, const Shown& b, float contrast) {
 
 // Whether two samples met different things, or only one of them met any.
 bool is_outline_between(const RaySample& a, const RaySample& b) {
+  if (a.line != b.line) return true;
   if (!a.point || !b.point) return a.point.has_value() != b.point.has_value();
   return a.point->instance != b.point->instance || a.point->face != b.point->face;
 }
@@ -70,6 +72,7 @@ class TileTracer {
         camera_(*world.model().camera),
         integrator_(*world.model().integrator),
         film_(film),
+        lines_(world),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
         materials_(world.model().objects) {}
 
@@ -141,6 +144,7 @@ class TileTracer {
     SampleStream random = sampler_->stream(x, y, number);
     const Ray ray = camera_.ray(x + place.x, y + place.y);
     RaySample sample = integrator_.trace(world_, ray, random);
+    if (!lines_.empty()) lines_.draw(Vec2(x, y) + place, sample);
     ++tally.camera_rays;
     tally.shadow_rays += sample.shadow_rays;
     tally.other_rays += sample.other_rays;
@@ -262,6 +266,14 @@ class TileTracer {
     set3(kNgX, point.geometric_normal);
     set(kU, point.u);
     set(kV, point.v);
+    if (const auto color = lines_.color(point)) {
+      set3(kAlbedoR, *color);
+      if (Channel* object = film_.channel(kObject)) {
+        object->ids[i] = static_cast<uint32_t>(point.object + 1);
+        film_.channel(kMaterial)->ids[i] = 0;
+      }
+      return;
+    }
     const Material& material = world_.material(point, glm::dot(point.incoming, point.geometric_normal) < 0);
     if (film_.channel(kAlbedoR)) set3(kAlbedoR, rgb(material.albedo(point, Wavelengths{})));
     if (Channel* object = film_.channel(kObject)) {
@@ -274,6 +286,7 @@ class TileTracer {
   const Camera& camera_;
   const Integrator& integrator_;
   TiledFilm& film_;
+  PictureLines lines_;
   SamplerPtr sampler_;
   MaterialNumbers materials_;
 };

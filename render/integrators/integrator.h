@@ -24,6 +24,7 @@ struct RaySample {
   double depth = 0;                   // distance along the ray to it
   Spectrum direct;     // light of sources (ambient ones too) on the first hit, without reflections and refractions
   bool noisy = false;  // another sample of the same place might have shown another colour: a penumbra
+  int line = 0;        // tells the lines of the picture apart that the sample shows, however faint; 0: none
   uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample
   uint32_t shadow_rays = 0;  // one that goes on behind a clear surface is another, as for POV-Ray
   uint32_t other_rays = 0;   // reflected and refracted

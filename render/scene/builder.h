@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/describe.h"
+#include "render/scene/external_note.h"
 #include "render/scene/include.h"
 #include "render/scene/model.h"
 #include "render/scene/objects.h"
@@ -54,6 +55,7 @@ struct NamedThing {
 
 struct BuildOptions {
   std::vector<std::filesystem::path> search_path;  // of shipped files
+  bool allow_external = false;                     // code from outside the program may be run
 };
 
 class Builder {
@@ -65,6 +67,9 @@ class Builder {
 
   // Lines for stderr: which defaults were taken.
   const std::vector<std::string>& defaults_taken() const { return defaults_; }
+
+  // What is known of things whose points come from outside.
+  const std::vector<ExternalNote>& external_notes() const { return external_notes_; }
 
   // Every file that a field named, in the order of reading.
   const std::vector<std::filesystem::path>& files_named() const { return files_named_; }
@@ -85,6 +90,7 @@ class Builder {
  private:
   // --- builder_values.cpp: one value by a field's type; nothing after an error has been reported.
   std::optional<std::any> read(const FieldType& type, const Value& value, const Counters& counters);
+  std::optional<std::vector<std::string>> read_command(const Value& value, const Counters& counters);
   bool check_count(const FieldType& type, const Value& value, size_t count);
   // The same as items, each read as `type`; nothing if one of them is wrong.
   template <class T>
@@ -155,6 +161,7 @@ class Builder {
   // The value of a map of the type's fields and those common to its category.
   std::optional<std::any> build_as(const TypeDeclaration& type, const Value& map, const Counters& counters);
   const std::vector<Field>& declared_fields(const TypeDeclaration& type);
+  void note_external(const std::any& value, const Value& map);
   std::optional<Built> transformed(Built built, const Affine& map, const Value& place);
   // The same, or the thing itself where nothing moves it.
   std::optional<Built> placed(Built built, const Affine& transform, const Value& place);
@@ -222,6 +229,7 @@ class Builder {
   std::deque<Value> made_;                         // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
+  std::vector<ExternalNote> external_notes_;
   std::vector<std::filesystem::path> files_named_;
   MaterialPtr default_material_;
   std::set<std::string> like_in_work_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "geometry/curves/external_curve.h"
+#include "geometry/surfaces/external_surface.h"
 #include "geometry/transformed.h"
 #include "render/scene/builder.h"
 #include "render/scene/scalars.h"
@@ -120,6 +122,11 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
     return built ? std::optional(built->value) : std::nullopt;
   }
   const std::string what = name_in_messages(type);
+  if (type.runs_foreign_code && !options_.allow_external) {
+    diagnostics_.error(map.place, fmt::format("{} runs code from outside the program, which is not allowed", what),
+                       "if you trust this scene and what it names, add --allow-external");
+    return std::nullopt;
+  }
   std::vector<std::string> also = {"repeat"};
   if (!is_implicit(type.category) && type.category != Category::helper) also.insert(also.begin(), "type");
   Fields fields;
@@ -128,6 +135,7 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   if (!good || !check(type, fields, map)) return std::nullopt;
   auto value = attempt(map, what, [&] { return type.build(fields); });
   if (!value || !is_geometry(type.category)) return value;
+  if (type.runs_foreign_code) note_external(*value, map);
   if (type.category == Category::surface && fields.has("reversed") && fields.boolean("reversed")) reverse(*value);
   if (alike) alike_groups_[&map] = std::any_cast<GroupPtr>(*value);
   const auto built = placed({type.category, *std::move(value)},
@@ -135,6 +143,16 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   if (!built) return std::nullopt;
   if (const void* shape = identity(entity_of(built->value))) types_[shape] = &type;
   return built->value;
+}
+
+void Builder::note_external(const std::any& value, const Value& map) {
+  const geometry::FitReport* report = nullptr;
+  if (const auto* curve = std::any_cast<CurvePtr>(&value))
+    report = &dynamic_cast<const geometry::ExternalCurve&>(**curve).report();
+  else
+    report = &dynamic_cast<const geometry::ExternalSurface&>(*std::any_cast<const SurfacePtr&>(value)).report();
+  external_notes_.push_back({fmt::format("{}:{}", map.place.file ? map.place.file->name : "", map.place.line),
+                             report->text(), report->doubts});
 }
 
 std::optional<Built> Builder::placed(Built built, const Affine& transform, const Value& place) {

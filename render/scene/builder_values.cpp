@@ -75,6 +75,33 @@ std::optional<std::vector<T>> Builder::read_list(const FieldType& type, const Va
   return good ? std::optional(std::move(all)) : std::nullopt;
 }
 
+std::optional<std::vector<std::string>> Builder::read_command(const Value& value, const Counters& counters) {
+  std::vector<std::string> words;
+  for (const Scoped& item : items(value, counters)) {
+    const auto word = read_text(*item.value);
+    if (!word) {
+      report(diagnostics_, *item.value, word.slip());
+      return std::nullopt;
+    }
+    const auto& file = item.value->place.file;
+    // A program without a slash is looked for in PATH.
+    const bool may_be_file = !words.empty() || word->find('/') != std::string::npos;
+    const auto path = file && may_be_file ? find_input(*file, *word, {}) : std::nullopt;
+    std::error_code ignored;
+    const bool is_file = path && std::filesystem::is_regular_file(*path, ignored);
+    if (words.empty() && may_be_file && !is_file) {
+      diagnostics_.error(item.value->place, fmt::format("there is no program '{}'", *word),
+                         "looked for beside the scene file; names without a slash are looked for in PATH");
+      return std::nullopt;
+    }
+    if (is_file) files_named_.push_back(*path);
+    words.push_back(is_file ? std::filesystem::absolute(*path).string() : *word);
+  }
+  if (!words.empty() && !words.front().empty()) return words;
+  diagnostics_.error(value.place, "a command begins with a program", "write [program, argument, ...]");
+  return std::nullopt;
+}
+
 std::optional<std::any> Builder::read(const FieldType& type, const Value& value, const Counters& counters) {
   if (value.invalid) return std::nullopt;
   const auto wrap = [](auto&& result) -> std::optional<std::any> {
@@ -249,6 +276,8 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       }
       return std::any(all);
     }
+    case Kind::command:
+      return wrap(read_command(value, counters));
     case Kind::words: {
       FieldType one = type;
       one.kind = Kind::choice;

@@ -45,6 +45,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   }
   BuildOptions build;
   build.search_path = read.search_path;
+  build.allow_external = options.allow_external;
   Builder builder(scene, build, diagnostics);
   result.model = std::make_shared<const Model>(builder.build());
   const std::vector<std::filesystem::path>& data = builder.files_named();
@@ -55,6 +56,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     if (const auto bytes = read_file(file, std::numeric_limits<std::uint32_t>::max(), true, reason))
       mix(result.hash, *bytes);
   }
+  result.external_notes = builder.external_notes();
   result.defaults_taken = builder.defaults_taken();
   return result;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/scene/diagnostics.h"
+#include "render/scene/external_note.h"
 #include "render/scene/model.h"
 
 namespace lekalo::render {
@@ -15,6 +16,7 @@ namespace lekalo::render {
 struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> set_parameters;  // --set NAME=VALUE
   std::vector<std::filesystem::path> includes;
+  bool allow_external = false;  // the scene may run code from outside the program
   // Filled with every file that was read, also if the scene has errors: what to watch for changes.
   std::vector<std::filesystem::path>* files_read = nullptr;
 };
@@ -22,6 +24,7 @@ struct LoadOptions {
 struct LoadedScene {
   std::shared_ptr<const Model> model;
   std::vector<std::string> defaults_taken;
+  std::vector<ExternalNote> external_notes;
   uint64_t hash = 0;  // of all texts, data files and --set values
 };
 

@@ -1,4 +1,4 @@
-// What drawings show of an object: which lines, which helpers of its geometry, which words in the legend.
+// What pictures and drawings show of an object: which lines, which helpers of its geometry, which words in the legend.
 #pragma once
 
 #include <map>

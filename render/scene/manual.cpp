@@ -126,6 +126,8 @@ std::string plain_value_text(const FieldType& type) {
       return "list of words: " + listed(type.choices);
     case Kind::texts:
       return "list of texts in quotes";
+    case Kind::command:
+      return "list of words: a program and its arguments";
     case Kind::page_lengths:
       return "lengths on the page, with units" + count_text(type);
     case Kind::anchor:
@@ -167,6 +169,8 @@ std::string sample(const FieldType& type, int& places) {
     case Kind::text:
     case Kind::texts:
       return "'text'";
+    case Kind::command:
+      return "[program]";
     case Kind::file:
       return "file.txt";
     case Kind::name:

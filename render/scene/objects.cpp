@@ -133,8 +133,10 @@ TypeDeclaration object_type() {
                         {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
                 "planes that cut away what lies beyond them")
       .optional("transform", transform(), "steps in the order in which they happen")
-      .optional("lines", group(lines_fields()), "lines of drawings: only those given; without it those of `drawing`")
-      .optional("show", helpers(), "helpers of drawings: those that the shape's type offers")
+      .optional("lines", group(lines_fields()),
+                "lines that are seen of it: only those given; without it pictures show curves and points, drawings "
+                "what `drawing` says")
+      .optional("show", helpers(), "helpers beside it: those that the shape's type offers")
       .optional("legend", label({"i"}), "text in the legend of a drawing; %i is the number of a family's member")
       .built_by(objects_of);
 }

@@ -4,8 +4,10 @@
 // of its frame, clipped_by in the surface's coordinates. `plane { n, d }` is inside where dot(p, n) < d.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/circle.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/ellipsoid.h"
 #include "geometry/surfaces/hyperboloid.h"
@@ -262,6 +264,64 @@ PovShape pov_shape(const SurfacePtr& surface, const std::string& name, const Pov
   return pov_shape(tessellate(*surface, tolerance(bounds(*surface), name, options, notes)));
 }
 
+namespace {
+
+// The straight column over what a loop of the plane encloses, from one unit below the plane to one above; nothing for
+// curves other than whole circles and straight lines.
+std::optional<std::string> column(const Body& body, const Loop& loop, const Frame& frame) {
+  std::vector<Vec3> corners;
+  for (const int index : loop.coedges) {
+    const Coedge& coedge = body.coedges[index];
+    const auto* circle = dynamic_cast<const Circle*>(coedge.image.get());
+    if (circle != nullptr && loop.coedges.size() == 1 && is_turn(circle->domain())) {
+      const Vec3 center = frame.point(circle->frame().origin);
+      return fmt::format("cylinder {{ {}, {}, {} }}", pov(center - frame.z), pov(center + frame.z), circle->radius());
+    }
+    std::vector<CurvePiece> pieces = coedge.image->pieces();
+    if (!coedge.forward) std::reverse(pieces.begin(), pieces.end());
+    for (const CurvePiece& piece : pieces) {
+      if (!piece.is_rational() || piece.degree() != 1) return std::nullopt;
+      corners.push_back(coedge.image->point(coedge.forward ? piece.domain.lo : piece.domain.hi));
+    }
+  }
+  corners.push_back(corners.front());
+  // POV-Ray's prisms stand on its xz plane.
+  std::string text = fmt::format("prism {{ linear_spline -1, 1, {}", corners.size());
+  for (const Vec3& corner : corners) text += fmt::format(", <{}, {}>", corner.x, corner.y);
+  return text + pov(Affine{Mat3(frame.x, frame.z, frame.y), frame.origin}) + " }";
+}
+
+// Parts of one plane between loops: the plane clipped by the columns over them.
+std::optional<PovShape> trimmed_plane(const Body& body) {
+  const auto* plane = dynamic_cast<const Plane*>(body.faces[0].surface.get());
+  if (plane == nullptr || body.is_closed()) return std::nullopt;
+  std::string parts;
+  for (const Face& face : body.faces) {
+    if (face.surface != body.faces[0].surface || !face.trimmed) return std::nullopt;
+    std::string columns;
+    for (const int loop : face.loops) {
+      const auto text = column(body, body.loops[loop], plane->frame());
+      if (!text) return std::nullopt;
+      columns += "\n    " + *text;
+    }
+    parts += face.loops.size() == 1 ? columns : fmt::format("\n    difference {{{} }}", columns);
+  }
+  if (body.faces.size() > 1) parts = fmt::format("\n    union {{{} }}", parts);
+  std::string text = pov_plane(plane->frame().z, plane->frame().origin);
+  text.erase(text.rfind(" }"));
+  return PovShape{text + fmt::format("\n  clipped_by {{{} }}", parts), plane->frame()};
+}
+
+bool has_straight_edges(const Body& body) {
+  return std::all_of(body.edges.begin(), body.edges.end(), [](const Edge& edge) {
+    const std::vector<CurvePiece> pieces = edge.curve->pieces();
+    return std::all_of(pieces.begin(), pieces.end(),
+                       [](const CurvePiece& piece) { return piece.is_rational() && piece.degree() == 1; });
+  });
+}
+
+}  // namespace
+
 PovShape pov_shape(const Body& body, const std::string& name, const PovOptions& options, PovNotes& notes) {
   Affine place;
   if (is_box(body, place)) {
@@ -273,6 +333,7 @@ PovShape pov_shape(const Body& body, const std::string& name, const PovOptions& 
   }
   if (body.faces.size() == 1 && !body.faces[0].trimmed)
     if (const auto text = meridian_surface(*body.faces[0].surface)) return {*text, {}};
+  if (const auto shape = trimmed_plane(body)) return *shape;
   const ConeSurface* side = nullptr;
   bool all_flat = true;
   int flat = 0;
@@ -286,7 +347,7 @@ PovShape pov_shape(const Body& body, const std::string& name, const PovOptions& 
   if (side != nullptr && side->bounded() && static_cast<size_t>(flat) + 1 == body.faces.size() &&
       flat == (radius_at(*side, side->domain().v.lo) != 0) + (radius_at(*side, side->domain().v.hi) != 0))
     if (const auto text = cone(*side, false)) return {*text, {}};
-  if (all_flat) {
+  if (all_flat && has_straight_edges(body)) {
     Mesh mesh = tessellate(body, {});
     for (Mesh::Triangle& t : mesh.triangles) t.normal = {-1, -1, -1};
     return pov_shape(mesh);

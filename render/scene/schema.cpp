@@ -223,6 +223,8 @@ Json SchemaWriter::single(const FieldType& type) {
       return array_of({{"type", {"number", "string"}}}, 2, 2);
     case Kind::texts:
       return one_or_list({{"type", "string"}});
+    case Kind::command:
+      return one_or_list({{"type", {"string", "number"}}});
     case Kind::page_lengths:
       return one_or_list(ref("page_length"));
     case Kind::anchor:

@@ -37,7 +37,7 @@ Style style_of(const Fields& fields, std::string_view field) { return complete(f
 
 TypeDeclaration style_type() {
   TypeDeclaration type =
-      declare(Category::style, "style", "How lines, markers and texts of drawings look. All lengths are on the page.")
+      declare(Category::style, "style", "How lines, markers and texts look. All lengths are on the page.")
           .example("width: 0.5 mm, color: crimson");
   return type.optional("width", page_length().non_negative().at_most(50), "of lines")
       .optional("color", color().non_negative().or_word({"cycle"}),

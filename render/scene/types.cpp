@@ -6,6 +6,7 @@
 namespace lekalo::render {
 
 std::vector<TypeDeclaration> file_types();
+std::vector<TypeDeclaration> external_types();
 std::vector<TypeDeclaration> material_types();
 std::vector<TypeDeclaration> texture_types();
 std::vector<TypeDeclaration> light_types();
@@ -25,8 +26,8 @@ std::vector<TypeDeclaration> scene_types() { return {group_type(), object_type()
 const std::vector<TypeDeclaration>& all_types() {
   static const std::vector<TypeDeclaration> types = [] {
     std::vector<TypeDeclaration> all = geometry::geometry_types();
-    for (auto family : {file_types, scene_types, material_types, texture_types, light_types, camera_types,
-                        integrator_types, helper_types, annotation_types}) {
+    for (auto family : {file_types, external_types, scene_types, material_types, texture_types, light_types,
+                        camera_types, integrator_types, helper_types, annotation_types}) {
       std::vector<TypeDeclaration> some = family();
       all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     }

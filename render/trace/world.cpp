@@ -184,6 +184,10 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
   return point;
 }
 
+// Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
+// them.
+constexpr double kLeastCell = 1;
+
 bool is_drawn_only(const Entity& entity) {
   return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
 }
@@ -230,6 +234,19 @@ struct World::Compiled {
     return tolerance;
   }
 
+  // The area below which cells of a surface with these bounds are not cut, in the space of its leaf.
+  double least_cell(const geometry::Box3& box, const Affine& to_world) const {
+    if (!camera || box.empty() || !box.bounded()) return 0;
+    double pixel = camera->pixel_size(to_world.point(box.center()));
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 at(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                    corner & 4 ? box.hi.z : box.lo.z);
+      pixel = std::min(pixel, camera->pixel_size(to_world.point(at)));
+    }
+    const double side = std::sqrt(kLeastCell) * pixel / geometry::largest_stretch(to_world);
+    return side > 0 ? side * side : 0;
+  }
+
   // The planes that cut an object, in the space of its leaf.
   static std::vector<CutPlane> cuts_of(const Object& object, const Affine& to_world) {
     const Affine to_leaf = to_world.inverse();
@@ -244,8 +261,21 @@ struct World::Compiled {
     return std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; });
   }
 
-  void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) const {
-    into.add(compile(object, number, to_world));
+  void count_method(const geometry::LineMethod& method) {
+    auto& methods = statistics.methods;
+    auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == method.name; });
+    if (found == methods.end()) found = methods.insert(found, {std::string(method.name)});
+    ++found->count;
+    found->pieces += method.pieces;
+    found->bytes += method.bytes;
+  }
+
+  void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) {
+    Leaf leaf = compile(object, number, to_world);
+    for (const auto& target : leaf.targets)
+      count_method({target->method(), static_cast<size_t>(target->piece_count()), target->memory()});
+    if (leaf.shape) count_method(leaf.shape->method());
+    into.add(std::move(leaf));
     const auto* body = std::get_if<BodyPtr>(&object.shape);
     if (!body || object.representation != Representation::mesh || !has_caps(object)) return;
     // A mesh knows no inside: its caps are those of the exact body.
@@ -295,7 +325,8 @@ struct World::Compiled {
             }
             leaf.targets.resize(set.size());
             tbb::parallel_for(tbb::blocked_range<size_t>(0, set.size()), [&](const tbb::blocked_range<size_t>& part) {
-              for (size_t i = part.begin(); i < part.end(); ++i) leaf.targets[i] = geometry::make_line_target(set[i]);
+              for (size_t i = part.begin(); i < part.end(); ++i)
+                leaf.targets[i] = geometry::make_line_target(set[i], nullptr, least_cell(bounds(*set[i]), to_world));
             });
             leaf.signs.assign(set.size(), 1);
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
@@ -305,7 +336,7 @@ struct World::Compiled {
               leaf.clips.clear();
               leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object, to_world), false);
             } else {
-              leaf.targets = geometry::make_line_targets(*shape);
+              leaf.targets = geometry::make_line_targets(*shape, least_cell(bounds(*shape), to_world));
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
             }
           } else if constexpr (std::is_same_v<T, MeshPtr>) {
@@ -435,6 +466,8 @@ void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
 }
 
 const Object& World::object(const SurfacePoint& point) const { return *compiled_->objects[point.object]; }
+
+const std::vector<const Object*>& World::objects() const { return compiled_->objects; }
 
 const Material& World::material(const SurfacePoint& point, bool front) const {
   const Object& object = this->object(point);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/scene/model.h"
@@ -19,6 +20,14 @@ struct WorldStatistics {
   size_t triangles = 0;
   size_t instances = 0;
   size_t bytes = 0;
+  // How lines meet the surfaces and shapes, by name: those of one method together.
+  struct Method {
+    std::string name;
+    size_t count = 0;  // of surfaces and shapes
+    size_t pieces = 0;
+    size_t bytes = 0;
+  };
+  std::vector<Method> methods;
   double build_seconds = 0;
 };
 
@@ -49,6 +58,8 @@ class World {
 
   // The object that a point belongs to, which may stand in a group.
   const Object& object(const SurfacePoint& point) const;
+  // All objects by the number that points carry, those without surfaces too: groups before their members.
+  const std::vector<const Object*>& objects() const;
   const Material& material(const SurfacePoint& point, bool front) const;
   // True if some material lets light through, so that what occludes may only tint.
   bool has_transmitting_materials() const;

@@ -1,4 +1,4 @@
-"""The guides do what they say. A block of yaml, csv or json whose first line is `# NAME` is saved as NAME (without that
+"""The guides do what they say. A block of yaml, csv, json or python whose first line is `# NAME` is saved as NAME (without that
 line in JSON and CSV); each line of a block of sh is run in the same folder, in order, and must end with the exit code of
 its remark `# exit N`, else 0; lines of a block of text must stand in the output of the command before it."""
 
@@ -18,11 +18,11 @@ class Guides(ProgramTest):
         output = ""
         commands = set()
         for language, text in BLOCK.findall((ROOT / guide).read_text()):
-            name = re.match(r"# (\S+\.(?:yaml|json|csv))$", text.splitlines()[0])
-            if language in ("yaml", "csv", "json") and name:
+            name = re.match(r"# (\S+\.(?:yaml|json|csv|py))$", text.splitlines()[0])
+            if language in ("yaml", "csv", "json", "python") and name:
                 path = self.folder / name[1]
                 path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(text if name[1].endswith("yaml") else text.split("\n", 1)[1])
+                path.write_text(text if name[1].endswith(("yaml", "py")) else text.split("\n", 1)[1])
                 if name[1].endswith("json"):
                     json.loads(path.read_text())
             elif language == "sh":

@@ -24,6 +24,18 @@ image: { size: [64, 48], samples: 4 }
 """
 
 
+FORMULAS = """
+lekalo: 1
+geometry:
+  shell: { type: formula_surface, point: [u*cos(v), u*sin(v), sin(3*u) + 0.2*v], domain: { u: [0, 2], v: [0, 2*pi] } }
+  waves: { type: implicit, formula: sin(3*x)*cos(y) - z, box: { min: [2, -1, -2], max: [4, 1, 2] } }
+  cubic: { type: implicit, formula: x^3 + y^3 + z^3 - 1, ball: { radius: 2 } }
+  globe: { type: sphere_surface, center: [5, 0, 0], radius: 1 }
+objects: [{ shape: shell }, { shape: waves }, { shape: cubic, transform: { translate: [0, 4, 0] } }, { shape: globe }]
+image: { size: [64, 48], samples: 1 }
+"""
+
+
 class Pictures(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -39,6 +51,15 @@ class Pictures(ProgramTest):
         self.assertEqual(self.bytes_of("1.png"), self.bytes_of("2.png"))
         self.assertTrue(self.bytes_of("1.exr").startswith(b"\x76\x2f\x31\x01"))
         self.assertTrue(self.bytes_of("1.png").startswith(b"\x89PNG"))
+
+    def test_formulas(self):
+        """The cells that lines are met through do not depend on the threads; --stats tells of them."""
+        self.write("scene.yaml", FORMULAS)
+        for threads in 1, 2:
+            _, notes = self.render("--threads", threads, "-o", f"{threads}.exr", "--stats")
+            for method in "enclosed pieces", "implicit cells", "polynomial on the line", "closed form":
+                self.assertRegex(notes, f"lines met by +{method}: 1 surface or shape, [1-9][0-9]* pieces, [0-9.]+ MiB")
+        self.assertEqual(self.bytes_of("1.exr"), self.bytes_of("2.exr"))
 
     def test_direct_and_mesh_agree(self):
         """At a sag of 0.05 pixels; of the mean FLIP error over the picture."""

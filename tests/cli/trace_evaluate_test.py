@@ -25,6 +25,7 @@ SURFACES = {
     "nurbs_surface": f"points: [{NET}], degree: 2",
     "formula_surface": "point: ['(2 + cos(v))*cos(u)', '(2 + cos(v))*sin(u)', sin(v) + 0.3*sin(3*u)], "
                        "domain: { u: [0, 2*pi], v: [0, 2*pi] }, closed: true",
+    "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 
 
@@ -68,6 +69,9 @@ class TraceThenEvaluate(ProgramTest):
         teapot = ROOT / "scenes/data/newell_teapot.txt"
         self.check(["teapot"], 0, 6, f"lekalo: 1\ngeometry: {{ teapot: {{ type: patches, file: '{teapot}' }} }}\n",
                    [0, 0, 1.2])
+        self.check(["sheet"], 0, 20, "lekalo: 1\ngeometry: { sheet: { type: trimmed_surface, of: { type: torus_surface, "
+                   "major_radius: 1, minor_radius: 0.5 }, keep: outside, loops: [{ type: circle, radius: 0.7 }] } }\n",
+                   [0, 0, 0])
         self.check(["wedge"], 0, 6, "lekalo: 1\ngeometry: { wedge: { type: wedge, size: [2, 3, 1], top: 1 } }\n",
                    [0.5, 1, 0.5])
 

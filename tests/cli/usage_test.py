@@ -70,11 +70,11 @@ geometry:
   s: { type: bezier_surface, points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]] }
 objects:
   - { shape: { type: group, of: { shape: c } } }
-  - { shape: s, show: control_net }
+  - { shape: s, lines: { boundary: thin, silhouette: thin }, show: { control_net: {}, de_casteljau: { u: 0.5, v: 0.5 } } }
 drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
 """)
         _, notes = self.run_program("render", "figure.yaml", "--size", "20x10")
-        self.assertIn("note: not in the picture, but in drawings: curves and points, helpers (show), annotations\n", notes)
+        self.assertIn("note: not in the picture, but in drawings: lines (silhouette), helpers (de_casteljau), annotations\n", notes)
         self.write("ball.yaml", BALL)
         self.assertNotIn("note:", self.run_program("render", "ball.yaml", "--size", "20x10")[1])
 

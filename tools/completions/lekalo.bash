@@ -20,14 +20,14 @@ _lekalo() {
       words='render make compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --frames --watch --resume --quiet --stats --stamp' ;;
+        render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
-        test) words='--filter --jobs --threads --isa --accept --reason --report --junit --json --quiet' ;;
-        check) words='--set' ;;
-        measure) words='--topology --against --tolerance --set --json' ;;
-        evaluate) words='--at --face --order --set --json' ;;
-        trace) words='--ray --rays --set --json' ;;
-        export) words='--format --sag --patch-steps --flatness -o --output --set --quiet' ;;
+        test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
+        check) words='--set --allow-external' ;;
+        measure) words='--topology --against --tolerance --samples --order --set --allow-external --json' ;;
+        evaluate) words='--at --face --order --set --allow-external --json' ;;
+        trace) words='--ray --rays --set --allow-external --json' ;;
+        export) words='--format --sag --patch-steps --flatness -o --output --set --allow-external --quiet' ;;
         types) words='--markdown' ;;
         schema) words='--suite' ;;
       esac

@@ -15,7 +15,7 @@ commands=(
   'schema:print the JSON Schema of scene files'
   'types:list or describe the types of scene files'
 )
-scene=('*--set[set a parameter]:name=value' '--help[show help]')
+scene=('*--set[set a parameter]:name=value' '--allow-external[let the scene run foreign code]' '--help[show help]')
 picture=(
   '*'{-o,--output}'[output file]:file:_files' '--representation[of every object]:kind:(direct mesh)'
   '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)'
@@ -38,11 +38,11 @@ case $command in
   compare) _arguments '--metric[what to measure]:metric:(flip rmse psnr ssim max)' '--threshold[largest difference]:number' \
     '--layer[layer of EXR files]:name' '--report[HTML report]:folder:_files -/' '--json[print JSON]' '--quiet[print errors only]' \
     '--help[show help]' '*:image:_files -g "*.(exr|png)"' ;;
-  test) _arguments '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)' '--accept[new golden image]:name' \
+  test) _arguments '--allow-external[let scenes run foreign code]' '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)' '--accept[new golden image]:name' \
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
   check) _arguments $scene '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples]:file:_files' '--tolerance[largest distance that passes]:number' '--json[print JSON]' \
+  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \

@@ -12,7 +12,8 @@ void add_check(CLI::App& app, Action& action) {
   options->add_to(*sub);
   sub->callback([&action, options] {
     action = [options]() -> int {
-      const render::LoadedScene scene = options->load();
+      const render::LoadedScene scene = render::load_scene(options->file, options->load_options());
+      print_external_notes(scene, true);
       fmt::print("{}: good: {} entities, {} objects, {} lights\n", options->file, scene.model->geometry.size(),
                  scene.model->objects.size(), scene.model->lights.size());
       return kDone;

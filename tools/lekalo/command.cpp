@@ -11,10 +11,12 @@ namespace lekalo::command {
 void SceneOptions::add_to(CLI::App& app) {
   app.add_option("scene", file, "scene file")->required()->type_name("FILE");
   app.add_option("--set", set, "value of a parameter, e.g. --set w=4; repeatable")->type_name("NAME=VALUE");
+  add_allow_external(app, allow_external);
 }
 
 render::LoadOptions SceneOptions::load_options() const {
   render::LoadOptions options;
+  options.allow_external = allow_external;
   for (const std::string& one : set) {
     const size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -24,7 +26,23 @@ render::LoadOptions SceneOptions::load_options() const {
   return options;
 }
 
-render::LoadedScene SceneOptions::load() const { return render::load_scene(file, load_options()); }
+render::LoadedScene SceneOptions::load() const {
+  render::LoadedScene scene = render::load_scene(file, load_options());
+  print_external_notes(scene, false);
+  return scene;
+}
+
+void add_allow_external(CLI::App& app, bool& allow_external) {
+  app.add_flag("--allow-external", allow_external,
+               "let the scene run code from outside the program: libraries and commands that it names");
+}
+
+void print_external_notes(const render::LoadedScene& scene, bool all) {
+  for (const render::ExternalNote& note : scene.external_notes) {
+    if (all) fmt::print(stderr, "note: {}: {}\n", note.place, note.text);
+    for (const std::string& doubt : note.doubts) fmt::print(stderr, "warning: {}: {}\n", note.place, doubt);
+  }
+}
 
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name) {
   const auto& geometry = scene.model->geometry;

@@ -18,11 +18,19 @@ enum Exit { kDone = 0, kDiffers = 1, kUsage = 2, kSceneError = 3, kFileError = 4
 struct SceneOptions {
   std::string file;
   std::vector<std::string> set;  // name=value
+  bool allow_external = false;
 
   void add_to(CLI::App& app);
   render::LoadOptions load_options() const;
+  // Tells doubts about what external functions say.
   render::LoadedScene load() const;
 };
+
+// The option --allow-external.
+void add_allow_external(CLI::App& app, bool& allow_external);
+
+// Writes doubts about external functions, and with `all` how each is met, to stderr.
+void print_external_notes(const render::LoadedScene& scene, bool all);
 
 // What the scene's geometry calls `name`; throws UsageError with the nearest name if there is none.
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "command.h"
@@ -30,7 +31,6 @@ void put_centroid(ordered_json& out, const Vec3& centroid, double error) {
 void put(ordered_json& out, const MassProperties& mass) {
   put(out, "area", mass.area);
   out["closed"] = mass.closed;
-  // An open shell bounds nothing.
   if (!mass.closed) return;
   put(out, "volume", mass.volume);
   put_centroid(out, mass.centroid, mass.centroid_error);
@@ -45,11 +45,9 @@ void put(ordered_json& out, const geometry::SurfaceMeasures& measures) {
   put_centroid(out, measures.centroid, measures.centroid_error);
 }
 
-geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
+geometry::SurfaceMeasures sum_of(const std::vector<geometry::SurfaceMeasures>& parts) {
   geometry::SurfaceMeasures sum;
-  std::vector<geometry::SurfaceMeasures> parts;
-  for (const geometry::SurfacePtr& surface : set) {
-    const geometry::SurfaceMeasures& one = parts.emplace_back(geometry::measure(*surface));
+  for (const geometry::SurfaceMeasures& one : parts) {
     sum.area.value += one.area.value;
     sum.area.error += one.area.error;
     sum.centroid += one.area.value * one.centroid;
@@ -63,20 +61,72 @@ geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
   return sum;
 }
 
+geometry::SurfaceMeasures measure_set(const render::SurfaceSet& set) {
+  std::vector<geometry::SurfaceMeasures> parts;
+  for (const geometry::SurfacePtr& surface : set) parts.push_back(geometry::measure(*surface));
+  return sum_of(parts);
+}
+
+// An open shell bounds nothing: it has an area and a centroid as a surface has.
+void put_body(ordered_json& out, const geometry::Body& body) {
+  const MassProperties mass = geometry::measure(body);
+  put(out, mass);
+  if (mass.closed) return;
+  std::vector<geometry::SurfaceMeasures> parts;
+  for (int face = 0; face < static_cast<int>(body.faces.size()); ++face)
+    parts.push_back(geometry::measure_face(body, face));
+  const geometry::SurfaceMeasures sum = sum_of(parts);
+  put_centroid(out, sum.centroid, sum.centroid_error);
+}
+
+// Places in each direction where two curves or surfaces are compared.
+constexpr int kSamples = 65;
+
 struct Options {
   SceneOptions scene;
   std::string name, against;
   std::optional<double> tolerance;
+  std::optional<int> samples, order;
   bool topology = false, json = false;
 };
 
+// Whether what --against names is a thing of the scene; else it is a file.
+bool is_in_scene(const render::LoadedScene& scene, const std::string& against) {
+  return scene.model->geometry.contains(against);
+}
+
+// A name without an ending that no file has was meant to be that of a thing of the scene.
+void check_table_name(const render::LoadedScene& scene, const std::string& against) {
+  std::error_code ignored;
+  const std::filesystem::path path(against);
+  if (!path.has_extension() && !path.has_parent_path() && !std::filesystem::exists(path, ignored))
+    find_geometry(scene, against);
+}
+
+ordered_json as_json(const std::vector<render::ExternalNote>& notes) {
+  ordered_json list = ordered_json::array();
+  for (const render::ExternalNote& note : notes)
+    list.push_back({{"place", note.place}, {"fit", note.text}, {"doubts", note.doubts}});
+  return list;
+}
+
 int run(const Options& options) {
-  if (options.tolerance && options.against.empty()) throw UsageError("--tolerance belongs to --against SAMPLES.csv");
-  const render::LoadedScene scene = options.scene.load();
+  if (options.tolerance && options.against.empty())
+    throw UsageError("--tolerance belongs to --against SAMPLES.csv or --against NAME");
+  const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
+  print_external_notes(scene, !options.json);
+  const bool of_pair = !options.against.empty() && is_in_scene(scene, options.against);
+  if ((options.samples || options.order) && !of_pair)
+    throw UsageError("--samples and --order belong to --against NAME, another curve or surface of the scene");
   ordered_json out;
   void (*print)(const ordered_json&) = print_measures;
-  if (!options.against.empty()) {
+  if (of_pair) {
+    out = compare_pair(options.name, entity, options.against, find_geometry(scene, options.against),
+                       options.samples.value_or(kSamples), options.order.value_or(2), options.tolerance);
+    print = print_pair;
+  } else if (!options.against.empty()) {
+    check_table_name(scene, options.against);
     out = compare_with_table(options.name, entity, load_table(options.against), options.against, options.tolerance);
     print = print_comparison;
   } else if (options.topology) {
@@ -85,6 +135,7 @@ int run(const Options& options) {
   } else {
     out = measures(options.name, entity);
   }
+  if (options.json && !scene.external_notes.empty()) out["external"] = as_json(scene.external_notes);
   if (options.json)
     fmt::print("{}\n", out.dump(2));
   else
@@ -111,7 +162,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       put(out, measure_set(*set));
     } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
       out["kind"] = "body";
-      put(out, geometry::measure(**body));
+      put_body(out, **body);
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       out["kind"] = "mesh";
       put(out, geometry::measure(**mesh));
@@ -156,18 +207,25 @@ void add_measure(CLI::App& app, Action& action) {
       "Examples:\n"
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
-      "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n\n"
+      "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
+      "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
       "moments.\n"
-      "Exit code 1 if a sample is farther away than the tolerance.");
+      "Exit code 1 if a sample is farther away than the tolerance; of two curves or surfaces, if points, derivatives, "
+      "tangents or normals differ by more.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
-  sub->add_option("--against", options->against, "table of points with columns t,x,y,z or u,v,x,y,z")
-      ->type_name("FILE")
+  sub->add_option("--against", options->against,
+                  "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
+                  "domain is mapped linearly")
+      ->type_name("FILE|NAME")
       ->excludes(topology);
-  sub->add_option("--tolerance", options->tolerance, "largest distance that passes")->type_name("X");
+  sub->add_option("--tolerance", options->tolerance, "largest difference that passes")->type_name("X");
+  sub->add_option("--samples", options->samples, fmt::format("places in each direction [{}]", kSamples))
+      ->check(CLI::Range(2, 10000));
+  sub->add_option("--order", options->order, "compare derivatives up to this order [2]")->check(CLI::Range(0, 2));
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });
 }

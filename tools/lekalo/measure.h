@@ -24,4 +24,11 @@ ordered_json compare_with_table(const std::string& name, const render::Entity& e
                                 const std::string& table_name, std::optional<double> tolerance);
 void print_comparison(const ordered_json& compared);
 
+// How far two curves or two surfaces of one scene differ at the same parameters: points, derivatives up to `order`
+// (0..2), unit tangents or normals, each with the place where it is worst. `samples` places in each direction, the ends
+// of the domain among them. "passed" tells whether none is above the tolerance, if there is one.
+ordered_json compare_pair(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                          const render::Entity& other, int samples, int order, std::optional<double> tolerance);
+void print_pair(const ordered_json& compared);
+
 }  // namespace lekalo::command

@@ -13,6 +13,7 @@
 #include "render/image/display.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
+#include "render/lines/strokes.h"
 
 namespace lekalo::command {
 
@@ -68,22 +69,11 @@ void check_writable(const std::vector<render::OutputFile>& files) {
 }
 
 std::string left_to_drawings(const render::Model& model) {
-  bool thin = false, lines = false, helpers = false;
-  const auto look = [&](auto&& self, const std::vector<render::Object>& objects) -> void {
-    for (const render::Object& object : objects) {
-      thin = thin || std::holds_alternative<geometry::CurvePtr>(object.shape) ||
-             std::holds_alternative<geometry::Vec3>(object.shape);
-      lines = lines || (object.look && object.look->lines);
-      helpers = helpers || (object.look && !object.look->helpers.empty());
-      if (const auto* group = std::get_if<render::GroupPtr>(&object.shape)) self(self, (*group)->objects);
-    }
-  };
-  look(look, model.objects);
+  std::vector<std::string> left = render::left_to_drawings(model.objects);
+  if (!model.drawing.annotations.empty()) left.push_back("annotations");
+  if (!model.panels.empty()) left.push_back("panels");
   std::string names;
-  for (const auto& [there, name] :
-       {std::pair(thin, "curves and points"), std::pair(lines, "lines"), std::pair(helpers, "helpers (show)"),
-        std::pair(!model.drawing.annotations.empty(), "annotations"), std::pair(!model.panels.empty(), "panels")})
-    if (there) names += (names.empty() ? "" : ", ") + std::string(name);
+  for (const std::string& name : left) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 

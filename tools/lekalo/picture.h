@@ -28,7 +28,7 @@ void add_metadata(render::RenderResult& result, const render::Model& model, cons
 // Throws ImageError if one of the files could not be written: before hours of tracing, not after.
 void check_writable(const std::vector<render::OutputFile>& files);
 
-// What the scene shows that only drawings have: "curves and points, annotations"; empty if there is nothing.
+// What the scene shows that only drawings have: "lines (silhouette), annotations"; empty if there is nothing.
 std::string left_to_drawings(const render::Model& model);
 
 // EXR, or PNG by the output's display transform. Atomic. Throws ImageError.

@@ -51,11 +51,15 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
   const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
+  fmt::print(stderr, "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB)\n", built,
+             world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576);
+  for (const auto& method : world.methods)
+    fmt::print(stderr, "lines met by     {}: {} {}, {} pieces, {:.2f} MiB\n", method.name, method.count,
+               method.count == 1 ? "surface or shape" : "surfaces and shapes", method.pieces,
+               static_cast<double>(method.bytes) / 1048576);
   fmt::print(stderr,
-             "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB)\n"
              "trace            {:.3f} s\n"
              "rays             {} camera, {} shadow, {} other: {:.3f} Mrays/s\n",
-             built, world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576,
              result.seconds, result.camera_rays, result.shadow_rays, result.other_rays,
              static_cast<double>(rays) / std::max(result.seconds, 1e-9) / 1e6);
 }
@@ -142,6 +146,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
   if (!options.quiet && first)
     for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
+  if (first && (!options.quiet || options.stats)) print_external_notes(scene, options.stats);
   if (const std::string missing = left_to_drawings(*model); !options.quiet && first && !missing.empty())
     fmt::print(stderr, "note: not in the picture, but in drawings: {}\n", missing);
   if (!options.crop.empty()) set_crop(options.crop, *model);

@@ -44,14 +44,16 @@ struct Judged {
 Judged judge_picture(const render::Suite& suite, const render::SuiteTest& test);
 
 // Renders, looks at the numbers and, if `judge`, at the picture.
-TestResult run_test(const render::Suite& suite, const render::SuiteTest& test, int threads, bool judge);
+TestResult run_test(const render::Suite& suite, const render::SuiteTest& test, int threads, bool judge,
+                    bool allow_external);
 
 // --- suite_run.cpp: all tests, each in a process of its own, so that one that hangs or crashes is only itself lost.
 
 struct RunOptions {
   std::vector<std::string> selected;  // tests to judge; others are run only where one of these needs their picture
   int jobs = 1;
-  int threads = 0;  // of each test; 0: the cores shared by the jobs
+  int threads = 0;              // of each test; 0: the cores shared by the jobs
+  bool allow_external = false;  // scenes may run code from outside the program
   std::function<void(const TestResult&)> finished;
 };
 

@@ -24,8 +24,9 @@ using render::SuiteTest;
 
 namespace {
 
-render::LoadedScene load(const SuiteTest& test) {
+render::LoadedScene load(const SuiteTest& test, bool allow_external) {
   render::LoadOptions options;
+  options.allow_external = allow_external;
   options.set_parameters = test.set;
   for (const fs::path& file : test.includes) options.includes.push_back(file);
   return render::load_scene(test.scene, options);
@@ -115,7 +116,7 @@ Judged judge_picture(const Suite& suite, const SuiteTest& test) {
   return judged;
 }
 
-TestResult run_test(const Suite& suite, const SuiteTest& test, int threads, bool judge) {
+TestResult run_test(const Suite& suite, const SuiteTest& test, int threads, bool judge, bool allow_external) {
   TestResult result;
   result.name = test.name;
   const auto fail = [&](Verdict verdict, std::string message) {
@@ -124,7 +125,7 @@ TestResult run_test(const Suite& suite, const SuiteTest& test, int threads, bool
     result.messages.push_back(std::move(message));
   };
   try {
-    const render::LoadedScene scene = load(test);
+    const render::LoadedScene scene = load(test, allow_external);
     for (const Expectation& expected : test.expectations) {
       if (!judge) break;
       std::vector<std::string> messages;

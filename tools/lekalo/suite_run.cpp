@@ -156,7 +156,8 @@ void SuiteRun::start(size_t test) {
     signal(SIGTERM, SIG_DFL);
     close(ends[0]);
     const SuiteTest& own = suite_.tests[test];
-    write_all(ends[1], packed(run_test(suite_, own, options_.threads, selected_.count(own.name) > 0)));
+    write_all(ends[1],
+              packed(run_test(suite_, own, options_.threads, selected_.count(own.name) > 0, options_.allow_external)));
     _exit(0);
   }
   close(ends[1]);

@@ -20,6 +20,7 @@ struct Options {
   std::string suite, report, junit, reason;
   std::vector<std::string> filters, accept;
   int jobs = 1;
+  bool allow_external = false;
   bool json = false, quiet = false;
 };
 
@@ -94,6 +95,7 @@ int run(const Options& options) {
   run.selected = selected(options, suite);
   run.jobs = options.jobs;
   run.threads = options.engine.threads;
+  run.allow_external = options.allow_external;
   size_t width = 0;
   for (const std::string& name : run.selected) width = std::max(width, name.size());
   run.finished = [&](const TestResult& result) {
@@ -130,6 +132,7 @@ void add_test(CLI::App& app, Action& action) {
       ->type_name("PATTERN");
   sub->add_option("--jobs", options->jobs, "tests at a time [1]")->check(CLI::Range(1, 1024));
   options->engine.add_to(*sub);
+  add_allow_external(*sub, options->allow_external);
   sub->add_option("--report", options->report, "write a page with all pictures and figures")->type_name("DIR");
   sub->add_option("--junit", options->junit, "write the results as JUnit XML")->type_name("FILE");
   sub->add_option("--accept", options->accept, "make the last run's picture of this test golden; repeatable")

@@ -70,8 +70,8 @@ ordered_json trace(const render::World& world, const Line& line) {
     one["face"] = hit.face;
     one["face_name"] = face.empty() ? ordered_json(nullptr) : ordered_json(face);
     one["t"] = hit.t / length;
-    one["u"] = hit.u;
-    one["v"] = hit.v;
+    one["u"] = point.u;
+    one["v"] = point.v;
     one["point"] = to_json(point.position);
     one["normal"] = to_json(point.normal);
     one["geometric_normal"] = to_json(point.geometric_normal);

@@ -47,6 +47,7 @@ TEST(Primitives, CountsOfTheBook) {
   expect_counts(frustum(kTilted, 2, 0, 3), 2, 2, 2, 2, 2);
   expect_counts(frustum(kTilted, 0, 2, 3), 2, 2, 2, 2, 2);
   expect_counts(ball(kTilted, 2), 1, 1, 2, 1, 2);
+  expect_counts(arrow_body(kTilted, 4, 0.2, 1, 0.5), 4, 5, 4, 5, 2);
   expect_counts(pyramid(kTilted, {{0, 0}, {1, 0}, {0, 1}}, {0, 0, 1}), 4, 6, 4, 4, 2);
 }
 
@@ -111,6 +112,14 @@ TEST(Primitives, ImpossibleDimensionsAreRefused) {
   EXPECT_THROW(frustum(Frame{}, 0, 0, 1), std::invalid_argument);
   EXPECT_THROW(frustum(Frame{}, 1, 1, -1), std::invalid_argument);
   EXPECT_THROW(pyramid(Frame{}, kArrow, {0, 0, -1}), std::invalid_argument);
+  EXPECT_THROW(arrow_body(Frame{}, 1, 0.1, 1, 0.2), std::invalid_argument);
+  EXPECT_THROW(arrow_body(Frame{}, 1, 0.2, 0.5, 0.2), std::invalid_argument);
+}
+
+// Cylinder and cone.
+TEST(Primitives, VolumeOfAnArrow) {
+  const double volume = kPi * (0.2 * 0.2 * 3 + 0.5 * 0.5 * 1 / 3);
+  EXPECT_NEAR(measure(arrow_body(kTilted, 4, 0.2, 1, 0.5)).volume.value, volume, 1e-12 * volume);
 }
 
 bool names_condition(const Body& body, const std::string& part) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -183,6 +184,42 @@ TEST(Expression, jets_and_intervals_are_those_of_the_formula) {
   for (int k = 0; k < 6; ++k) EXPECT_TRUE(box.c[k].contains(jet.c[k])) << k;
   EXPECT_LT(box.c[0].width(), 0.3);
   EXPECT_TRUE(e(Interval(0.2, 0.4), Interval(0.3, 0.5)).contains(e(0.25, 0.45)));
+}
+
+// All operations that a program treats in a way of its own: with constants on either side, powers, sines with cosines.
+TEST(Expression, programs_of_several_formulas_share_their_parts) {
+  const std::vector<std::string> texts{"sin(u)*cos(u) + cos(v)/sin(v) + 2*sin(2*u) - cos(2*u)",
+                                       "3 - u*v + (u*v)^2 - (v*u)^3/5 + (u + v)^-2 + v/4 + 4/v - 2",
+                                       "(sin(u) + 1)^5*2^3 - pi*cos(v + pi/2) + u*u + (v - 2)*(1 - 0.5*u)",
+                                       "7*2 + 0*3"};
+  std::vector<Expression> formulas;
+  for (const std::string& text : texts) formulas.push_back(bound(text, {{"u"}, {"v"}}));
+  const FormulaProgram program(formulas);
+  const double u = 0.7, v = 0.4, s = std::sin(u), c = std::cos(u), w = u * v;
+  const std::array<double, 4> expected{
+      s * c + std::cos(v) / std::sin(v) + 2 * std::sin(2 * u) - std::cos(2 * u),
+      3 - w + w * w - w * w * w / 5 + 1 / ((u + v) * (u + v)) + v / 4 + 4 / v - 2,
+      std::pow(s + 1, 5) * 8 - kPi * std::cos(v + kPi / 2) + u * u + (v - 2) * (1 - 0.5 * u), 14};
+  std::array<double, 4> values{};
+  program.evaluate(std::span<const double>(std::array{u, v}), std::span<double>(values));
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(values[k], expected[k], 1e-13) << k;
+  using Pair = Jet2<double, 1>;
+  std::array<Gradient<double>, 4> gradients;
+  std::array<Interval, 4> boxes;
+  program.evaluate(
+      std::span<const Gradient<double>>(std::array{Gradient<double>::variable(u, 0), Gradient<double>::variable(v, 2)}),
+      std::span<Gradient<double>>(gradients));
+  program.evaluate(std::span<const Interval>(std::array{Interval(u - 1e-3, u), Interval(v, v + 1e-3)}),
+                   std::span<Interval>(boxes));
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_TRUE(boxes[k].contains(values[k])) << k;
+    EXPECT_LT(boxes[k].width(), 0.5) << k;
+    const Pair jet = formulas[k](Pair::u_variable(u), Pair::v_variable(v));
+    EXPECT_DOUBLE_EQ(gradients[k].c[0], values[k]) << k;
+    EXPECT_NEAR(gradients[k].c[1], jet.c[1], 1e-13 * (1 + std::abs(jet.c[1]))) << k;
+    EXPECT_EQ(gradients[k].c[2], 0) << k;
+    EXPECT_NEAR(gradients[k].c[3], jet.c[2], 1e-13 * (1 + std::abs(jet.c[2]))) << k;
+  }
 }
 
 TEST(Expression, intervals_keep_open_questions_open) {

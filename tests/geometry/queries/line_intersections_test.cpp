@@ -176,6 +176,7 @@ TEST(LineIntersections, BodiesAreMetAnEvenNumberOfTimes) {
   expect_even(frustum(Frame(), 2, 0, 3), "cone");
   expect_even(frustum(Frame(), 2, 1, 3), "frustum");
   expect_even(torus_body(Frame(), 3, 1), "torus");
+  expect_even(arrow_body(Frame(), 3, 0.4, 1.5, 1), "arrow");
   expect_even(prism(Frame(), {{0, 0}, {2, 0}, {2.5, 1}, {1, 2}, {-0.5, 1}}, 2), "prism");
   expect_even(pyramid(Frame(), {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0, 2}), "pyramid");
 }
@@ -200,6 +201,7 @@ TEST(LineIntersections, LinesThroughEdgesAndVerticesStayEven) {
       {"cylinder", cylinder_body(skew, 1, 2)},
       {"frustum", frustum(skew, 2, 1, 3)},
       {"cone", frustum(skew, 2, 0, 3)},
+      {"arrow", arrow_body(skew, 3, 0.4, 1.5, 1)},
       {"torus", torus_body(skew, 3, 1)}};
   for (const auto& [name, body] : bodies) {
     const LineIntersector intersector(body);

@@ -140,5 +140,106 @@ TEST(FormulaSurface, LinesMeetEnneperWhereTheOracleSays) {
   });
 }
 
+using Polynomial = std::vector<long double>;  // by powers of t
+
+Polynomial product(const Polynomial& a, const Polynomial& b) {
+  Polynomial result(a.size() + b.size() - 1);
+  for (size_t i = 0; i < a.size(); ++i)
+    for (size_t j = 0; j < b.size(); ++j) result[i + j] += a[i] * b[j];
+  return result;
+}
+Polynomial sum(const Polynomial& a, const Polynomial& b, long double factor) {
+  Polynomial result(std::max(a.size(), b.size()));
+  for (size_t i = 0; i < a.size(); ++i) result[i] += a[i];
+  for (size_t i = 0; i < b.size(); ++i) result[i] += factor * b[i];
+  return result;
+}
+
+// The changes of sign between lo and hi: between two neighbouring zeros of the derivative there is at most one.
+std::vector<long double> zeros(const Polynomial& p, long double lo, long double hi) {
+  if (p.size() < 2) return {};
+  const auto value = [&](long double t) {
+    long double result = 0;
+    for (size_t i = p.size(); i > 0; --i) result = result * t + p[i - 1];
+    return result;
+  };
+  Polynomial slope;
+  for (size_t i = 1; i < p.size(); ++i) slope.push_back(static_cast<long double>(i) * p[i]);
+  std::vector<long double> ends = zeros(slope, lo, hi), result;
+  ends.insert(ends.begin(), lo);
+  ends.push_back(hi);
+  for (size_t i = 0; i + 1 < ends.size(); ++i) {
+    long double a = ends[i], b = ends[i + 1];
+    const bool rising = value(a) < 0;
+    if (rising == (value(b) < 0)) continue;
+    for (int step = 0; step < 80; ++step) {
+      const long double middle = (a + b) / 2;
+      ((value(middle) < 0) == rising ? a : b) = middle;
+    }
+    result.push_back((a + b) / 2);
+  }
+  return result;
+}
+
+std::array<Polynomial, 3> coordinates(const Line& line) {
+  std::array<Polynomial, 3> result;
+  for (int k = 0; k < 3; ++k) result[k] = {line.origin[k], line.direction[k]};
+  return result;
+}
+
+TEST(FormulaSurface, LinesMeetWhitneysUmbrellaWhereItsEquationSays) {
+  const auto umbrella = std::make_shared<FormulaSurface>(surface({"u*v", "u", "v^2"}, {{-1.2, 1.2}, {-1.2, 1.2}}));
+  compare(*umbrella, umbrella, tests::tier_count(20000), [](const Line& line) {
+    const auto [x, y, z] = coordinates(line);
+    std::vector<double> result;
+    for (const long double t : zeros(sum(product(x, x), product(product(y, y), z), -1), -100, 100)) {
+      const Vec3 p = line.at(static_cast<double>(t));
+      if (std::abs(p.y) <= 1.2 && std::abs(p.x) <= 1.2 * std::abs(p.y)) result.push_back(static_cast<double>(t));
+    }
+    return result;
+  });
+}
+
+TEST(FormulaSurface, LinesMeetSteinersRomanSurfaceWhereItsEquationSays) {
+  const auto roman = std::make_shared<FormulaSurface>(surface(
+      {"cos(u)*cos(v)*sin(v)", "sin(u)*cos(v)*sin(v)", "cos(u)*sin(u)*cos(v)^2"}, {{0, kPi}, {-0.5 * kPi, 0.5 * kPi}}));
+  compare(*roman, roman, tests::tier_count(20000), [](const Line& line) {
+    const auto [x, y, z] = coordinates(line);
+    const Polynomial xx = product(x, x), yy = product(y, y), zz = product(z, z);
+    const Polynomial squares = sum(sum(product(xx, yy), product(yy, zz), 1), product(zz, xx), 1);
+    std::vector<double> result;
+    for (const long double t : zeros(sum(squares, product(product(x, y), z), -1), -100, 100))
+      result.push_back(static_cast<double>(t));
+    return result;
+  });
+}
+
+// A closed surface is met an even number of times, on one side or on two.
+TEST(FormulaSurface, LinesMeetClosedSurfacesAnEvenNumberOfTimes) {
+  const std::string below = "/(2 - sqrt(2)*sin(3*u)*sin(2*v))";
+  const std::vector<FormulaSurface> all{
+      klein_bottle(), surface({"(sqrt(2)*cos(v)^2*cos(2*u) + cos(u)*sin(2*v))" + below,
+                               "(sqrt(2)*cos(v)^2*sin(2*u) - sin(u)*sin(2*v))" + below, "3*cos(v)^2" + below},
+                              {{-0.5 * kPi, 0.5 * kPi}, {0, kPi}}, {false, true})};
+  for (const FormulaSurface& one : all) {
+    const auto target = std::make_shared<FormulaSurface>(one);
+    const LineIntersector intersector(target);
+    const double size = bounds(one).diameter();
+    std::mt19937_64 random(11);
+    int hits = 0, odd = 0;
+    const int lines = tests::tier_count(40000);
+    for (int i = 0; i < lines; ++i) {
+      const Vec3 d = checks::random_direction(random);
+      const Vec2 place = checks::random_place(one.domain(), random);
+      const Vec3 aim = one.point(place.x, place.y) + 0.1 * checks::random_direction(random);
+      const int found = static_cast<int>(intersector.all_hits({aim - 2 * size * d, d}).size());
+      hits += found;
+      odd += found % 2;
+    }
+    EXPECT_GT(hits, lines);
+    EXPECT_EQ(odd, 0);
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::geometry

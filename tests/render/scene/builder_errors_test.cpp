@@ -80,6 +80,27 @@ TEST(BuilderErrors, CapsAreForBodies) {
             "2:96 a cap closes the cut of a body; this shape has no inside\n");
 }
 
+TEST(BuilderErrors, LoopsThatTrimNothing) {
+  const auto trimmed = [](const std::string& loops) {
+    return "{ type: trimmed_surface, of: { type: plane, size: [2, 2] }, loops: " + loops + " }";
+  };
+  EXPECT_EQ(about(trimmed("{ type: circle, radius: 0.5 }")), "");
+  EXPECT_EQ(about(trimmed("{ type: circle, radius: 2 }")),
+            "3:73 curve 0 leaves the domain of the surface at (1.41421, 1.41421)\n");
+  EXPECT_EQ(
+      about(trimmed("[{ type: segment, from: [0, 0], to: [1, 0] }, { type: segment, from: [1, 0], to: [1, 1] }]")),
+      "3:73 the loop that begins with curve 0 is open: it ends at (1, 1) and began at (0, 0)\n");
+  EXPECT_EQ(
+      about(trimmed("[{ type: circle, radius: 0.5 }, { type: circle, center: [0.3, 0], radius: 0.5 }]")).substr(0, 68),
+      "3:73 the loops that begin with curve 0 and curve 1 cross near (0.15,");
+}
+
+TEST(BuilderErrors, SurfacesThatBoundNoSolid) {
+  EXPECT_EQ(about("{ type: intersection, of: [{ type: cylinder_surface, radius: 1, height: 2 }] }").substr(0, 86),
+            "3:32 this surface bounds no solid: it is open: 2 of its edges are free, one of them at");
+  EXPECT_EQ(about("{ type: intersection, of: [{ type: torus_surface, major_radius: 2, minor_radius: 1 }] }"), "");
+}
+
 TEST(BuilderErrors, WrongKinds) {
   EXPECT_EQ(about("{ type: circle, radius: [1, 2] }"), "3:30 expected a number or a formula, found a list\n");
   EXPECT_EQ(about("{ type: ball, radius: 1, center: [1] }"), "3:39 a point has 2 or 3 coordinates, found 1\n");

@@ -1,0 +1,378 @@
+#include "geometry/bodies/trimmed_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bodies/construct.h"
+#include "geometry/curves/surface_curve.h"
+#include "geometry/describe.h"
+#include "geometry/tessellation/predicates.h"
+#include "geometry/tolerances.h"
+#include "geometry/transformed.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Sides of the polygon that stands for a smooth piece where loops are looked at for crossings and for which lies in
+// which.
+constexpr int kSides = 32;
+
+std::string text_of(const Vec2& p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
+
+struct Loop2 {
+  std::vector<Body::Use> uses;  // edges are numbers of curves
+  std::vector<Vec2> polygon;    // closed: the last goes on with the first
+  Box3 box;                     // of the polygon
+  double area = 0;              // positive where it runs counterclockwise
+  int depth = 0;                // loops around it
+  int around = -1;              // the innermost of them
+};
+
+class Trimming {
+ public:
+  Trimming(const SurfacePtr& surface, const std::vector<Curve2Ptr>& curves, bool outside)
+      : surface_(surface), curves_(curves) {
+    for (const Curve2Ptr& curve : curves_) size_ = std::max(size_, bounds(*curve).diameter());
+    for (size_t k = 0; k < curves_.size(); ++k) check_place(k);
+    chain();
+    if (outside) add_border();
+    for (Loop2& loop : loops_) outline(loop);
+    check_crossings();
+    check_areas();
+    nest();
+  }
+
+  Body body() const;
+
+ private:
+  std::string name(size_t curve) const { return fmt::format("curve {}", curve); }
+  Vec2 begin(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().lo)); }
+  Vec2 end(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().hi)); }
+  bool coincide(const Vec2& a, const Vec2& b) const { return glm::length(a - b) <= kClosedCurve * size_; }
+
+  // The border of the domain as one more loop. Where the surface is closed it is cut open beside the loops, and these
+  // are moved by whole periods to lie between.
+  void add_border() {
+    if (!surface_->bounded())
+      throw TrimError("the surface is unbounded: it has no border for its outside to end at",
+                      "keep the inside, or give the surface a domain");
+    Rectangle d = surface_->domain();
+    const Periods periods = surface_->periods();
+    const auto is_closed = [](const Interval& range, double period) {
+      return period > 0 && range.width() >= period * (1 - kDomainSlack);
+    };
+    if (is_closed(d.u, periods.u)) cut_open(0, periods.u, d.u);
+    if (is_closed(d.v, periods.v)) cut_open(1, periods.v, d.v);
+    const Vec2 corners[] = {{d.u.lo, d.v.lo}, {d.u.hi, d.v.lo}, {d.u.hi, d.v.hi}, {d.u.lo, d.v.hi}};
+    Loop2& border = loops_.emplace_back();
+    for (int k = 0; k < 4; ++k) {
+      curves_.push_back(image_line({0, 1}, corners[k], corners[(k + 1) % 4]));
+      border.uses.push_back({static_cast<int>(curves_.size()) - 1, true, curves_.back()});
+    }
+  }
+
+  void cut_open(int axis, double period, Interval& range) {
+    // From the start of the range on, what the loops cover.
+    std::vector<Interval> covered;
+    for (const Loop2& loop : loops_) {
+      Box3 box;
+      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
+      const double lo = box.lo[axis] - period * std::floor((box.lo[axis] - range.lo) / period);
+      covered.push_back({lo, lo + box.hi[axis] - box.lo[axis]});
+    }
+    std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+    // The start itself if nothing lies across it, else the middle of the widest gap.
+    double end = range.lo, at = range.lo, widest = 0;
+    for (const Interval& one : covered) end = std::max(end, one.hi - period);
+    if (end > range.lo) {
+      for (const Interval& one : covered) {
+        if (one.lo - end > widest) {
+          widest = one.lo - end;
+          at = 0.5 * (one.lo + end);
+        }
+        end = std::max(end, one.hi);
+      }
+      if (!(widest > 0))
+        throw TrimError("the loops leave no gap where the closed surface could be cut open for its outside",
+                        "keep the inside, with a loop for the outer border");
+    }
+    range = {at, at + period};
+    for (Loop2& loop : loops_) {
+      Box3 box;
+      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
+      Vec3 by(0);
+      // The boxes are a little wide.
+      by[axis] = -period * std::floor((box.lo[axis] - at) / period + 1e-9);
+      if (by[axis] == 0) continue;
+      for (Body::Use& use : loop.uses) curves_[use.edge] = use.image = transformed(use.image, Affine::translation(by));
+    }
+  }
+
+  void check_place(size_t k) const {
+    const Curve& curve = *curves_[k];
+    const Box3 box = bounds(curve);
+    if (!box.bounded()) throw TrimError(name(k) + " is unbounded", "give it a domain");
+    if (std::max(std::abs(box.lo.z), std::abs(box.hi.z)) > 1e-12 * box.diameter())
+      throw TrimError(name(k) + " does not lie in the parameter plane", "its points are (u, v): z must be 0");
+    const Rectangle domain = surface_->domain();
+    const Periods periods = surface_->periods();
+    check_range(curve, k, 0, domain.u, periods.u, "u");
+    check_range(curve, k, 1, domain.v, periods.v, "v");
+  }
+
+  void check_range(const Curve& curve, size_t k, int axis, const Interval& domain, double period,
+                   const char* name_of_axis) const {
+    if (period > 0) {
+      const Box3 box = bounds(curve);
+      if (box.hi[axis] - box.lo[axis] > period * (1 + 1e-9))
+        throw TrimError(fmt::format("{} is wider in {} than the period {:.9g}", name(k), name_of_axis, period),
+                        "a loop may stand anywhere in a periodic direction, but must not overlap itself");
+      return;
+    }
+    const double slack = kDomainSlack * (domain.width() < kInfinity ? domain.width() : 0) + 1e-15 * std::abs(domain.lo);
+    const auto check = [&](auto&& self, const Interval& t, int depth) -> void {
+      const Box3 box = curve.enclose(t, 0).d[0];
+      if (box.lo[axis] >= domain.lo - slack && box.hi[axis] <= domain.hi + slack) return;
+      const Vec3 middle = curve.point(t.middle());
+      if (middle[axis] < domain.lo - slack || middle[axis] > domain.hi + slack)
+        throw TrimError(fmt::format("{} leaves the domain of the surface at {}", name(k), text_of(Vec2(middle))),
+                        fmt::format("{} goes from {:.9g} to {:.9g}", name_of_axis, domain.lo, domain.hi));
+      if (depth == 0) return;
+      self(self, {t.lo, t.middle()}, depth - 1);
+      self(self, {t.middle(), t.hi}, depth - 1);
+    };
+    constexpr int kDeepest = 12;
+    for (const CurvePiece& piece : curve.pieces()) check(check, piece.domain, kDeepest);
+  }
+
+  void chain() {
+    for (size_t k = 0; k < curves_.size();) {
+      Loop2& loop = loops_.emplace_back();
+      const size_t first = k;
+      loop.uses.push_back({static_cast<int>(k), true, curves_[k]});
+      Vec2 start = begin(k), at = end(k);
+      ++k;
+      while (!coincide(start, at)) {
+        if (k == curves_.size())
+          throw TrimError(fmt::format("the loop that begins with {} is open: it ends at {} and began at {}",
+                                      name(first), text_of(at), text_of(start)),
+                          "close it, or let the next curve begin where it ends");
+        bool forward = coincide(begin(k), at);
+        const bool backward = coincide(end(k), at);
+        if (!forward && !backward && k == first + 1) {
+          // The first may have to run backwards.
+          std::swap(start, at);
+          loop.uses[0].forward = false;
+          forward = coincide(begin(k), at);
+          if (!forward && !coincide(end(k), at)) std::swap(start, at);
+        }
+        if (!forward && !coincide(end(k), at))
+          throw TrimError(fmt::format("the loop that begins with {} is open: {} does not go on at {}", name(first),
+                                      name(k), text_of(at)),
+                          "close it, or let the next curve begin where it ends");
+        loop.uses.push_back({static_cast<int>(k), forward, curves_[k]});
+        at = forward ? end(k) : begin(k);
+        ++k;
+      }
+    }
+  }
+
+  void outline(Loop2& loop) const {
+    for (const Body::Use& use : loop.uses) {
+      std::vector<Vec2> points;
+      for (const CurvePiece& piece : use.image->pieces()) {
+        const int sides = piece.is_rational() && piece.degree() == 1 ? 1 : kSides;
+        for (int i = 0; i < sides; ++i)
+          points.push_back(Vec2(use.image->point(piece.domain.lo + piece.domain.width() * i / sides)));
+      }
+      if (!use.forward) {
+        points.erase(points.begin());
+        points.push_back(Vec2(use.image->point(use.image->domain().hi)));
+        std::reverse(points.begin(), points.end());
+      }
+      loop.polygon.insert(loop.polygon.end(), points.begin(), points.end());
+    }
+    for (const Vec2& p : loop.polygon) loop.box.include(Vec3(p, 0));
+    const Vec2 o = loop.polygon[0];
+    for (size_t i = 0; i < loop.polygon.size(); ++i) {
+      const Vec2 a = loop.polygon[i] - o, b = loop.polygon[(i + 1) % loop.polygon.size()] - o;
+      loop.area += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+  }
+
+  // Sides in the order of u; those that overlap in u are compared.
+  void check_crossings() const {
+    struct Side {
+      Vec2 a, b;
+      size_t loop, number;
+      double lo() const { return std::min(a.x, b.x); }
+      double hi() const { return std::max(a.x, b.x); }
+    };
+    std::vector<Side> sides;
+    for (size_t k = 0; k < loops_.size(); ++k) {
+      const std::vector<Vec2>& p = loops_[k].polygon;
+      for (size_t i = 0; i < p.size(); ++i) sides.push_back({p[i], p[(i + 1) % p.size()], k, i});
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.lo() < b.lo(); });
+    // Whether p and q lie on different sides of a line.
+    const auto parts = [](const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
+      const double at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
+      return (at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0);
+    };
+    for (size_t i = 0; i < sides.size(); ++i) {
+      const Side& s = sides[i];
+      for (size_t j = i + 1; j < sides.size() && sides[j].lo() <= s.hi(); ++j) {
+        const Side& r = sides[j];
+        if (std::max(r.a.y, r.b.y) < std::min(s.a.y, s.b.y) || std::min(r.a.y, r.b.y) > std::max(s.a.y, s.b.y))
+          continue;
+        if (!parts(s.a, s.b, r.a, r.b) || !parts(r.a, r.b, s.a, s.b)) continue;
+        // Where one curve goes on with the next rounding may make neighbours cross.
+        const size_t apart = s.number > r.number ? s.number - r.number : r.number - s.number;
+        if (s.loop == r.loop && (apart == 1 || apart + 1 == loops_[s.loop].polygon.size())) continue;
+        const std::string place = text_of(0.25 * (s.a + s.b + r.a + r.b));
+        const auto loop_name = [&](const Side& side) { return name(loops_[side.loop].uses[0].edge); };
+        if (s.loop == r.loop)
+          throw TrimError(fmt::format("the loop that begins with {} crosses itself near {}", loop_name(s), place), "");
+        const bool in_order = s.loop < r.loop;
+        throw TrimError(fmt::format("the loops that begin with {} and {} cross near {}", loop_name(in_order ? s : r),
+                                    loop_name(in_order ? r : s), place),
+                        "loops lie inside or beside each other");
+      }
+    }
+  }
+
+  static bool is_in(const Vec2& p, const std::vector<Vec2>& polygon) {
+    bool inside = false;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if ((a.y <= p.y) == (b.y <= p.y)) continue;
+      if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
+    }
+    return inside;
+  }
+
+  void check_areas() const {
+    for (const Loop2& loop : loops_)
+      if (!(std::abs(loop.area) > 1e-14 * size_ * size_))
+        throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
+  }
+
+  // Loops may touch: of the points of one that do not lie on the other's border most decide.
+  bool lies_in(const Loop2& inner, const Loop2& outer) const {
+    if (std::abs(inner.area) >= std::abs(outer.area) || !outer.box.contains(inner.box.center())) return false;
+    size_t inside = 0;
+    for (const Vec2& p : inner.polygon) inside += is_in(p, outer.polygon) ? 1 : 0;
+    return 2 * inside > inner.polygon.size();
+  }
+
+  void nest() {
+    for (size_t k = 0; k < loops_.size(); ++k)
+      for (size_t j = 0; j < loops_.size(); ++j) {
+        if (j == k || !lies_in(loops_[k], loops_[j])) continue;
+        ++loops_[k].depth;
+        int& around = loops_[k].around;
+        if (around < 0 || std::abs(loops_[j].area) < std::abs(loops_[around].area)) around = static_cast<int>(j);
+      }
+  }
+
+  SurfacePtr surface_;
+  std::vector<Curve2Ptr> curves_;
+  double size_ = 0;
+  std::vector<Loop2> loops_;
+};
+
+Body Trimming::body() const {
+  Body result;
+  std::vector<int> edge_of(curves_.size());
+  const Box3 box = bounds(*surface_);
+  const double length = box.bounded() ? box.diameter() : 0;
+  const auto add_edges = [&](const Loop2& loop) {
+    const auto place = [&](const Body::Use& use) {
+      const Interval t = use.image->domain();
+      return Vec2(use.image->point(use.forward ? t.lo : t.hi));
+    };
+    // Along a pole the surface stays at one point.
+    std::vector<char> is_pole;
+    std::vector<int> vertices;
+    for (const Body::Use& use : loop.uses) {
+      const Vec2 p = place(use);
+      const Vec3 at = surface_->point(p.x, p.y);
+      const bool after_pole = !is_pole.empty() && is_pole.back() != 0;
+      vertices.push_back(after_pole ? vertices.back() : result.add_vertex(at));
+      bool pole = true;
+      for (const double part : {0.13, 0.31, 0.5, 0.69, 0.87, 1.0}) {
+        const Interval t = use.image->domain();
+        const Vec3 q = use.image->point(t.lo + part * t.width());
+        pole = pole && glm::length(surface_->point(q.x, q.y) - at) <= kCollapsedEdge * length;
+      }
+      is_pole.push_back(pole);
+    }
+    if (is_pole.back()) vertices.back() = vertices.front();
+    for (size_t i = 0; i < loop.uses.size(); ++i) {
+      const Body::Use& use = loop.uses[i];
+      const int from = vertices[i], to = vertices[(i + 1) % vertices.size()];
+      const Origin origin{"", "edge", use.edge};
+      edge_of[use.edge] = is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point),
+                                                       from, from, origin, EdgeKind::pole)
+                                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image),
+                                                       use.forward ? from : to, use.forward ? to : from, origin);
+    }
+  };
+  for (const Loop2& loop : loops_) add_edges(loop);
+  const auto add_loop = [&](int face, const Loop2& loop, bool counterclockwise) {
+    std::vector<Body::Use> uses = loop.uses;
+    if ((loop.area > 0) != counterclockwise) {
+      std::reverse(uses.begin(), uses.end());
+      for (Body::Use& use : uses) use.forward = !use.forward;
+    }
+    for (Body::Use& use : uses) use.edge = edge_of[use.edge];
+    result.add_loop(face, uses);
+  };
+  // The face lies on the left of its loops, seen against its normal.
+  const bool upright = surface_->normal_sign() > 0;
+  for (size_t k = 0; k < loops_.size(); ++k) {
+    if (loops_[k].depth % 2 != 0) continue;
+    const int face = result.add_face(surface_, true, {"", "face", static_cast<int>(result.faces.size())});
+    add_loop(face, loops_[k], upright);
+    for (const Loop2& hole : loops_)
+      if (hole.around == static_cast<int>(k) && hole.depth % 2 != 0) add_loop(face, hole, !upright);
+  }
+  result.close_shell(false);
+  return result;
+}
+
+}  // namespace
+
+Body trimmed_surface(const SurfacePtr& surface, const std::vector<Curve2Ptr>& curves, bool outside) {
+  return Trimming(surface, curves, outside).body();
+}
+
+TypeDeclaration trimmed_surface_type() {
+  return declare(Category::body, "trimmed_surface",
+                 "The part of a surface inside loops of its parameter plane: an outer border, holes in it, islands in "
+                 "these. Faces: face.0, face.1, ...")
+      .example(
+          "of: { type: cylinder_surface, radius: 1, height: 2 }, loops: [{ type: circle, center: [3, 0.5], radius: 0.4 "
+          "}, "
+          "{ type: circle, center: [3, 0.5], radius: 0.1 }]")
+      .field("of", reference({Category::surface}), "the surface")
+      .field("loops", references({Category::curve}).count(1),
+             "curves of the parameter plane, x being u and y being v: closed ones, and chains of curves of which each "
+             "goes on where the one before ends; in any order and sense")
+      .field("keep", choice({"inside", "outside"}),
+             "what to keep: inside the outermost loops, or outside of them up to the surface's own border", "inside")
+      .built_by([](const Fields& f) -> BodyPtr {
+        std::vector<Curve2Ptr> curves;
+        for (const std::any& one : f.references("loops")) curves.push_back(std::any_cast<const CurvePtr&>(one));
+        try {
+          return std::make_shared<Body>(trimmed_surface(f.surface("of"), curves, f.text("keep") == "outside"));
+        } catch (const TrimError& error) {
+          throw FieldError("loops", error.what(), error.hint);
+        }
+      });
+}
+
+}  // namespace lekalo::geometry

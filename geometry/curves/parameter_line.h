@@ -1,0 +1,32 @@
+// Parameter lines of surfaces: s(a, t) with u held at a, or s(t, a) with v held (Golovanov 2016, 3.1).
+#pragma once
+
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+enum class HeldParameter { u, v };
+
+// A parameter line over the surface's domain, its parameter being the other of u and v.
+class ParameterLine final : public Curve {
+ public:
+  // Throws std::invalid_argument for a surface that is unbounded that way, or `at` outside of its domain.
+  ParameterLine(SurfacePtr surface, HeldParameter held, double at);
+
+  Interval domain() const override { return domain_; }
+  double period() const override;
+  // Throws std::invalid_argument for an order above kMaxSurfaceOrder.
+  CurveJet evaluate(double t, int order) const override;
+  CurveEnclosure enclose(const Interval& t, int order) const override;
+  std::vector<CurvePiece> pieces() const override;
+
+ private:
+  bool holds_u() const { return held_ == HeldParameter::u; }
+
+  SurfacePtr surface_;
+  HeldParameter held_;
+  double at_;
+  Interval domain_;
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,111 @@
+#include "render/external/library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include "geometry/describe.h"
+#include "include/lekalo/external.h"
+
+namespace lekalo::render {
+
+namespace fs = std::filesystem;
+using geometry::ExternalError;
+using geometry::FieldError;
+
+namespace {
+
+struct Library {
+  void* handle = nullptr;
+  std::mutex one_at_a_time;
+
+  explicit Library(const fs::path& path) : handle(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (handle) return;
+    const char* reason = dlerror();
+    throw FieldError("library", fmt::format("cannot be loaded: {}", reason ? reason : "no reason given"),
+                     "a shared library for this machine, with all that it needs: cc -shared -fPIC -o NAME.so ...");
+  }
+  ~Library() { dlclose(handle); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+};
+
+std::shared_ptr<Library> open_library(const fs::path& path) {
+  static std::mutex mutex;
+  static std::map<fs::path, std::weak_ptr<Library>> opened;
+  const fs::path full = fs::weakly_canonical(path);
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<Library>& known = opened[full];
+  std::shared_ptr<Library> library = known.lock();
+  if (!library) known = library = std::make_shared<Library>(full);
+  return library;
+}
+
+class LibraryFunction final : public geometry::ExternalFunction {
+ public:
+  LibraryFunction(std::shared_ptr<Library> library, void* symbol, std::string name, int parameter_count,
+                  std::vector<double> numbers, bool concurrent)
+      : library_(std::move(library)),
+        symbol_(symbol),
+        name_(std::move(name)),
+        parameter_count_(static_cast<size_t>(parameter_count)),
+        numbers_(std::move(numbers)),
+        concurrent_(concurrent) {
+    numbers_.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  void evaluate(std::span<const double> places, int order, std::span<double> values) const override {
+    std::unique_lock lock(library_->one_at_a_time, std::defer_lock);
+    if (!concurrent_) lock.lock();
+    const size_t count = places.size() / parameter_count_;
+    const size_t each = count > 0 ? values.size() / count : 0;
+    // What the function forgets to write must not be taken for numbers.
+    std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
+    for (size_t i = 0; i < count; ++i) {
+      const std::span<const double> place = places.subspan(i * parameter_count_, parameter_count_);
+      const int code = call(place, order, values.data() + i * each);
+      if (code == 0) continue;
+      throw ExternalError(
+          fmt::format("'{}' returned {} at {}, order {}", name_, code, geometry::place_text(place), order));
+    }
+  }
+
+ private:
+  int call(std::span<const double> place, int order, double* out) const {
+    try {
+      if (parameter_count_ == 1) return reinterpret_cast<lekalo_curve*>(symbol_)(numbers_.data(), place[0], order, out);
+      return reinterpret_cast<lekalo_surface*>(symbol_)(numbers_.data(), place[0], place[1], order, out);
+    } catch (const std::exception& error) {
+      throw ExternalError(
+          fmt::format("'{}' threw an exception at {}: {}", name_, geometry::place_text(place), error.what()));
+    } catch (...) {
+      throw ExternalError(fmt::format("'{}' threw an exception at {}", name_, geometry::place_text(place)));
+    }
+  }
+
+  std::shared_ptr<Library> library_;
+  void* symbol_;
+  std::string name_;
+  size_t parameter_count_;
+  std::vector<double> numbers_;
+  bool concurrent_;
+};
+
+}  // namespace
+
+std::shared_ptr<const geometry::ExternalFunction> load_function(const fs::path& path, const std::string& name,
+                                                                int parameter_count, std::vector<double> numbers,
+                                                                bool concurrent) {
+  std::shared_ptr<Library> library = open_library(path);
+  void* symbol = dlsym(library->handle, name.c_str());
+  if (!symbol)
+    throw FieldError("function", fmt::format("there is no function '{}' in {}", name, path.filename().string()),
+                     "'nm -D --defined-only' lists what a library offers; functions of C++ need extern \"C\"");
+  return std::make_shared<LibraryFunction>(std::move(library), symbol, name, parameter_count, std::move(numbers),
+                                           concurrent);
+}
+
+}  // namespace lekalo::render

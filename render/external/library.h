@@ -1,0 +1,20 @@
+// Functions of shared libraries (include/lekalo/external.h), loaded while the program runs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/external_function.h"
+
+namespace lekalo::render {
+
+// The function `name` of `parameter_count` parameters (1: lekalo_curve, 2: lekalo_surface) from a library, which is
+// loaded once for all its functions and stays as long as one of them. `numbers` are what it gets as its first argument.
+// Calls of one library come one at a time unless `concurrent`. Throws geometry::FieldError (library, function).
+std::shared_ptr<const geometry::ExternalFunction> load_function(const std::filesystem::path& library,
+                                                                const std::string& name, int parameter_count,
+                                                                std::vector<double> numbers, bool concurrent);
+
+}  // namespace lekalo::render

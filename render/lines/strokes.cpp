@@ -1,0 +1,420 @@
+#include "render/lines/strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/curves/parameter_line.h"
+#include "geometry/curves/polyline.h"
+#include "geometry/curves/segment.h"
+#include "render/scene/color_names.h"
+#include "render/scene/look.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kPixelsPerInch = 96;  // of pictures without a size on paper
+// Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
+constexpr double kSmoothEdge = 1e-3;
+// The colours of color: cycle; told apart with any kind of colour vision (Okabe, Ito 2008).
+constexpr const char* kPalette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                    "#e69f00", "#56b4e9", "#f0e442", "#000000"};
+
+const std::map<std::string, Mark::Sign, std::less<>> kSigns = {
+    {"dot", Mark::Sign::dot},           {"circle", Mark::Sign::circle},  {"ball", Mark::Sign::ball},
+    {"cross", Mark::Sign::cross},       {"plus", Mark::Sign::plus},      {"square", Mark::Sign::square},
+    {"triangle", Mark::Sign::triangle}, {"diamond", Mark::Sign::diamond}};
+
+// What pictures show of `lines`, in the order in which they are drawn over one another; and of `show`.
+constexpr const char* kLinesShown[] = {"parameter", "smooth", "sharp", "boundary", "curve"};
+constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "knots", "normals"};
+
+bool shows(std::span<const char* const> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// De Casteljau's and de Boor's triangles, which are shown of curves.
+bool is_triangle(const Helper& helper) { return helper.type == "de_casteljau" || helper.type == "de_boor"; }
+
+// Evenly spaced values with both ends of the range, or without the second where it is the first again.
+std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
+  std::vector<double> values;
+  if (asked.count == 1 && !periodic) return {range.middle()};
+  for (int i = 0; i < asked.count; ++i)
+    values.push_back(range.clamp(range.lo + range.width() * i / (periodic ? asked.count : asked.count - 1)));
+  for (const double value : asked.values)
+    if (range.contains(value)) values.push_back(value);
+  return values;
+}
+
+// True if the opposite edges of the domain are one line of space, which may run the other way there (a Moebius band).
+bool is_closed_in(const Surface& surface, HeldParameter held) {
+  const Rectangle domain = surface.domain();
+  const bool u = held == HeldParameter::u;
+  if (const double period = u ? surface.periods().u : surface.periods().v; period > 0)
+    return std::abs((u ? domain.u : domain.v).width() - period) <= 1e-9 * period;
+  const Interval &range = u ? domain.u : domain.v, &along = u ? domain.v : domain.u;
+  const auto at = [&](double held_at, double x) {
+    const double t = along.clamp(along.lo + x * along.width());
+    return u ? surface.point(held_at, t) : surface.point(t, held_at);
+  };
+  const double same = 1e-9 * bounds(surface).diameter();
+  bool meets = true, meets_turned = true;
+  for (const double x : {0.0, 0.25, 0.55, 0.8, 1.0}) {
+    const Vec3 first = at(range.lo, x);
+    meets = meets && glm::length(first - at(range.hi, x)) <= same;
+    meets_turned = meets_turned && glm::length(first - at(range.hi, 1 - x)) <= same;
+  }
+  return meets || meets_turned;
+}
+
+class Collector {
+ public:
+  explicit Collector(const World& world) : model_(world.model()) {
+    const double paper = model_.paper.width;
+    pixels_ = paper > 0 ? model_.film.width / paper : kPixelsPerInch / kMillimetresPerInch;
+    for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
+    if (const auto hidden = model_.styles.find("hidden"); hidden != model_.styles.end()) dashes_ = hidden->second.dash;
+    add(model_.objects, Affine());
+  }
+  LineWork take() { return std::move(work_); }
+
+ private:
+  void add(const std::vector<Object>& objects, const Affine& to_world) {
+    for (const Object& object : objects) {
+      const Affine map = to_world * object.transform;
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
+        add((*group)->objects, map);
+        continue;
+      }
+      if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
+      object_ = &object;
+      to_world_ = map;
+      const bool is_point = std::holds_alternative<Vec3>(object.shape),
+                 is_curve = std::holds_alternative<CurvePtr>(object.shape);
+      const bool says = object.look && object.look->lines;
+      if (says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
+      if (object.look)
+        for (const Helper& helper : object.look->helpers) add_helper(helper);
+    }
+  }
+
+  LineLook look_of(const Style& style) {
+    LineLook look;
+    const double width = style.width * pixels_;
+    look.half_width = 0.5 * std::max(width, 1.0);
+    look.opacity = style.opacity * std::min(width, 1.0);
+    look.color = rgb(color_of(style));
+    for (const double length : style.dash) look.dash.push_back(length * pixels_);
+    look.cap = style.cap == "round"    ? LineLook::Cap::round
+               : style.cap == "square" ? LineLook::Cap::square
+                                       : LineLook::Cap::butt;
+    return look;
+  }
+
+  // Of the palette, the next colour for each object that is drawn in the style.
+  Vec3 color_of(const Style& style) {
+    if (!style.cycles) return style.color;
+    auto& of_style = cycles_[style.name];
+    const size_t number = of_style.emplace(object_, of_style.size()).first->second;
+    return *hex_color(kPalette[number % std::size(kPalette)]);
+  }
+
+  std::optional<LineLook> hidden_of(const LineLook& seen, const HiddenLines& hidden) {
+    LineLook look = seen;
+    switch (hidden.way) {
+      case HiddenLines::Way::drop:
+        return std::nullopt;
+      case HiddenLines::Way::dashed:
+        look.dash.clear();
+        for (const double length : dashes_) look.dash.push_back(length * pixels_);
+        return look;
+      case HiddenLines::Way::thin:
+        look.opacity *= std::min(1.0, seen.half_width);
+        look.half_width = std::max(0.5, 0.5 * seen.half_width);
+        return look;
+      case HiddenLines::Way::faded:
+        look.opacity /= 3;
+        return look;
+      case HiddenLines::Way::styled:
+        return look_of(hidden.style);
+    }
+    return std::nullopt;
+  }
+
+  void stroke(CurvePtr curve, const Style& style, const HiddenLines& hidden) {
+    if (!(curve->domain().width() < kInfinity)) return;
+    Stroke stroke;
+    stroke.curve = std::move(curve);
+    stroke.to_world = to_world_;
+    stroke.look = look_of(style);
+    stroke.hidden = hidden_of(stroke.look, hidden);
+    stroke.object = numbers_.at(object_);
+    stroke.order = order_++;
+    work_.strokes.push_back(std::move(stroke));
+  }
+
+  void polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden) {
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    while (closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+    if (points.size() < 2) return;
+    stroke(std::make_shared<NurbsCurve>(polyline(points, closed && points.size() > 2)), style, hidden);
+  }
+
+  void mark(const Vec3& point, const std::string& sign, const Style& style, const HiddenLines& hidden) {
+    const auto found = kSigns.find(sign);
+    if (found == kSigns.end()) return;  // none
+    Mark mark;
+    mark.point = to_world_.point(point);
+    mark.sign = found->second;
+    mark.radius = std::max(0.5, 0.5 * style.marker_size * pixels_);
+    mark.line = look_of(style);
+    mark.line.opacity = style.opacity;
+    if (style.fill) mark.fill = rgb(*style.fill);
+    if (hidden.way != HiddenLines::Way::drop)
+      mark.hidden_opacity = mark.line.opacity * (hidden.way == HiddenLines::Way::faded ? 1.0 / 3 : 1.0);
+    mark.object = numbers_.at(object_);
+    mark.order = order_++;
+    work_.marks.push_back(mark);
+  }
+
+  void add_lines(const Lines& lines) {
+    const bool is_drawings_own = !object_->look || !object_->look->lines;
+    for (const char* kind : kLinesShown) {
+      const auto style = lines.styles.find(kind);
+      if (style != lines.styles.end())
+        add_kind(kind, style->second, lines);
+      else if (is_drawings_own && kind == std::string_view("curve"))
+        add_kind(kind, Style(), lines);  // a model made without a scene file
+    }
+  }
+
+  void add_kind(std::string_view kind, const Style& style, const Lines& lines) {
+    if (kind == "curve") {
+      if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(*curve, style, lines.hidden);
+      if (const auto* point = std::get_if<Vec3>(&object_->shape))
+        mark(*point, style.marker == "none" ? "dot" : style.marker, style, lines.hidden);
+    } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
+      add_edges(**body, kind, style, lines.hidden);
+    } else {
+      each_surface([&](const SurfacePtr& surface) {
+        if (kind == "boundary") add_boundary(surface, style, lines.hidden);
+        if (kind == "parameter")
+          for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
+            add_parameter_lines(surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style, lines.hidden);
+      });
+    }
+  }
+
+  template <class Visit>
+  void each_surface(const Visit& visit) const {
+    if (const auto* surface = std::get_if<SurfacePtr>(&object_->shape)) visit(*surface);
+    if (const auto* set = std::get_if<SurfaceSet>(&object_->shape))
+      for (const SurfacePtr& surface : *set) visit(surface);
+  }
+
+  void add_boundary(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
+    if (!surface->bounded()) return;
+    const Rectangle domain = surface->domain();
+    const DegenerateEdges edges = surface->degenerate_edges();
+    const auto edge = [&](HeldParameter held, double at) {
+      stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+    };
+    if (!is_closed_in(*surface, HeldParameter::u)) {
+      if (!edges.u_min) edge(HeldParameter::u, domain.u.lo);
+      if (!edges.u_max) edge(HeldParameter::u, domain.u.hi);
+    }
+    if (!is_closed_in(*surface, HeldParameter::v)) {
+      if (!edges.v_min) edge(HeldParameter::v, domain.v.lo);
+      if (!edges.v_max) edge(HeldParameter::v, domain.v.hi);
+    }
+  }
+
+  void add_parameter_lines(const SurfacePtr& surface, HeldParameter held, const ParameterValues& asked,
+                           const Style& style, const HiddenLines& hidden) {
+    if (!surface->bounded()) return;
+    const Rectangle domain = surface->domain();
+    const bool u = held == HeldParameter::u;
+    const DegenerateEdges edges = surface->degenerate_edges();
+    const Interval& range = u ? domain.u : domain.v;
+    for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
+      if ((at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max)))
+        continue;
+      stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+    }
+  }
+
+  void add_edges(const Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden) {
+    for (const Edge& edge : body.edges)
+      if (edge.kind == EdgeKind::regular && edge.curve && kind_of(body, edge) == kind)
+        stroke(edge.curve, style, hidden);
+  }
+
+  static std::string_view kind_of(const Body& body, const Edge& edge) {
+    if (edge.coedges.size() < 2) return "boundary";
+    const Interval domain = edge.curve->domain();
+    for (const double x : {0.23, 0.5, 0.81}) {
+      const double t = domain.lo + x * domain.width();
+      const auto normal = [&](int which) {
+        const Coedge& coedge = body.coedges[edge.coedges[which]];
+        const Vec3 uv = coedge.image->point(t);
+        return body.normal(body.loops[coedge.loop].face, uv.x, uv.y);
+      };
+      if (glm::length(normal(0) - normal(1)) > kSmoothEdge) return "sharp";
+    }
+    return "smooth";
+  }
+
+  void add_helper(const Helper& helper) {
+    const auto* curve = std::get_if<CurvePtr>(&object_->shape);
+    const std::string sign = helper.values.has("marker") ? helper.values.text("marker") : "none";
+    const auto marks = [&](const std::vector<Vec3>& points) {
+      for (const Vec3& point : points) mark(point, sign, helper.style, helper.hidden);
+    };
+    if (helper.type == "control_polygon" && curve) {
+      if (const auto form = (*curve)->as_nurbs()) {
+        const bool closed = (*curve)->period() > 0;
+        const std::vector<Vec3> points =
+            control_points(form->points, 0, 1, distinct(form->points.size(), form->degree, closed));
+        polygon(points, closed, helper.style, helper.hidden);
+        marks(points);
+      }
+    } else if (is_triangle(helper) && curve) {
+      if (const auto form = (*curve)->as_nurbs()) add_triangle(*form, sign, helper);
+    } else if (helper.type == "knots" && curve) {
+      if (const auto form = (*curve)->as_nurbs()) {
+        const std::set<double> knots(form->knots.begin(), form->knots.end());
+        std::vector<Vec3> points;
+        for (const double knot : knots)
+          if ((*curve)->domain().contains(knot)) points.push_back((*curve)->point(knot));
+        marks(points);
+      }
+    }
+    each_surface([&](const SurfacePtr& surface) {
+      const auto form = surface->as_nurbs();
+      if (helper.type == "control_net" && form) add_net(*form, surface->periods(), sign, helper);
+      if (helper.type == "knots" && form)
+        for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
+          const auto& list = held == HeldParameter::u ? form->knots_u : form->knots_v;
+          const std::set<double> knots(list.begin(), list.end());
+          add_parameter_lines(surface, held, {0, {knots.begin(), knots.end()}}, helper.style, helper.hidden);
+        }
+      if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
+    });
+  }
+
+  // De Boor's points of each level (Golovanov 2016, 2.9), which for a Bezier curve are de Casteljau's:
+  //
+  //   d_i^r = (1 - a) d_(i-1)^(r-1) + a d_i^(r-1),   a = (t - t_i)/(t_(i+p-r+1) - t_i)
+  void add_triangle(const NurbsCurveForm& form, const std::string& sign, const Helper& helper) {
+    const int p = form.degree, last = static_cast<int>(form.points.size()) - 1;
+    const double t = helper.values.number("t");
+    int span = p;
+    while (span < last && form.knots[span + 1] <= t) ++span;
+    std::vector<Vec4> points(form.points.begin() + (span - p), form.points.begin() + (span + 1));
+    for (int level = 1; level <= p; ++level) {
+      for (int k = p; k >= level; --k) {
+        const int i = span - p + k;
+        const double a = (t - form.knots[i]) / (form.knots[i + p - level + 1] - form.knots[i]);
+        points[k] = (1 - a) * points[k - 1] + a * points[k];
+      }
+      if (helper.values.has("levels")) {
+        const std::vector<double>& levels = helper.values.numbers("levels");
+        if (std::find(levels.begin(), levels.end(), level) == levels.end()) continue;
+      }
+      const std::vector<Vec3> shown = control_points(points, level, 1, p + 1 - level);
+      polygon(shown, false, helper.style, helper.hidden);
+      for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
+    }
+  }
+
+  // A periodic direction repeats its first points, as many as the degree.
+  static int distinct(size_t count, int degree, bool periodic) {
+    return static_cast<int>(count) - (periodic ? degree : 0);
+  }
+
+  static std::vector<Vec3> control_points(const std::vector<Vec4>& points, int first, int step, int count) {
+    std::vector<Vec3> result;
+    for (int i = 0; i < count; ++i) {
+      const Vec4& p = points[first + static_cast<size_t>(i) * step];
+      if (p.w != 0) result.push_back(Vec3(p) / p.w);  // else at infinity
+    }
+    return result;
+  }
+
+  void add_net(const NurbsSurfaceForm& form, const Periods& periods, const std::string& sign, const Helper& helper) {
+    const bool closed_u = periods.u > 0, closed_v = periods.v > 0;
+    const int rows = distinct(form.count_u(), form.degree_u, closed_u),
+              columns = distinct(form.count_v(), form.degree_v, closed_v);
+    std::vector<std::vector<Vec3>> all;
+    for (int i = 0; i < rows; ++i) {
+      all.push_back(control_points(form.points, i * form.count_v(), 1, columns));
+      polygon(all.back(), closed_v, helper.style, helper.hidden);
+    }
+    for (int j = 0; j < columns; ++j)
+      polygon(control_points(form.points, j, form.count_v(), rows), closed_u, helper.style, helper.hidden);
+    for (const std::vector<Vec3>& row : all)
+      for (const Vec3& point : row) mark(point, sign, helper.style, helper.hidden);
+  }
+
+  void add_normals(const Surface& surface, const Helper& helper) {
+    const Rectangle domain = surface.domain();
+    const double length = helper.values.number("length");
+    for (const double u :
+         values_in(helper.values.get<ParameterValues>("at_u"), domain.u, is_closed_in(surface, HeldParameter::u)))
+      for (const double v :
+           values_in(helper.values.get<ParameterValues>("at_v"), domain.v, is_closed_in(surface, HeldParameter::v))) {
+        const Vec3 foot = surface.point(u, v);
+        stroke(std::make_shared<Segment>(foot, foot + length * surface.normal(u, v)), helper.style, helper.hidden);
+      }
+  }
+
+  const Model& model_;
+  double pixels_ = 1;  // of a millimetre on the page
+  std::map<const Object*, int> numbers_;
+  std::vector<double> dashes_;  // of hidden lines, in millimetres
+  std::map<std::string, std::map<const Object*, size_t>> cycles_;
+  LineWork work_;
+  int order_ = 0;
+  // What is being added.
+  const Object* object_ = nullptr;
+  Affine to_world_;
+};
+
+}  // namespace
+
+LineWork line_work(const World& world) { return Collector(world).take(); }
+
+std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {
+  std::set<std::string> lines, helpers;
+  const auto visit = [&](const auto& self, const std::vector<Object>& list) -> void {
+    for (const Object& object : list) {
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects);
+      if (!object.look) continue;
+      if (object.look->lines)
+        for (const auto& [kind, style] : object.look->lines->styles)
+          if (!shows(kLinesShown, kind)) lines.insert(kind);
+      for (const Helper& helper : object.look->helpers)
+        if (!shows(kHelpersShown, helper.type) &&
+            !(is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape)))
+          helpers.insert(helper.type);
+    }
+  };
+  visit(visit, objects);
+  std::vector<std::string> result;
+  const auto add = [&](const char* what, const std::set<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    if (!text.empty()) result.push_back(std::string(what) + " (" + text + ")");
+  };
+  add("lines", lines);
+  add("helpers", helpers);
+  return result;
+}
+
+}  // namespace lekalo::render

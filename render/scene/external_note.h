@@ -1,0 +1,16 @@
+// What a scene's reader should know of shapes whose points code outside the program computes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lekalo::render {
+
+// One such curve or surface, as it was found to be (geometry::FitReport).
+struct ExternalNote {
+  std::string place;                // "scene.yaml:7"
+  std::string text;                 // how rays meet it, and how near that is
+  std::vector<std::string> doubts;  // derivatives that contradict the points
+};
+
+}  // namespace lekalo::render

@@ -1,0 +1,132 @@
+// Lines, marks, ribbons and arrows in scenes: what is collected from the objects, and what is said about wrong ones.
+#include <gtest/gtest.h>
+
+#include "render/lines/strokes.h"
+#include "render/scene/scene_text.h"
+
+namespace lekalo::render {
+namespace {
+
+std::string said_about(const std::string& map) {
+  const BuiltText text = build_text("geometry:\n  c: { type: circle, radius: 1 }\n  a: " + map + "\n");
+  return text.said + text.hints;
+}
+
+TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 0.1 }"), "");
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 0.1, on: { type: plane, size: [3, 3] } }"), "");
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 0 }"), "4:36 expected a value greater than 0, found 0\n\n");
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, across: norma }"),
+            "4:47 expected a direction, found 'norma'\nx, y, z, -x, -y, -z or components [a, b, c]\n");
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, across: x }"),
+            "4:47 the curve runs along this direction at t = 1.5708\nchoose one across the curve\n");
+  EXPECT_EQ(
+      said_about("{ type: ribbon, of: c, width: 1, across: z, twist: 90 }"),
+      "4:57 'twist' is of ribbons that turn no more than they must\nleave it out, or across: rotation_minimizing\n");
+  EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, on: { type: sphere_surface, radius: 3 } }"),
+            "4:43 the curve does not lie on the surface at t = 1.56586\nto lie flat it must lie on it\n");
+  EXPECT_EQ(said_about("{ type: ribbon, of: { type: polyline, points: [[0, 0], [1, 0], [1, 1]] }, width: 1 }"),
+            "4:26 the curve has a corner at t = 1\na ribbon follows smooth curves only\n");
+  EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1] }"), "");
+  EXPECT_EQ(said_about("{ type: arrow_body, along: z, length: 2, radius: 0.1 }"), "");
+  EXPECT_EQ(said_about("{ type: arrow_body }"),
+            "4:6 an arrow has a point 'to' or a direction 'along'\nfor example from: [0, 0, 0], to: [0, 0, 2]\n");
+  EXPECT_EQ(said_about("{ type: arrow_body, along: z }"),
+            "4:33 'along' and 'length' belong together\nfor example along: z, length: 2\n");
+  EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0] }"),
+            "4:30 the arrow has no length: it ends where it begins\n\n");
+  EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1], radius: 0.2 }"),
+            "4:49 the head is longer than the arrow\nmake it shorter with 'head_length'\n");
+  EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1], radius: 0.2, head_radius: 0.1 }"),
+            "4:67 the head must be wider than the shaft\n\n");
+}
+
+LineWork work_of(const std::string& objects) {
+  const BuiltText text = build_text(R"(
+geometry:
+  c: { type: circle, radius: 1 }
+  p: [1, 2, 3]
+  box: { type: box, size: [1, 2, 3] }
+  can: { type: cylinder_body, radius: 1, height: 2 }
+  ring: { type: torus_surface, major_radius: 2, minor_radius: 0.7 }
+  half: { type: torus_surface, major_radius: 2, minor_radius: 0.7, domain: { u: [0, pi], v: [0, 2*pi] } }
+  ball: { type: sphere_surface, radius: 1 }
+  s: { type: bezier_surface, points: [[[0, 0, 0], [0, 1, 0], [0, 2, 0]], [[1, 0, 0], [1, 1, 1], [1, 2, 0]]] }
+  r: { type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }
+  loop: { type: nurbs_curve, degree: 2, closed: true, points: [[0, 0], [1, 0], [1, 1], [0, 1]] }
+image: { size: [96, 48] }
+lights: {}
+objects:
+)" + objects);
+  EXPECT_EQ(text.said, "");
+  return line_work(World(std::make_shared<Model>(text.model)));
+}
+
+TEST(LinesOfScenes, ObjectsGiveTheLinesThatTheyAskFor) {
+  EXPECT_EQ(work_of("  - { shape: box }\n").strokes.size(), 0u);
+  EXPECT_EQ(work_of("  - { shape: c }\n").strokes.size(), 1u);
+  EXPECT_EQ(work_of("  - { shape: p }\n").marks.size(), 1u);
+  EXPECT_EQ(work_of("  - { shape: c, visible_to: [shadow] }\n").strokes.size(), 0u);
+  EXPECT_EQ(work_of("  - { shape: box, lines: { sharp: thick, smooth: thin } }\n").strokes.size(), 12u);
+  EXPECT_EQ(work_of("  - { shape: can, lines: { sharp: thick, smooth: thin } }\n").strokes.size(), 2u);
+  EXPECT_EQ(work_of("  - { shape: ring, lines: { boundary: thick } }\n").strokes.size(), 0u);
+  EXPECT_EQ(work_of("  - { shape: half, lines: { boundary: thick } }\n").strokes.size(), 2u);
+  EXPECT_EQ(work_of("  - { shape: ball, lines: { boundary: thick } }\n").strokes.size(), 0u);
+  EXPECT_EQ(work_of("  - { shape: s, lines: { boundary: thick } }\n").strokes.size(), 4u);
+  EXPECT_EQ(work_of("  - { shape: ring, lines: { parameter: { at_u: 6, at_v: [0, 1] } } }\n").strokes.size(), 8u);
+  // The poles are no lines.
+  EXPECT_EQ(work_of("  - { shape: ball, lines: { parameter: { at_v: 5 } } }\n").strokes.size(), 3u);
+  const LineWork group = work_of(
+      "  - { shape: { type: group, of: [{ shape: c }, { shape: p }] }, transform: { translate: [0, 0, 5] } }\n");
+  ASSERT_EQ(group.strokes.size(), 1u);
+  EXPECT_EQ(group.strokes[0].to_world.offset.z, 5);
+  ASSERT_EQ(group.marks.size(), 1u);
+  EXPECT_EQ(group.marks[0].point, Vec3(1, 2, 8));
+}
+
+TEST(LinesOfScenes, ControlPolygonsAndNets) {
+  const LineWork curve = work_of("  - { shape: r, show: control_polygon }\n");
+  EXPECT_EQ(curve.strokes.size(), 2u);
+  EXPECT_EQ(curve.marks.size(), 3u);
+  const LineWork loop = work_of("  - { shape: loop, show: { control_polygon: { marker: none } } }\n");
+  ASSERT_EQ(loop.strokes.size(), 2u);
+  EXPECT_TRUE(loop.strokes[1].curve->is_closed());
+  EXPECT_EQ(loop.strokes[1].curve->domain().width(), 4);
+  EXPECT_EQ(loop.marks.size(), 0u);
+  const LineWork net = work_of("  - { shape: s, show: control_net }\n");
+  EXPECT_EQ(net.strokes.size(), 5u);
+  EXPECT_EQ(net.marks.size(), 6u);
+}
+
+// The last point of both constructions is the curve's own.
+TEST(LinesOfScenes, TrianglesEndOnTheCurve) {
+  for (const std::string show : {"r, show: { de_casteljau: { t: 0.3 } }", "loop, show: { de_boor: { t: 0.3 } }"}) {
+    const LineWork work = work_of("  - { shape: " + show + " }\n");
+    EXPECT_EQ(work.strokes.size(), 2u);  // the curve, and a side
+    ASSERT_EQ(work.marks.size(), 3u);
+    EXPECT_LE(glm::length(work.marks[2].point - work.strokes[0].curve->point(0.3)), 1e-15) << show;
+  }
+  EXPECT_EQ(work_of("  - { shape: r, show: { de_casteljau: { t: 0.3, levels: [2] } } }\n").marks.size(), 1u);
+}
+
+TEST(LinesOfScenes, LooksAreInPixels) {
+  const LineWork work = work_of(R"(  - { shape: c, lines: { curve: { width: 3 px, color: cycle }, hidden: faded } }
+  - { shape: c, lines: { curve: { width: 0.5 px, color: cycle } } }
+  - { shape: c, lines: { curve: { width: 1 mm, opacity: 0.5, dash: [2 px, 1 px], cap: round }, hidden: thin } }
+)");
+  ASSERT_EQ(work.strokes.size(), 3u);
+  EXPECT_NEAR(work.strokes[0].look.half_width, 1.5, 1e-12);
+  EXPECT_NEAR(work.strokes[0].hidden->opacity, 1.0 / 3, 1e-12);
+  EXPECT_EQ(work.strokes[1].look.half_width, 0.5);
+  EXPECT_NEAR(work.strokes[1].look.opacity, 0.5, 1e-12);
+  EXPECT_FALSE(work.strokes[1].hidden);
+  EXPECT_FALSE(work.strokes[0].look.color == work.strokes[1].look.color);
+  EXPECT_NEAR(work.strokes[2].look.half_width, 0.5 * 96 / 25.4, 1e-12);
+  EXPECT_NEAR(work.strokes[2].hidden->half_width, 0.25 * 96 / 25.4, 1e-12);
+  EXPECT_EQ(work.strokes[2].hidden->opacity, 0.5);
+  ASSERT_EQ(work.strokes[2].look.dash.size(), 2u);
+  EXPECT_NEAR(work.strokes[2].look.dash[0], 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace lekalo::render
