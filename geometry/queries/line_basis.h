@@ -38,18 +38,28 @@ class PreparedLine {
   explicit PreparedLine(Line&&) = delete;
   const Line& line() const { return line_; }
 
-  // The same line measured from its point nearest to `center` (whose parameter goes to `foot`), in coordinates relative
-  // to `center`: what follows rounds at the size of things there. Holds until the next call.
+  // The same line measured from its point nearest to `center` (whose parameter goes to `foot`) but for 1e-7 of the way
+  // there, in coordinates relative to `center`: all rounds at the size of things there, however far the line begins, so
+  // that neighbouring pieces see the same line. Holds until the next call.
   const LineBasis& near(const Vec3& center, double& foot) const {
-    if (!basis_) basis_.emplace(line_);
-    foot = glm::dot(center - line_.origin, line_.direction) * basis_->inverse_length2;
-    basis_->line.origin = line_.at(foot) - center;
+    if (!basis_) {
+      basis_.emplace(line_);
+      for (int k = 0; k < 3; ++k) upper_[k] = static_cast<float>(line_.direction[k]);
+      lower_ = line_.direction - upper_;
+    }
+    // origin - center and its rounding error (Knuth, TAOCP 2, 4.2.2). With `foot` a float, its products with a float
+    // and with what is left of the direction are exact; the first nearly takes the difference away.
+    const Vec3 &o = line_.origin, from = o - center, taken = o - from;
+    const Vec3 error = (o - (from + taken)) + (taken - center);
+    foot = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
+    basis_->line.origin = (from + foot * upper_) + (foot * lower_ + error);
     return *basis_;
   }
 
  private:
   const Line& line_;
   mutable std::optional<LineBasis> basis_;
+  mutable Vec3 upper_{0}, lower_{0};  // the direction in floats, and the rest
 };
 
 }  // namespace lekalo::geometry

@@ -171,7 +171,10 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
             });
   const double length = glm::length(line.direction);
   const auto slope = [&](const SurfaceHit& hit) { return glm::dot(normal(hit), line.direction) / length; };
-  const auto rounding = [&](const SurfaceHit& hit) { return 4e-16 * std::abs(hit.t) * length; };
+  // What the line's own rounding moves it by; a hit moves by as much over its steepness, and Acceptance lets it.
+  const auto rounding = [&](const SurfaceHit& hit) {
+    return kShallowSlack * (glm::length(line.origin) + std::abs(hit.t) * length);
+  };
   constexpr double kLeastSteepness = 1e-4;
   size_t kept = first + 1;
   for (size_t i = first + 1; i < hits.size(); ++i) {
@@ -180,10 +183,10 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
     // Hits far from the one before them, as nearly all are, need no normals.
     for (size_t k = kept; k-- > first && !again;) {
       const double apart = (hit.t - hits[k].t) * length;
-      if (apart > kSameHit * size / kLeastSteepness + rounding(hit)) break;
+      if (apart > (kSameHit * size + rounding(hit)) / kLeastSteepness) break;
       const double a = slope(hit), b = slope(hits[k]);
       const double steepness = std::max(std::min(std::abs(a), std::abs(b)), kLeastSteepness);
-      again = apart <= kSameHit * size / steepness + rounding(hit) && (a > 0) == (b > 0);
+      again = apart <= (kSameHit * size + rounding(hit)) / steepness && (a > 0) == (b > 0);
     }
     if (!again) hits[kept++] = hit;
   }

@@ -26,6 +26,10 @@ constexpr int kMostCells = 20000;
 // A cell is clipped rather than halved where that leaves less of one side than this.
 constexpr double kWorthClipping = 0.7;
 
+// Newton's iteration is trusted in cells in which rounding moves roots by less than this part, and cells are not made
+// so small that it moves them more: a line along a parameter line is soon known across it, long before it is along it.
+constexpr double kMostRounding = 1e-3;
+
 // A cell in which the bound of a patch's distance from its surface moves roots by more than this part is left to a
 // better patch.
 constexpr double kTooWide = 0.25;
@@ -341,6 +345,7 @@ class NetSearch {
       Jacobian j;
       const Pair f = center(c, j);
       const double determinant = j.determinant();
+      Pair slack = pair(kBorderSlack);
       double clip = 1;  // part of the cell that a clip leaves
       if (determinant != 0) {
         const double inverse = 1 / determinant;
@@ -349,12 +354,12 @@ class NetSearch {
         const Pair uncertain = rounding_ * (magnitude(a) + magnitude(b));
         Pair e = deviation(c, a, b);
         if (near_) e += (magnitude(a) + magnitude(b)) * (hx * near_->off_x + hy * near_->off_y);
-        const Pair slack = kBorderSlack + uncertain;
+        slack += uncertain;
         const Pair lo = root - e - slack, hi = root + e + slack;
         if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return;
         const double worst = std::fmax(slack[0], slack[1]);
         const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
-        if (e[0] <= kInjective && e[1] <= kInjective && (near_ || worst < 1e-3) &&
+        if (e[0] <= kInjective && e[1] <= kInjective && (near_ || worst < kMostRounding) &&
             newton(c, x0, y0, hx, hy, root, near_ ? kBorderSlack : worst, contracts))
           return;
         if (near_ && worst > kTooWide) {
@@ -362,8 +367,10 @@ class NetSearch {
           return;
         }
         if (!contracts) {
-          const double lo_x = std::fmax(lo[0], -1), hi_x = std::fmin(hi[0], 1);
-          const double lo_y = std::fmax(lo[1], -1), hi_y = std::fmin(hi[1], 1);
+          Pair reach = e + slack;
+          if (!near_) reach = larger(reach, slack / (0.25 * kMostRounding));
+          const double lo_x = std::fmax(root[0] - reach[0], -1), hi_x = std::fmin(root[0] + reach[0], 1);
+          const double lo_y = std::fmax(root[1] - reach[1], -1), hi_y = std::fmin(root[1] + reach[1], 1);
           clip = 0.5 * std::fmin(hi_x - lo_x, hi_y - lo_y);
           if (clip < kWorthClipping) {
             if (hi_x - lo_x < 2 * 0.95) {
@@ -392,7 +399,10 @@ class NetSearch {
       // Across the direction in which the functions bend most; where that is neither (at a pole the sectors of a cap
       // never become simpler by being made narrower), across the longer one.
       const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
-      const bool along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
+      bool along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
+      // Unless rounding has the last word there already, and not in the other one.
+      if (!near_ && slack[along_x ? 0 : 1] > 0.5 * kMostRounding && slack[along_x ? 1 : 0] <= 0.5 * kMostRounding)
+        along_x = !along_x;
       Pair* other = c + n();
       if (along_x) {
         halve_x(c, other);

@@ -123,7 +123,10 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
     for (const Vec4& p : piece.points)
       if (p.w > 0) box.include(Vec3(p) / p.w);
     if (!box.empty()) patch.center = box.center();
-    for (const Vec4& p : piece.points) points_.push_back(Vec4(Vec3(p) - p.w * patch.center, p.w));
+    // Fused: far off the origin the product's rounding would open gaps between pieces.
+    const Vec3& c = patch.center;
+    for (const Vec4& p : piece.points)
+      points_.push_back({std::fma(-p.w, c.x, p.x), std::fma(-p.w, c.y, p.y), std::fma(-p.w, c.z, p.z), p.w});
     patches_.push_back(patch);
     cutter.cut(static_cast<int>(patches_.size()) - 1);
   }

@@ -1,0 +1,236 @@
+// Completeness of the whole path of rays, Embree included: surfaces of all kinds against oracles that share nothing
+// with the solvers, all hits along each ray and the nearest; and closed bodies are crossed an even number of times.
+//
+// In the full tier ten million random rays over all surfaces and a million aimed ones: along silhouettes, past them by
+// 1e-3 to 1e-9 of the size on either side, and at or past seams, poles, edges and the borders of pieces and of their
+// dyadic parts. Origins lie in the bounds, two, a thousand and a million sizes away; subjects also lie a thousand and a
+// million sizes off the origin of coordinates.
+//
+// The band: a ray is in it where the oracle's own number of hits changes with one of 32 shifts (the corners of a cube
+// and 24 directions, for rays at the corners of open surfaces) of 1e-9 of the size and of the rounding of the
+// coordinates that go into the line, or its hits move as far as those found are off, where two of its crossings are
+// that near to each other or to the ray's origin, and where the oracle cannot tell. Such rays are counted and reported;
+// of the random ones there is at most one in ten thousand.
+#include <gtest/gtest.h>
+
+#include "render/completeness/patch_entries.h"
+#include "render/completeness/shape_entries.h"
+#include "render/trace/world.h"
+#include "support/tier.h"
+
+namespace lekalo::render::completeness {
+namespace {
+
+constexpr int kAllRandom = 10000000, kAllAimed = 1000000;  // of all surfaces, in the full tier
+
+std::vector<Entry> all_entries() {
+  std::vector<Entry> entries = bezier_entries();
+  for (const auto& more : {surface_entries(), formula_entries(), implicit_entries(), sweep_entries(), solid_entries()})
+    entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+std::shared_ptr<const Model> model_of(const Subject& subject) {
+  auto model = std::make_shared<Model>();
+  Object object;
+  object.shape = subject.entity;
+  object.transform = subject.transform;
+  model->objects.push_back(std::move(object));
+  return model;
+}
+
+// From inside the bounds, from up to two sizes away, and now and then from a thousand or a million.
+Ray random_ray(const Subject& subject, Random& random) {
+  const double size = subject.box.diameter(), kind = unit(random);
+  Ray ray;
+  ray.direction = any_direction(random);
+  const double distance = kind < 0.2 ? 0 : kind < 0.8 ? 2 * unit(random) : kind < 0.9 ? 1e3 : 1e6;
+  // Beside flat subjects rather than in them.
+  ray.origin = any_point(random, subject.box.inflated(0.05 * size)) - distance * size * ray.direction;
+  return ray;
+}
+
+// Along a silhouette or past a special place; false where none was found.
+bool aimed_ray(const Subject& subject, const World& world, Random& random, Ray& ray) {
+  const double size = subject.box.diameter();
+  const auto any_shift = [&](double least) { return size * std::pow(10.0, -3 + (least + 3) * unit(random)); };
+  Vec3 through;
+  if (!subject.special || unit(random) < 0.5) {
+    Ray finder = random_ray(subject, random);
+    finder.origin = any_point(random, subject.box) - 2 * size * finder.direction;
+    const std::vector<Hit> hits = world.all_hits(finder);
+    if (hits.empty()) return false;
+    const SurfacePoint at = world.surface_point(finder, hits[static_cast<size_t>(unit(random) * hits.size())]);
+    const Vec3 normal = at.geometric_normal;
+    const Vec3 across = glm::cross(normal, any_direction(random));
+    if (!(glm::length(across) > 0.01)) return false;
+    ray.direction = glm::normalize(across);
+    through = at.position + (unit(random) < 0.5 ? 1 : -1) * any_shift(-9) * normal;
+  } else {
+    const auto [place, other] = subject.special(random);
+    const bool along = unit(random) < 0.2 && glm::length(other - place) > 1e-3 * size;
+    ray.direction = along ? glm::normalize(other - place) : any_direction(random);
+    through = unit(random) < 0.3 ? place : place + any_shift(-12) * any_direction(random);
+  }
+  const double kind = unit(random);
+  ray.origin = through - (kind < 0.6 ? 2 * unit(random) : kind < 0.8 ? 1e3 : 1e6) * size * ray.direction;
+  return true;
+}
+
+struct Tally {
+  int rays = 0, hits = 0, wrong = 0, band = 0, other = 0;  // other: nearest or shadow not as all hits say
+  double worst = 0;                                        // difference of t, of the size
+  void add(const Tally& t) {
+    rays += t.rays, hits += t.hits, wrong += t.wrong, band += t.band, other += t.other;
+    worst = std::max(worst, t.worst);
+  }
+};
+
+class Comparison {
+ public:
+  Comparison(const Subject& subject, const World& world)
+      : subject_(subject), world_(world), size_(subject.box.diameter()) {}
+
+  void compare(const Ray& ray, Tally& tally) {
+    bool undecided = false;
+    const std::vector<double> truth = truth_of(ray, undecided);
+    const std::vector<Hit> found = world_.all_hits(ray);
+    ++tally.rays;
+    tally.hits += static_cast<int>(truth.size());
+    if (same(ray, found, truth, tally.worst)) {
+      tally.other += !agrees(ray, found);
+      return;
+    }
+    if (undecided || in_band(ray, found, truth)) {
+      ++tally.band;
+      return;
+    }
+    if (++tally.wrong <= 5) ADD_FAILURE() << description(ray, found, truth);
+  }
+
+ private:
+  // What the rounding of the coordinates that go into the line may move it by.
+  double rounding(const Ray& ray) const {
+    return 8e-16 * (glm::length(ray.origin) + glm::length(ray.origin - subject_.box.center()));
+  }
+  std::vector<double> truth_of(const Ray& ray, bool& undecided) const {
+    std::vector<double> t = subject_.truth(ray, undecided);
+    std::erase_if(t, [&](double x) { return x < ray.t_min; });
+    return t;
+  }
+  bool same(const Ray& ray, const std::vector<Hit>& found, const std::vector<double>& truth, double& worst) const {
+    if (found.size() != truth.size()) return false;
+    double largest = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+      const double off = std::abs(found[i].t - truth[i]);
+      if (off > subject_.same * size_) {
+        // The rounding of the line is seen under the angle.
+        const SurfacePoint at = world_.surface_point(ray, found[i]);
+        const double slope = std::abs(glm::dot(at.geometric_normal, ray.direction));
+        if (off > subject_.same * size_ + rounding(ray) / std::max(slope, 1e-5)) return false;
+      }
+      largest = std::max(largest, off / size_);
+    }
+    worst = std::max(worst, largest);
+    return true;
+  }
+  bool in_band(const Ray& ray, const std::vector<Hit>& found, const std::vector<double>& truth) const {
+    const double reach = subject_.band * size_ + rounding(ray);
+    bool undecided = false;
+    const std::vector<double> all = subject_.truth(ray, undecided);
+    for (size_t i = 0; i < all.size(); ++i)
+      if (std::abs(all[i] - ray.t_min) <= reach || (i > 0 && all[i] - all[i - 1] <= reach)) return true;
+    // How far the shifts move the hits: farther than those found are off, where the line passes an edge of two faces.
+    std::vector<double> moves(truth.size(), 0.0);
+    Random random(1);
+    for (int copy = 0; copy < 32; ++copy) {
+      Ray shifted = ray;
+      shifted.origin += reach * (copy < 8 ? Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1)
+                                          : std::sqrt(3) * any_direction(random));
+      const std::vector<double> there = truth_of(shifted, undecided);
+      if (there.size() != truth.size() || undecided) return true;
+      for (size_t i = 0; i < truth.size(); ++i) moves[i] = std::max(moves[i], std::abs(there[i] - truth[i]));
+    }
+    bool moved = found.size() == truth.size();
+    for (size_t i = 0; moved && i < truth.size(); ++i) moved = std::abs(found[i].t - truth[i]) <= moves[i];
+    return moved;
+  }
+  // The nearest hit and shadows are decided on paths of their own.
+  bool agrees(const Ray& ray, const std::vector<Hit>& found) const {
+    Hit nearest;
+    const bool met = world_.nearest(ray, nearest);
+    if (met != !found.empty() || (met && nearest.t != found[0].t)) return false;
+    Ray shadow = ray;
+    shadow.kind = RayKind::shadow;
+    if (world_.occluded(shadow) != met) return false;
+    if (!met) return true;
+    shadow.t_max = found[0].t * (1 - 1e-9);
+    return shadow.t_max <= shadow.t_min || !world_.occluded(shadow);
+  }
+  std::string description(const Ray& ray, const std::vector<Hit>& found, const std::vector<double>& truth) const {
+    const auto vector = [](const Vec3& v) { return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z); };
+    std::string text = fmt::format("ray {} {} (from {} sizes away), found", vector(ray.origin), vector(ray.direction),
+                                   glm::length(ray.origin - subject_.box.center()) / size_);
+    for (const Hit& hit : found) text += fmt::format(" {} ({}, {})", hit.t, hit.u, hit.v);
+    text += ", expected";
+    for (const double t : truth) text += fmt::format(" {}", t);
+    return text;
+  }
+
+  const Subject& subject_;
+  const World& world_;
+  double size_;
+};
+
+class Completeness : public testing::TestWithParam<size_t> {
+ protected:
+  static const std::vector<Entry>& entries() {
+    static const std::vector<Entry> all = all_entries();
+    return all;
+  }
+};
+
+void report(const std::string& kind, const Tally& tally) {
+  tests::report_figure(kind + "_rays", tally.rays);
+  tests::report_figure(kind + "_hits", tally.hits);
+  tests::report_figure(kind + "_in_band", tally.band);
+  tests::report_figure(kind + "_missing_or_false", tally.wrong);
+}
+
+TEST_P(Completeness, NoMissAndNoFalseHit) {
+  const Entry& entry = entries()[GetParam()];
+  const auto share = [&](int all) { return tests::tier_count(all / static_cast<int>(entries().size()) + 1); };
+  const double size = entry.make(Vec3(0)).box.diameter();
+  const Vec3 away = glm::normalize(Vec3(6, -7, 4));
+  Random random(GetParam() + 1);
+  Tally any, aimed;
+  for (const auto& [distance, part] : {std::pair(0.0, 0.8), std::pair(1e3, 0.1), std::pair(1e6, 0.1)}) {
+    const Subject subject = entry.make(distance * size * away);
+    const World world(model_of(subject));
+    Comparison comparison(subject, world);
+    for (int k = static_cast<int>(part * share(kAllRandom)); k > 0; --k)
+      comparison.compare(random_ray(subject, random), any);
+    Ray ray;
+    for (int k = static_cast<int>(part * share(kAllAimed)); k > 0; --k)
+      if (aimed_ray(subject, world, random, ray)) comparison.compare(ray, aimed);
+  }
+  EXPECT_EQ(any.wrong, 0) << "of " << any.rays;
+  EXPECT_EQ(aimed.wrong, 0) << "of " << aimed.rays;
+  EXPECT_EQ(any.other + aimed.other, 0) << "rays whose nearest hit or shadow is not as all hits say";
+  EXPECT_LE(any.band, 1 + any.rays / 10000);
+  EXPECT_GT(any.hits, any.rays / 20);
+  report("random", any);
+  report("aimed", aimed);
+  tests::report_figure("largest_difference_of_t", std::max(any.worst, aimed.worst));
+}
+
+std::string name_of(const testing::TestParamInfo<size_t>& info) {
+  std::string name = all_entries()[info.param].name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, Completeness, testing::Range<size_t>(0, all_entries().size()), name_of);
+
+}  // namespace
+}  // namespace lekalo::render::completeness

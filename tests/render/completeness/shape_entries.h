@@ -1,0 +1,338 @@
+// Subjects without rational pieces, and closed bodies: formulas, implicit surfaces, tubes, balls, CSG, bodies.
+#pragma once
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/curves/formula_curve.h"
+#include "geometry/curves/polyline.h"
+#include "geometry/shapes/balls.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/half_space.h"
+#include "geometry/shapes/implicit_surface.h"
+#include "geometry/shapes/tube.h"
+#include "geometry/surfaces/formula_surface.h"
+#include "render/completeness/patch_entries.h"
+#include "support/sweep_oracle.h"
+
+namespace lekalo::render::completeness {
+
+// -------------------------------------------------------------------------------------------------------------
+// formulas
+
+// A surface by formulas that lies near the origin, moved by its object's transform; its seams, poles and edges are
+// those of the domain.
+inline Subject formula_subject(const std::array<std::string, 3>& point, const Rectangle& domain,
+                               FormulaSurface::Closed closing, const Vec3& offset, const Truth& truth) {
+  const auto surface = std::make_shared<FormulaSurface>(point_formulas(point, {"u", "v"}), domain, closing);
+  Subject subject;
+  subject.entity = SurfacePtr(surface);
+  subject.transform = Affine::translation(offset);
+  subject.box = transformed(bounds(*surface), subject.transform);
+  subject.truth = moved(offset, truth);
+  subject.special = [=, at_origin = borders_of({surface})](Random& random) {
+    const auto [first, second] = at_origin(random);
+    return std::pair(first + offset, second + offset);
+  };
+  return subject;
+}
+
+// F of x, y, z for the sign oracle, over Interval and Quad.
+struct TorusSigns {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T s = x * x + y * y + z * z + T(3.51);  // R = 2, r = 0.7: R^2 - r^2
+    return s * s - T(16.0) * (x * x + y * y);
+  }
+};
+struct WavesSigns {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return z - T(0.4) * sin(T(3.0) * x) * exp(-(y * y)) - T(0.1) * cos(T(5.0) * y);
+  }
+};
+
+// The torus of a sign function whose zero set is the whole surface.
+template <class F>
+Truth truth_of_whole(const Box3& box) {
+  return truth_of_signs<F>(box.inflated(0.01), false);
+}
+
+// The rational patch that polynomial formulas of degrees p and q are: values at p + 1 and q + 1 parameters, in long
+// double, solved for the Bernstein coefficients.
+inline SurfacePtr interpolated(int p, int q, const Rectangle& domain,
+                               const std::function<Vec3(double u, double v)>& point) {
+  using Real = long double;
+  const auto basis = [](int n, int i, Real s) {
+    Real choose = 1;
+    for (int k = 0; k < i; ++k) choose = choose * (n - k) / (k + 1);
+    return choose * std::pow(s, static_cast<Real>(i)) * std::pow(1 - s, static_cast<Real>(n - i));
+  };
+  // Gauss-Jordan elimination of B c = f along one direction.
+  const auto solve = [&](int n, std::vector<std::array<Real, 3>> f) {
+    std::vector<std::vector<Real>> b(n + 1, std::vector<Real>(n + 1));
+    for (int r = 0; r <= n; ++r)
+      for (int c = 0; c <= n; ++c) b[r][c] = basis(n, c, Real(r) / n);
+    for (int k = 0; k <= n; ++k) {
+      int pivot = k;
+      for (int r = k; r <= n; ++r)
+        if (std::abs(b[r][k]) > std::abs(b[pivot][k])) pivot = r;
+      std::swap(b[k], b[pivot]);
+      std::swap(f[k], f[pivot]);
+      for (int r = 0; r <= n; ++r) {
+        if (r == k) continue;
+        const Real m = b[r][k] / b[k][k];
+        for (int c = k; c <= n; ++c) b[r][c] -= m * b[k][c];
+        for (int d = 0; d < 3; ++d) f[r][d] -= m * f[k][d];
+      }
+    }
+    for (int k = 0; k <= n; ++k)
+      for (int d = 0; d < 3; ++d) f[k][d] /= b[k][k];
+    return f;
+  };
+  std::vector<std::vector<std::array<Real, 3>>> net(p + 1);
+  for (int i = 0; i <= p; ++i) {
+    for (int j = 0; j <= q; ++j) {
+      const Vec3 x = point(domain.u.lo + domain.u.width() * i / p, domain.v.lo + domain.v.width() * j / q);
+      net[i].push_back({x.x, x.y, x.z});
+    }
+    net[i] = solve(q, net[i]);
+  }
+  NurbsSurfaceForm form = patch_form(p, q, 0, [](double, double, Random&) { return Vec4(0, 0, 0, 1); });
+  for (int j = 0; j <= q; ++j) {
+    std::vector<std::array<Real, 3>> column;
+    for (int i = 0; i <= p; ++i) column.push_back(net[i][j]);
+    column = solve(p, column);
+    for (int i = 0; i <= p; ++i)
+      for (int d = 0; d < 3; ++d) form.points[i * (q + 1) + j][d] = static_cast<double>(column[i][d]);
+  }
+  return std::make_shared<NurbsSurface>(form);
+}
+
+inline std::vector<Entry> formula_entries() {
+  const auto polynomial = [](const std::string& name, const std::array<std::string, 3>& point, int p, int q,
+                             const Rectangle& domain, const std::function<Vec3(double, double)>& at) {
+    return Entry{name, [=](const Vec3& offset) {
+                   const SurfacePtr patch = interpolated(p, q, domain, at);
+                   return formula_subject(point, domain, {}, offset, truth_of({patch}, bounds(*patch).diameter()));
+                 }};
+  };
+  return {
+      {"formula_torus",
+       [](const Vec3& offset) {
+         return closed(formula_subject({"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v))*sin(u)", "0.7*sin(v)"},
+                                       {{0, kTwoPi}, {-kPi, kPi}}, {true, true}, offset,
+                                       truth_of_whole<TorusSigns>({Vec3(-2.7, -2.7, -0.7), Vec3(2.7, 2.7, 0.7)})));
+       }},
+      polynomial("formula_enneper", {"u - u^3/3 + u*v^2", "v - v^3/3 + v*u^2", "u^2 - v^2"}, 3, 3,
+                 {{-1.8, 1.8}, {-1.8, 1.8}},
+                 [](double u, double v) {
+                   return Vec3(u - u * u * u / 3 + u * v * v, v - v * v * v / 3 + v * u * u, u * u - v * v);
+                 }),
+      polynomial("formula_whitney_umbrella", {"u*v", "u", "v^2"}, 1, 2, {{-1, 1}, {-1, 1}},
+                 [](double u, double v) { return Vec3(u * v, u, v * v); }),
+      {"formula_waves",
+       [](const Vec3& offset) {
+         return formula_subject({"u", "v", "0.4*sin(3*u)*exp(-v^2) + 0.1*cos(5*v)"}, {{-1.5, 1.5}, {-1.5, 1.5}}, {},
+                                offset,
+                                truth_of_signs<WavesSigns>({Vec3(-1.5, -1.5, -0.75), Vec3(1.5, 1.5, 0.75)}, false));
+       }},
+  };
+}
+
+// ---------------------------------------------------------------------------------------------------- implicit
+// surfaces
+
+struct BarthSigns {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T a(2.618033988749895), b(4.23606797749979), one(1.0);
+    const T xx = x * x, yy = y * y, zz = z * z, r = xx + yy + zz - one;
+    return T(4.0) * (a * xx - yy) * (a * yy - zz) * (a * zz - xx) - b * r * r;
+  }
+};
+struct GyroidSigns {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
+  }
+};
+struct HeartSigns {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T a = x * x + T(2.25) * y * y + z * z - T(1.0);
+    return a * a * a - (x * x + T(0.1125) * y * y) * z * z * z;
+  }
+};
+
+template <class F>
+Entry implicit_entry(const std::string& name, const std::string& formula, const Vec3& half, bool is_closed) {
+  return {name, [=](const Vec3& offset) {
+            Expression f = std::get<Expression>(Expression::parse(formula));
+            const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+            if (const auto error = f.bind(variables)) throw std::invalid_argument(error->message);
+            const Box3 box{-half, half};
+            return subject_of(std::make_shared<ImplicitSurface>(f, 0.0, ImplicitRegion{box}, is_closed), offset,
+                              truth_of_signs<F>(box, is_closed));
+          }};
+}
+
+inline std::vector<Entry> implicit_entries() {
+  const std::string torus = "(x^2 + y^2 + z^2 + 3.51)^2 - 16*(x^2 + y^2)";
+  return {
+      implicit_entry<TorusSigns>("implicit_torus", torus, Vec3(3, 3, 1), true),
+      implicit_entry<TorusSigns>("implicit_torus_by_cells", torus + " + 0*sin(x)", Vec3(3, 3, 1), true),
+      implicit_entry<BarthSigns>("implicit_barth_sextic",
+                                 "4*(2.618033988749895*x^2 - y^2)*(2.618033988749895*y^2 - z^2)"
+                                 "*(2.618033988749895*z^2 - x^2) - 4.23606797749979*(x^2 + y^2 + z^2 - 1)^2",
+                                 Vec3(2), true),
+      implicit_entry<GyroidSigns>("implicit_gyroid", "sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)", Vec3(4), false),
+      implicit_entry<HeartSigns>("implicit_heart", "(x^2 + 2.25*y^2 + z^2 - 1)^3 - (x^2 + 0.1125*y^2)*z^3",
+                                 Vec3(1.5, 1, 1.5), true)};
+}
+
+// ------------------------------------------------------------------------------------------------------ tubes and
+// balls
+
+inline Subject tube_subject(const CurvePtr& curve, double radius, const Vec3& offset,
+                            const std::function<oracle::SweptBall(long double)>& ball, std::vector<double> breaks) {
+  const auto tube = std::make_shared<Tube>(curve, RadiusLaw(radius), Caps::round);
+  const Box3 box = tube->bounds();
+  const auto sweep = std::make_shared<oracle::SweepOracle>(ball, std::move(breaks), 200);
+  const Truth about_center = moved(box.center(), [=](const Line& line, bool&) {
+    const double size = box.diameter();
+    if (glm::length(line.origin) > 0.6 * size) return std::vector<double>();
+    const Line at{line.origin + box.center(), line.direction};
+    return sweep->crossings(at, -0.6 * size, 0.6 * size, size);
+  });
+  return subject_of(tube, offset, about_center);
+}
+
+inline std::vector<Entry> sweep_entries() {
+  return {
+      {"tube_helix",
+       [](const Vec3& offset) {
+         const CurvePtr curve = std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "0.2*t"}, {"t"}),
+                                                               Interval{0, 6}, false);
+         return tube_subject(curve, 0.2, offset,
+                             [](long double t) {
+                               return oracle::SweptBall{std::cos(t), std::sin(t), 0.2L * t, 0.2L};
+                             },
+                             {0, 6});
+       }},
+      {"balls",
+       [](const Vec3& offset) {
+         Random random(70);
+         std::vector<Vec3> centers;
+         std::vector<double> radii;
+         std::vector<oracle::Solid> solids;
+         for (int k = 0; k < 20; ++k) {
+           const double x = unit(random), y = unit(random);
+           centers.emplace_back(x, y, unit(random));
+           radii.push_back(0.05 + 0.2 * unit(random));
+           solids.push_back(oracle::Solid::ball(centers.back(), radii.back()));
+         }
+         const auto solid = oracle::Solid::of(oracle::Solid::Kind::unite, solids);
+         return subject_of(std::make_shared<Balls>(centers, radii), offset,
+                           [=](const Line& line, bool& undecided) { return solid.crossings(line, 1e-9, undecided); });
+       }},
+  };
+}
+
+// ------------------------------------------------------------------------------------------------------- CSG and
+// bodies
+
+// The product's shape of an oracle's solid.
+inline ShapePtr shape_of(const oracle::Solid& solid) {
+  using Kind = oracle::Solid::Kind;
+  const auto of_body = [](Body body) -> ShapePtr {
+    return std::make_shared<BodyShape>(std::make_shared<Body>(std::move(body)));
+  };
+  Csg::Operation operation = Csg::Operation::unite;
+  switch (solid.kind) {
+    case Kind::ball:
+      return of_body(ball(Frame{solid.a}, solid.radius));
+    case Kind::box:
+      return of_body(box(Frame{solid.a}, solid.b - solid.a));
+    case Kind::half_space:
+      return std::make_shared<HalfSpaceShape>(solid.a, solid.b);
+    case Kind::unite:
+      break;
+    case Kind::intersect:
+      operation = Csg::Operation::intersect;
+      break;
+    case Kind::subtract:
+      operation = Csg::Operation::subtract;
+      break;
+  }
+  std::vector<ShapePtr> operands;
+  for (const oracle::Solid& one : solid.operands) operands.push_back(shape_of(one));
+  return std::make_shared<Csg>(operation, operands);
+}
+
+inline Entry csg_entry(const std::string& name, const oracle::Solid& solid) {
+  return {name, [=](const Vec3& offset) {
+            const ShapePtr shape = shape_of(solid);
+            const double size = shape->bounds().diameter();
+            return subject_of(shape, offset, [=](const Line& line, bool& undecided) {
+              return solid.crossings(line, 1e-9 * size, undecided);
+            });
+          }};
+}
+
+// A body moved by its own coordinates, or by its object's transform.
+inline Subject body_subject(const Body& body, const Vec3& offset, const Truth& truth) {
+  const auto placed = std::make_shared<const Body>(body);
+  Subject subject;
+  subject.entity = BodyPtr(placed);
+  subject.transform = Affine::translation(offset);
+  subject.box = transformed(bounds(body), subject.transform);
+  subject.truth = moved(offset, truth);
+  subject.closed = true;
+  subject.special = [=](Random& random) {
+    const Edge& edge = placed->edges[static_cast<size_t>(unit(random) * placed->edges.size())];
+    const Interval range = edge.curve->domain();
+    const auto any = [&] { return unit(random) < 0.2 ? range.lo : range.lo + unit(random) * range.width(); };
+    const Vec3 first = edge.curve->point(any());
+    return std::pair(first + offset, edge.curve->point(any()) + offset);
+  };
+  return subject;
+}
+
+inline std::vector<Entry> solid_entries() {
+  using oracle::Solid;
+  using Kind = Solid::Kind;
+  const Solid die =
+      Solid::of(Kind::subtract, {Solid::of(Kind::intersect, {Solid::box(Vec3(-1), Vec3(1)), Solid::ball(Vec3(0), 1.4)}),
+                                 Solid::ball({0, 0, 1.1}, 0.3), Solid::ball({1.1, 0.4, 0.4}, 0.25),
+                                 Solid::ball({1.1, -0.4, -0.4}, 0.25), Solid::ball({0.3, -1.05, 0.2}, 0.4)});
+  std::vector<Entry> entries{
+      csg_entry("csg_lens", Solid::of(Kind::intersect, {Solid::ball({0, 0, 0.8}, 1), Solid::ball({0, 0, -0.8}, 1)})),
+      csg_entry("csg_die", die),
+      csg_entry(
+          "csg_tree",
+          Solid::of(Kind::unite,
+                    {Solid::of(Kind::subtract, {Solid::box({-1.2, -0.5, -0.4}, {1.1, 0.6, 0.5}), die}),
+                     Solid::of(Kind::intersect, {Solid::ball({0.2, 0.1, 1.5}, 0.8),
+                                                 Solid::half_space({0, 0, 1.6}, glm::normalize(Vec3(1, 2, 3)))})})),
+      {"body_box", [](const Vec3& offset) {
+         const Solid solid = Solid::box({-0.4, 0.1, 0.2}, {0.6, 2.1, 3.2});
+         return body_subject(box(Frame{{-0.4, 0.1, 0.2}}, {1, 2, 3}), offset,
+                             [=](const Line& line, bool& undecided) { return solid.crossings(line, 1e-9, undecided); });
+       }}};
+  // Convex, so an intersection of half-spaces.
+  const std::vector<Vec2> base{{0, 0}, {2, 0}, {2.5, 1}, {1, 2}, {-0.5, 1}};
+  std::vector<Solid> walls{Solid::half_space({0, 0, 0}, {0, 0, -1}), Solid::half_space({0, 0, 2}, {0, 0, 1})};
+  for (size_t k = 0; k < base.size(); ++k) {
+    const Vec2 a = base[k], d = base[(k + 1) % base.size()] - a;
+    walls.push_back(Solid::half_space({a.x, a.y, 0}, glm::normalize(Vec3(d.y, -d.x, 0))));
+  }
+  entries.push_back({"body_prism", [=](const Vec3& offset) {
+                       const Solid solid = Solid::of(Kind::intersect, walls);
+                       return body_subject(prism(Frame(), base, 2), offset, [=](const Line& line, bool& undecided) {
+                         return solid.crossings(line, 1e-9, undecided);
+                       });
+                     }});
+  return entries;
+}
+
+}  // namespace lekalo::render::completeness
