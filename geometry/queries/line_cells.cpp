@@ -306,12 +306,14 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
     if (SurfaceCells{&surface, smaller.box}.excluded(s.line)) return;
     search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
   };
+  // Across a line that runs in the surface parts get thin long before they get short.
+  const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell;
   ProxyPatch own;
-  if (!proxy) {
+  if (!proxy && !is_thin) {
     own = proxy_of(surface, part.box);
     proxy = &own;
   }
-  if (proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
+  if (!is_thin && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
     BehindProxy behind(SurfaceCells{&surface, part.box}, *proxy);
     CellHits found;
     search_net(proxy->view(), behind, s.line, found);
@@ -324,7 +326,7 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
       return;
     }
   }
-  const bool along_x = halve_across_x(m, part.hx, part.hy);
+  const bool along_x = is_thin ? part.hx >= part.hy : halve_across_x(m, part.hx, part.hy);
   for (const double side : {-0.5, 0.5}) go_on(along_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 

@@ -21,6 +21,7 @@
 namespace lekalo::render::completeness {
 namespace {
 
+const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));         // where subjects off the origin lie
 constexpr int kAllRandom = 10000000, kAllAimed = 1000000;  // of all surfaces, in the full tier
 
 std::vector<Entry> all_entries() {
@@ -53,6 +54,7 @@ Ray random_ray(const Subject& subject, Random& random) {
 // Along a silhouette or past a special place; false where none was found.
 bool aimed_ray(const Subject& subject, const World& world, Random& random, Ray& ray) {
   const double size = subject.box.diameter();
+  double farthest = 1e6;
   const auto any_shift = [&](double least) { return size * std::pow(10.0, -3 + (least + 3) * unit(random)); };
   Vec3 through;
   if (!subject.special || unit(random) < 0.5) {
@@ -68,13 +70,20 @@ bool aimed_ray(const Subject& subject, const World& world, Random& random, Ray& 
     through = at.position + (unit(random) < 0.5 ? 1 : -1) * any_shift(-9) * normal;
   } else {
     const auto [place, other] = subject.special(random);
+    farthest = subject.farthest;
     const bool along = unit(random) < 0.2 && glm::length(other - place) > 1e-3 * size;
     ray.direction = along ? glm::normalize(other - place) : any_direction(random);
     through = unit(random) < 0.3 ? place : place + any_shift(-12) * any_direction(random);
   }
   const double kind = unit(random);
-  ray.origin = through - (kind < 0.6 ? 2 * unit(random) : kind < 0.8 ? 1e3 : 1e6) * size * ray.direction;
+  ray.origin = through - (kind < 0.6 ? 2 * unit(random) : kind < 0.8 ? 1e3 : farthest) * size * ray.direction;
   return true;
+}
+
+// Exactly, as C++ reads it.
+std::string text_of(const Ray& ray) {
+  const auto vector = [](const Vec3& v) { return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z); };
+  return fmt::format("ray {{{}, {}}}", vector(ray.origin), vector(ray.direction));
 }
 
 struct Tally {
@@ -168,8 +177,7 @@ class Comparison {
     return shadow.t_max <= shadow.t_min || !world_.occluded(shadow);
   }
   std::string description(const Ray& ray, const std::vector<Hit>& found, const std::vector<double>& truth) const {
-    const auto vector = [](const Vec3& v) { return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z); };
-    std::string text = fmt::format("ray {} {} (from {} sizes away), found", vector(ray.origin), vector(ray.direction),
+    std::string text = fmt::format("{} (from {} sizes away), found", text_of(ray),
                                    glm::length(ray.origin - subject_.box.center()) / size_);
     for (const Hit& hit : found) text += fmt::format(" {} ({}, {})", hit.t, hit.u, hit.v);
     text += ", expected";
@@ -181,6 +189,12 @@ class Comparison {
   const World& world_;
   double size_;
 };
+
+// A name that GoogleTest accepts.
+std::string word(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 class Completeness : public testing::TestWithParam<size_t> {
  protected:
@@ -201,11 +215,10 @@ TEST_P(Completeness, NoMissAndNoFalseHit) {
   const Entry& entry = entries()[GetParam()];
   const auto share = [&](int all) { return tests::tier_count(all / static_cast<int>(entries().size()) + 1); };
   const double size = entry.make(Vec3(0)).box.diameter();
-  const Vec3 away = glm::normalize(Vec3(6, -7, 4));
   Random random(GetParam() + 1);
   Tally any, aimed;
   for (const auto& [distance, part] : {std::pair(0.0, 0.8), std::pair(1e3, 0.1), std::pair(1e6, 0.1)}) {
-    const Subject subject = entry.make(distance * size * away);
+    const Subject subject = entry.make(distance * size * kAway);
     const World world(model_of(subject));
     Comparison comparison(subject, world);
     for (int k = static_cast<int>(part * share(kAllRandom)); k > 0; --k)
@@ -224,13 +237,89 @@ TEST_P(Completeness, NoMissAndNoFalseHit) {
   tests::report_figure("largest_difference_of_t", std::max(any.worst, aimed.worst));
 }
 
-std::string name_of(const testing::TestParamInfo<size_t>& info) {
-  std::string name = all_entries()[info.param].name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
+std::string name_of(const testing::TestParamInfo<size_t>& info) { return word(all_entries()[info.param].name); }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Completeness, testing::Range<size_t>(0, all_entries().size()), name_of);
+
+// The closed ones of all entries, and more.
+std::vector<Entry> all_closed_entries() {
+  std::vector<Entry> entries = closed_entries();
+  for (const Entry& entry : all_entries())
+    if (entry.closed) entries.push_back(entry);
+  return entries;
+}
+
+class Parity : public testing::TestWithParam<size_t> {
+ protected:
+  static const std::vector<Entry>& entries() {
+    static const std::vector<Entry> all = all_closed_entries();
+    return all;
+  }
+};
+
+// A ray with an odd number is in the band if it grazes an edge: the numbers of its shifts by 1e-9 of the size (and of
+// the rounding of its coordinates) are all even, and not all the same.
+TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
+  const Entry& entry = entries()[GetParam()];
+  const auto share = [&](int all) { return tests::tier_count(all / static_cast<int>(entries().size()) + 1); };
+  const double size = entry.make(Vec3(0)).box.diameter();
+  Random random(1000 + GetParam());
+  struct Count {
+    int rays = 0, hits = 0, odd = 0, band = 0;
+  } any, aimed;
+  for (const auto& [distance, part] : {std::pair(0.0, 0.8), std::pair(1e3, 0.1), std::pair(1e6, 0.1)}) {
+    const Subject subject = entry.make(distance * size * kAway);
+    const World world(model_of(subject));
+    const Vec3 center = subject.box.center();
+    const auto grazes = [&](const Ray& ray) {
+      const double reach = 1e-9 * size + 8e-16 * (glm::length(ray.origin) + glm::length(ray.origin - center));
+      size_t least = 1000, most = 0;
+      for (int copy = 0; copy < 8; ++copy) {
+        Ray shifted = ray;
+        shifted.origin += reach * Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1);
+        const size_t count = world.all_hits(shifted).size();
+        if (count % 2 != 0) return false;
+        least = std::min(least, count);
+        most = std::max(most, count);
+      }
+      return least < most;
+    };
+    const auto follow = [&](Ray ray, Count& count) {
+      // From outside: at least one size before the middle of the bounds.
+      const double before = glm::dot(ray.origin - center, ray.direction) / size;
+      if (before > -1) ray.origin -= (before + 1) * size * ray.direction;
+      const size_t hits = world.all_hits(ray).size();
+      ++count.rays;
+      count.hits += static_cast<int>(hits);
+      if (hits % 2 == 0) return;
+      if (grazes(ray)) {
+        ++count.band;
+      } else if (++count.odd <= 5) {
+        ADD_FAILURE() << hits << " crossings of " << text_of(ray);
+      }
+    };
+    for (int k = static_cast<int>(part * share(kAllRandom)); k > 0; --k) follow(random_ray(subject, random), any);
+    Ray ray;
+    if (distance > subject.farthest) continue;
+    for (int k = static_cast<int>(part * share(kAllAimed)); k > 0; --k)
+      if (aimed_ray(subject, world, random, ray)) follow(ray, aimed);
+  }
+  EXPECT_EQ(any.odd, 0) << "of " << any.rays;
+  EXPECT_EQ(aimed.odd, 0) << "of " << aimed.rays;
+  EXPECT_LE(any.band, 1 + any.rays / 100000);
+  EXPECT_GT(any.hits, any.rays / 20);
+  for (const auto& [kind, count] : {std::pair("random", any), std::pair("aimed", aimed)}) {
+    tests::report_figure(std::string(kind) + "_rays", count.rays);
+    tests::report_figure(std::string(kind) + "_in_band", count.band);
+    tests::report_figure(std::string(kind) + "_odd", count.odd);
+  }
+}
+
+std::string name_of_closed(const testing::TestParamInfo<size_t>& info) {
+  return word(all_closed_entries()[info.param].name);
+}
+
+INSTANTIATE_TEST_SUITE_P(ClosedShapes, Parity, testing::Range<size_t>(0, all_closed_entries().size()), name_of_closed);
 
 }  // namespace
 }  // namespace lekalo::render::completeness

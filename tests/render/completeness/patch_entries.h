@@ -174,7 +174,7 @@ inline Subject periodic_nurbs(const Vec3& offset) {
   const auto axis = [](int degree, int count) {
     return SplineAxis(degree, knots_by_rule("uniform", degree, count, true, {}), Extension::periodic);
   };
-  return closed(subject_of(SurfaceSet{std::make_shared<NurbsSurface>(axis(3, m), axis(2, n), points, weights)}));
+  return subject_of(SurfaceSet{std::make_shared<NurbsSurface>(axis(3, m), axis(2, n), points, weights)});
 }
 
 inline Subject teapot(const Vec3& offset) {
@@ -197,32 +197,32 @@ inline CurvePtr wavy_curve(const Vec3& offset) {
 inline Subject spindle(const Vec3& offset) {
   std::vector<Vec3> points{{0, 0, -1}, {0.9, 0, -1}, {0.1, 0, 0.1}, {1.2, 0, 0.6}, {0, 0, 1}};
   for (Vec3& p : points) p += offset;
-  return closed(subject_of(SurfaceSet{std::make_shared<RevolutionSurface>(
-      std::make_shared<NurbsCurve>(bezier_curve(points)), Axis{offset, {0, 0, 1}})}));
+  return subject_of(SurfaceSet{std::make_shared<RevolutionSurface>(std::make_shared<NurbsCurve>(bezier_curve(points)),
+                                                                   Axis{offset, {0, 0, 1}})});
 }
 
 // One surface of a closed form, in the frame.
 template <class Make>
 Entry formula_entry(const std::string& name, bool is_closed, const Make& make) {
-  return {name, [=](const Vec3& offset) {
-            Subject subject = subject_of(SurfaceSet{make(frame_at(offset))});
-            subject.closed = is_closed;
-            return subject;
-          }};
+  return {name, [=](const Vec3& offset) { return subject_of(SurfaceSet{make(frame_at(offset))}); }, is_closed};
 }
 
 inline std::vector<Entry> surface_entries() {
   std::vector<Entry> entries{{"nurbs_with_creases", nurbs_with_creases},
-                             {"periodic_nurbs", periodic_nurbs},
+                             {"periodic_nurbs", periodic_nurbs, true},
                              {"teapot", teapot},
-                             {"spindle", spindle}};
+                             {"spindle", spindle, true}};
   const auto add = [&](const Entry& entry) { entries.push_back(entry); };
-  add({"nurbs_sphere", [](const Vec3& offset) {
-         return closed(subject_of(SurfaceSet{as_spline(SphereSurface(frame_at(Vec3(0)), 1.3), offset)}));
-       }});
-  add({"nurbs_torus", [](const Vec3& offset) {
-         return closed(subject_of(SurfaceSet{as_spline(TorusSurface(frame_at(Vec3(0)), 3, 1), offset)}));
-       }});
+  add({"nurbs_sphere",
+       [](const Vec3& offset) {
+         return subject_of(SurfaceSet{as_spline(SphereSurface(frame_at(Vec3(0)), 1.3), offset)});
+       },
+       true});
+  add({"nurbs_torus",
+       [](const Vec3& offset) {
+         return subject_of(SurfaceSet{as_spline(TorusSurface(frame_at(Vec3(0)), 3, 1), offset)});
+       },
+       true});
   add({"extrusion", [](const Vec3& offset) {
          return subject_of(SurfaceSet{std::make_shared<ExtrusionSurface>(wavy_curve(offset), Vec3(0.3, 1.5, -0.2))});
        }});

@@ -16,8 +16,7 @@
 
 namespace lekalo::render::completeness {
 
-// -------------------------------------------------------------------------------------------------------------
-// formulas
+// -------------------------------------------------------------------------------- formulas
 
 // A surface by formulas that lies near the origin, moved by its object's transform; its seams, poles and edges are
 // those of the domain.
@@ -50,12 +49,6 @@ struct WavesSigns {
     return z - T(0.4) * sin(T(3.0) * x) * exp(-(y * y)) - T(0.1) * cos(T(5.0) * y);
   }
 };
-
-// The torus of a sign function whose zero set is the whole surface.
-template <class F>
-Truth truth_of_whole(const Box3& box) {
-  return truth_of_signs<F>(box.inflated(0.01), false);
-}
 
 // The rational patch that polynomial formulas of degrees p and q are: values at p + 1 and q + 1 parameters, in long
 // double, solved for the Bernstein coefficients.
@@ -119,17 +112,18 @@ inline std::vector<Entry> formula_entries() {
   return {
       {"formula_torus",
        [](const Vec3& offset) {
-         return closed(formula_subject({"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v))*sin(u)", "0.7*sin(v)"},
-                                       {{0, kTwoPi}, {-kPi, kPi}}, {true, true}, offset,
-                                       truth_of_whole<TorusSigns>({Vec3(-2.7, -2.7, -0.7), Vec3(2.7, 2.7, 0.7)})));
-       }},
+         return formula_subject({"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v))*sin(u)", "0.7*sin(v)"},
+                                {{0, kTwoPi}, {-kPi, kPi}}, {true, true}, offset,
+                                truth_of_signs<TorusSigns>({Vec3(-2.8, -2.8, -0.8), Vec3(2.8, 2.8, 0.8)}, false));
+       },
+       true},
       polynomial("formula_enneper", {"u - u^3/3 + u*v^2", "v - v^3/3 + v*u^2", "u^2 - v^2"}, 3, 3,
                  {{-1.8, 1.8}, {-1.8, 1.8}},
                  [](double u, double v) {
                    return Vec3(u - u * u * u / 3 + u * v * v, v - v * v * v / 3 + v * u * u, u * u - v * v);
                  }),
-      polynomial("formula_whitney_umbrella", {"u*v", "u", "v^2"}, 1, 2, {{-1, 1}, {-1, 1}},
-                 [](double u, double v) { return Vec3(u * v, u, v * v); }),
+      polynomial("formula_ruled_cubic", {"u*v", "u", "v^2 + u"}, 1, 2, {{0.2, 1}, {-1, 1}},
+                 [](double u, double v) { return Vec3(u * v, u, v * v + u); }),
       {"formula_waves",
        [](const Vec3& offset) {
          return formula_subject({"u", "v", "0.4*sin(3*u)*exp(-v^2) + 0.1*cos(5*v)"}, {{-1.5, 1.5}, {-1.5, 1.5}}, {},
@@ -139,8 +133,7 @@ inline std::vector<Entry> formula_entries() {
   };
 }
 
-// ---------------------------------------------------------------------------------------------------- implicit
-// surfaces
+// -------------------------------------------------------------------------------- implicit surfaces
 
 struct BarthSigns {
   template <class T>
@@ -166,14 +159,16 @@ struct HeartSigns {
 
 template <class F>
 Entry implicit_entry(const std::string& name, const std::string& formula, const Vec3& half, bool is_closed) {
-  return {name, [=](const Vec3& offset) {
+  return {name,
+          [=](const Vec3& offset) {
             Expression f = std::get<Expression>(Expression::parse(formula));
             const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
             if (const auto error = f.bind(variables)) throw std::invalid_argument(error->message);
             const Box3 box{-half, half};
             return subject_of(std::make_shared<ImplicitSurface>(f, 0.0, ImplicitRegion{box}, is_closed), offset,
                               truth_of_signs<F>(box, is_closed));
-          }};
+          },
+          is_closed};
 }
 
 inline std::vector<Entry> implicit_entries() {
@@ -190,8 +185,7 @@ inline std::vector<Entry> implicit_entries() {
                                  Vec3(1.5, 1, 1.5), true)};
 }
 
-// ------------------------------------------------------------------------------------------------------ tubes and
-// balls
+// -------------------------------------------------------------------------------- tubes and balls
 
 inline Subject tube_subject(const CurvePtr& curve, double radius, const Vec3& offset,
                             const std::function<oracle::SweptBall(long double)>& ball, std::vector<double> breaks) {
@@ -218,7 +212,8 @@ inline std::vector<Entry> sweep_entries() {
                                return oracle::SweptBall{std::cos(t), std::sin(t), 0.2L * t, 0.2L};
                              },
                              {0, 6});
-       }},
+       },
+       true},
       {"balls",
        [](const Vec3& offset) {
          Random random(70);
@@ -234,12 +229,12 @@ inline std::vector<Entry> sweep_entries() {
          const auto solid = oracle::Solid::of(oracle::Solid::Kind::unite, solids);
          return subject_of(std::make_shared<Balls>(centers, radii), offset,
                            [=](const Line& line, bool& undecided) { return solid.crossings(line, 1e-9, undecided); });
-       }},
+       },
+       true},
   };
 }
 
-// ------------------------------------------------------------------------------------------------------- CSG and
-// bodies
+// -------------------------------------------------------------------------------- CSG and bodies
 
 // The product's shape of an oracle's solid.
 inline ShapePtr shape_of(const oracle::Solid& solid) {
@@ -287,13 +282,13 @@ inline Subject body_subject(const Body& body, const Vec3& offset, const Truth& t
   subject.transform = Affine::translation(offset);
   subject.box = transformed(bounds(body), subject.transform);
   subject.truth = moved(offset, truth);
-  subject.closed = true;
+  subject.farthest = 1e3;  // from farther a line's rounding takes it past one face of an edge and not the other
   subject.special = [=](Random& random) {
     const Edge& edge = placed->edges[static_cast<size_t>(unit(random) * placed->edges.size())];
     const Interval range = edge.curve->domain();
-    const auto any = [&] { return unit(random) < 0.2 ? range.lo : range.lo + unit(random) * range.width(); };
-    const Vec3 first = edge.curve->point(any());
-    return std::pair(first + offset, edge.curve->point(any()) + offset);
+    const double t = unit(random) < 0.2 ? range.lo : range.lo + unit(random) * range.width();
+    const Vec3 place = edge.curve->point(t) + offset;
+    return std::pair(place, place);  // not along it: lines in a plane face are outside what is asked
   };
   return subject;
 }
@@ -332,7 +327,32 @@ inline std::vector<Entry> solid_entries() {
                          return solid.crossings(line, 1e-9, undecided);
                        });
                      }});
+  for (Entry& entry : entries) entry.closed = true;
   return entries;
+}
+
+// Closed subjects for which only the number of crossings is asked.
+inline std::vector<Entry> closed_entries() {
+  const auto body = [](const std::string& name, const Body& made) {
+    return Entry{name, [=](const Vec3& offset) { return body_subject(made, offset, {}); }};
+  };
+  const auto tube = [](const std::string& name, const CurvePtr& curve, double radius, Caps caps) {
+    return Entry{name, [=](const Vec3& offset) {
+                   return subject_of(std::make_shared<Tube>(curve, RadiusLaw(radius), caps), offset, {});
+                 }};
+  };
+  const Frame frame = frame_at(Vec3(0));
+  const std::vector<Vec3> tight{{0, 0, 0}, {2, 0.2, 0.3}, {-1, 0.4, 0.1}, {1, 0.7, 0}};
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0.1, 0}, {0.1, 0.2, 0.1}, {0.5, 1, 0.9}, {0.5, 0.9, -0.4}};
+  return {body("ball", ball(frame, 1.5)),
+          body("cylinder", cylinder_body(frame, 1, 2)),
+          body("cone", frustum(frame, 2, 0, 3)),
+          body("frustum", frustum(frame, 2, 1, 3)),
+          body("torus", torus_body(frame, 3, 1)),
+          body("wedge", wedge(frame, {3, 2, 1.5}, 1)),
+          body("pyramid", pyramid(frame, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0, 2})),
+          tube("tube_with_flat_ends", std::make_shared<NurbsCurve>(bezier_curve(tight)), 0.2, Caps::flat),
+          tube("tube_along_corners", std::make_shared<NurbsCurve>(polyline(corners)), 0.07, Caps::round)};
 }
 
 }  // namespace lekalo::render::completeness

@@ -32,8 +32,9 @@ struct Subject {
   // Differences from the oracle's t up to this share of the size count as none: what the oracle's own arithmetic
   // allows.
   double same = 1e-9;
-  double band = 1e-9;   // half its width, of the size
-  bool closed = false;  // a line from outside crosses it an even number of times
+  double band = 1e-9;     // half its width, of the size
+  double farthest = 1e6;  // that origins of rays aimed at special places lie away, and aimed-at closed subjects off the
+                          // origin, in sizes
 };
 
 // Makes a subject that lies near the origin, or moved by the offset.
@@ -41,6 +42,7 @@ using Maker = std::function<Subject(const Vec3& offset)>;
 struct Entry {
   std::string name;
   Maker make;
+  bool closed = false;  // a line from outside crosses it an even number of times
 };
 
 inline double unit(Random& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
@@ -80,8 +82,7 @@ inline Truth moved(const Vec3& offset, const Truth& truth) {
   };
 }
 
-// ---------------------------------------------------------------------------------------- surfaces with rational
-// pieces
+// -------------------------------------------------------------------------------- rational pieces
 
 // A corner of the dyadic net of a piece, or a place on its lines; half of them on the border of the piece.
 inline std::function<std::pair<Vec3, Vec3>(Random&)> borders_of(const SurfaceSet& surfaces) {
@@ -152,12 +153,7 @@ inline Subject subject_of(const SurfaceSet& surfaces) {
   return subject;
 }
 
-inline Subject closed(Subject subject) {
-  subject.closed = true;
-  return subject;
-}
-
-// ------------------------------------------------------------------------------------------------------ other subjects
+// -------------------------------------------------------------------------------- other subjects
 
 // A shape that lies near the origin, moved by its object's transform.
 inline Subject subject_of(const ShapePtr& shape, const Vec3& offset, const Truth& truth) {
@@ -166,7 +162,6 @@ inline Subject subject_of(const ShapePtr& shape, const Vec3& offset, const Truth
   subject.transform = Affine::translation(offset);
   subject.box = transformed(shape->bounds(), subject.transform);
   subject.truth = moved(offset, truth);
-  subject.closed = shape->is_closed();
   return subject;
 }
 
