@@ -3,6 +3,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +16,7 @@ namespace {
 
 DeviceOptions device_options;
 bool device_exists = false;
+std::atomic<ptrdiff_t> device_bytes = 0;
 
 }  // namespace
 
@@ -25,11 +28,20 @@ RTCDevice device() {
       configuration += (configuration.empty() ? "isa=" : ",isa=") + device_options.instruction_set;
     const RTCDevice d = rtcNewDevice(configuration.empty() ? nullptr : configuration.c_str());
     if (!d) throw std::runtime_error("Embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    rtcSetDeviceMemoryMonitorFunction(
+        d,
+        [](void*, ssize_t bytes, bool) {
+          device_bytes += bytes;
+          return true;
+        },
+        nullptr);
     device_exists = true;
     return d;
   }();
   return shared;
 }
+
+size_t device_memory() { return static_cast<size_t>(std::max<ptrdiff_t>(device_bytes, 0)); }
 
 void set_device_options(const DeviceOptions& options) {
   if (device_exists) throw std::logic_error("Embree runs already");

@@ -1,6 +1,7 @@
 // How Embree is to run, said once for the process before the first World is made.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -17,5 +18,8 @@ void set_device_options(const DeviceOptions& options);
 
 // Runs the work of building a World with the threads it may have.
 void with_device_threads(const std::function<void()>& build);
+
+// Bytes that Embree holds now, in the whole process.
+size_t device_memory();
 
 }  // namespace lekalo::render

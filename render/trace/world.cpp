@@ -392,6 +392,7 @@ struct World::Compiled {
 World::World(std::shared_ptr<const Model> model, bool parameters)
     : model_(std::move(model)), compiled_(std::make_unique<Compiled>()) {
   const auto begin = std::chrono::steady_clock::now();
+  const size_t embree_before = device_memory();
   Compiled& c = *compiled_;
   c.parameters = parameters;
   c.camera = model_->camera;
@@ -409,6 +410,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
       c.transmits = c.transmits || (material && material->transmits());
   c.statistics.pieces = c.top.piece_count();
   c.statistics.triangles = c.top.triangle_count();
+  c.statistics.hierarchy_bytes = std::max(device_memory(), embree_before) - embree_before;
   c.statistics.bytes = c.top.memory();
   for (const auto& [key, child] : c.shared) c.statistics.bytes += child->memory();
   c.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -19,7 +19,9 @@ struct WorldStatistics {
   size_t pieces = 0;
   size_t triangles = 0;
   size_t instances = 0;
-  size_t bytes = 0;
+  size_t bytes = 0;  // of pieces, shapes and the vertices of meshes
+  size_t hierarchy_bytes =
+      0;  // that Embree took in this process while the World was built, vertices of meshes included
   // How lines meet the surfaces and shapes, by name: those of one method together.
   struct Method {
     std::string name;

@@ -5,12 +5,10 @@
 //
 // SAG: of the triangles, as a part of the diameter; left out: a tenth of a pixel.
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <random>
 
@@ -51,14 +49,6 @@ class Timed {
   double least_ = 1e300;
   size_t result_ = 0;
 };
-
-size_t resident() {
-  malloc_trim(0);
-  std::ifstream file("/proc/self/statm");
-  size_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096;
-}
 
 void append(Mesh& all, const Mesh& part) {
   const auto points = static_cast<int32_t>(all.points.size()), normals = static_cast<int32_t>(all.normals.size()),
@@ -196,13 +186,11 @@ int main(int argc, char** argv) {
   const auto model = benchmarks::ray_case(argv[1], argv[2], kWidth, kHeight);
 
   { const render::World warm(std::make_shared<render::Model>()); }  // Embree's device and its threads
-  size_t before = resident();
   double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
   const render::World direct(model);
   const double direct_cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-  const size_t direct_bytes = resident() - before;
+  const size_t direct_bytes = direct.statistics().bytes + direct.statistics().hierarchy_bytes;
 
-  before = resident();
   cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
   auto mesh = std::make_shared<Mesh>(mesh_of(*model, sag));
   const benchmarks::BareScene bare(*mesh, direct.center());
@@ -218,9 +206,9 @@ int main(int argc, char** argv) {
   const Rays rays = rays_of(*model, direct);
   fmt::print(
       "{{\"pieces\": {}, \"triangles\": {}, \"direct_build\": {:.4f}, \"direct_wall\": {:.4f}, \"mesh_build\": {:.4f}, "
-      "\"direct_bytes\": {}, \"world_bytes\": {}, \"bare_bytes\": {}",
+      "\"direct_bytes\": {}, \"bare_bytes\": {}",
       direct.statistics().pieces, mesh->triangles.size(), direct_cpu, direct.statistics().build_seconds, mesh_cpu,
-      direct_bytes, direct.statistics().bytes, bare_bytes);
+      direct_bytes, bare_bytes);
   fmt::print(", {}", race("primary", bare, direct, &meshes, rays.primary, runs, false));
   fmt::print(", {}", race("shadow", bare, direct, &meshes, rays.shadow, runs, true));
   fmt::print(", {}}}\n", race("incoherent", bare, direct, &meshes, rays.incoherent, runs, false));

@@ -51,8 +51,10 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
   const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
-  fmt::print(stderr, "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB)\n", built,
-             world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576);
+  fmt::print(stderr,
+             "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB, hierarchy {:.2f} MiB)\n",
+             built, world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576,
+             static_cast<double>(world.hierarchy_bytes) / 1048576);
   for (const auto& method : world.methods)
     fmt::print(stderr, "lines met by     {}: {} {}, {} pieces, {:.2f} MiB\n", method.name, method.count,
                method.count == 1 ? "surface or shape" : "surfaces and shapes", method.pieces,
