@@ -6,6 +6,8 @@
 // iteration, no derivative.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "geometry/numerics/interval.h"
@@ -28,7 +30,8 @@ class SignOracle {
   Answer ask(const Line& line, double t0, double t1) {
     line_ = line;
     cells_.clear();
-    halve(t0, t1, 1e-9 * (t1 - t0));
+    // Not below what doubles tell apart so far from the line's origin.
+    halve(t0, t1, std::max(1e-9 * (t1 - t0), 1e-15 * std::max(std::abs(t0), std::abs(t1))));
     Answer answer;
     for (size_t first = 0, last; first < cells_.size(); first = last) {
       for (last = first + 1; last < cells_.size() && cells_[last].lo == cells_[last - 1].hi;) ++last;
