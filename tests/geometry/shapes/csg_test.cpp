@@ -14,6 +14,7 @@
 #include "geometry/shapes/half_space.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/torus.h"
+#include "support/solid_oracle.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry {
@@ -34,76 +35,26 @@ std::vector<SurfaceHit> hits_of(const Shape& shape, const Line& line, const Inte
   return hits;
 }
 
-// A tree of balls, boxes and half-spaces as the oracle sees it.
-struct Plan {
-  enum class Kind { ball, box, half_space, unite, intersect, subtract } kind;
-  Vec3 a{0}, b{0};
-  double radius = 0;
-  std::vector<Plan> operands;
-
-  bool holds(Real x, Real y, Real z) const {
-    switch (kind) {
-      case Kind::ball: {
-        const Real dx = x - a.x, dy = y - a.y, dz = z - a.z;
-        return dx * dx + dy * dy + dz * dz < Real(radius) * radius;
-      }
-      case Kind::box:
-        return x > a.x && x < b.x && y > a.y && y < b.y && z > a.z && z < b.z;
-      case Kind::half_space:
-        return (x - a.x) * b.x + (y - a.y) * b.y + (z - a.z) * b.z < 0;
-      case Kind::unite:
-        for (const Plan& one : operands)
-          if (one.holds(x, y, z)) return true;
-        return false;
-      case Kind::intersect:
-        for (const Plan& one : operands)
-          if (!one.holds(x, y, z)) return false;
-        return true;
-      case Kind::subtract:
-        for (size_t k = 1; k < operands.size(); ++k)
-          if (operands[k].holds(x, y, z)) return false;
-        return operands[0].holds(x, y, z);
-    }
-    return false;
+// A tree of balls, boxes and half-spaces as the oracle sees it, and as the product does.
+using Plan = oracle::Solid;
+ShapePtr shape_of(const Plan& plan) {
+  switch (plan.kind) {
+    case Plan::Kind::ball:
+      return solid_ball(plan.a, plan.radius);
+    case Plan::Kind::box:
+      return solid_box(plan.a, plan.b);
+    case Plan::Kind::half_space:
+      return std::make_shared<HalfSpaceShape>(plan.a, plan.b);
+    default:
+      break;
   }
-  void roots(const Line& line, std::vector<Real>& t) const {
-    const Vec3 &o = line.origin, &d = line.direction;
-    if (kind == Kind::ball) {
-      const Real ox = o.x - a.x, oy = o.y - a.y, oz = o.z - a.z;
-      const Real dd = Real(d.x) * d.x + Real(d.y) * d.y + Real(d.z) * d.z;
-      const Real h = (ox * d.x + oy * d.y + oz * d.z) / dd;
-      const Real px = ox - h * d.x, py = oy - h * d.y, pz = oz - h * d.z;
-      const Real rest = (Real(radius) * radius - (px * px + py * py + pz * pz)) / dd;
-      if (rest > 0) t.insert(t.end(), {-h - std::sqrt(rest), -h + std::sqrt(rest)});
-    } else if (kind == Kind::box) {
-      for (int k = 0; k < 3; ++k)
-        if (d[k] != 0) t.insert(t.end(), {(Real(a[k]) - o[k]) / d[k], (Real(b[k]) - o[k]) / d[k]});
-    } else if (kind == Kind::half_space) {
-      const Real slope = Real(d.x) * b.x + Real(d.y) * b.y + Real(d.z) * b.z;
-      if (slope != 0)
-        t.push_back(((a.x - Real(o.x)) * b.x + (a.y - Real(o.y)) * b.y + (a.z - Real(o.z)) * b.z) / slope);
-    }
-    for (const Plan& one : operands) one.roots(line, t);
-  }
-  ShapePtr shape() const {
-    switch (kind) {
-      case Kind::ball:
-        return solid_ball(a, radius);
-      case Kind::box:
-        return solid_box(a, b);
-      case Kind::half_space:
-        return std::make_shared<HalfSpaceShape>(a, b);
-      default:
-        break;
-    }
-    std::vector<ShapePtr> shapes;
-    for (const Plan& one : operands) shapes.push_back(one.shape());
-    return combined(kind == Kind::unite       ? Operation::unite
-                    : kind == Kind::intersect ? Operation::intersect
-                                              : Operation::subtract,
-                    shapes);
-  }
-};
+  std::vector<ShapePtr> shapes;
+  for (const Plan& one : plan.operands) shapes.push_back(shape_of(one));
+  return combined(plan.kind == Plan::Kind::unite       ? Operation::unite
+                  : plan.kind == Plan::Kind::intersect ? Operation::intersect
+                                                       : Operation::subtract,
+                  shapes);
+}
 
 class RandomTrees : public testing::Test {
  protected:
@@ -146,7 +97,7 @@ TEST_F(RandomTrees, CrossWhereTheOracleDoes) {
     const Plan plan = any_tree(1 + k % 3);
     ShapePtr shape;
     try {
-      shape = plan.shape();
+      shape = shape_of(plan);
     } catch (const std::invalid_argument&) {
       continue;  // nothing in common
     }
