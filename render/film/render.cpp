@@ -129,7 +129,7 @@ class TileTracer {
     // All samples of the pixel are added.
     void finish(int x, int y) {
       if (film.reach() > 0) return;
-      if (window.contains(x, y)) film.set_pixel(x, y, sums);
+      film.set_pixel(x, y, sums);
       std::fill(sums.begin(), sums.end(), 0.0);
     }
 
@@ -156,7 +156,7 @@ class TileTracer {
     const int samples = sampler_->samples_per_pixel();
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        double nearest = geometry::kInfinity;
+        double nearest = film_.keeps_data() && film_.crop().contains(x, y) ? geometry::kInfinity : 0;
         int counted = 0;
         for (int s = 0; s < samples; ++s) {
           const Vec2 place = sampler_->pixel_position(x, y, s);
@@ -165,7 +165,7 @@ class TileTracer {
           ++counted;
           exposure.add(x, y, place, sample, 1);
           const Vec2 off = place - 0.5;
-          if (glm::dot(off, off) < nearest && film_.crop().contains(x, y)) {
+          if (glm::dot(off, off) < nearest) {
             nearest = glm::dot(off, off);
             store(x, y, sample);
           }
@@ -235,8 +235,8 @@ class TileTracer {
   }
 
   void count(int x, int y, int samples) const {
-    if (!film_.crop().contains(x, y)) return;
-    if (Channel* kept = film_.channel(kSamples)) kept->values[pixel(x, y)] = static_cast<float>(samples);
+    if (Channel* kept = film_.channel(kSamples); kept && film_.crop().contains(x, y))
+      kept->values[pixel(x, y)] = static_cast<float>(samples);
   }
 
   size_t pixel(int x, int y) const {

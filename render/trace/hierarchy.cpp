@@ -119,6 +119,7 @@ bool Hierarchy::Parts::list_few() {
   for (const auto& record : records)
     for (int i = 0; i < record->count; ++i)
       few.push_back({record.get(), i, box_of(*record, i).inflated(kBoxInflation * radius)});
+  for (const Piece& piece : few) few_box.include(piece.box);
   for (const auto& record : records)
     if (record->kind == GeometryRecord::Kind::target) {
       pieces += record->count;

@@ -41,6 +41,7 @@ struct Hierarchy::Parts {
     Box3 box;
   };
   std::vector<Piece> few;
+  Box3 few_box;  // of all of them
   struct Numbered {
     int first;
     const GeometryRecord* record;

@@ -257,8 +257,10 @@ void Hierarchy::run(Query& query) const {
   size_t number = 0;
   if (!p.few.empty()) {
     const Vec3 inverse = 1.0 / query.line().direction;
+    // Most rays miss the box of all.
+    const bool any = p.few.size() < 3 || may_enter(p.few_box, query.line(), inverse, query.t_min, query.t_max);
     for (const Parts::Piece& piece : p.few) {
-      if (!is_listed(query.among.listed, number++) || query.has_left(*piece.record)) continue;
+      if (!is_listed(query.among.listed, number++) || !any || query.has_left(*piece.record)) continue;
       if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
