@@ -24,21 +24,21 @@ bool keeps(const std::vector<HalfSpace>& clips, const Vec3& point) {
 
 // The point where the line meets the triangle's plane, in double, with the weights clamped to the triangle.
 bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hit& hit) {
-  const auto& corners = mesh.triangles[triangle].point;
-  const Vec3 a = mesh.points[corners[0]], ab = mesh.points[corners[1]] - a, ac = mesh.points[corners[2]] - a;
+  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
+  const Vec3 a = mesh.points[at.point[0]], ab = mesh.points[at.point[1]] - a, ac = mesh.points[at.point[2]] - a;
   const Vec3 n = glm::cross(ab, ac);
   const double slope = glm::dot(n, line.direction), area2 = glm::dot(n, n);
   if (slope == 0 || area2 == 0) return false;
+  const double per_area2 = 1 / area2;
   hit.t = glm::dot(n, a - line.origin) / slope;
   const Vec3 p = line.at(hit.t) - a;
-  hit.b = std::clamp(glm::dot(glm::cross(p, ac), n) / area2, 0.0, 1.0);
-  hit.c = std::clamp(glm::dot(glm::cross(ab, p), n) / area2, 0.0, 1.0 - hit.b);
+  hit.b = std::clamp(glm::dot(glm::cross(p, ac), n) * per_area2, 0.0, 1.0);
+  hit.c = std::clamp(glm::dot(glm::cross(ab, p), n) * per_area2, 0.0, 1.0 - hit.b);
   hit.piece = triangle;
-  hit.face = mesh.triangles[triangle].face;
-  const auto& uv = mesh.triangles[triangle].parameter;
-  if (!mesh.parameters.empty() && uv[0] >= 0) {
-    const geometry::Vec2 q =
-        (1 - hit.b - hit.c) * mesh.parameters[uv[0]] + hit.b * mesh.parameters[uv[1]] + hit.c * mesh.parameters[uv[2]];
+  hit.face = at.face;
+  if (!mesh.parameters.empty() && at.parameter[0] >= 0) {
+    const geometry::Vec2 q = (1 - hit.b - hit.c) * mesh.parameters[at.parameter[0]] +
+                             hit.b * mesh.parameters[at.parameter[1]] + hit.c * mesh.parameters[at.parameter[2]];
     hit.u = q.x;
     hit.v = q.y;
   }
@@ -195,30 +195,43 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
 
 namespace {
 
+// Lets the query's line begin where it enters the bounding sphere, in double. False if it does not meet the sphere
+// within its range; else `from` is that point relative to the centre and `end` the last t that matters.
+bool enter(const Hierarchy::Parts& p, Query& query, Vec3& from, double& end) {
+  const Vec3& d = query.line().direction;
+  const Vec3 origin = query.line().origin - p.center;
+  const double a = glm::dot(d, d), r2 = p.radius * p.radius * (1 + 2e-6);
+  // Rays have unit directions; only lines in the space of an instance have others.
+  const bool unit = std::abs(a - 1) < 1e-12;
+  query.slack = kBoxInflation * p.radius / (unit ? 1 : std::sqrt(a));
+  query.start = query.t_min;
+  end = query.t_max;
+  from = origin + query.t_min * d;
+  if (!(glm::dot(from, from) <= r2)) {
+    const double foot = -glm::dot(origin, d) / a;
+    const Vec3 nearest = origin + foot * d;
+    const double inside = r2 - glm::dot(nearest, nearest);
+    if (!(inside > 0)) return false;
+    const double half = std::sqrt(inside / a);
+    query.start = std::max(query.t_min, foot - half);
+    end = std::min(query.t_max, foot + half);
+    from = origin + query.start * d;
+  }
+  return query.start <= end;
+}
+
 // The part of a query that Embree's hierarchy answers.
 void run_scene(const Hierarchy::Parts& p, Query& query) {
-  // Enter the bounding sphere in double.
-  const Vec3 from = query.line().origin - p.center;
-  const double a = glm::dot(query.line().direction, query.line().direction), b = glm::dot(from, query.line().direction);
-  const double foot = -b / a;
-  const Vec3 nearest = from + foot * query.line().direction;
-  const double r = p.radius * (1 + 1e-6);
-  const double inside = r * r - glm::dot(nearest, nearest);
-  if (!(inside > 0)) return;
-  const double half = std::sqrt(inside / a);
-  query.start = std::max(query.t_min, foot - half);
-  const double end = std::min(query.t_max, foot + half);
-  if (!(query.start <= end)) return;
-  query.slack = kBoxInflation * p.radius / std::sqrt(a);
-
-  const Vec3 o = from + query.start * query.line().direction;
+  Vec3 from;
+  double end;
+  if (!enter(p, query, from, end)) return;
   rtcInitIntersectContext(&query.context);
   if (query.all) query.context.filter = triangle_filter;
   const auto fill = [&](RTCRay& ray) {
-    ray.org_x = static_cast<float>(o.x), ray.org_y = static_cast<float>(o.y), ray.org_z = static_cast<float>(o.z);
-    ray.dir_x = static_cast<float>(query.line().direction.x);
-    ray.dir_y = static_cast<float>(query.line().direction.y);
-    ray.dir_z = static_cast<float>(query.line().direction.z);
+    const Vec3& d = query.line().direction;
+    ray.org_x = static_cast<float>(from.x), ray.org_y = static_cast<float>(from.y);
+    ray.org_z = static_cast<float>(from.z);
+    ray.dir_x = static_cast<float>(d.x), ray.dir_y = static_cast<float>(d.y), ray.dir_z = static_cast<float>(d.z);
     ray.tnear = 0;
     ray.tfar = ray_end(end - query.start + query.slack);
     ray.time = 0;
