@@ -67,9 +67,9 @@ class Tracer {
         random_(random),
         sample_(sample) {}
 
-  // `weight`: what the light of this ray is multiplied with on its way to the eye; `length`: of the way up to its
-  // origin.
-  Spectrum radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length);
+  // `hit`: what the ray meets, instance -1 for nothing; `weight`: what the light of this ray is multiplied with on its
+  // way to the eye; `length`: of the way up to its origin.
+  Spectrum radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length);
 
  private:
   Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
@@ -78,6 +78,11 @@ class Tracer {
   Spectrum passing(const Ray& shadow_ray, const Obstacles& among, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
   void record(const Seen& seen);
+  Hit met(const Ray& ray) const {
+    Hit hit;
+    if (!world_.nearest(ray, hit)) hit.instance = -1;
+    return hit;
+  }
   void mix(uint64_t value) { sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u; }
 
   const World& world_;
@@ -88,11 +93,11 @@ class Tracer {
   RaySample& sample_;
 };
 
-Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length) {
+Spectrum Tracer::radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length) {
   Spectrum through = kWhite;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    Hit hit;
-    if (!world_.nearest(ray, hit)) {
+    if (pass > 0) hit = met(ray);
+    if (hit.instance < 0) {
       mix(0);
       return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
     }
@@ -180,7 +185,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
     next.direction = direction;
     next.kind = RayKind::reflection;
     ++sample_.other_rays;
-    return share * radiance(next, inside, depth + 1, weight * share, seen.length);
+    return share * radiance(next, met(next), inside, depth + 1, weight * share, seen.length);
   };
   if (!mirror.is_zero()) {
     Vec3 direction = reflected(ray.direction, m);
@@ -315,10 +320,10 @@ class ClassicIntegrator final : public Integrator {
  public:
   explicit ClassicIntegrator(const ClassicOptions& options) : options_(options) {}
 
-  RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
+  RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
     RaySample sample;
     Tracer tracer(world, options_, reference_depth(world, ray), random, sample);
-    sample.radiance = tracer.radiance(ray, Media(), 0, kWhite, 0);
+    sample.radiance = tracer.radiance(ray, first, Media(), 0, kWhite, 0);
     return sample;
   }
   std::any made_from() const override { return options_; }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -57,6 +58,8 @@ class Hierarchy {
   void commit();
 
   bool nearest(const Ray& ray, Hit& hit) const;
+  // The nearest hit of each ray; its instance is -1 where there is none.
+  void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   bool occluded(const Ray& ray) const { return occluded(ray, {}); }
   // What may stand between the origin of shadow rays and the places of a bounded box.
   Obstacles obstacles(const Ray& from, const Box3& to) const;

@@ -123,10 +123,10 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
   const geometry::Mesh& mesh = *leaf.mesh;
   const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
-  const Vec3 p[3] = {mesh.points[triangle.point[0]], mesh.points[triangle.point[1]], mesh.points[triangle.point[2]]};
-  const Vec3 ab = p[1] - p[0], ac = p[2] - p[0];
+  const Vec3& p0 = mesh.points[triangle.point[0]];
+  const Vec3 ab = mesh.points[triangle.point[1]] - p0, ac = mesh.points[triangle.point[2]] - p0;
   const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
-  const Vec3 position = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
+  const Vec3 from_a = w[1] * ab + w[2] * ac, position = p0 + from_a;
   Vec3 geometric = glm::normalize(glm::cross(ab, ac)), shading = geometric, smooth_position = position;
   Vec3 du(0), dv(0);
   Vec2 at(hit.u, hit.v);
@@ -147,17 +147,17 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
     if (above > 0) smooth_position = jet.point();
   } else {
     if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
-      const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
-                         mesh.normals[triangle.normal[2]]};
-      const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      const Vec3 &n0 = mesh.normals[triangle.normal[0]], &n1 = mesh.normals[triangle.normal[1]],
+                 &n2 = mesh.normals[triangle.normal[2]];
+      const Vec3 sum = w[0] * n0 + w[1] * n1 + w[2] * n2;
       if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
       if (glm::dot(shading, geometric) < 0) geometric = -geometric;
       // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
       // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-      for (int k = 0; k < 3; ++k) {
-        const double above = std::min(0.0, glm::dot(position - p[k], n[k]));
-        smooth_position -= w[k] * above * n[k];
-      }
+      const double above0 = w[0] * std::min(0.0, glm::dot(from_a, n0)),
+                   above1 = w[1] * std::min(0.0, glm::dot(from_a - ab, n1)),
+                   above2 = w[2] * std::min(0.0, glm::dot(from_a - ac, n2));
+      smooth_position -= above0 * n0 + above1 * n1 + above2 * n2;
     }
     // Texture directions of the facet.
     const Vec2 a = q[1] - q[0], b = q[2] - q[0];
@@ -186,7 +186,7 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
 
 // Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
 // them.
-constexpr double kLeastCell = 1;
+constexpr double kLeastCell = 4;
 
 bool is_drawn_only(const Entity& entity) {
   return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
@@ -419,6 +419,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 World::~World() = default;
 
 bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
+void World::nearest(std::span<const Ray> rays, std::span<Hit> hits) const { compiled_->top.nearest(rays, hits); }
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
 Obstacles World::obstacles(const Ray& from, const Box3& to) const { return compiled_->top.obstacles(from, to); }
 bool World::occluded(const Ray& ray, const Obstacles& among) const { return compiled_->top.occluded(ray, among); }

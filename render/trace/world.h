@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,10 @@ class World {
 
   // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece).
   bool nearest(const Ray& ray, Hit& hit) const;
+  // The same for as many rays as hits; a hit's instance is -1 where its ray meets nothing. Triangles of meshes are
+  // found faster so, most of all if neighbours in the list go the same way. Between triangles that float cannot tell
+  // apart the choice may be another than for the ray alone.
+  void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   // True if anything that shadow rays see lies between t_min and t_max.
   bool occluded(const Ray& ray) const;
   // What may stand between the origin of shadow rays and the places of a box, and whether one of it occludes a ray that

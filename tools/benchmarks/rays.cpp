@@ -135,14 +135,21 @@ Rays rays_of(const render::Model& model, const render::World& world) {
   return rays;
 }
 
+// Rays that are asked together, as a picture asks those of a row of a tile.
+constexpr size_t kTogether = 32;
+
 size_t nearest(const render::World& world, std::span<const render::Ray> rays) {
   size_t count = 0;
   double sum = 0;  // so that the compiler keeps the points
-  for (const render::Ray& ray : rays) {
-    render::Hit hit;
-    if (!world.nearest(ray, hit)) continue;
-    ++count;
-    sum += world.surface_point(ray, hit).normal.z;
+  render::Hit hits[kTogether];
+  for (size_t first = 0; first < rays.size(); first += kTogether) {
+    const std::span<const render::Ray> some = rays.subspan(first, std::min(kTogether, rays.size() - first));
+    world.nearest(some, std::span(hits, some.size()));
+    for (size_t i = 0; i < some.size(); ++i) {
+      if (hits[i].instance < 0) continue;
+      ++count;
+      sum += world.surface_point(some[i], hits[i]).normal.z;
+    }
   }
   if (!std::isfinite(sum)) fmt::print(stderr, "a normal is not a number\n");
   return count;
