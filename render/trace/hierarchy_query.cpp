@@ -268,7 +268,7 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
 
 // Rays that Embree takes at once, and those whose hits are then computed at once: what these need of the mesh is
 // fetched for all of them before.
-constexpr size_t kPacket = 8, kBatch = 32;
+constexpr size_t kPacket = 8, kBatch = 64;
 // Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;
@@ -333,8 +333,14 @@ void fetch_corners(const geometry::Mesh& mesh, int triangle) {
 // The nearest triangles of at most kBatch rays.
 void run_batch(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hit> hits) {
   Met met[kBatch];
-  for (size_t i = 0; i < rays.size(); i += kPacket)
-    meet_triangles(p, rays.subspan(i, std::min(kPacket, rays.size() - i)), met + i);
+  for (size_t i = 0; i < rays.size(); i += kPacket) {
+    const size_t next = std::min(i + kPacket, rays.size()), last = std::min(next + kPacket, rays.size());
+    for (size_t k = next; k < last; ++k) {
+      __builtin_prefetch(&rays[k]);
+      __builtin_prefetch(&rays[k].t_max);
+    }
+    meet_triangles(p, rays.subspan(i, next - i), met + i);
+  }
   for (size_t i = 0; i < rays.size(); ++i)
     if (met[i].record) fetch_corners(*met[i].record->leaf->mesh, met[i].triangle);
   const double slack = kBoxInflation * p.radius;

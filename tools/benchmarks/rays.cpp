@@ -135,8 +135,8 @@ Rays rays_of(const render::Model& model, const render::World& world) {
   return rays;
 }
 
-// Rays that are asked together, as a picture asks those of a row of a tile.
-constexpr size_t kTogether = 32;
+// Rays that are asked together, so few that their hits stay in the cache.
+constexpr size_t kTogether = 256;
 
 size_t nearest(const render::World& world, std::span<const render::Ray> rays) {
   size_t count = 0;
