@@ -65,6 +65,9 @@ class Hierarchy {
   Obstacles obstacles(const Ray& from, const Box3& to) const;
   // The same as occluded(ray) for a ray that ends in the box.
   bool occluded(const Ray& ray, const Obstacles& among) const;
+  // The same for each of as many rays.
+  void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
+  bool gains_by_lists() const;  // of rays
   // In order of t, one for each crossing of each leaf.
   std::vector<Hit> all_hits(const Ray& ray) const;
 

@@ -273,6 +273,50 @@ constexpr size_t kPacket = 8, kBatch = 64;
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;
 
+float largest(float x, float y, float z) { return std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)); }
+
+// At most kPacket rays for Embree; `any` is false if none of them comes near the hierarchy.
+struct Packet {
+  alignas(32) int valid[kPacket];
+  RTCRayHit8 rays;
+  RTCIntersectContext context;
+  bool any = false;
+
+  Packet(const Hierarchy::Parts& p, std::span<const Ray> from) {
+    RTCRay8& to = rays.ray;
+    float spread = 0;
+    size_t first = kPacket;  // that is not empty
+    const float per_radius = static_cast<float>(1 / p.radius);
+    for (size_t i = 0; i < kPacket; ++i) {
+      const Ray& ray = from[std::min(i, from.size() - 1)];
+      const Stretch s = stretch_in(p, ray, ray.t_min, ray.t_max);
+      valid[i] = i < from.size() && !s.empty ? -1 : 0;
+      to.org_x[i] = static_cast<float>(s.from.x), to.org_y[i] = static_cast<float>(s.from.y);
+      to.org_z[i] = static_cast<float>(s.from.z);
+      to.dir_x[i] = static_cast<float>(ray.direction.x), to.dir_y[i] = static_cast<float>(ray.direction.y);
+      to.dir_z[i] = static_cast<float>(ray.direction.z);
+      to.tnear[i] = 0;
+      to.tfar[i] = ray_end(s.end - s.start + s.slack);
+      to.time[i] = 0;
+      to.mask[i] = ~0u;
+      to.id[i] = 0;
+      to.flags[i] = 0;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      if (!valid[i]) continue;
+      first = std::min(first, i);
+      const float turn = largest(to.dir_x[i] - to.dir_x[first], to.dir_y[i] - to.dir_y[first],
+                                 to.dir_z[i] - to.dir_z[first]),
+                  shift = largest(to.org_x[i] - to.org_x[first], to.org_y[i] - to.org_y[first],
+                                  to.org_z[i] - to.org_z[first]);
+      spread = std::max(spread, std::max(turn, per_radius * shift));
+    }
+    any = first < kPacket;
+    rtcInitIntersectContext(&context);
+    context.flags = spread <= kTogether ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+};
+
 // The triangle that a ray meets first, in float.
 struct Met {
   const GeometryRecord* record = nullptr;
@@ -280,43 +324,13 @@ struct Met {
 };
 
 void meet_triangles(const Hierarchy::Parts& p, std::span<const Ray> rays, Met* met) {
-  RTCRayHit8 packet;
-  RTCRay8& to = packet.ray;
-  alignas(32) int valid[kPacket];
-  float spread = 0;
-  size_t first = kPacket;  // that is not empty
-  for (size_t i = 0; i < kPacket; ++i) {
-    const Ray& ray = rays[std::min(i, rays.size() - 1)];
-    const Stretch s = stretch_in(p, ray, ray.t_min, ray.t_max);
-    valid[i] = i < rays.size() && !s.empty ? -1 : 0;
-    to.org_x[i] = static_cast<float>(s.from.x), to.org_y[i] = static_cast<float>(s.from.y);
-    to.org_z[i] = static_cast<float>(s.from.z);
-    to.dir_x[i] = static_cast<float>(ray.direction.x), to.dir_y[i] = static_cast<float>(ray.direction.y);
-    to.dir_z[i] = static_cast<float>(ray.direction.z);
-    to.tnear[i] = 0;
-    to.tfar[i] = ray_end(s.end - s.start + s.slack);
-    to.time[i] = 0;
-    to.mask[i] = ~0u;
-    to.id[i] = 0;
-    to.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    if (!valid[i]) continue;
-    first = std::min(first, i);
-    const float per_radius = static_cast<float>(1 / p.radius);
-    spread = std::max({spread, std::abs(to.dir_x[i] - to.dir_x[first]), std::abs(to.dir_y[i] - to.dir_y[first]),
-                       std::abs(to.dir_z[i] - to.dir_z[first]), per_radius * std::abs(to.org_x[i] - to.org_x[first]),
-                       per_radius * std::abs(to.org_y[i] - to.org_y[first]),
-                       per_radius * std::abs(to.org_z[i] - to.org_z[first])});
-  }
-  if (first == kPacket) return;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = spread <= kTogether ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcIntersect8(valid, p.scene, &context, &packet);
+  Packet packet(p, rays);
+  if (!packet.any) return;
+  rtcIntersect8(packet.valid, p.scene, &packet.context, &packet.rays);
+  const RTCHit8& hit = packet.rays.hit;
   for (size_t i = 0; i < rays.size(); ++i)
-    if (valid[i] && packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      met[i] = {p.records[packet.hit.geomID[i]].get(), static_cast<int>(packet.hit.primID[i])};
+    if (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+      met[i] = {p.records[hit.geomID[i]].get(), static_cast<int>(hit.primID[i])};
       __builtin_prefetch(&met[i].record->leaf->mesh->triangles[met[i].triangle]);
     }
 }
@@ -354,7 +368,7 @@ void run_batch(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<H
 }
 
 // `number` is that of the first unbounded thing in lists of obstacles.
-void run_unbounded(const Hierarchy::Parts& p, Query& query, size_t number) {
+inline __attribute__((always_inline)) void run_unbounded(const Hierarchy::Parts& p, Query& query, size_t number) {
   for (const GeometryRecord* record : p.unbounded) {
     if (!is_listed(query.among.listed, number++)) continue;
     if (query.is_done()) return;
@@ -434,6 +448,25 @@ bool Hierarchy::occluded(const Ray& ray, const Obstacles& among) const {
   query.among = among;
   run(query);
   return query.found;
+}
+
+bool Hierarchy::gains_by_lists() const { return parts_->plain_triangles; }
+
+void Hierarchy::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
+  const Parts& p = *parts_;
+  if (!p.plain_triangles || !among.scene) {
+    for (size_t i = 0; i < rays.size(); ++i) occluded[i] = this->occluded(rays[i], among);
+    return;
+  }
+  const Obstacles unbounded{p.unbounded.empty() ? 0 : among.listed, false};
+  for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
+    const size_t end = std::min(begin + kPacket, rays.size());
+    Packet packet(p, rays.subspan(begin, end - begin));
+    if (packet.any) rtcOccluded8(packet.valid, p.scene, &packet.context, &packet.rays.ray);
+    for (size_t i = begin; i < end; ++i)
+      occluded[i] =
+          (packet.valid[i - begin] && packet.rays.ray.tfar[i - begin] < 0) || this->occluded(rays[i], unbounded);
+  }
 }
 
 std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {

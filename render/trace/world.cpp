@@ -423,6 +423,10 @@ void World::nearest(std::span<const Ray> rays, std::span<Hit> hits) const { comp
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
 Obstacles World::obstacles(const Ray& from, const Box3& to) const { return compiled_->top.obstacles(from, to); }
 bool World::occluded(const Ray& ray, const Obstacles& among) const { return compiled_->top.occluded(ray, among); }
+void World::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
+  compiled_->top.occluded(rays, among, occluded);
+}
+bool World::gains_by_lists() const { return compiled_->top.gains_by_lists(); }
 std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
 bool World::has_transmitting_materials() const { return compiled_->transmits; }
 WorldStatistics World::statistics() const { return compiled_->statistics; }

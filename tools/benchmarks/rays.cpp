@@ -6,6 +6,7 @@
 // SAG: of the triangles, as a part of the diameter; left out: a tenth of a pixel.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -157,7 +158,12 @@ size_t nearest(const render::World& world, std::span<const render::Ray> rays) {
 
 size_t occluded(const render::World& world, std::span<const render::Ray> rays) {
   size_t count = 0;
-  for (const render::Ray& ray : rays) count += world.occluded(ray);
+  bool hidden[kTogether];
+  for (size_t first = 0; first < rays.size(); first += kTogether) {
+    const std::span<const render::Ray> some = rays.subspan(first, std::min(kTogether, rays.size() - first));
+    world.occluded(some, {}, std::span(hidden, some.size()));
+    count += static_cast<size_t>(std::count(hidden, hidden + some.size(), true));
+  }
   return count;
 }
 

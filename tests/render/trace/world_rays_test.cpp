@@ -343,11 +343,14 @@ TEST_F(MeshRays, TogetherAsAlone) {
       }
       std::vector<Hit> together(rays.size());
       world.nearest(rays, together);
+      const auto hidden = std::make_unique<bool[]>(rays.size());
+      world.occluded(rays, {}, {hidden.get(), rays.size()});
       for (size_t i = 0; i < rays.size(); ++i) {
         Hit alone;
         const bool met = world.nearest(rays[i], alone);
         const Hit& hit = together[i];
         hits += met;
+        others += hidden[i] != world.occluded(rays[i]);
         const bool free = rays[i].t_min == 0 && rays[i].t_max == kInfinity;
         missed += inside && free && hit.instance < 0;
         // The same but for what float cannot tell: at the sides of triangles, and where the range of t ends.
