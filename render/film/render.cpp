@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -92,6 +93,8 @@ class TileTracer {
   static constexpr int kFewSamples = 4;
   // Reach of a noisy centre sample, in pixels.
   static constexpr int kPenumbra = 2;
+  // Camera rays that are met together.
+  static constexpr size_t kTogether = 32;
 
   // The sums of a tile while it is traced.
   struct Exposure {
@@ -100,7 +103,8 @@ class TileTracer {
           window(film.sums_window(number)),
           sums(film.reach() == 0 ? film.planes()
                                  : film.planes() * static_cast<size_t>(window.width()) * window.height()),
-          weights(2 * film.reach() + 1) {}
+          weights(2 * film.reach() + 1),
+          hits(kTogether) {}
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
     void add(int x, int y, const Vec2& place, const RaySample& sample, double share) {
@@ -137,42 +141,70 @@ class TileTracer {
     Window window;
     // Of all pixels of the window; where the filter does not reach beyond a pixel, of the pixel at hand.
     std::vector<double> sums, weights;
+    std::vector<Ray> rays;  // that are met together, and what they meet
+    std::vector<Hit> hits;
     Tally tally;
   };
 
-  RaySample sample_at(int x, int y, const Vec2& place, int number, Tally& tally) const {
-    SampleStream random = sampler_->stream(x, y, number);
-    const Ray ray = camera_.ray(x + place.x, y + place.y);
-    RaySample sample = integrator_.trace(world_, ray, random);
-    if (!lines_.empty()) lines_.draw(Vec2(x, y) + place, sample);
-    ++tally.camera_rays;
-    tally.shadow_rays += sample.shadow_rays;
-    tally.other_rays += sample.other_rays;
-    if (!is_finite(sample)) ++tally.not_finite;
-    return sample;
+  // A camera ray on its way: the place in its pixel and the number of its sample.
+  struct Shot {
+    int x, y;
+    Vec2 place;
+    int number;
+  };
+
+  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample.
+  template <class Use>
+  void take(std::span<const Shot> shots, Exposure& exposure, const Use& use) const {
+    std::vector<Ray>& rays = exposure.rays;
+    Tally& tally = exposure.tally;
+    for (size_t begin = 0; begin < shots.size(); begin += kTogether) {
+      const std::span<const Shot> some = shots.subspan(begin, std::min(kTogether, shots.size() - begin));
+      rays.clear();
+      for (const Shot& shot : some) rays.push_back(camera_.ray(shot.x + shot.place.x, shot.y + shot.place.y));
+      const std::span<Hit> hits(exposure.hits.data(), some.size());
+      world_.nearest(rays, hits);
+      for (size_t i = 0; i < some.size(); ++i) {
+        const Shot& shot = some[i];
+        SampleStream random = sampler_->stream(shot.x, shot.y, shot.number);
+        RaySample sample = integrator_.trace(world_, rays[i], hits[i], random);
+        if (!lines_.empty()) lines_.draw(Vec2(shot.x, shot.y) + shot.place, sample);
+        ++tally.camera_rays;
+        tally.shadow_rays += sample.shadow_rays;
+        tally.other_rays += sample.other_rays;
+        if (!is_finite(sample)) ++tally.not_finite;
+        use(shot, std::move(sample));
+      }
+    }
   }
 
   void trace_evenly(const Window& tile, Exposure& exposure) const {
     const int samples = sampler_->samples_per_pixel();
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        double nearest = film_.keeps_data() && film_.crop().contains(x, y) ? geometry::kInfinity : 0;
-        int counted = 0;
-        for (int s = 0; s < samples; ++s) {
-          const Vec2 place = sampler_->pixel_position(x, y, s);
-          const RaySample sample = sample_at(x, y, place, s, exposure.tally);
-          if (!is_finite(sample)) continue;
+    const bool keeps_data = film_.keeps_data();
+    std::vector<Shot> shots;  // of a row
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      shots.clear();
+      for (int x = tile.x0; x < tile.x1; ++x)
+        for (int s = 0; s < samples; ++s) shots.push_back({x, y, sampler_->pixel_position(x, y, s), s});
+      double nearest = geometry::kInfinity;
+      int counted = 0;
+      take(shots, exposure, [&](const Shot& shot, const RaySample& sample) {
+        if (is_finite(sample)) {
           ++counted;
-          exposure.add(x, y, place, sample, 1);
-          const Vec2 off = place - 0.5;
-          if (glm::dot(off, off) < nearest) {
+          exposure.add(shot.x, y, shot.place, sample, 1);
+          const Vec2 off = shot.place - 0.5;
+          if (keeps_data && glm::dot(off, off) < nearest && film_.crop().contains(shot.x, y)) {
             nearest = glm::dot(off, off);
-            store(x, y, sample);
+            store(shot.x, y, sample);
           }
         }
-        exposure.finish(x, y);
-        count(x, y, counted);
-      }
+        if (shot.number + 1 < samples) return;
+        exposure.finish(shot.x, y);
+        count(shot.x, y, counted);
+        nearest = geometry::kInfinity;
+        counted = 0;
+      });
+    }
   }
 
   void trace_adaptively(const Window& tile, float contrast, Exposure& exposure) const {
@@ -182,8 +214,10 @@ class TileTracer {
     const int all = sampler_->samples_per_pixel();
     std::vector<RaySample> centers;
     centers.reserve(static_cast<size_t>(around.width()) * around.height());
+    std::vector<Shot> shots;
     for (int y = around.y0; y < around.y1; ++y)
-      for (int x = around.x0; x < around.x1; ++x) centers.push_back(sample_at(x, y, Vec2(0.5), all, exposure.tally));
+      for (int x = around.x0; x < around.x1; ++x) shots.push_back({x, y, Vec2(0.5), all});
+    take(shots, exposure, [&](const Shot&, RaySample&& sample) { centers.push_back(std::move(sample)); });
     const auto index = [&](int x, int y) {
       return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
     };
@@ -219,11 +253,15 @@ class TileTracer {
         }
         taken.clear();
         bool alike = calm;
-        int s = 0;
-        for (; s < all && (s < kFewSamples || !alike); ++s) {
-          const Vec2 place = sampler_->pixel_position(x, y, s);
-          const RaySample& sample = taken.emplace_back(Taken{place, sample_at(x, y, place, s, exposure.tally)}).sample;
-          alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
+        // A few, and unless they are alike all others.
+        for (int s = 0; s < all && (s < kFewSamples || !alike);) {
+          shots.clear();
+          for (const int end = alike && s < kFewSamples ? kFewSamples : all; s < end; ++s)
+            shots.push_back({x, y, sampler_->pixel_position(x, y, s), s});
+          take(shots, exposure, [&](const Shot& shot, RaySample&& sample) {
+            alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
+            taken.push_back({shot.place, std::move(sample)});
+          });
         }
         int counted = 0;
         for (const Taken& one : taken) counted += is_finite(one.sample);

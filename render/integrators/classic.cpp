@@ -56,6 +56,19 @@ struct Seen {
   Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
 };
 
+// A sample of a light at a surface point.
+struct Taken {
+  double cosine = 0;
+  double lobe = 0;
+  float highlight = 0;
+  Spectrum light_per_pi;
+
+  bool is_dark() const { return cosine == 0; }  // nothing comes from there
+};
+
+// Samples of one light whose shadow rays are asked together.
+constexpr int kMostTogether = 16;
+
 class Tracer {
  public:
   Tracer(const World& world, const ClassicOptions& options, double reference_depth, SampleStream& random,
@@ -67,17 +80,23 @@ class Tracer {
         random_(random),
         sample_(sample) {}
 
-  // `weight`: what the light of this ray is multiplied with on its way to the eye; `length`: of the way up to its
-  // origin.
-  Spectrum radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length);
+  // `hit`: what the ray meets, instance -1 for nothing; `weight`: what the light of this ray is multiplied with on its
+  // way to the eye; `length`: of the way up to its origin.
+  Spectrum radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length);
 
  private:
   Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
                  const Media& behind, int depth, const Spectrum& weight);
   Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
-  Spectrum passing(const Ray& shadow_ray, const Obstacles& among, const Media& media);
+  // What clear bodies let through.
+  Spectrum passing(const Ray& shadow_ray, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
   void record(const Seen& seen);
+  Hit met(const Ray& ray) const {
+    Hit hit;
+    if (!world_.nearest(ray, hit)) hit.instance = -1;
+    return hit;
+  }
   void mix(uint64_t value) { sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u; }
 
   const World& world_;
@@ -88,11 +107,11 @@ class Tracer {
   RaySample& sample_;
 };
 
-Spectrum Tracer::radiance(Ray ray, Media media, int depth, const Spectrum& weight, double length) {
+Spectrum Tracer::radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length) {
   Spectrum through = kWhite;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    Hit hit;
-    if (!world_.nearest(ray, hit)) {
+    if (pass > 0) hit = met(ray);
+    if (hit.instance < 0) {
       mix(0);
       return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
     }
@@ -180,7 +199,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
     next.direction = direction;
     next.kind = RayKind::reflection;
     ++sample_.other_rays;
-    return share * radiance(next, inside, depth + 1, weight * share, seen.length);
+    return share * radiance(next, met(next), inside, depth + 1, weight * share, seen.length);
   };
   if (!mirror.is_zero()) {
     Vec3 direction = reflected(ray.direction, m);
@@ -225,48 +244,84 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     Obstacles obstacles;
     if (shadows && count > 1)
       if (const Box3 places = light->places(); places.bounded()) obstacles = world_.obstacles(shadow_ray, places);
-    const bool clear = !shadows || (obstacles.none() && (!tinted_ || media.filling() < 0));
+    // In air what meets nothing is in full light; inside a body light fades on any way.
+    const bool asks_first = !tinted_ || media.filling() < 0;
+    const bool clear = !shadows || (obstacles.none() && asks_first);
     if (clear && cone && !specular) {
       for (int i = 0; i < count; ++i) mix(6);
       continue;
     }
-    for (int i = 0; i < count; ++i) {
+    // A sample, whose ray shadow_ray becomes; none if it matters to nothing.
+    const auto take = [&](int i) -> std::optional<Taken> {
       const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
       const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
-      const double cosine = glm::dot(seen.normal, sample.direction);
-      if (cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero()) {
-        mix(4);
-        continue;
-      }
+      Taken taken{.cosine = glm::dot(seen.normal, sample.direction)};
+      if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero())
+        return Taken();
       // R.V with R = 2 (m.L) m - L and V = -d
-      const double cos_alpha = 2 * cosine * m_v + glm::dot(sample.direction, ray.direction);
+      const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(sample.direction, ray.direction);
       // Beside diffuse light no float shows what of a highlight is below e^-20: cos^n <= e^(-n (1 - cos)).
       const bool is_lost = diffuse && c.exponent * (1 - cos_alpha) > 20;
-      const double lobe = specular && !is_lost ? phong_lobe(cos_alpha, c.exponent) : 0;
-      const Spectrum light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
-      const float highlight = static_cast<float>(lobe) * (c.specular * light_per_pi).largest();
-      if (!diffuse && highlight == 0) continue;
-      if (!cone) sum.unobstructed += static_cast<float>(cosine) * light_per_pi;
-      Spectrum visible = kWhite;
-      if (shadows) ++sample_.shadow_rays;
-      if (!clear) {
-        shadow_ray.direction = sample.direction;
-        shadow_ray.t_max = sample.distance;
-        visible = passing(shadow_ray, obstacles, media);
+      taken.lobe = specular && !is_lost ? phong_lobe(cos_alpha, c.exponent) : 0;
+      taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
+      taken.highlight = static_cast<float>(taken.lobe) * (c.specular * taken.light_per_pi).largest();
+      if (!diffuse && taken.highlight == 0) return std::nullopt;
+      shadow_ray.direction = sample.direction;
+      shadow_ray.t_max = sample.distance;
+      return taken;
+    };
+    // What a sample brings. `hidden`: something stands in its way.
+    const auto add = [&](const Taken& taken, const Ray& to_light, bool hidden) {
+      if (taken.is_dark()) {
+        mix(4);
+        return;
       }
+      if (!cone) sum.unobstructed += static_cast<float>(taken.cosine) * taken.light_per_pi;
+      if (shadows) ++sample_.shadow_rays;
+      Spectrum visible = kWhite;
+      if (hidden) visible = tinted_ ? passing(to_light, media) : Spectrum();
       // A highlight jitters with the places on the light.
-      if (jittered && (!cone || visible != kWhite || highlight > kGrain)) sample_.noisy = true;
+      if (jittered && (!cone || visible != kWhite || taken.highlight > kGrain)) sample_.noisy = true;
       mix(visible.is_zero() ? 5 : 6);
-      sum.diffuse += static_cast<float>(cosine) * ((cone ? visible - kWhite : visible) * light_per_pi);
-      sum.specular += static_cast<float>(lobe) * (visible * light_per_pi);
+      sum.diffuse += static_cast<float>(taken.cosine) * ((cone ? visible - kWhite : visible) * taken.light_per_pi);
+      sum.specular += static_cast<float>(taken.lobe) * (visible * taken.light_per_pi);
+    };
+    if (count == 1 || clear || !asks_first || !world_.gains_by_lists()) {
+      for (int i = 0; i < count; ++i) {
+        const std::optional<Taken> taken = take(i);
+        if (!taken) continue;
+        const bool hidden = !clear && !taken->is_dark() && (!asks_first || world_.occluded(shadow_ray, obstacles));
+        add(*taken, shadow_ray, hidden);
+      }
+      continue;
+    }
+    static thread_local std::vector<Taken> samples;  // their room is kept
+    static thread_local std::vector<Ray> shadow_rays;
+    for (int begin = 0; begin < count; begin += kMostTogether) {
+      samples.clear();
+      shadow_rays.clear();
+      for (int i = begin; i < std::min(begin + kMostTogether, count); ++i)
+        if (const std::optional<Taken> taken = take(i)) {
+          samples.push_back(*taken);
+          if (!taken->is_dark()) shadow_rays.push_back(shadow_ray);
+        }
+      bool hidden[kMostTogether] = {};
+      world_.occluded(shadow_rays, obstacles, {hidden, shadow_rays.size()});
+      size_t next = 0;
+      for (const Taken& taken : samples) {
+        if (taken.is_dark()) {
+          add(taken, shadow_ray, false);
+          continue;
+        }
+        add(taken, shadow_rays[next], hidden[next]);
+        ++next;
+      }
     }
   }
   return sum;
 }
 
-Spectrum Tracer::passing(const Ray& shadow_ray, const Obstacles& among, const Media& around) {
-  if (!tinted_) return world_.occluded(shadow_ray, among) ? Spectrum() : kWhite;
-  if (around.filling() < 0 && !world_.occluded(shadow_ray, among)) return kWhite;
+Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
   Ray ray = shadow_ray;
   Media media = around;
   Spectrum share = kWhite;
@@ -315,10 +370,10 @@ class ClassicIntegrator final : public Integrator {
  public:
   explicit ClassicIntegrator(const ClassicOptions& options) : options_(options) {}
 
-  RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
+  RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
     RaySample sample;
     Tracer tracer(world, options_, reference_depth(world, ray), random, sample);
-    sample.radiance = tracer.radiance(ray, Media(), 0, kWhite, 0);
+    sample.radiance = tracer.radiance(ray, first, Media(), 0, kWhite, 0);
     return sample;
   }
   std::any made_from() const override { return options_; }

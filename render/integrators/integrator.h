@@ -33,7 +33,8 @@ struct RaySample {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  virtual RaySample trace(const World& world, const Ray& ray, SampleStream& random) const = 0;
+  // `first`: what the ray meets (World::nearest of many rays), instance -1 for nothing.
+  virtual RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const = 0;
   // The plain options that it was made from (ClassicOptions), for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }
 };

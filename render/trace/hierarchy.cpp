@@ -133,6 +133,7 @@ void Hierarchy::Parts::build_scene() {
   int flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  plain_triangles = true;
   for (auto& record : records) {
     RTCGeometry geometry;
     if (record->kind == GeometryRecord::Kind::mesh) {
@@ -152,11 +153,12 @@ void Hierarchy::Parts::build_scene() {
       if (record->leaf->visible_to != kVisibleToAll || !record->leaf->clips.empty()) {
         rtcSetGeometryIntersectFilterFunction(geometry, triangle_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, triangle_filter);
+        plain_triangles = false;
       }
       triangles += mesh.triangles.size();
       bytes += mesh.points.size() * 12 + mesh.triangles.size() * 12;
-      meshes = true;
     } else {
+      plain_triangles = false;
       geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
       const int count = record->count;
       rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));

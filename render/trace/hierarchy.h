@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -57,11 +58,16 @@ class Hierarchy {
   void commit();
 
   bool nearest(const Ray& ray, Hit& hit) const;
+  // The nearest hit of each ray; its instance is -1 where there is none.
+  void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   bool occluded(const Ray& ray) const { return occluded(ray, {}); }
   // What may stand between the origin of shadow rays and the places of a bounded box.
   Obstacles obstacles(const Ray& from, const Box3& to) const;
   // The same as occluded(ray) for a ray that ends in the box.
   bool occluded(const Ray& ray, const Obstacles& among) const;
+  // The same for each of as many rays.
+  void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
+  bool gains_by_lists() const;  // of rays
   // In order of t, one for each crossing of each leaf.
   std::vector<Hit> all_hits(const Ray& ray) const;
 

@@ -52,7 +52,8 @@ struct Hierarchy::Parts {
   Vec3 center{0};
   double radius = 0;
   size_t pieces = 0, triangles = 0, bytes = 0;
-  bool meshes = false;
+  // The scene holds nothing but triangles that all rays see, so that Embree alone finds candidates.
+  bool plain_triangles = false;
   RTCScene scene = nullptr;
 
   ~Parts() {

@@ -121,72 +121,72 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
 }
 
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
-  SurfacePoint point;
-  point.incoming = incoming;
-  point.error = error;
-  point.instance = hit.instance;
-  point.object = object;
-  point.face = hit.face;
-  point.piece = hit.piece;
-  point.u = hit.u;
-  point.v = hit.v;
-  point.du = point.dv = Vec3(0);
-  Vec3 geometric, shading;
   const geometry::Mesh& mesh = *leaf.mesh;
   const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
-  const Vec3 p[3] = {mesh.points[triangle.point[0]], mesh.points[triangle.point[1]], mesh.points[triangle.point[2]]};
+  const Vec3& p0 = mesh.points[triangle.point[0]];
+  const Vec3 ab = mesh.points[triangle.point[1]] - p0, ac = mesh.points[triangle.point[2]] - p0;
   const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
-  point.position = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
-  geometric = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-  shading = geometric;
-  point.smooth_position = point.position;
+  const Vec3 from_a = w[1] * ab + w[2] * ac, position = p0 + from_a;
+  Vec3 geometric = glm::normalize(glm::cross(ab, ac)), shading = geometric, smooth_position = position;
+  Vec3 du(0), dv(0);
+  Vec2 at(hit.u, hit.v);
   const bool has_parameters = !mesh.parameters.empty() && triangle.parameter[0] >= 0;
   Vec2 q[3];
   for (int k = 0; has_parameters && k < 3; ++k) q[k] = mesh.parameters[triangle.parameter[k]];
   if (has_parameters && !leaf.mesh_surfaces.empty() && !leaf.flat) {
     // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
     const Surface& surface = *leaf.mesh_surfaces[hit.face];
-    const Vec2 foot = foot_on(surface, point.position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
-    const geometry::SurfaceJet jet = surface.evaluate(foot.x, foot.y, 1);
-    point.u = foot.x;
-    point.v = foot.y;
-    point.du = jet.du();
-    point.dv = jet.dv();
-    shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, foot.x, foot.y, jet);
+    at = foot_on(surface, position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
+    const geometry::SurfaceJet jet = surface.evaluate(at.x, at.y, 1);
+    du = jet.du();
+    dv = jet.dv();
+    shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, at.x, at.y, jet);
     if (glm::dot(shading, geometric) < 0) geometric = -geometric;
     // Rays to lights start on the surface itself where it stands above the facet: no terminator along the facets.
-    const double above = glm::dot(jet.point() - point.position, geometric);
-    if (above > 0) point.smooth_position = jet.point();
+    const double above = glm::dot(jet.point() - position, geometric);
+    if (above > 0) smooth_position = jet.point();
   } else {
     if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
-      const Vec3 n[3] = {mesh.normals[triangle.normal[0]], mesh.normals[triangle.normal[1]],
-                         mesh.normals[triangle.normal[2]]};
-      const Vec3 sum = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      const Vec3 &n0 = mesh.normals[triangle.normal[0]], &n1 = mesh.normals[triangle.normal[1]],
+                 &n2 = mesh.normals[triangle.normal[2]];
+      const Vec3 sum = w[0] * n0 + w[1] * n1 + w[2] * n2;
       if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
       if (glm::dot(shading, geometric) < 0) geometric = -geometric;
       // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
       // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-      for (int k = 0; k < 3; ++k) {
-        const double above = std::min(0.0, glm::dot(point.position - p[k], n[k]));
-        point.smooth_position -= w[k] * above * n[k];
-      }
+      const double above0 = w[0] * std::min(0.0, glm::dot(from_a, n0)),
+                   above1 = w[1] * std::min(0.0, glm::dot(from_a - ab, n1)),
+                   above2 = w[2] * std::min(0.0, glm::dot(from_a - ac, n2));
+      smooth_position -= above0 * n0 + above1 * n1 + above2 * n2;
     }
     // Texture directions of the facet.
     const Vec2 a = q[1] - q[0], b = q[2] - q[0];
     const double det = has_parameters ? a.x * b.y - a.y * b.x : 0;
     if (det != 0) {
-      point.du = (b.y * (p[1] - p[0]) - a.y * (p[2] - p[0])) / det;
-      point.dv = (a.x * (p[2] - p[0]) - b.x * (p[1] - p[0])) / det;
+      const double per_det = 1 / det;
+      du = (per_det * b.y) * ab - (per_det * a.y) * ac;
+      dv = (per_det * a.x) * ac - (per_det * b.x) * ab;
     }
   }
-  point.geometric_normal = geometric;
-  point.normal = shading;
-  return point;
+  return {.position = position,
+          .smooth_position = smooth_position,
+          .incoming = incoming,
+          .geometric_normal = geometric,
+          .normal = shading,
+          .du = du,
+          .dv = dv,
+          .u = at.x,
+          .v = at.y,
+          .error = error,
+          .instance = hit.instance,
+          .object = object,
+          .face = hit.face,
+          .piece = hit.piece};
 }
 
 // Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
 // them.
-constexpr double kLeastCell = 1;
+constexpr double kLeastCell = 4;
 
 bool is_drawn_only(const Entity& entity) {
   return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
@@ -419,9 +419,14 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 World::~World() = default;
 
 bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
+void World::nearest(std::span<const Ray> rays, std::span<Hit> hits) const { compiled_->top.nearest(rays, hits); }
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
 Obstacles World::obstacles(const Ray& from, const Box3& to) const { return compiled_->top.obstacles(from, to); }
 bool World::occluded(const Ray& ray, const Obstacles& among) const { return compiled_->top.occluded(ray, among); }
+void World::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
+  compiled_->top.occluded(rays, among, occluded);
+}
+bool World::gains_by_lists() const { return compiled_->top.gains_by_lists(); }
 std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
 bool World::has_transmitting_materials() const { return compiled_->transmits; }
 WorldStatistics World::statistics() const { return compiled_->statistics; }

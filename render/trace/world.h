@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,20 @@ class World {
 
   // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece).
   bool nearest(const Ray& ray, Hit& hit) const;
+  // The same for as many rays as hits; a hit's instance is -1 where its ray meets nothing. Triangles of meshes are
+  // found faster so, most of all if neighbours in the list go the same way. Between triangles that float cannot tell
+  // apart the choice may be another than for the ray alone.
+  void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   // True if anything that shadow rays see lies between t_min and t_max.
   bool occluded(const Ray& ray) const;
   // What may stand between the origin of shadow rays and the places of a box, and whether one of it occludes a ray that
   // ends in the box. Pays for several rays.
   Obstacles obstacles(const Ray& from, const geometry::Box3& to) const;
   bool occluded(const Ray& ray, const Obstacles& among) const;
+  // The same for as many rays as answers, faster for meshes as above.
+  void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
+  // True if lists of rays are found faster than their rays one by one.
+  bool gains_by_lists() const;
   // All hits in order of t, one for each crossing.
   std::vector<Hit> all_hits(const Ray& ray) const;
 

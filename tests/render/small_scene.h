@@ -63,7 +63,9 @@ inline RaySample trace(const World& world, const Vec3& origin, const Vec3& direc
   ray.origin = origin;
   ray.direction = glm::normalize(direction);
   SampleStream random(0, 0, 0, 1, 0);
-  return world.model().integrator->trace(world, ray, random);
+  Hit first;
+  if (!world.nearest(ray, first)) first.instance = -1;
+  return world.model().integrator->trace(world, ray, first, random);
 }
 
 // Shows a coordinate of the place that is seen, so that a test can read where a ray went.

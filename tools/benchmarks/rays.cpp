@@ -6,6 +6,7 @@
 // SAG: of the triangles, as a part of the diameter; left out: a tenth of a pixel.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -135,14 +136,21 @@ Rays rays_of(const render::Model& model, const render::World& world) {
   return rays;
 }
 
+// Rays that are asked together, so few that their hits stay in the cache.
+constexpr size_t kTogether = 256;
+
 size_t nearest(const render::World& world, std::span<const render::Ray> rays) {
   size_t count = 0;
   double sum = 0;  // so that the compiler keeps the points
-  for (const render::Ray& ray : rays) {
-    render::Hit hit;
-    if (!world.nearest(ray, hit)) continue;
-    ++count;
-    sum += world.surface_point(ray, hit).normal.z;
+  render::Hit hits[kTogether];
+  for (size_t first = 0; first < rays.size(); first += kTogether) {
+    const std::span<const render::Ray> some = rays.subspan(first, std::min(kTogether, rays.size() - first));
+    world.nearest(some, std::span(hits, some.size()));
+    for (size_t i = 0; i < some.size(); ++i) {
+      if (hits[i].instance < 0) continue;
+      ++count;
+      sum += world.surface_point(some[i], hits[i]).normal.z;
+    }
   }
   if (!std::isfinite(sum)) fmt::print(stderr, "a normal is not a number\n");
   return count;
@@ -150,7 +158,12 @@ size_t nearest(const render::World& world, std::span<const render::Ray> rays) {
 
 size_t occluded(const render::World& world, std::span<const render::Ray> rays) {
   size_t count = 0;
-  for (const render::Ray& ray : rays) count += world.occluded(ray);
+  bool hidden[kTogether];
+  for (size_t first = 0; first < rays.size(); first += kTogether) {
+    const std::span<const render::Ray> some = rays.subspan(first, std::min(kTogether, rays.size() - first));
+    world.occluded(some, {}, std::span(hidden, some.size()));
+    count += static_cast<size_t>(std::count(hidden, hidden + some.size(), true));
+  }
   return count;
 }
 

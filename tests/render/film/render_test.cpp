@@ -135,9 +135,9 @@ TEST(Render, ResumedPictureIsTheSameBits) {
   class Stopping final : public Integrator {
    public:
     Stopping(IntegratorPtr inner, std::atomic<bool>& stop) : inner_(std::move(inner)), stop_(stop) {}
-    RaySample trace(const World& world, const Ray& ray, SampleStream& random) const override {
+    RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
       stop_ = true;
-      return inner_->trace(world, ray, random);
+      return inner_->trace(world, ray, first, random);
     }
 
    private:
@@ -216,7 +216,7 @@ TEST(Render, WhiteRoomStaysWhiteUnderEveryFilter) {
 TEST(Render, NotFiniteSamplesAreCountedAndLeftOut) {
   class Broken final : public Integrator {
    public:
-    RaySample trace(const World&, const Ray& ray, SampleStream&) const override {
+    RaySample trace(const World&, const Ray& ray, const Hit&, SampleStream&) const override {
       RaySample sample;
       sample.radiance = Spectrum(ray.direction.x < 0 ? NAN : 0.5f);
       return sample;

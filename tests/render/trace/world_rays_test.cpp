@@ -15,6 +15,7 @@
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/patches.h"
+#include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 #include "geometry/tessellation/tessellate.h"
@@ -311,6 +312,63 @@ class MeshRays : public WorldRays {
     tests::report_figure(name + "_edge_aimed_missed", missed_edges);
   }
 };
+
+// Bundles that run together, and lists of rays that do not, find what each ray finds alone; from inside none misses.
+TEST_F(MeshRays, TogetherAsAlone) {
+  const Frame frame = frame_at({300, -200, 100});
+  const auto mesh = std::make_shared<Mesh>(tessellate(torus_body(frame, 3, 1), {2e-3}));
+  const auto closed = std::make_shared<Model>(*model_of(MeshPtr(mesh))), open = std::make_shared<Model>(*closed);
+  Object ground;  // unbounded: not in the hierarchy
+  ground.shape = SurfacePtr(std::make_shared<Plane>(frame_from(frame.point({0, 0, -1.2}), {0.1, 0.2, 1}, {1, 0, 0})));
+  open->objects.push_back(ground);
+  const int count = tests::tier_count(2000000);
+  for (const auto& model : {closed, open}) {
+    const World world(model);
+    int done = 0, hits = 0, others = 0, missed = 0;
+    while (done < count) {
+      const bool inside = unit_(random_) < 0.5, bundle = unit_(random_) < 0.7;
+      const double width = std::pow(10, -5 * unit_(random_));
+      const Vec3 from = inside ? frame.point({3, 0, 0}) + 0.8 * unit_(random_) * any_direction()
+                               : frame.origin + 20 * unit_(random_) * any_direction();
+      const Vec3 target = frame.origin + 4 * unit_(random_) * any_direction();
+      std::vector<Ray> rays(1 + static_cast<size_t>(70 * unit_(random_)));
+      for (Ray& ray : rays) {
+        const auto& corner = mesh->triangles[static_cast<size_t>(unit_(random_) * mesh->triangles.size())].point;
+        ray.origin = from;
+        ray.direction =
+            glm::normalize(bundle ? target + width * any_direction() - from
+                                  : glm::mix(mesh->points[corner[0]], mesh->points[corner[1]], unit_(random_)) - from);
+        if (unit_(random_) < 0.1) ray.t_max = 5 * unit_(random_);
+        if (unit_(random_) < 0.1) ray.t_min = 5 * unit_(random_);
+      }
+      std::vector<Hit> together(rays.size());
+      world.nearest(rays, together);
+      const auto hidden = std::make_unique<bool[]>(rays.size());
+      world.occluded(rays, {}, {hidden.get(), rays.size()});
+      for (size_t i = 0; i < rays.size(); ++i) {
+        Hit alone;
+        const bool met = world.nearest(rays[i], alone);
+        const Hit& hit = together[i];
+        hits += met;
+        others += hidden[i] != world.occluded(rays[i]);
+        const bool free = rays[i].t_min == 0 && rays[i].t_max == kInfinity;
+        missed += inside && free && hit.instance < 0;
+        // The same but for what float cannot tell: at the sides of triangles, and where the range of t ends.
+        if (met && hit.instance == alone.instance && hit.piece == alone.piece) {
+          ASSERT_EQ(hit.t, alone.t);
+          ASSERT_EQ(hit.b, alone.b);
+          ASSERT_EQ(hit.u, alone.u);
+        } else if (met != (hit.instance >= 0) || (met && std::abs(hit.t - alone.t) > 1e-4)) {
+          ++others;
+        }
+      }
+      done += static_cast<int>(rays.size());
+    }
+    EXPECT_EQ(missed, 0);
+    EXPECT_GT(hits, done / 2);
+    EXPECT_LE(others, done / 10000);
+  }
+}
 
 TEST_F(MeshRays, FromInsideAlwaysHit) {
   expect_no_miss(ball(frame_at(Vec3(0)), 1.5), frame_at(Vec3(0)).origin, 1.2, "ball");
