@@ -18,6 +18,7 @@ constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 64;
 constexpr int kMostCuts = 36;
+constexpr int kMostGridBoxes = 32768;
 // Axes along which a box is halved: all whose side is at least this part of its longest.
 constexpr double kLongSide = 0.7;
 // A stretch gets its own model where that is so much better than the one it has.
@@ -30,6 +31,11 @@ Interval side(const Box3& box, int axis) { return {box.lo[axis], box.hi[axis]}; 
 
 double sum(const Vec3& v) { return v.x + v.y + v.z; }
 double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+// Those along which boxes of this size are halved.
+std::array<bool, 3> long_axes(const Vec3& size) {
+  const double least = kLongSide * largest(size);
+  return {size.x >= least, size.y >= least, size.z >= least};
+}
 double fourth_power(double x) { return sqr(sqr(x)); }
 
 // A cubic polynomial over a stretch of the line, s from 0 to 1.
@@ -69,15 +75,16 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
   struct Open {
     int node;
     Box3 box;
-    int cuts;
+    int rounds, cuts;
     FourthDerivatives fourth;  // first of the box around, then its own
   };
   struct Made {
     Cell cell;
     bool may_be_zero;
   };
-  std::deque<Open> open{{0, region, 0, {}}};  // the largest first
-  std::deque<Made> ready;                     // cells of the first of them
+  std::deque<Open> open{{0, region, 0, 0, {}}};  // the largest first
+  std::deque<Made> ready;                        // cells of the first of them
+  int rounds = 0;
   nodes_.emplace_back();
   while (!open.empty()) {
     if (ready.empty()) {
@@ -106,9 +113,11 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
       continue;
     }
     const size_t first = open.size();
+    const auto halved = long_axes(size);
     open.push_back(at);
+    rounds = std::max(rounds, ++open.back().rounds);
     for (int axis = 0; axis < 3; ++axis) {
-      if (size[axis] < kLongSide * largest(size)) continue;
+      if (!halved[axis]) continue;
       for (size_t i = first, end = open.size(); i < end; ++i) {
         Open& below = open[i];
         const double cut = below.box.center()[axis];
@@ -124,6 +133,7 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
       }
     }
   }
+  make_grid(region, rounds);
 }
 
 bool ImplicitCells::may_be_zero(const Box3& given) const {
@@ -198,31 +208,112 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
   return formula_.enclose(box).contains(0.0);
 }
 
+void ImplicitCells::make_grid(const Box3& region, int rounds) {
+  grid_.lo = region.lo;
+  grid_.side = region.size();
+  int total = 1;
+  for (; rounds > 0; --rounds) {
+    const auto halved = long_axes(grid_.side);
+    for (const bool is_halved : halved) total *= is_halved ? 2 : 1;
+    if (total > kMostGridBoxes) break;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!halved[axis]) continue;
+      grid_.count[axis] *= 2;
+      grid_.side[axis] *= 0.5;
+    }
+  }
+  grid_.nodes.resize(static_cast<size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2]);
+  fill_grid(0, {0, 0, 0}, grid_.count);
+}
+
+void ImplicitCells::fill_grid(int node, const std::array<int, 3>& first, const std::array<int, 3>& count) {
+  const int axis = nodes_[node].axis;
+  if (axis < 0 || count[axis] == 1) {
+    for (int k = first[2]; k < first[2] + count[2]; ++k)
+      for (int j = first[1]; j < first[1] + count[1]; ++j)
+        for (int i = first[0]; i < first[0] + count[0]; ++i)
+          grid_.nodes[(static_cast<size_t>(k) * grid_.count[1] + j) * grid_.count[0] + i] = node;
+    return;
+  }
+  std::array<int, 3> half = count, above = first;
+  half[axis] /= 2;
+  above[axis] += half[axis];
+  fill_grid(nodes_[node].child, first, half);
+  fill_grid(nodes_[node].child + 1, above, half);
+}
+
+// From box to box of the grid (Amanatides, Woo 1987), each place computed from the box and not from the one before.
 void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
+  const Vec3 start = line.at(t0);
+  double first[3], side[3], plane[3], step[3], next[3];  // along each axis: t at the first
+  // plane and from plane to plane; number of the next plane, its change, its t
+  int stride[3], left[3];
+  int box = 0, size = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = line.direction[axis];
+    const int last = grid_.count[axis] - 1;
+    const int at = static_cast<int>(std::clamp((start[axis] - grid_.lo[axis]) / grid_.side[axis], 0.0, double(last)));
+    const bool rises = d > 0;
+    box += at * size;
+    step[axis] = rises ? 1 : -1;
+    stride[axis] = rises ? size : -size;
+    left[axis] = rises ? last - at : at;
+    plane[axis] = rises ? at + 1 : at;
+    first[axis] = (grid_.lo[axis] - line.origin[axis]) / d;
+    side[axis] = grid_.side[axis] / d;
+    next[axis] = d == 0 ? kInfinity : first[axis] + plane[axis] * side[axis];
+    size *= grid_.count[axis];
+  }
+  int node = grid_.nodes[box];
+  for (double from = t0;;) {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    const double to = next[axis];
+    const bool is_last = !(to < t1) || left[axis] == 0;
+    if (!is_last) {
+      --left[axis];
+      box += stride[axis];
+      plane[axis] += step[axis];
+      next[axis] = first[axis] + plane[axis] * side[axis];
+      if (grid_.nodes[box] == node) continue;
+    }
+    const double end = is_last ? t1 : to;
+    if (from < end) {
+      if (nodes_[node].axis >= 0)
+        follow_node(node, line, from, end, changes);
+      else if (nodes_[node].child >= 0)
+        follow_cell(cells_[nodes_[node].child], line, from, end, changes);
+      if (is_last || changes.is_done()) return;
+      from = end;
+    }
+    if (is_last) return;
+    node = grid_.nodes[box];
+  }
+}
+
+void ImplicitCells::follow_node(int node, const Line& line, double t0, double t1, SignChanges& changes) const {
   struct Part {
     int node;
     double t0, t1;
   };
   Part stack[kMostCuts + 4];
   int top = 0;
-  stack[0] = {0, t0, t1};
-  const Vec3 inverse = 1.0 / line.direction;
+  stack[0] = {node, t0, t1};
   while (top >= 0) {
     Part part = stack[top--];
     while (nodes_[part.node].axis >= 0) {
-      const Node& node = nodes_[part.node];
-      const double off = node.cut - line.origin[node.axis], d = line.direction[node.axis];
-      const double t = off * inverse[node.axis];
-      const bool rising = d > 0;
+      const Node& at = nodes_[part.node];
+      const double o = line.origin[at.axis], d = line.direction[at.axis];
+      const double t = (at.cut - o) / d;
+      const int near = at.child + (d > 0 ? 0 : 1), far = at.child + (d > 0 ? 1 : 0);
       if (d == 0) {
-        part.node = node.child + (off > 0 ? 0 : 1);
+        part.node = at.child + (o < at.cut ? 0 : 1);
       } else if (t >= part.t1) {
-        part.node = node.child + (rising ? 0 : 1);
+        part.node = near;
       } else if (t <= part.t0) {
-        part.node = node.child + (rising ? 1 : 0);
+        part.node = far;
       } else {
-        stack[++top] = {node.child + (rising ? 1 : 0), t, part.t1};
-        part = {node.child + (rising ? 0 : 1), part.t0, t};
+        stack[++top] = {far, t, part.t1};
+        part = {near, part.t0, t};
       }
     }
     const int cell = nodes_[part.node].child;

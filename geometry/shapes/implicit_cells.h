@@ -45,7 +45,9 @@ class ImplicitCells {
   // A bound on the rounding of F where it may be zero.
   double rounding() const { return rounding_; }
   int count() const { return static_cast<int>(cells_.size()); }
-  size_t memory() const { return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node); }
+  size_t memory() const {
+    return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node) + grid_.nodes.size() * sizeof(int);
+  }
 
   // Follows the sign of F along the line from t0 to t1, both in the region. The origin of the line lies near it.
   void follow(const Line& line, double t0, double t1, SignChanges& changes) const;
@@ -69,6 +71,12 @@ class ImplicitCells {
     int axis = -1;   // of the cut; -1: a leaf
     int child = -1;  // the part below the cut, the one above follows; of a leaf its cell, -1: no zero there
   };
+  // The region in equal boxes, halved as the nodes are, and the node that holds each of them or is as small.
+  struct Grid {
+    Vec3 lo{0}, side{0};
+    std::array<int, 3> count{1, 1, 1};
+    std::vector<int> nodes;  // x fastest
+  };
   // Bounds on the fourth derivatives over a box with these half sides.
   struct FourthDerivatives {
     Vec3 half{0};
@@ -81,6 +89,10 @@ class ImplicitCells {
   bool may_be_zero(const Box3& box) const;
   // The same, with a model. `fourth` holds for a box around this one; better bounds are put there.
   bool make_cell(const Box3& box, FourthDerivatives& fourth, Cell& cell) const;
+  // Of nodes whose parts are halved up to `rounds` times along all their long axes.
+  void make_grid(const Box3& region, int rounds);
+  void fill_grid(int node, const std::array<int, 3>& first, const std::array<int, 3>& count);
+  void follow_node(int node, const Line& line, double t0, double t1, SignChanges& changes) const;
   void follow_cell(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const;
   double zero_in(const Cell& cell, const Line& line, double speed, double t0, double t1, bool rising,
                  double share) const;
@@ -88,6 +100,7 @@ class ImplicitCells {
   ImplicitFormula formula_;
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;
+  Grid grid_;
   Box3 where_zero_;
   double size_ = 0;  // of the region
   double rounding_ = 0;
