@@ -195,7 +195,7 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
     if (fourth.error < kInfinity) inherit();
     if (!fourth.is_sharp && !(fourth.error <= kGoodModel * slope)) {
       const FourthDerivatives own = enclose_fourth(box, half);
-      const bool is_sharp = own.error > 0.5 * fourth.error;
+      const bool is_sharp = own.error > 0.25 * fourth.error && glm::length(given.size()) < 0.13 * size_;
       if (own.error < fourth.error) fourth = own;
       fourth.is_sharp = is_sharp;
     }
