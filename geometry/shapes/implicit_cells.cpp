@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/jet2.h"
 #include "geometry/shapes/sign_changes.h"
 
@@ -18,7 +19,7 @@ constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 64;
 constexpr int kMostCuts = 36;
-constexpr int kMostGridBoxes = 32768;
+constexpr int kMostGridBoxes = 4096;
 // Axes along which a box is halved: all whose side is at least this part of its longest.
 constexpr double kLongSide = 0.7;
 // A stretch gets its own model where that is so much better than the one it has.
@@ -52,14 +53,17 @@ struct Bernstein {
     below = {b0, c0, d0, middle};
     above = {middle, d1, c2, b3};
   }
-  // Where it is zero, being monotone with values of two signs at the ends: that of the chord, then two steps of
-  // Newton's iteration.
+  // Where it is zero, being monotone with values of two signs at the ends, to a small part of the stretch: Newton's
+  // iteration from the zero of the chord.
   double zero() const {
+    constexpr double kNear = 1e-4;  // the step after would be of its square
     const double c1 = 3 * (b1 - b0), c2 = 3 * ((b2 - b1) - (b1 - b0)), c3 = (b3 - b2) - 2 * (b2 - b1) + (b1 - b0);
     double s = b0 / (b0 - b3);
-    for (int step = 0; step < 3; ++step) {
+    for (int step = 0; step < 8; ++step) {
       const double value = b0 + s * (c1 + s * (c2 + s * c3)), slope = c1 + s * (2 * c2 + 3 * s * c3);
+      const double before = s;
       s = std::clamp(s - value / slope, 0.0, 1.0);
+      if (std::abs(s - before) < kNear) break;
     }
     return s;
   }
@@ -243,7 +247,7 @@ void ImplicitCells::fill_grid(int node, const std::array<int, 3>& first, const s
 }
 
 // From box to box of the grid (Amanatides, Woo 1987), each place computed from the box and not from the one before.
-void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
+LEKALO_WIDE void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
   const Vec3 start = line.at(t0);
   double first[3], side[3], plane[3], step[3], next[3];  // along each axis: t at the first
   // plane and from plane to plane; number of the next plane, its change, its t
@@ -347,7 +351,8 @@ Told tell(const Stretch& stretch) {
 
 }  // namespace
 
-void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const {
+LEKALO_WIDE void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1,
+                                            SignChanges& changes) const {
   if (cell.error == kInfinity) return follow_by_intervals(formula_, line, t0, t1, size_, changes);
   const Vec3 origin = (line.origin - cell.center) * cell.scale, direction = line.direction * cell.scale;
   const Vec3 p = origin + t0 * direction, q = origin + t1 * direction;
@@ -442,16 +447,18 @@ double ImplicitCells::zero_in(const Cell& cell, const Line& line, double speed, 
   double t = t0 + share * (t1 - t0);
   for (int step = 0; step < kMostSteps; ++step) {
     const auto at = formula_.along(line, Jet<double, 3>::variable(t));
-    double off = -at.c[0] / at.c[1], slope = at.c[1];
-    for (int k = 0; k < 2; ++k) {
+    double off = -at.c[0] / at.c[1], slope = at.c[1], change = kInfinity;
+    for (int k = 0; k < 4 && std::abs(change) > tolerance; ++k) {
       const double value = at.c[0] + off * (at.c[1] + off * (at.c[2] + off * at.c[3]));
       slope = at.c[1] + off * (2 * at.c[2] + 3 * off * at.c[3]);
-      off -= value / slope;
+      change = value / slope;
+      off -= change;
     }
     const double next = t + off;
     if (!(t0 <= next && next <= t1)) break;
     t = next;
-    if (cell.error * fourth_power(speed * off) <= tolerance * std::abs(slope)) return t;
+    if (std::abs(change) <= tolerance && cell.error * fourth_power(speed * off) <= tolerance * std::abs(slope))
+      return t;
   }
   return find_zero(formula_, line, t0, t1, rising, t);
 }
