@@ -226,6 +226,7 @@ void ImplicitCells::make_grid(const Box3& region, int rounds) {
       grid_.side[axis] *= 0.5;
     }
   }
+  grid_.per_side = 1.0 / grid_.side;
   grid_.nodes.resize(static_cast<size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2]);
   fill_grid(0, {0, 0, 0}, grid_.count);
 }
@@ -256,15 +257,17 @@ LEKALO_WIDE void ImplicitCells::follow(const Line& line, double t0, double t1, S
   for (int axis = 0; axis < 3; ++axis) {
     const double d = line.direction[axis];
     const int last = grid_.count[axis] - 1;
-    const int at = static_cast<int>(std::clamp((start[axis] - grid_.lo[axis]) / grid_.side[axis], 0.0, double(last)));
+    const double inverse = 1 / d;
+    const int at =
+        static_cast<int>(std::clamp((start[axis] - grid_.lo[axis]) * grid_.per_side[axis], 0.0, double(last)));
     const bool rises = d > 0;
     box += at * size;
     step[axis] = rises ? 1 : -1;
     stride[axis] = rises ? size : -size;
     left[axis] = rises ? last - at : at;
     plane[axis] = rises ? at + 1 : at;
-    first[axis] = (grid_.lo[axis] - line.origin[axis]) / d;
-    side[axis] = grid_.side[axis] / d;
+    first[axis] = (grid_.lo[axis] - line.origin[axis]) * inverse;
+    side[axis] = grid_.side[axis] * inverse;
     next[axis] = d == 0 ? kInfinity : first[axis] + plane[axis] * side[axis];
     size *= grid_.count[axis];
   }

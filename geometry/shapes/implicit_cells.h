@@ -73,7 +73,7 @@ class ImplicitCells {
   };
   // The region in equal boxes, halved as the nodes are, and the node that holds each of them or is as small.
   struct Grid {
-    Vec3 lo{0}, side{0};
+    Vec3 lo{0}, side{0}, per_side{0};  // per_side: one over the sides
     std::array<int, 3> count{1, 1, 1};
     std::vector<int> nodes;  // x fastest
   };
