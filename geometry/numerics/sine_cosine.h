@@ -33,7 +33,7 @@ inline void sine_and_cosine(double x, double& sine, double& cosine) {
   const double values[2] = {r + (r * (z * series[0]) + rest * one),
                             one + (((1 - one) - half) + (z2 * series[1] - r * rest))};
   // A quarter turn makes a sine of the cosine, a half turn changes the signs.
-  constexpr double kSigns[5] = {1, 1, -1, -1, 1};
+  static constexpr double kSigns[5] = {1, 1, -1, -1, 1};
   const unsigned quarters = static_cast<unsigned>(static_cast<int>(n)) & 3;
   sine = kSigns[quarters] * values[quarters & 1];
   cosine = kSigns[quarters + 1] * values[~quarters & 1];
