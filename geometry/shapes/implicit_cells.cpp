@@ -18,6 +18,10 @@ namespace {
 constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 64;
+// Fourth derivatives are enclosed anew in boxes down to this part of the region, and in smaller ones as long as that
+// makes the bounds smaller by kGain than what follows from those of the box around.
+constexpr double kSmallBox = 0.13;
+constexpr double kGain = 0.25;
 constexpr int kMostCuts = 36;
 constexpr int kMostGridBoxes = 4096;
 // Axes along which a box is halved: all whose side is at least this part of its longest.
@@ -199,7 +203,7 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
     if (fourth.error < kInfinity) inherit();
     if (!fourth.is_sharp && !(fourth.error <= kGoodModel * slope)) {
       const FourthDerivatives own = enclose_fourth(box, half);
-      const bool is_sharp = own.error > 0.25 * fourth.error && glm::length(given.size()) < 0.13 * size_;
+      const bool is_sharp = own.error > kGain * fourth.error && glm::length(given.size()) < kSmallBox * size_;
       if (own.error < fourth.error) fourth = own;
       fourth.is_sharp = is_sharp;
     }

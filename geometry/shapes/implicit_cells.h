@@ -10,13 +10,14 @@
 // of intervals, the directions intervals too), mostly of a larger box: in one that is smaller by r they are smaller by
 // r^4.
 //
-// A line goes through the cells in order. In each the model is a cubic polynomial in Bernstein form: stretches where it
-// exceeds the error have no zero; where its slope exceeds its own error F is monotone, and the signs at the ends tell
-// whether there is a zero. A stretch that stays open is halved, or gets a model of its own, the jet of F along the line
-// in the stretch's middle, whose error shrinks with the fourth power of the length. What is left at the size of the
-// rounding (lines that graze, singular points), and formulas with kinks or jumps, are searched by interval arithmetic
-// along the line (Moore, Kearfott, Cloud 2009, ch. 8). Zeros are those of F's own jets of the third order along the
-// line: from where the model has its zero one mostly suffices, by the same bounds.
+// A line goes through the cells in order, by a grid (Amanatides, Woo 1987). In each the model is a cubic polynomial in
+// Bernstein form: stretches where it exceeds the error have no zero; where its slope exceeds its own error F is
+// monotone, and the signs at the ends tell whether there is a zero. A stretch that stays open is halved, or gets a
+// model of its own, the jet of F along the line in the stretch's middle, whose error shrinks with the fourth power of
+// the length. What is left at the size of the rounding (lines that graze, singular points), and formulas with kinks or
+// jumps, are searched by interval arithmetic along the line (Moore, Kearfott, Cloud 2009, ch. 8). Zeros are those of
+// F's own jets of the third order along the line: from where the model has its zero one mostly suffices, by the same
+// bounds.
 //
 // The sign at a place is the model's where that is certain and else that of the computed F, zero counted as positive:
 // neighbours agree on it, and crossings alternate.
@@ -81,7 +82,7 @@ class ImplicitCells {
   struct FourthDerivatives {
     Vec3 half{0};
     double error = kInfinity, slope_error = kInfinity;
-    bool is_sharp = false;  // that of a smaller box is not much better than what follows from this
+    bool is_sharp = false;  // those of smaller boxes are hardly better than what follows from these
   };
 
   FourthDerivatives enclose_fourth(const Box3& box, const Vec3& half) const;
