@@ -12,6 +12,7 @@
 #include "geometry/numerics/gradient.h"
 #include "geometry/numerics/interval.h"
 #include "geometry/numerics/jet.h"
+#include "geometry/numerics/jet3.h"
 
 namespace lekalo::geometry {
 
@@ -26,7 +27,7 @@ class FormulaProgram {
 
   // The value of each formula with `values` for the variables.
   // T: double, Interval, Jet<double, 1..6>, Jet2<double, 1..4>, Jet<Interval, 1..2>, Jet2<Interval, 1, 2, 4>,
-  // Gradient<double>, Gradient<Interval>.
+  // Jet3<double, 3>, Gradient<double>, Gradient<Interval>.
   template <class T>
   void evaluate(std::span<const T> values, std::span<T> results) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/jet2.h"
 #include "geometry/shapes/sign_changes.h"
 
@@ -17,22 +18,60 @@ namespace {
 constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 64;
+// Fourth derivatives are enclosed anew in boxes down to this part of the region, and in smaller ones as long as that
+// makes the bounds smaller by kGain than what follows from those of the box around.
+constexpr double kSmallBox = 0.13;
+constexpr double kGain = 0.25;
 constexpr int kMostCuts = 36;
+constexpr int kMostGridBoxes = 4096;
+// Axes along which a box is halved: all whose side is at least this part of its longest.
+constexpr double kLongSide = 0.7;
+// A stretch gets its own model where that is so much better than the one it has.
+constexpr double kBetterModel = 0.25;
+// Bounds on a zero's place, of the region's size.
+constexpr double kSameZero = 1e-13;
 
 Box3 with_slack(const Box3& box) { return box.inflated(kCellSlack * (glm::length(box.lo) + glm::length(box.hi))); }
+Interval side(const Box3& box, int axis) { return {box.lo[axis], box.hi[axis]}; }
 
-struct Bernstein {
-  double b0, b1, b2;
-};
-
-// Where the quadratic polynomial with values of two signs at the ends is zero.
-double zero_of(const Bernstein& b) {
-  // b0 - 2 (b0 - b1) s + (b0 - 2 b1 + b2) s^2, without cancellation.
-  const double half = b.b0 - b.b1, square = half - (b.b1 - b.b2);
-  const double root = std::sqrt(std::max(half * half - b.b0 * square, 0.0));
-  const double s = half > 0 ? b.b0 / (half + root) : b.b0 < 0 || b.b0 > 0 ? b.b0 / (half - root) : 0;
-  return s >= 0 && s <= 1 ? s : b.b0 / (b.b0 - b.b2);
+double sum(const Vec3& v) { return v.x + v.y + v.z; }
+double largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+// Those along which boxes of this size are halved.
+std::array<bool, 3> long_axes(const Vec3& size) {
+  const double least = kLongSide * largest(size);
+  return {size.x >= least, size.y >= least, size.z >= least};
 }
+double fourth_power(double x) { return sqr(sqr(x)); }
+
+// A cubic polynomial over a stretch of the line, s from 0 to 1.
+struct Bernstein {
+  double b0, b1, b2, b3;
+
+  double least() const { return std::min(std::min(b0, b1), std::min(b2, b3)); }
+  double largest() const { return std::max(std::max(b0, b1), std::max(b2, b3)); }
+  // How far it is from a straight one.
+  double bend() const { return std::max(std::abs(b0 - 2 * b1 + b2), std::abs(b1 - 2 * b2 + b3)); }
+  void halve(Bernstein& below, Bernstein& above) const {
+    const double c0 = 0.5 * (b0 + b1), c1 = 0.5 * (b1 + b2), c2 = 0.5 * (b2 + b3);
+    const double d0 = 0.5 * (c0 + c1), d1 = 0.5 * (c1 + c2), middle = 0.5 * (d0 + d1);
+    below = {b0, c0, d0, middle};
+    above = {middle, d1, c2, b3};
+  }
+  // Where it is zero, being monotone with values of two signs at the ends, to a small part of the stretch: Newton's
+  // iteration from the zero of the chord.
+  double zero() const {
+    constexpr double kNear = 1e-4;  // the step after would be of its square
+    const double c1 = 3 * (b1 - b0), c2 = 3 * ((b2 - b1) - (b1 - b0)), c3 = (b3 - b2) - 2 * (b2 - b1) + (b1 - b0);
+    double s = b0 / (b0 - b3);
+    for (int step = 0; step < 8; ++step) {
+      const double value = b0 + s * (c1 + s * (c2 + s * c3)), slope = c1 + s * (2 * c2 + 3 * s * c3);
+      const double before = s;
+      s = std::clamp(s - value / slope, 0.0, 1.0);
+      if (std::abs(s - before) < kNear) break;
+    }
+    return s;
+  }
+};
 
 }  // namespace
 
@@ -44,22 +83,27 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
   struct Open {
     int node;
     Box3 box;
-    int cuts;
+    int rounds, cuts;
+    FourthDerivatives fourth;  // first of the box around, then its own
   };
   struct Made {
     Cell cell;
     bool may_be_zero;
   };
-  std::deque<Open> open{{0, region, 0}};  // the largest first
-  std::deque<Made> ready;                 // cells of the first of them
+  std::deque<Open> open{{0, region, 0, 0, {}}};  // the largest first
+  std::deque<Made> ready;                        // cells of the first of them
+  int rounds = 0;
   nodes_.emplace_back();
   while (!open.empty()) {
     if (ready.empty()) {
       // All that is open comes before its parts: threads make the cells, in any order.
       ready.resize(open.size());
       tbb::parallel_for(tbb::blocked_range<size_t>(0, open.size()), [&](const tbb::blocked_range<size_t>& part) {
-        for (size_t i = part.begin(); i < part.end(); ++i)
-          ready[i].may_be_zero = !outside(open[i].box) && make_cell(open[i].box, models, ready[i].cell);
+        for (size_t i = part.begin(); i < part.end(); ++i) {
+          const Box3& box = open[i].box;
+          ready[i].may_be_zero =
+              !outside(box) && (models ? make_cell(box, open[i].fourth, ready[i].cell) : may_be_zero(box));
+        }
       });
     }
     const Open at = open.front();
@@ -68,96 +112,212 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
     ready.pop_front();
     if (!may_be_zero) continue;
     const Vec3 size = at.box.size();
-    const double change = glm::dot(glm::abs(cell.g), 0.5 * size);
-    const bool good = models && cell.error <= kGoodModel * change;
-    if (good || at.cuts == kMostCuts || count() + static_cast<int>(open.size()) + 1 >= most) {
+    const bool good = models && cell.error <= kGoodModel * sum(glm::abs(cell.g));
+    if (good || at.cuts >= kMostCuts || count() + static_cast<int>(open.size()) + 1 >= most) {
       nodes_[at.node].child = count();
       cells_.push_back(cell);
       rounding_ = std::max(rounding_, cell.rounding);
       where_zero_.include(at.box);
       continue;
     }
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const double cut = at.box.center()[axis];
-    const int child = static_cast<int>(nodes_.size());
-    nodes_[at.node] = {axis, cut, child};
-    Box3 below = at.box, above = at.box;
-    below.hi[axis] = above.lo[axis] = cut;
-    open.push_back({child, below, at.cuts + 1});
-    open.push_back({child + 1, above, at.cuts + 1});
-    nodes_.resize(nodes_.size() + 2);
+    const size_t first = open.size();
+    const auto halved = long_axes(size);
+    open.push_back(at);
+    rounds = std::max(rounds, ++open.back().rounds);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!halved[axis]) continue;
+      for (size_t i = first, end = open.size(); i < end; ++i) {
+        Open& below = open[i];
+        const double cut = below.box.center()[axis];
+        const int child = static_cast<int>(nodes_.size());
+        nodes_[below.node] = {cut, axis, child};
+        nodes_.resize(nodes_.size() + 2);
+        Open above = below;
+        below.node = child;
+        above.node = child + 1;
+        below.box.hi[axis] = above.box.lo[axis] = cut;
+        ++below.cuts, ++above.cuts;
+        open.push_back(above);
+      }
+    }
   }
+  make_grid(region, rounds);
 }
 
-bool ImplicitCells::make_cell(const Box3& given, bool with_model, Cell& cell) const {
+bool ImplicitCells::may_be_zero(const Box3& given) const {
   const Box3 box = with_slack(given);
   if (!formula_.enclose(box).contains(0.0)) return false;
-  cell.center = given.center();
-  const Vec3 half = 0.5 * box.size() + kCellSlack * glm::abs(cell.center);
-  using Pair = Jet2<Interval, 2>;
-  // Value and slopes at the middle, slopes and second derivatives over the box. Kinks have the slopes of both sides.
-  const Interval value = formula_.enclose({cell.center, cell.center});
-  cell.rounding = 4 * value.width();
-  Interval slope[3], second[3][3];
-  const auto side = [&](int k) { return Interval(box.lo[k], box.hi[k]); };
   if (formula_.smoothness() == Expression::Smoothness::jumps) return true;
-  const auto over_box = formula_.with_gradient(side(0), side(1), side(2));
-  Interval range = value;
-  for (int k = 0; k < 3; ++k) range += over_box.c[1 + k] * Interval(-half[k], half[k]);
-  if (!range.contains(0.0)) return false;
-  if (!with_model) return true;
-  const auto at_center =
-      formula_.with_gradient(Interval(cell.center.x), Interval(cell.center.y), Interval(cell.center.z));
-  for (int k = 0; k < 3; ++k) {
-    slope[k] = at_center.c[1 + k];
-    const int other = (k + 1) % 3;
-    const auto over = [&](int axis) {
-      return axis == k ? Pair::u_variable(side(axis)) : axis == other ? Pair::v_variable(side(axis)) : Pair(side(axis));
-    };
-    const Pair pair = formula_(over(0), over(1), over(2));
-    second[k][k] = pair.derivative(2, 0);
-    second[k][other] = second[other][k] = pair.derivative(1, 1);
-  }
-  // Twice the rounding at the middle stands for that of F and of the model elsewhere in the cell.
-  double error = cell.rounding;
-  for (int i = 0; i < 3; ++i) {
-    cell.g[i] = slope[i].middle();
-    cell.slope_error[i] = cell.slope_rounding[i] = 4 * slope[i].width();
-    for (int j = 0; j < 3; ++j) {
-      cell.h[i][j] = second[i][j].middle();
-      cell.h_error[i][j] = (0.5 + 1e-12) * second[i][j].width();
-      cell.slope_error[i] += cell.h_error[i][j] * half[j];
-    }
-    // By Taylor's formula half of the second derivatives' part is enough.
-    error += 0.5 * (cell.slope_error[i] + cell.slope_rounding[i]) * half[i];
-  }
-  cell.f = value.middle();
-  if (std::isfinite(error) && std::isfinite(cell.f)) cell.error = error;
-  // What the model itself can reach.
-  cell.bend = cell.error;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) cell.bend += 0.5 * std::abs(cell.h[i][j]) * half[i] * half[j];
-  return !(std::abs(cell.f) > cell.bend + glm::dot(glm::abs(cell.g), half));
+  // Kinks have the slopes of both sides.
+  const auto over_box = formula_.with_gradient(side(box, 0), side(box, 1), side(box, 2));
+  const Vec3 center = given.center();
+  Interval range = formula_.enclose({center, center});
+  for (int k = 0; k < 3; ++k) range += over_box.c[1 + k] * (side(box, k) - center[k]);
+  return range.contains(0.0);
 }
 
-void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
+ImplicitCells::FourthDerivatives ImplicitCells::enclose_fourth(const Box3& box, const Vec3& half) const {
+  using Pair = Jet2<Interval, 4>;
+  const auto over = [&](int axis) {
+    Pair r(side(box, axis));
+    r.c[Pair::index(1, 0)] = r.c[Pair::index(0, 1)] = Interval(-half[axis], half[axis]);
+    return r;
+  };
+  const Pair all = formula_(over(0), over(1), over(2));
+  FourthDerivatives result{half, magnitude(all.c[Pair::index(4, 0)]), magnitude(all.c[Pair::index(3, 1)])};
+  if (!(std::isfinite(result.error) && std::isfinite(result.slope_error))) return {half};
+  return result;
+}
+
+bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell& cell) const {
+  const Box3 box = with_slack(given);
+  const Vec3 center = given.center(), half = 0.5 * box.size() + kCellSlack * glm::abs(center);
+  cell.center = center;
+  cell.scale = 1.0 / half;
+  // F and its slopes at the middle, with their rounding.
+  const auto at_center = formula_.with_gradient(Interval(center.x), Interval(center.y), Interval(center.z));
+  cell.rounding = 4 * at_center.c[0].width();
+  cell.slope_rounding = 0;
+  for (int k = 0; k < 3; ++k) cell.slope_rounding += 4 * half[k] * at_center.c[1 + k].width();
+  using Space = Jet3<double, 3>;
+  const auto along = [&](int axis) {
+    Space r(center[axis]);
+    r.c[1 + axis] = half[axis];
+    return r;
+  };
+  const Space at = formula_(along(0), along(1), along(2));
+  double bend = 0;
+  cell.f = at.c[0];
+  for (int k = 0; k < 3; ++k) cell.g[k] = at.c[1 + k];
+  for (int k = 0; k < 6; ++k) bend += std::abs(cell.second[k] = at.c[4 + k]);
+  for (int k = 0; k < 10; ++k) bend += std::abs(cell.third[k] = at.c[10 + k]);
+  for (const int pure : {0, 3, 5}) cell.second[pure] *= 2;
+  for (const int pure : {0, 6, 9}) cell.third[pure] *= 3;
+  // Twice the rounding at the middle stands for that of F and of the model elsewhere in the cell.
+  const double slope = sum(glm::abs(cell.g)), rounding = 2 * cell.rounding + cell.slope_rounding + 1e-14 * bend;
+  if (std::isfinite(bend + slope + cell.f)) {
+    const auto inherit = [&] {
+      const double smaller = fourth_power(std::min(largest(half / fourth.half), 1.0));
+      fourth = {half, smaller * fourth.error, smaller * fourth.slope_error, fourth.is_sharp};
+    };
+    if (fourth.error < kInfinity) inherit();
+    if (!fourth.is_sharp && !(fourth.error <= kGoodModel * slope)) {
+      const FourthDerivatives own = enclose_fourth(box, half);
+      const bool is_sharp = own.error > kGain * fourth.error && glm::length(given.size()) < kSmallBox * size_;
+      if (own.error < fourth.error) fourth = own;
+      fourth.is_sharp = is_sharp;
+    }
+    cell.error = fourth.error + rounding;
+    cell.slope_error = fourth.slope_error + rounding;
+    cell.bend = cell.error + bend;
+    if (std::abs(cell.f) > cell.bend + slope) return false;
+    if (cell.error <= kGoodModel * slope) return true;
+  }
+  return formula_.enclose(box).contains(0.0);
+}
+
+void ImplicitCells::make_grid(const Box3& region, int rounds) {
+  grid_.lo = region.lo;
+  grid_.side = region.size();
+  int total = 1;
+  for (; rounds > 0; --rounds) {
+    const auto halved = long_axes(grid_.side);
+    for (const bool is_halved : halved) total *= is_halved ? 2 : 1;
+    if (total > kMostGridBoxes) break;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!halved[axis]) continue;
+      grid_.count[axis] *= 2;
+      grid_.side[axis] *= 0.5;
+    }
+  }
+  grid_.per_side = 1.0 / grid_.side;
+  grid_.nodes.resize(static_cast<size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2]);
+  fill_grid(0, {0, 0, 0}, grid_.count);
+}
+
+void ImplicitCells::fill_grid(int node, const std::array<int, 3>& first, const std::array<int, 3>& count) {
+  const int axis = nodes_[node].axis;
+  if (axis < 0 || count[axis] == 1) {
+    for (int k = first[2]; k < first[2] + count[2]; ++k)
+      for (int j = first[1]; j < first[1] + count[1]; ++j)
+        for (int i = first[0]; i < first[0] + count[0]; ++i)
+          grid_.nodes[(static_cast<size_t>(k) * grid_.count[1] + j) * grid_.count[0] + i] = node;
+    return;
+  }
+  std::array<int, 3> half = count, above = first;
+  half[axis] /= 2;
+  above[axis] += half[axis];
+  fill_grid(nodes_[node].child, first, half);
+  fill_grid(nodes_[node].child + 1, above, half);
+}
+
+// From box to box of the grid (Amanatides, Woo 1987), each place computed from the box and not from the one before.
+LEKALO_WIDE void ImplicitCells::follow(const Line& line, double t0, double t1, SignChanges& changes) const {
+  const Vec3 start = line.at(t0);
+  double first[3], side[3], plane[3], step[3], next[3];  // along each axis: t at the first
+  // plane and from plane to plane; number of the next plane, its change, its t
+  int stride[3], left[3];
+  int box = 0, size = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = line.direction[axis];
+    const int last = grid_.count[axis] - 1;
+    const double inverse = 1 / d;
+    const int at =
+        static_cast<int>(std::clamp((start[axis] - grid_.lo[axis]) * grid_.per_side[axis], 0.0, double(last)));
+    const bool rises = d > 0;
+    box += at * size;
+    step[axis] = rises ? 1 : -1;
+    stride[axis] = rises ? size : -size;
+    left[axis] = rises ? last - at : at;
+    plane[axis] = rises ? at + 1 : at;
+    first[axis] = (grid_.lo[axis] - line.origin[axis]) * inverse;
+    side[axis] = grid_.side[axis] * inverse;
+    next[axis] = d == 0 ? kInfinity : first[axis] + plane[axis] * side[axis];
+    size *= grid_.count[axis];
+  }
+  int node = grid_.nodes[box];
+  for (double from = t0;;) {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    const double to = next[axis];
+    const bool is_last = !(to < t1) || left[axis] == 0;
+    if (!is_last) {
+      --left[axis];
+      box += stride[axis];
+      plane[axis] += step[axis];
+      next[axis] = first[axis] + plane[axis] * side[axis];
+      if (grid_.nodes[box] == node) continue;
+    }
+    const double end = is_last ? t1 : to;
+    if (from < end) {
+      if (nodes_[node].axis >= 0)
+        follow_node(node, line, from, end, changes);
+      else if (nodes_[node].child >= 0)
+        follow_cell(cells_[nodes_[node].child], line, from, end, changes);
+      if (is_last || changes.is_done()) return;
+      from = end;
+    }
+    if (is_last) return;
+    node = grid_.nodes[box];
+  }
+}
+
+void ImplicitCells::follow_node(int node, const Line& line, double t0, double t1, SignChanges& changes) const {
   struct Part {
     int node;
     double t0, t1;
   };
-  Part stack[kMostCuts + 2];
+  Part stack[kMostCuts + 4];
   int top = 0;
-  stack[0] = {0, t0, t1};
+  stack[0] = {node, t0, t1};
   while (top >= 0) {
     Part part = stack[top--];
     while (nodes_[part.node].axis >= 0) {
-      const Node& node = nodes_[part.node];
-      const double o = line.origin[node.axis], d = line.direction[node.axis];
-      const double t = (node.cut - o) / d;
-      const bool rising = d > 0;
-      const int near = node.child + (rising ? 0 : 1), far = node.child + (rising ? 1 : 0);
+      const Node& at = nodes_[part.node];
+      const double o = line.origin[at.axis], d = line.direction[at.axis];
+      const double t = (at.cut - o) / d;
+      const int near = at.child + (d > 0 ? 0 : 1), far = at.child + (d > 0 ? 1 : 0);
       if (d == 0) {
-        part.node = node.child + (o < node.cut ? 0 : 1);
+        part.node = at.child + (o < at.cut ? 0 : 1);
       } else if (t >= part.t1) {
         part.node = near;
       } else if (t <= part.t0) {
@@ -181,50 +341,72 @@ struct Stretch {
   double t0, t1;
   Bernstein b;
   double error;
-  double slope_error;  // of dF/dt
+  double slope_error;  // of dF/ds
 };
 
 // What a model tells.
 enum class Told { no_zero, monotone, nothing };
 Told tell(const Stretch& stretch) {
-  const auto& [b0, b1, b2] = stretch.b;
-  if (std::min({b0, b1, b2}) > stretch.error || std::max({b0, b1, b2}) < -stretch.error) return Told::no_zero;
-  const double slack = 0.5 * stretch.slope_error * (stretch.t1 - stretch.t0);
-  const double first = b1 - b0, second = b2 - b1;
-  return (first > slack && second > slack) || (first < -slack && second < -slack) ? Told::monotone : Told::nothing;
+  const Bernstein& b = stretch.b;
+  if (b.least() > stretch.error || b.largest() < -stretch.error) return Told::no_zero;
+  const double slack = stretch.slope_error / 3;
+  const double first = b.b1 - b.b0, second = b.b2 - b.b1, third = b.b3 - b.b2;
+  if (std::min(std::min(first, second), third) > slack || std::max(std::max(first, second), third) < -slack)
+    return Told::monotone;
+  return Told::nothing;
 }
 
 }  // namespace
 
-void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const {
+LEKALO_WIDE void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1,
+                                            SignChanges& changes) const {
   if (cell.error == kInfinity) return follow_by_intervals(formula_, line, t0, t1, size_, changes);
+  const Vec3 origin = (line.origin - cell.center) * cell.scale, direction = line.direction * cell.scale;
+  const Vec3 p = origin + t0 * direction, q = origin + t1 * direction;
+  const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
+  if (std::min(gp, gq) > cell.bend || std::max(gp, gq) < -cell.bend) return changes.pass(t0, gp > 0);
+  // How fast the line goes through the cell: a stretch of length t is at most t * speed in any coordinate.
+  const double speed = largest(glm::abs(direction)), length = t1 - t0;
   constexpr int kRoom = 64;
   Stretch stack[kRoom];
   int top = 0;
   {
-    const Vec3 p = line.at(t0) - cell.center, q = line.at(t1) - cell.center;
-    const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
-    if (std::min(gp, gq) > cell.bend || std::max(gp, gq) < -cell.bend) return changes.pass(t0, gp > 0);
-    const Vec3 hp = cell.h * p, hq = cell.h * q;
-    stack[0] = {t0, t1, {}, cell.error, glm::dot(cell.slope_error, glm::abs(line.direction))};
-    stack[0].b = {gp + 0.5 * glm::dot(p, hp), 0.5 * (gp + gq + glm::dot(p, hq)), gq + 0.5 * glm::dot(q, hq)};
+    // The model and its slope at both ends.
+    using Pair = double __attribute__((vector_size(16)));
+    const Pair x{p.x, q.x}, y{p.y, q.y}, z{p.z, q.z};
+    const auto& [s0, s1, s2, s3, s4, s5] = cell.second;
+    const auto& c = cell.third;
+    const Pair xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
+    const Pair xy2 = xy + xy, xz2 = xz + xz, yz2 = yz + yz;
+    const Pair hx = s0 * x + s1 * y + s2 * z, hy = s1 * x + s3 * y + s4 * z, hz = s2 * x + s4 * y + s5 * z;
+    const Pair kx = c[0] * xx + c[1] * xy2 + c[2] * xz2 + c[3] * yy + c[4] * yz + c[5] * zz;
+    const Pair ky = c[1] * xx + c[3] * xy2 + c[4] * xz + c[6] * yy + c[7] * yz2 + c[8] * zz;
+    const Pair kz = c[2] * xx + c[4] * xy + c[5] * xz2 + c[7] * yy + c[8] * yz2 + c[9] * zz;
+    const Pair value = Pair{gp, gq} + 0.5 * (x * hx + y * hy + z * hz) + (1.0 / 3) * (x * kx + y * ky + z * kz);
+    const Vec3 step = (length / 3) * direction;
+    const Pair third = step.x * (cell.g.x + hx + kx) + step.y * (cell.g.y + hy + ky) + step.z * (cell.g.z + hz + kz);
+    stack[0] = {t0,
+                t1,
+                {value[0], value[0] + third[0], value[1] - third[1], value[1]},
+                cell.error,
+                cell.slope_error * speed * length};
   }
   const auto sign_at = [&](double model, double error, double t) {
     return model > error || (!(model < -error) && is_positive(formula_(line.at(t))));
   };
-  // A model of its own, from the middle.
-  const auto with_model = [&](double from, double to) -> Stretch {
-    const Vec3& d = line.direction;
-    const Vec3 size = glm::abs(d);
-    const double half = 0.5 * (to - from), second = glm::dot(d, cell.h * d);
-    const double second_error = glm::dot(size, cell.h_error * size);
-    const auto at = formula_.along(line, Jet<double, 1>::variable(0.5 * (from + to)));
-    const double f = at.c[0], change = at.c[1] * half, bend = 0.5 * second * half * half;
-    return {from,
-            to,
-            {f - change + bend, f - bend, f + change + bend},
-            cell.rounding + 0.5 * second_error * half * half,
-            glm::dot(cell.slope_rounding, size) + second_error * half};
+  // The error of a model from the middle of a stretch.
+  const auto own_error = [&](const Stretch& stretch) {
+    return cell.rounding + cell.error * fourth_power(0.5 * speed * (stretch.t1 - stretch.t0));
+  };
+  const auto with_model = [&](const Stretch& stretch) -> Stretch {
+    const double half = 0.5 * (stretch.t1 - stretch.t0), error = own_error(stretch);
+    const auto at = formula_.along(line, Jet<double, 3>::variable(0.5 * (stretch.t0 + stretch.t1)));
+    const double f = at.c[0], c1 = at.c[1] * half, c2 = at.c[2] * sqr(half), c3 = at.c[3] * half * sqr(half);
+    return {stretch.t0,
+            stretch.t1,
+            {f - c1 + c2 - c3, f - c1 / 3 - c2 / 3 + c3, f + c1 / 3 - c2 / 3 - c3, f + c1 + c2 + c3},
+            error,
+            8 * (error - cell.rounding) + 2 * speed * half * cell.slope_rounding};
   };
   while (top >= 0) {
     const Stretch stretch = stack[top--];
@@ -234,27 +416,58 @@ void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, d
         changes.pass(stretch.t0, b.b0 > 0);
         break;
       case Told::monotone: {
-        const bool from = sign_at(b.b0, stretch.error, stretch.t0), to = sign_at(b.b2, stretch.error, stretch.t1);
+        const bool from = sign_at(b.b0, stretch.error, stretch.t0), to = sign_at(b.b3, stretch.error, stretch.t1);
         changes.pass(stretch.t0, from);
-        const double length = stretch.t1 - stretch.t0;
-        if (from != to)
-          changes.add(find_zero(formula_, line, stretch.t0, stretch.t1, to, stretch.t0 + zero_of(b) * length,
-                                2 * (b.b0 - 2 * b.b1 + b.b2) / (length * length)));
+        if (from != to) changes.add(zero_in(cell, line, speed, stretch.t0, stretch.t1, to, b.zero()));
         break;
       }
       case Told::nothing: {
         const double middle = 0.5 * (stretch.t0 + stretch.t1);
-        if (stretch.error <= 2 * cell.rounding || top + 3 > kRoom || !(stretch.t0 < middle && middle < stretch.t1)) {
+        const bool is_bent = b.bend() > 2 * stretch.error, is_rounding = stretch.error <= 2 * cell.rounding;
+        const double own = own_error(stretch);
+        if (!is_bent && (own <= kBetterModel * stretch.error || (own <= 2 * cell.rounding && !is_rounding))) {
+          stack[++top] = with_model(stretch);
+          break;
+        }
+        if ((!is_bent && is_rounding) || top + 3 > kRoom || !(stretch.t0 < middle && middle < stretch.t1)) {
           changes.pass(stretch.t0, is_positive(formula_(line.at(stretch.t0))));
           follow_by_intervals(formula_, line, stretch.t0, stretch.t1, size_, changes);
           break;
         }
-        stack[++top] = with_model(middle, stretch.t1);
-        stack[++top] = with_model(stretch.t0, middle);
+        Stretch& above = stack[++top] = stretch;
+        Stretch& below = stack[++top] = stretch;
+        b.halve(below.b, above.b);
+        below.t1 = above.t0 = middle;
+        below.slope_error = above.slope_error = 0.5 * stretch.slope_error;
       }
     }
     if (changes.is_done()) return;
   }
+}
+
+// The only zero between t0 and t1, where the signs differ. That of the jet at t is as near to F's as the fourth
+// derivatives allow.
+double ImplicitCells::zero_in(const Cell& cell, const Line& line, double speed, double t0, double t1, bool rising,
+                              double share) const {
+  constexpr int kMostSteps = 3;
+  const double tolerance = kSameZero * size_ / glm::length(line.direction);
+  double t = t0 + share * (t1 - t0);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto at = formula_.along(line, Jet<double, 3>::variable(t));
+    double off = -at.c[0] / at.c[1], slope = at.c[1], change = kInfinity;
+    for (int k = 0; k < 4 && std::abs(change) > tolerance; ++k) {
+      const double value = at.c[0] + off * (at.c[1] + off * (at.c[2] + off * at.c[3]));
+      slope = at.c[1] + off * (2 * at.c[2] + 3 * off * at.c[3]);
+      change = value / slope;
+      off -= change;
+    }
+    const double next = t + off;
+    if (!(t0 <= next && next <= t1)) break;
+    t = next;
+    if (std::abs(change) <= tolerance && cell.error * fourth_power(speed * off) <= tolerance * std::abs(slope))
+      return t;
+  }
+  return find_zero(formula_, line, t0, t1, rising, t);
 }
 
 }  // namespace lekalo::geometry

@@ -96,6 +96,7 @@ ImplicitSurface::ImplicitSurface(Expression expression, double level, const Impl
   }
   // The solid may fill what has no zero.
   bounds_ = closed ? box : cells.where_zero();
+  ends_at_bounds_ = bounds_.lo != box.lo || bounds_.hi != box.hi;
   if (polynomial_)
     noise_ = noise_of(*polynomial_, level, box);
   else
@@ -120,7 +121,7 @@ bool ImplicitSurface::find_chord(const Line& line, Chord& chord) const {
     }
     return chord.t0 < chord.t1;
   };
-  if (!region_.is_ball) return clip(region_.box, true) && (closed_ || clip(bounds_, false));
+  if (!region_.is_ball) return clip(region_.box, true) && (!ends_at_bounds_ || clip(bounds_, false));
   // |o + t d - c|^2 = r^2, from the place nearest to the centre.
   const Vec3 off = region_.box.center() - line.origin;
   const double square = glm::dot(line.direction, line.direction), foot = glm::dot(off, line.direction) / square;
@@ -129,7 +130,7 @@ bool ImplicitSurface::find_chord(const Line& line, Chord& chord) const {
   if (!(rest > 0)) return false;
   const double half = std::sqrt(rest / square);
   chord = {foot - half, foot + half, 1, 1};
-  return closed_ || clip(bounds_, false);
+  return !ends_at_bounds_ || clip(bounds_, false);
 }
 
 void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only, std::vector<SurfaceHit>& hits) const {

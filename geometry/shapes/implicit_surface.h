@@ -69,7 +69,8 @@ class ImplicitSurface final : public Shape {
   std::optional<LinePolynomial> polynomial_;
   double noise_ = 0;  // of the polynomial's coefficients
   std::optional<ImplicitCells> cells_;
-  Box3 where_zero_, bounds_;
+  Box3 bounds_;
+  bool ends_at_bounds_ = false;  // an open surface that its region's box holds with room to spare
 };
 
 }  // namespace lekalo::geometry

@@ -104,15 +104,13 @@ class Follower {
 
 }  // namespace
 
-double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start,
-                 double second) {
+double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start) {
   const double tolerance = 4e-16 * (hi - lo) + 2e-16 * std::max(std::abs(lo), std::abs(hi));
   double t = std::clamp(start, lo, hi), previous = 0;
   for (int step = 0; step < 200; ++step) {
     const auto value = formula.along(line, Jet<double, 1>::variable(t));
     (is_positive(value.c[0]) == rising ? hi : lo) = t;
-    const double step_back = value.c[0] / value.c[1], bend = 0.5 * second * step_back / value.c[1];
-    double next = t - step_back * (std::abs(bend) < 0.5 ? 1 + bend : 1);
+    double next = t - value.c[0] / value.c[1];
     if (!(lo <= next && next <= hi)) next = 0.5 * lo + 0.5 * hi;
     const double change = std::abs(next - t);
     t = next;

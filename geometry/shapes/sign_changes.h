@@ -56,10 +56,8 @@ class SignChanges {
   bool found_ = false;
 };
 
-// The only zero between lo and hi, where the signs differ: Newton's iteration from `start`, kept in the bracket. With
-// an estimate of the second derivative it is Chebyshev's, which needs a step less.
-double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start,
-                 double second = 0);
+// The only zero between lo and hi, where the signs differ: Newton's iteration from `start`, kept in the bracket.
+double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start);
 
 // Follows the sign of the formula along the line from t0 to t1 by halving: a part is done where the enclosure of F
 // excludes zero, or that of its derivative. What is left where no halving tells more, by rounding or at 1e-13 of

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "geometry/numerics/jet3.h"
 #include "geometry/numerics/triple.h"
 #include "geometry/quad.h"
 
@@ -190,6 +191,40 @@ TEST(Jet2, partial_derivatives_of_polynomials_are_exact) {
   EXPECT_EQ(f.derivative(2, 1), 2 + 4 * 3);
   EXPECT_EQ(f.derivative(2, 2), 4);
   EXPECT_EQ(f.derivative(0, 3), 0);
+}
+
+// A function of three variables that uses all rules: products, quotients, compositions, arguments of one variable.
+struct Field {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    using namespace std;
+    return sin(x) * cos(y) + exp(x * z - y) / (2 + sqr(z)) + pow(hypot(y, z + 2), 3) + atan2(x + y, 3 + z) -
+           sqrt(x + 4);
+  }
+};
+
+TEST(Jet3, agrees_with_jets_along_lines) {
+  using Space = Jet3<double, 3>;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int n = 0; n < 50; ++n) {
+    const double p[3] = {unit(random), unit(random), unit(random)}, d[3] = {unit(random), unit(random), unit(random)};
+    const auto all = Field{}(Space::variable(p[0], 0), Space::variable(p[1], 1), Space::variable(p[2], 2));
+    Jet<double, 3> at[3];
+    for (int axis = 0; axis < 3; ++axis) at[axis].c[0] = p[axis], at[axis].c[1] = d[axis];
+    const auto line = Field{}(at[0], at[1], at[2]);
+    for (int degree = 0; degree <= 3; ++degree) {
+      double sum = 0, scale = 1;
+      for (int i = 0; i <= degree; ++i)
+        for (int j = 0; i + j <= degree; ++j) {
+          const int k = degree - i - j;
+          const double term = all.c[Space::index(i, j, k)] * std::pow(d[0], i) * std::pow(d[1], j) * std::pow(d[2], k);
+          sum += term;
+          scale += std::fabs(term);
+        }
+      EXPECT_NEAR(sum, line.c[degree], 1e-14 * scale) << degree;
+    }
+  }
 }
 
 TEST(Jet2, over_intervals_encloses_the_derivatives_on_the_box) {

@@ -1,0 +1,202 @@
+// Jet3: a Taylor polynomial in three variables, truncated after total degree N; the partial derivatives of a formula of
+// x, y, z. Coefficients stand by degree, then by falling powers of x, then of y: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2,
+// ... Everything said in jet.h and jet2.h holds here.
+//
+//   coefficient(i, j, k) = d^(i+j+k) f / dx^i dy^j dz^k / (i! j! k!),   i + j + k <= N
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "geometry/numerics/jet.h"
+
+namespace lekalo::geometry {
+
+namespace detail {
+
+constexpr int jet3_index(int i, int j, int k) {
+  const int n = i + j + k, rest = j + k;
+  return n * (n + 1) * (n + 2) / 6 + rest * (rest + 1) / 2 + k;
+}
+
+// All pairs of coefficients whose product belongs to a coefficient of a product, in the order of the latter.
+struct Jet3Term {
+  std::uint8_t to, a, b;
+};
+template <int N>
+constexpr auto kJet3Terms = [] {
+  std::array<Jet3Term, (N + 1) * (N + 2) * (N + 3) * (N + 4) * (N + 5) * (N + 6) / 720> terms{};
+  int count = 0;
+  for (int n = 0; n <= N; ++n)
+    for (int i = n; i >= 0; --i)
+      for (int j = n - i; j >= 0; --j)
+        for (int p = 0; p <= i; ++p)
+          for (int q = 0; q <= j; ++q)
+            for (int s = 0, k = n - i - j; s <= k; ++s)
+              terms[count++] = {static_cast<std::uint8_t>(jet3_index(i, j, k)),
+                                static_cast<std::uint8_t>(jet3_index(p, q, s)),
+                                static_cast<std::uint8_t>(jet3_index(i - p, j - q, k - s))};
+  return terms;
+}();
+
+}  // namespace detail
+
+template <class S, int N>
+struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6> {
+  using Base = JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6>;
+  using Base::c;
+  using Base::kCount;
+  static constexpr int kOrder = N;
+
+  constexpr Jet3() = default;
+  template <JetScalar<S> A>
+  constexpr Jet3(const A& constant) {  // implicit: numbers mix freely with jets in formulas
+    c[0] = S(constant);
+  }
+  // The coordinate `axis` (0, 1, 2) where it has the value.
+  static constexpr Jet3 variable(const S& value, int axis) {
+    Jet3 r(value);
+    r.c[1 + axis] = S(1);
+    return r;
+  }
+
+  static constexpr int index(int i, int j, int k) { return detail::jet3_index(i, j, k); }
+
+  static constexpr Jet3 product(const Jet3& a, const Jet3& b) {
+    Jet3 r;
+    for (const auto& term : detail::kJet3Terms<N>) r.c[term.to] += a.c[term.a] * b.c[term.b];
+    return r;
+  }
+  static constexpr Jet3 quotient(const Jet3& a, const Jet3& b) {
+    // Degree by degree, as the terms stand: all others that make a coefficient are known when its own turn comes.
+    Jet3 r = a;
+    int done = -1;
+    for (const auto& term : detail::kJet3Terms<N>) {
+      for (; done < term.to; ++done)
+        if (done >= 0) r.c[done] = r.c[done] / b.c[0];
+      if (term.a != 0) r.c[term.to] -= b.c[term.a] * r.c[term.b];
+    }
+    r.c[done] = r.c[done] / b.c[0];
+    return r;
+  }
+
+  // The function with the Taylor coefficients `series` about a.value(), of a.
+  static constexpr Jet3 compose(const Jet<S, N>& series, const Jet3& a) {
+    Jet3 off = a, r(series.c[N]);
+    off.c[0] = S(0);
+    for (int k = N - 1; k >= 0; --k) {
+      r = product(off, r);
+      r.c[0] = series.c[k];
+    }
+    return r;
+  }
+
+  // A jet as the argument of a function of one variable. Most arguments depend on one coordinate alone (sin x): these
+  // need no composition.
+  struct Argument {
+    Jet<S, N> along;  // the argument itself, or a variable at its value
+    int axis = -1;    // of that coordinate; -1: there are several
+  };
+  static Argument argument(const Jet3& a) {
+    Argument r;
+    for (int axis = 0; axis < 3; ++axis) {
+      Jet3 others = a;
+      for (int n = 0; n <= N; ++n) {
+        r.along.c[n] = a.c[power(axis, n)];
+        others.c[power(axis, n)] = S(0);
+      }
+      if (!others.is_constant()) continue;
+      r.axis = axis;
+      return r;
+    }
+    r.along = Jet<S, N>::variable(a.value());
+    return r;
+  }
+  // The function's jet of the argument, as one in three variables.
+  static Jet3 applied(const Jet<S, N>& function, const Argument& argument, const Jet3& a) {
+    if (argument.axis < 0) return compose(function, a);
+    Jet3 r;
+    for (int n = 0; n <= N; ++n) r.c[power(argument.axis, n)] = function.c[n];
+    return r;
+  }
+  // f of a jet, where f takes jets in one variable.
+  template <class F>
+  static Jet3 apply(F f, const Jet3& a) {
+    const Argument of = argument(a);
+    return applied(f(of.along), of, a);
+  }
+
+  friend Jet3 atan2(const Jet3& y, const Jet3& x) {  // as for Jet
+    using std::atan2;
+    const S angle = atan2(y.value(), x.value());
+    if (y.is_constant() && x.is_constant()) return Jet3(angle);
+    Jet3 across = x.value() * y - y.value() * x;
+    across.c[0] = S(0);
+    Jet3 r = atan(across / (x.value() * x + y.value() * y));
+    r.c[0] = angle;
+    return r;
+  }
+  friend Jet3 hypot(const Jet3& x, const Jet3& y) {
+    using std::hypot;
+    Jet3 r = sqrt(sqr(x) + sqr(y));
+    r.c[0] = hypot(x.value(), y.value());
+    return r;
+  }
+  friend Jet3 pow(const Jet3& base, const Jet3& exponent) {
+    if (!exponent.is_constant()) return exp(exponent * log(base));
+    const Jet<S, N> constant(exponent.value());
+    return apply([&](const Jet<S, N>& x) { return pow(x, constant); }, base);
+  }
+  template <class A>
+  requires std::is_arithmetic_v<A>
+  friend Jet3 pow(const Jet3& base, A exponent) {
+    return apply([&](const Jet<S, N>& x) { return pow(x, exponent); }, base);
+  }
+
+ private:
+  static constexpr int power(int axis, int n) {
+    return axis == 0 ? index(n, 0, 0) : axis == 1 ? index(0, n, 0) : index(0, 0, n);
+  }
+};
+
+template <class S, int N>
+constexpr Jet3<S, N> sqr(const Jet3<S, N>& a) {
+  return a * a;
+}
+
+template <class S, int N>
+void sin_cos(const Jet3<S, N>& a, Jet3<S, N>& sine, Jet3<S, N>& cosine) {
+  const auto of = Jet3<S, N>::argument(a);
+  Jet<S, N> s, c;
+  sin_cos(of.along, s, c);
+  sine = Jet3<S, N>::applied(s, of, a);
+  cosine = Jet3<S, N>::applied(c, of, a);
+}
+
+#define LEKALO_COMPOSED_FUNCTION(function)                                       \
+  template <class S, int N>                                                      \
+  Jet3<S, N> function(const Jet3<S, N>& a) {                                     \
+    return Jet3<S, N>::apply([](const Jet<S, N>& x) { return function(x); }, a); \
+  }
+
+LEKALO_COMPOSED_FUNCTION(sqrt)
+LEKALO_COMPOSED_FUNCTION(cbrt)
+LEKALO_COMPOSED_FUNCTION(exp)
+LEKALO_COMPOSED_FUNCTION(log)
+LEKALO_COMPOSED_FUNCTION(log10)
+LEKALO_COMPOSED_FUNCTION(sin)
+LEKALO_COMPOSED_FUNCTION(cos)
+LEKALO_COMPOSED_FUNCTION(tan)
+LEKALO_COMPOSED_FUNCTION(asin)
+LEKALO_COMPOSED_FUNCTION(acos)
+LEKALO_COMPOSED_FUNCTION(atan)
+LEKALO_COMPOSED_FUNCTION(sinh)
+LEKALO_COMPOSED_FUNCTION(cosh)
+LEKALO_COMPOSED_FUNCTION(tanh)
+LEKALO_COMPOSED_FUNCTION(asinh)
+LEKALO_COMPOSED_FUNCTION(acosh)
+LEKALO_COMPOSED_FUNCTION(atanh)
+
+#undef LEKALO_COMPOSED_FUNCTION
+
+}  // namespace lekalo::geometry
