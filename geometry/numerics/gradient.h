@@ -2,12 +2,13 @@
 // jet.h holds here; an elementary function f of it is f(a) + f'(a) (a - a0).
 #pragma once
 
+#include "geometry/numerics/composed_jet.h"
 #include "geometry/numerics/jet.h"
 
 namespace lekalo::geometry {
 
 template <class S>
-struct Gradient : JetOperations<Gradient<S>, S, 4> {
+struct Gradient : JetOperations<Gradient<S>, S, 4>, ComposedJet<Gradient<S>, S, 1> {
   using Base = JetOperations<Gradient<S>, S, 4>;
   using Base::c;  // value, d/dx, d/dy, d/dz
 
@@ -45,33 +46,6 @@ struct Gradient : JetOperations<Gradient<S>, S, 4> {
   static Gradient apply(F f, const Gradient& a) {
     return a.is_constant() ? Gradient(f(Jet<S, 1>(a.c[0])).c[0]) : chained(f(Jet<S, 1>::variable(a.c[0])), a);
   }
-
-  friend Gradient atan2(const Gradient& y, const Gradient& x) {  // as for Jet
-    using std::atan2;
-    const S angle = atan2(y.value(), x.value());
-    if (y.is_constant() && x.is_constant()) return Gradient(angle);
-    Gradient across = x.value() * y - y.value() * x;
-    across.c[0] = S(0);
-    Gradient r = across / (x.value() * x + y.value() * y);
-    r.c[0] = angle;
-    return r;
-  }
-  friend Gradient hypot(const Gradient& x, const Gradient& y) {
-    using std::hypot;
-    Gradient r = sqrt(sqr(x) + sqr(y));
-    r.c[0] = hypot(x.value(), y.value());
-    return r;
-  }
-  friend Gradient pow(const Gradient& base, const Gradient& exponent) {
-    if (!exponent.is_constant()) return exp(exponent * log(base));
-    const Jet<S, 1> constant(exponent.value());
-    return apply([&](const Jet<S, 1>& x) { return pow(x, constant); }, base);
-  }
-  template <class A>
-  requires std::is_arithmetic_v<A>
-  friend Gradient pow(const Gradient& base, A exponent) {
-    return apply([&](const Jet<S, 1>& x) { return pow(x, exponent); }, base);
-  }
 };
 
 template <class S>
@@ -94,15 +68,5 @@ void sin_cos(const Gradient<S>& a, Gradient<S>& sine, Gradient<S>& cosine) {
   sine = Gradient<S>::chained(pair(s, c), a);
   cosine = Gradient<S>::chained(pair(c, -s), a);
 }
-
-#define LEKALO_COMPOSED_FUNCTION(function)                                        \
-  template <class S>                                                              \
-  Gradient<S> function(const Gradient<S>& a) {                                    \
-    return Gradient<S>::apply([](const Jet<S, 1>& x) { return function(x); }, a); \
-  }
-
-LEKALO_FOR_COMPOSED_FUNCTIONS(LEKALO_COMPOSED_FUNCTION)
-
-#undef LEKALO_COMPOSED_FUNCTION
 
 }  // namespace lekalo::geometry

@@ -319,14 +319,6 @@ Jet<S, N> atanh(const Jet<S, N>& a) {
   return Jet<S, N>::integral(value, S(1) / ((S(1) - a) * (S(1) + a)), a);
 }
 
-// These functions, for jets of several variables that compose them: define(name) for each.
-// clang-format off
-#define LEKALO_FOR_COMPOSED_FUNCTIONS(define)                                              \
-  define(sqrt) define(cbrt) define(exp) define(log) define(log10)                          \
-  define(sin) define(cos) define(tan) define(asin) define(acos) define(atan)               \
-  define(sinh) define(cosh) define(tanh) define(asinh) define(acosh) define(atanh)
-// clang-format on
-
 }  // namespace lekalo::geometry
 
 #include "geometry/numerics/jet2.h"  // IWYU pragma: export

@@ -8,12 +8,13 @@
 // here.
 #pragma once
 
+#include "geometry/numerics/composed_jet.h"
 #include "geometry/numerics/jet.h"
 
 namespace lekalo::geometry {
 
 template <class S, int N>
-struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
+struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>, ComposedJet<Jet2<S, N>, S, N> {
   using Base = JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>;
   using Base::c;
   static constexpr int kOrder = N;
@@ -110,33 +111,6 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2> {
     return applied(f(of.along), of, a);
   }
 
-  friend Jet2 atan2(const Jet2& y, const Jet2& x) {  // as for Jet
-    using std::atan2;
-    const S angle = atan2(y.value(), x.value());
-    if (y.is_constant() && x.is_constant()) return Jet2(angle);
-    Jet2 across = x.value() * y - y.value() * x;
-    across.c[0] = S(0);
-    Jet2 r = atan(across / (x.value() * x + y.value() * y));
-    r.c[0] = angle;
-    return r;
-  }
-  friend Jet2 hypot(const Jet2& x, const Jet2& y) {
-    using std::hypot;
-    Jet2 r = sqrt(sqr(x) + sqr(y));
-    r.c[0] = hypot(x.value(), y.value());
-    return r;
-  }
-  friend Jet2 pow(const Jet2& base, const Jet2& exponent) {
-    if (!exponent.is_constant()) return exp(exponent * log(base));
-    const Jet<S, N> constant(exponent.value());
-    return apply([&](const Jet<S, N>& x) { return pow(x, constant); }, base);
-  }
-  template <class A>
-  requires std::is_arithmetic_v<A>
-  friend Jet2 pow(const Jet2& base, A exponent) {
-    return apply([&](const Jet<S, N>& x) { return pow(x, exponent); }, base);
-  }
-
  private:
   static constexpr Jet2 identity(const S& value, int du, int dv) {
     Jet2 r;
@@ -187,15 +161,5 @@ void sin_cos(const Jet2<S, N>& a, Jet2<S, N>& sine, Jet2<S, N>& cosine) {
   sine = Jet2<S, N>::applied(s, of, a);
   cosine = Jet2<S, N>::applied(c, of, a);
 }
-
-#define LEKALO_COMPOSED_FUNCTION(function)                                       \
-  template <class S, int N>                                                      \
-  Jet2<S, N> function(const Jet2<S, N>& a) {                                     \
-    return Jet2<S, N>::apply([](const Jet<S, N>& x) { return function(x); }, a); \
-  }
-
-LEKALO_FOR_COMPOSED_FUNCTIONS(LEKALO_COMPOSED_FUNCTION)
-
-#undef LEKALO_COMPOSED_FUNCTION
 
 }  // namespace lekalo::geometry

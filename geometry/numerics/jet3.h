@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include "geometry/numerics/composed_jet.h"
 #include "geometry/numerics/jet.h"
 
 namespace lekalo::geometry {
@@ -42,7 +43,7 @@ constexpr auto kJet3Terms = [] {
 }  // namespace detail
 
 template <class S, int N>
-struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6> {
+struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6>, ComposedJet<Jet3<S, N>, S, N> {
   using Base = JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6>;
   using Base::c;
   using Base::kCount;
@@ -126,33 +127,6 @@ struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6> {
     return applied(f(of.along), of, a);
   }
 
-  friend Jet3 atan2(const Jet3& y, const Jet3& x) {  // as for Jet
-    using std::atan2;
-    const S angle = atan2(y.value(), x.value());
-    if (y.is_constant() && x.is_constant()) return Jet3(angle);
-    Jet3 across = x.value() * y - y.value() * x;
-    across.c[0] = S(0);
-    Jet3 r = atan(across / (x.value() * x + y.value() * y));
-    r.c[0] = angle;
-    return r;
-  }
-  friend Jet3 hypot(const Jet3& x, const Jet3& y) {
-    using std::hypot;
-    Jet3 r = sqrt(sqr(x) + sqr(y));
-    r.c[0] = hypot(x.value(), y.value());
-    return r;
-  }
-  friend Jet3 pow(const Jet3& base, const Jet3& exponent) {
-    if (!exponent.is_constant()) return exp(exponent * log(base));
-    const Jet<S, N> constant(exponent.value());
-    return apply([&](const Jet<S, N>& x) { return pow(x, constant); }, base);
-  }
-  template <class A>
-  requires std::is_arithmetic_v<A>
-  friend Jet3 pow(const Jet3& base, A exponent) {
-    return apply([&](const Jet<S, N>& x) { return pow(x, exponent); }, base);
-  }
-
  private:
   static constexpr int power(int axis, int n) {
     return axis == 0 ? index(n, 0, 0) : axis == 1 ? index(0, n, 0) : index(0, 0, n);
@@ -172,31 +146,5 @@ void sin_cos(const Jet3<S, N>& a, Jet3<S, N>& sine, Jet3<S, N>& cosine) {
   sine = Jet3<S, N>::applied(s, of, a);
   cosine = Jet3<S, N>::applied(c, of, a);
 }
-
-#define LEKALO_COMPOSED_FUNCTION(function)                                       \
-  template <class S, int N>                                                      \
-  Jet3<S, N> function(const Jet3<S, N>& a) {                                     \
-    return Jet3<S, N>::apply([](const Jet<S, N>& x) { return function(x); }, a); \
-  }
-
-LEKALO_COMPOSED_FUNCTION(sqrt)
-LEKALO_COMPOSED_FUNCTION(cbrt)
-LEKALO_COMPOSED_FUNCTION(exp)
-LEKALO_COMPOSED_FUNCTION(log)
-LEKALO_COMPOSED_FUNCTION(log10)
-LEKALO_COMPOSED_FUNCTION(sin)
-LEKALO_COMPOSED_FUNCTION(cos)
-LEKALO_COMPOSED_FUNCTION(tan)
-LEKALO_COMPOSED_FUNCTION(asin)
-LEKALO_COMPOSED_FUNCTION(acos)
-LEKALO_COMPOSED_FUNCTION(atan)
-LEKALO_COMPOSED_FUNCTION(sinh)
-LEKALO_COMPOSED_FUNCTION(cosh)
-LEKALO_COMPOSED_FUNCTION(tanh)
-LEKALO_COMPOSED_FUNCTION(asinh)
-LEKALO_COMPOSED_FUNCTION(acosh)
-LEKALO_COMPOSED_FUNCTION(atanh)
-
-#undef LEKALO_COMPOSED_FUNCTION
 
 }  // namespace lekalo::geometry
