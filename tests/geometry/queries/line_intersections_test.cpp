@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/curves/bezier_curve.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/patches.h"
+#include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 #include "support/line_oracle.h"
@@ -220,6 +222,26 @@ TEST(LineIntersections, LinesThroughEdgesAndVerticesStayEven) {
     }
     EXPECT_EQ(odd, 0) << name << " of " << count;
     tests::report_figure(std::string(name) + "_edge_aimed_odd", odd);
+  }
+}
+
+// A line through a pole meets cells on several sides of it; far off the origin they see it at different places.
+TEST(LineIntersections, APoleFarOffTheOriginIsOneCrossing) {
+  const Vec3 center(2345.6, -2736.5, 1563.7);
+  std::vector<Vec3> points{{0, 0, -1}, {0.9, 0, -1}, {0.1, 0, 0.1}, {1.2, 0, 0.6}, {0, 0, 1}};
+  for (Vec3& p : points) p += center;
+  const LineIntersector spindle(
+      std::make_shared<RevolutionSurface>(std::make_shared<NurbsCurve>(bezier_curve(points)), Axis{center, {0, 0, 1}}));
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < tests::tier_count(100000); ++k) {
+    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    const double off = std::pow(10, -15 + 6 * unit(random));
+    const Vec3 through = points[0] + off * Vec3(normal(random), normal(random), 0);
+    const std::vector<SurfaceHit> hits = spindle.all_hits({through - 2 * unit(random) * d, d});
+    EXPECT_EQ(hits.size() % 2, 0u) << k;
+    for (size_t i = 1; i < hits.size(); ++i) EXPECT_GT(hits[i].t - hits[i - 1].t, 1e-9) << k;
   }
 }
 
