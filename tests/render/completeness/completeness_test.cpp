@@ -10,9 +10,12 @@
 // of the coordinates that go into the line: their number changes, one is gone and another appears, or they move as far
 // as those found are off. Shifts go to the corners of a cube, in 24 directions, and to the surface around each hit that
 // was found (at narrow corners of open surfaces, and where a line hardly turns from the surface, few others tell). It
-// is in it, too, where two of its crossings are that near to each other or to its origin, and where the oracle cannot
-// tell. Such rays are counted and reported; of the random ones there is at most one in ten thousand.
+// is in it, too, where a shift takes one of its hits from one side of the subject to the other, where two of its
+// crossings are that near to each other or to its origin, and where the oracle cannot tell. Such rays are counted and
+// reported; of the random ones there is at most one in ten thousand.
 #include <gtest/gtest.h>
+
+#include <set>
 
 #include "render/completeness/patch_entries.h"
 #include "render/completeness/shape_entries.h"
@@ -173,6 +176,8 @@ class Comparison {
     for (const Hit& hit : found) {
       // What was found beside a narrow corner, or where the line hardly turns from the surface, few shifts lead to.
       const SurfacePoint at = world_.surface_point(ray, hit);
+      // So flat that a shift takes the hit from one side of the subject to the other: the line runs in the surface.
+      if (std::abs(glm::dot(at.geometric_normal, ray.direction)) * size_ <= reach) return true;
       const Vec3 to_hit = at.position - ray.at(hit.t);
       const double lu = glm::length(at.du), lv = glm::length(at.dv);
       for (int u = -1; u <= 1; ++u)
@@ -328,7 +333,7 @@ class Parity : public testing::TestWithParam<size_t> {
 };
 
 // A ray with an odd number is in the band if it grazes an edge: the numbers of its shifts by 1e-9 of the size (and of
-// the rounding of its coordinates) are all even, and not all the same.
+// the rounding of its coordinates) are even, but for few, and not all the same.
 TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
   const Entry& entry = entries()[GetParam()];
   const auto share = [&](int all) { return tests::tier_count(all / static_cast<int>(entries().size()) + 1); };
@@ -343,16 +348,17 @@ TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
     const Vec3 center = subject.box.center();
     const auto grazes = [&](const Ray& ray) {
       const double reach = 1e-9 * size + 8e-16 * (glm::length(ray.origin) + glm::length(ray.origin - center));
-      size_t least = 1000, most = 0;
-      for (int copy = 0; copy < 8; ++copy) {
+      Random shifts(1);
+      std::set<size_t> counts;
+      int still_odd = 0;
+      for (int copy = 0; copy < 32; ++copy) {
         Ray shifted = ray;
-        shifted.origin += reach * Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1);
+        shifted.origin += std::sqrt(3) * reach * any_direction(shifts);
         const size_t count = world.all_hits(shifted).size();
-        if (count % 2 != 0) return false;
-        least = std::min(least, count);
-        most = std::max(most, count);
+        count % 2 == 0 ? static_cast<void>(counts.insert(count)) : static_cast<void>(++still_odd);
       }
-      return least < most;
+      // A shift along the edge changes nothing.
+      return counts.size() > 1 && still_odd <= 2;
     };
     const auto follow = [&](Ray ray, Count& count) {
       // From outside: at least one size before the middle of the bounds.
