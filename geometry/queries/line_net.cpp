@@ -243,8 +243,12 @@ class NetSearch {
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
   // it known that there is no root if none is found.
-  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, double slack,
+  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, const Pair& slacks,
               bool contracts) {
+    const double slack = largest_of(slacks);
+    // The remaining error is of the order of the square of the step, and not below the rounding of points of a surface
+    // itself.
+    const Pair settles = near_ ? larger(pair(1e-7), 4 * slacks) : pair(1e-7);
     double x = std::clamp(first[0], -1.0, 1.0), y = std::clamp(first[1], -1.0, 1.0);
     bool settled = false;
     const int most = contracts ? 40 : 8;
@@ -260,10 +264,8 @@ class NetSearch {
       // end: a step that ends farther outside means none.
       constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
       if (std::max(std::abs(ex), std::abs(ey)) > farthest + slack) return contracts;
-      const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
-      // The remaining error is of the order of the square of the step, and not below the rounding of points of a
-      // surface itself. What the projection cut off must be rounding.
-      if (moved < (near_ ? std::max(1e-7, 4 * slack) : 1e-7)) {
+      if (std::abs(nx - x) < settles[0] && std::abs(ny - y) < settles[1]) {
+        // What the projection cut off must be rounding.
         if (std::max(std::abs(ex - nx), std::abs(ey - ny)) <= slack) {
           add(x0 + hx * nx, y0 + hy * ny, 4 * slack * std::max(hx, hy));
           return true;
@@ -379,7 +381,7 @@ class NetSearch {
         const double worst = std::fmax(slack[0], slack[1]);
         const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
         if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
-            newton(c, x0, y0, hx, hy, root, worst, contracts))
+            newton(c, x0, y0, hx, hy, root, slack, contracts))
           return;
         if (near_ && largest_of(uncertain) > kTooWide) {
           near_->undecided(x0, y0, hx, hy);
