@@ -27,7 +27,7 @@ bool Acceptance::is_inside(const LineHit& hit, const Line& line, const Surface& 
   const double slack = std::min(std::max(slack_, rounding * std::max(shift.across.x, shift.across.y)), farthest);
   const double lean = glm::length(shift.along);
   if (!(lean < kInfinity)) return false;
-  const Vec2 moved = std::min(rounding, farthest / lean) * shift.along;
+  const Vec2 moved = std::min(rounding, (farthest - slack) / lean) * shift.along;
   return trim_->contains(hit.u, hit.v, slack) || trim_->contains(hit.u + moved.x, hit.v + moved.y, slack) ||
          trim_->contains(hit.u - moved.x, hit.v - moved.y, slack);
 }
