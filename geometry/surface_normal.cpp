@@ -41,6 +41,7 @@ struct NormalSeries {
 NormalSeries normal_series(const SurfaceJet& jet, double step_u, double step_v) {
   constexpr double kFactorial[] = {1, 1, 2, 6};
   Vec3 ru[kSeriesOrder + 1], rv[kSeriesOrder + 1];
+  const Vec3 at = glm::abs(jet.point());
   double largest_u = 0, largest_v = 0;
   for (int k = 0; k <= kSeriesOrder; ++k) {
     ru[k] = rv[k] = Vec3(0);
@@ -56,10 +57,13 @@ NormalSeries normal_series(const SurfaceJet& jet, double step_u, double step_v) 
     largest_u = std::max(largest_u, glm::length(ru[k]));
     largest_v = std::max(largest_v, glm::length(rv[k]));
   }
+  // Derivatives round at the size of the coordinates that they are differences of: beside a pole far off the origin the
+  // vanishing one is nothing else.
+  const double coordinates = std::max({at.x, at.y, at.z}) * (largest_u + largest_v);
   NormalSeries series;
   for (int k = 0; k <= kSeriesOrder; ++k) {
     series.c[k] = Vec3(0);
-    double terms = 0;
+    double terms = coordinates;
     for (int i = 0; i <= k; ++i) {
       series.c[k] += glm::cross(ru[i], rv[k - i]);
       terms += glm::length(ru[i]) * largest_v + largest_u * glm::length(rv[k - i]);

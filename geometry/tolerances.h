@@ -12,8 +12,10 @@ inline constexpr double kBorderSlack = 1e-11;
 // much may lie between it and the line.
 inline constexpr double kHitSlack = 5e-13;
 
-// The same where a line meets a surface at a small angle, relative to the coordinates that went into the line and over
-// the sine of the angle: two units of their last place. At most the reach, relative to the width of the range.
+// What rounding moves a line by, relative to the coordinates at its hit: two units of their last place. A face counts a
+// hit beyond its border if the line comes that near to the border in space, however far a small angle takes the hit
+// along the line, at most the reach, relative to the width of the range (planes: without a limit). Faces at a common
+// edge measure the same distance, so that they agree.
 inline constexpr double kShallowSlack = 4.5e-16;
 inline constexpr double kShallowReach = 1e-7;
 

@@ -21,9 +21,9 @@ constexpr double kContraction = 0.25;
 // there is the only one. Where it finds none, nothing is known.
 constexpr double kInjective = 0.9;
 
-// Undecided cells along one line and piece after which the search gives up: only lines that run inside the surface
-// (tangent along a curve) get there.
-constexpr int kMostCells = 20000;
+// Cells that one line may ask of one cell of a surface before the search gives up: only lines that run inside the
+// surface (tangent along a curve) get there. Roots are found with a quarter of that, at cusps and poles too.
+constexpr int kMostCells = 256;
 
 // A vector's parts along a line's n1, n2 and the line.
 inline void see(const LineBasis& line, double x, double y, double z, Lanes& parts) {
@@ -209,8 +209,7 @@ bool is_singular(const CellModel& m, double whole_x, double whole_y) {
   return lx <= 1e-6 * whole_x || ly <= 1e-6 * whole_y || glm::length(glm::cross(m.dx, m.dy)) <= 1e-6 * lx * ly;
 }
 
-// How far the cell reaches along x and y, at most.
-Vec2 extent(const CellModel& m) { return {glm::length(m.dx) + m.variation, glm::length(m.dy) + m.variation}; }
+Vec2 extent(const CellModel& m) { return {m.reach_x(), m.reach_y()}; }
 
 // Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
 // simpler by being made narrower, that is the side towards the pole.
@@ -273,6 +272,7 @@ class BehindProxy final : public NearSurface {
     off = proxy.off;
     off_x = proxy.off_x;
     off_y = proxy.off_y;
+    rounding = proxy.rounding;
   }
   PatchPoint at(double x, double y) const override { return cells_.at(x, y); }
   void undecided(double x, double y, double hx, double hy) override { open_.push_back({x, y, hx, hy}); }
@@ -361,11 +361,12 @@ class LargestParts {
     raise(of_cell_, of_cell);
     raise(of_space_, v);
   }
-  void add_to(CellModel& m, double factor) const {
+  // `variation`: of x or y.
+  void add_to(CellModel& m, double& variation, double factor) const {
     m.shift_x += factor * of_cell_[0];
     m.shift_y += factor * of_cell_[1];
     m.bend += factor * of_cell_[2];
-    m.variation += factor * glm::length(Vec3(of_space_[0], of_space_[1], of_space_[2]));
+    variation += factor * glm::length(Vec3(of_space_[0], of_space_[1], of_space_[2]));
   }
   double fourth() const { return of_space_[3]; }
 
@@ -394,7 +395,7 @@ LEKALO_WIDE CellModel model_of(const PatchView& patch) {
     most_weight = std::max(most_weight, patch.points[k].w);
   }
   if (!(least_weight > 0)) {
-    m.shift_x = m.shift_y = m.bend = m.variation = kInfinity;
+    m.shift_x = m.shift_y = m.bend = m.variation_x = m.variation_y = kInfinity;
     return m;
   }
   // With X~ = X - w S0 the derivative is S_x = (X~_x - S~ w_x) / w, S~ = S - S0 = X~ / w. All in Bernstein form: the
@@ -426,9 +427,12 @@ LEKALO_WIDE CellModel model_of(const PatchView& patch) {
       include(j, q, j > 0 ? patch.at(i, j - 1) : at, c, j < q ? patch.at(i, j + 1) : at, dy, along_y);
       if (!polynomial) reach.include(c / c[3] - middle);
     }
-  along_x.add_to(m, 1 / least_weight);
-  along_y.add_to(m, 1 / least_weight);
-  if (!polynomial) reach.add_to(m, (along_x.fourth() + along_y.fourth()) / least_weight);
+  along_x.add_to(m, m.variation_x, 1 / least_weight);
+  along_y.add_to(m, m.variation_y, 1 / least_weight);
+  if (!polynomial) {
+    reach.add_to(m, m.variation_x, along_x.fourth() / least_weight);
+    reach.add_to(m, m.variation_y, along_y.fourth() / least_weight);
+  }
   if (!frame.regular) m.shift_x = m.shift_y = kInfinity;
   return m;
 }
@@ -443,18 +447,19 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   const CellFrame frame(m.dx, m.dy);
   m.normal = frame.normal;
   const SurfaceEnclosure hull = surface.enclose(box, 1);
-  const auto include = [&](const Box3& derivative, const Vec3& mean, double h) {
+  const auto include = [&](const Box3& derivative, const Vec3& mean, double h, double& variation) {
     // The box's support in each direction.
     const Vec3 d = h * glm::max(glm::abs(derivative.lo - mean), glm::abs(derivative.hi - mean));
     m.shift_x += glm::dot(d, glm::abs(frame.dual_x));
     m.shift_y += glm::dot(d, glm::abs(frame.dual_y));
     m.bend += glm::dot(d, glm::abs(frame.normal));
-    m.variation += glm::length(d);
+    variation = glm::length(d);
   };
-  include(hull.d(1, 0), jet.du(), hu);
-  include(hull.d(0, 1), jet.dv(), hv);
-  if (!frame.regular || !(m.variation < kInfinity)) m.shift_x = m.shift_y = kInfinity;
-  if (!(m.variation < kInfinity)) m.bend = m.variation = kInfinity;
+  include(hull.d(1, 0), jet.du(), hu, m.variation_x);
+  include(hull.d(0, 1), jet.dv(), hv, m.variation_y);
+  const bool bounded = m.variation_x + m.variation_y < kInfinity;
+  if (!frame.regular || !bounded) m.shift_x = m.shift_y = kInfinity;
+  if (!bounded) m.bend = m.variation_x = m.variation_y = kInfinity;
   return m;
 }
 
@@ -499,14 +504,14 @@ PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPl
   }
   // The bounds of the model are about its own middle in its own frame. With the frame's rounding in a vector of that
   // length in the derivatives:
-  const double length = glm::length(model.dx) + glm::length(model.dy) + model.variation;
+  const double length = model.reach_x() + model.reach_y();
   const Vec3 off = glm::abs(parts(model.point - middle));
   const auto turned = [&](int row) { return glm::length(rounded[row] - rows[row]) * length; };
   lo[3] = regular ? upward(model.shift_x + off.x + turned(0)) : INFINITY;
   hi[3] = regular ? upward(model.shift_y + off.y + turned(1)) : INFINITY;
   bend = upward(model.bend + off.z + turned(2));
-  reach_x = upward(glm::length(model.dx) + model.variation);
-  reach_y = upward(glm::length(model.dy) + model.variation);
+  reach_x = upward(model.reach_x());
+  reach_y = upward(model.reach_y());
 }
 
 bool flattens_across_u(const PatchView& patch, double x, double y) {

@@ -40,7 +40,11 @@ struct CellModel {
   double shift_x = 0;
   double shift_y = 0;
   double bend = 0;
-  double variation = 0;  // bound on the lengths of both differences, added up
+  double variation_x = 0;  // bounds on the lengths of the differences
+  double variation_y = 0;
+  // Bounds on the extent in space along x, and along y, from the centre.
+  double reach_x() const { return glm::length(dx) + variation_x; }
+  double reach_y() const { return glm::length(dy) + variation_y; }
 };
 
 // The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. All bounds are infinite where a

@@ -98,9 +98,7 @@ class EnclosureTarget final : public LineTarget {
   // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
   // What is halved next depends only on what there is, so that any number of threads makes the same cells.
   void cut(const std::vector<Rectangle>& boxes) {
-    const auto size_of = [](const Cell& cell) {
-      return glm::length(cell.model.dx) + glm::length(cell.model.dy) + cell.model.variation;
-    };
+    const auto size_of = [](const Cell& cell) { return cell.model.reach_x() + cell.model.reach_y(); };
     const auto for_each = [](size_t count, const auto& make) {
       tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const tbb::blocked_range<size_t>& part) {
         for (size_t i = part.begin(); i < part.end(); ++i) make(i);
@@ -123,7 +121,8 @@ class EnclosureTarget final : public LineTarget {
         const Cell& cell = rough[halved];
         if (size_of(cell) < least) break;
         Cell first{{}, cell.box, {}}, second = first;
-        if (glm::length(cell.model.dx) >= glm::length(cell.model.dy))
+        // By the bounds: on a line of singular points in the middle of a cell one of the derivatives there may vanish.
+        if (cell.model.reach_x() >= cell.model.reach_y())
           first.box.u.hi = second.box.u.lo = cell.box.u.middle();
         else
           first.box.v.hi = second.box.v.lo = cell.box.v.middle();

@@ -30,6 +30,9 @@ constexpr double kWorthClipping = 0.7;
 // so small that it moves them more: a line along a parameter line is soon known across it, long before it is along it.
 constexpr double kMostRounding = 1e-3;
 
+// Ratio of the weights of a patch from which on it is worth while to know what rounding does in the cell alone.
+constexpr double kUneven = 8;
+
 // A cell in which the bound of a patch's distance from its surface moves roots by more than this part is left to a
 // better patch.
 constexpr double kTooWide = 0.25;
@@ -91,19 +94,34 @@ class NetSearch {
         line_(line),
         hits_(hits),
         room_(workspace(static_cast<size_t>(n()) * (kDeepest + 2))) {
+    double least_weight = kInfinity, most_weight = 0;
     for (int k = 0; k < n(); ++k) {
       const Vec4& c = patch.points[k];
       const Vec3 r = Vec3(c) - c.w * line.line.origin;
-      const Pair value{glm::dot(line.n1, r), glm::dot(line.n2, r)};
-      room_[k] = value;
+      room_[k] = Pair{glm::dot(line.n1, r), glm::dot(line.n2, r)};
       const double size = std::abs(r.x) + std::abs(r.y) + std::abs(r.z);
+      room_[n() + k] = pair(size);
       rounding_ = std::fmax(rounding_, size);
+      least_weight = std::fmin(least_weight, c.w);
+      most_weight = std::fmax(most_weight, c.w);
     }
-    // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that halving takes.
+    const auto clip = [&](Pair* c) {
+      clip_x(c, place.x - place.hx, place.x + place.hx);
+      clip_y(c, place.y - place.hy, place.y + place.hy);
+    };
+    clip(room_);
+    // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that clipping and
+    // halving take; the same averages of the terms' sizes bound that. Where weights differ much they are far smaller
+    // here than elsewhere in the patch.
+    if (most_weight > kUneven * least_weight) {
+      clip(room_ + n());
+      rounding_ = 0;
+      for (int k = 0; k < n(); ++k) rounding_ = std::fmax(rounding_, room_[n() + k][0]);
+    }
     rounding_ *= 1e-15;
-    if (near_) rounding_ += near_->off;
-    clip_x(room_, place.x - place.hx, place.x + place.hx);
-    clip_y(room_, place.y - place.hy, place.y + place.hy);
+    if (near_) rounding_ += near_->rounding;
+    allowance_ = rounding_;
+    if (near_) allowance_ += near_->off;
   }
 
   void run() { visit(room_, 0, 0, 1, 1, 0); }
@@ -130,7 +148,7 @@ class NetSearch {
       lo = smaller(lo, c[k]);
       hi = larger(hi, c[k]);
     }
-    const double e = rounding_;
+    const double e = allowance_;
     return lo[0] > e || hi[0] < -e || lo[1] > e || hi[1] < -e;
   }
 
@@ -225,8 +243,12 @@ class NetSearch {
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
   // it known that there is no root if none is found.
-  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, double slack,
+  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, const Pair& slacks,
               bool contracts) {
+    const double slack = largest_of(slacks);
+    // The remaining error is of the order of the square of the step, and not below the rounding of points of a surface
+    // itself.
+    const Pair settles = near_ ? larger(pair(1e-7), 4 * slacks) : pair(1e-7);
     double x = std::clamp(first[0], -1.0, 1.0), y = std::clamp(first[1], -1.0, 1.0);
     bool settled = false;
     const int most = contracts ? 40 : 8;
@@ -242,9 +264,8 @@ class NetSearch {
       // end: a step that ends farther outside means none.
       constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
       if (std::max(std::abs(ex), std::abs(ey)) > farthest + slack) return contracts;
-      const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
-      if (moved < 1e-7) {
-        // The remaining error is of the order of the square of the step. What the projection cut off must be rounding.
+      if (std::abs(nx - x) < settles[0] && std::abs(ny - y) < settles[1]) {
+        // What the projection cut off must be rounding.
         if (std::max(std::abs(ex - nx), std::abs(ey - ny)) <= slack) {
           add(x0 + hx * nx, y0 + hy * ny, 4 * slack * std::max(hx, hy));
           return true;
@@ -345,30 +366,29 @@ class NetSearch {
       Jacobian j;
       const Pair f = center(c, j);
       const double determinant = j.determinant();
-      Pair slack = pair(kBorderSlack);
-      double clip = 1;  // part of the cell that a clip leaves
+      Pair slack = pair(kBorderSlack);  // how far rounding moves a root, as a part of the cell
+      double clip = 1;                  // part of the cell that a clip leaves
       if (determinant != 0) {
         const double inverse = 1 / determinant;
         const Pair a{j.y[1] * inverse, -j.x[1] * inverse}, b{-j.y[0] * inverse, j.x[0] * inverse};
         const Pair root = -(f[0] * a + f[1] * b);
-        const Pair uncertain = rounding_ * (magnitude(a) + magnitude(b));
+        const Pair sizes = magnitude(a) + magnitude(b), uncertain = allowance_ * sizes + kBorderSlack;
         Pair e = deviation(c, a, b);
-        if (near_) e += (magnitude(a) + magnitude(b)) * (hx * near_->off_x + hy * near_->off_y);
-        slack += uncertain;
-        const Pair lo = root - e - slack, hi = root + e + slack;
+        if (near_) e += sizes * (hx * near_->off_x + hy * near_->off_y);
+        slack += rounding_ * sizes;
+        const Pair lo = root - e - uncertain, hi = root + e + uncertain;
         if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return;
         const double worst = std::fmax(slack[0], slack[1]);
         const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
-        if (e[0] <= kInjective && e[1] <= kInjective && (near_ || worst < kMostRounding) &&
-            newton(c, x0, y0, hx, hy, root, near_ ? kBorderSlack : worst, contracts))
+        if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
+            newton(c, x0, y0, hx, hy, root, slack, contracts))
           return;
-        if (near_ && worst > kTooWide) {
+        if (near_ && largest_of(uncertain) > kTooWide) {
           near_->undecided(x0, y0, hx, hy);
           return;
         }
         if (!contracts) {
-          Pair reach = e + slack;
-          if (!near_) reach = larger(reach, slack / (0.25 * kMostRounding));
+          const Pair reach = larger(e + uncertain, slack / (0.25 * kMostRounding));
           const double lo_x = std::fmax(root[0] - reach[0], -1), hi_x = std::fmin(root[0] + reach[0], 1);
           const double lo_y = std::fmax(root[1] - reach[1], -1), hi_y = std::fmin(root[1] + reach[1], 1);
           clip = 0.5 * std::fmin(hi_x - lo_x, hi_y - lo_y);
@@ -392,7 +412,7 @@ class NetSearch {
         }
       }
       const Outline o = outline(c);
-      if (depth == kDeepest || std::max(hx, hy) < kSmallestCell || std::max(o.extent_x, o.extent_y) <= 4 * rounding_) {
+      if (depth == kDeepest || std::max(hx, hy) < kSmallestCell || std::max(o.extent_x, o.extent_y) <= 4 * allowance_) {
         leave(x0, y0, hx, hy);
         return;
       }
@@ -401,7 +421,7 @@ class NetSearch {
       const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
       bool along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
       // Unless rounding has the last word there already, and not in the other one.
-      if (!near_ && slack[along_x ? 0 : 1] > 0.5 * kMostRounding && slack[along_x ? 1 : 0] <= 0.5 * kMostRounding)
+      if (slack[along_x ? 0 : 1] > 0.5 * kMostRounding && slack[along_x ? 1 : 0] <= 0.5 * kMostRounding)
         along_x = !along_x;
       Pair* other = c + n();
       if (along_x) {
@@ -426,7 +446,8 @@ class NetSearch {
   const LineBasis& line_;
   CellHits& hits_;
   Pair* room_;
-  double rounding_ = 0;
+  double rounding_ = 0;   // of the functions
+  double allowance_ = 0;  // with the distance of the surface that the patch stands for
   int cells_ = 0;
 };
 

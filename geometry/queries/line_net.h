@@ -29,7 +29,7 @@ namespace lekalo::geometry {
 class NearSurface {
  public:
   virtual ~NearSurface() = default;
-  double off = 0, off_x = 0, off_y = 0;  // bounds of ProxyPatch
+  double off = 0, off_x = 0, off_y = 0, rounding = 0;  // as of ProxyPatch
   // Its own point and derivatives by x and y.
   virtual PatchPoint at(double x, double y) const = 0;
   // Takes a cell, [x - hx, x + hx] times [y - hy, y + hy], in which the bounds are too wide to tell.

@@ -104,6 +104,7 @@ ProxyPatch proxy_of(const Surface& surface, const Rectangle& box) {
     result.off = off;
     result.off_x = off_x;
     result.off_y = off_y;
+    result.rounding = at_corner;
   }
   return result;
 }

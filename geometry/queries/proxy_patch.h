@@ -13,6 +13,8 @@ struct ProxyPatch {
   // Bounds over the rectangle, for the same x, y in [-1, 1]: on the distance from the surface's point, and on the
   // differences of the derivatives by x and by y. Infinite near singularities of the surface's formulas.
   double off = kInfinity, off_x = kInfinity, off_y = kInfinity;
+  // How far rounding alone moves the surface's own points, as its enclosures at the corners say.
+  double rounding = kInfinity;
   PatchView view() const { return {points.data(), 3, 3}; }
 };
 

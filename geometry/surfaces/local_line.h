@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "geometry/surface.h"
 #include "geometry/vectors.h"
 
 namespace lekalo::geometry {
@@ -35,6 +36,24 @@ inline MovedLine moved_near(const Line& line, const Vec3& center) {
 inline MovedLine moved_near(const Line& line, const Vec3& center, const Frame& frame) {
   const MovedLine moved = moved_near(line, center);
   return {moved.start, frame.to_local_point(moved.origin), frame.to_local_direction(moved.direction)};
+}
+
+// How far a shift of a line by a unit length, across it in any direction, moves its hit with a surface in the
+// parameters: by at most `across`, and up to so far to either side in the direction `along`, in which the line leans.
+struct HitShift {
+  Vec2 along{0}, across{0};
+  Vec2 largest() const { return glm::sqrt(along * along + across * across); }
+};
+
+// At the surface's point and first derivatives. Not finite where the line is tangent to the surface.
+inline HitShift shift_of_hit(const SurfaceJet& at, const Vec3& direction) {
+  // The line through p + e meets the tangent plane at p + e - (n . e / n . d) d.
+  const Vec3 n = glm::cross(at.du(), at.dv());
+  const double area2 = glm::dot(n, n);
+  const Vec3 of_u = glm::cross(at.dv(), n) / area2, of_v = glm::cross(n, at.du()) / area2;
+  const double per_slope = std::sqrt(area2) / glm::dot(n, direction);
+  return {per_slope * Vec2(glm::dot(of_u, direction), glm::dot(of_v, direction)),
+          Vec2(glm::length(of_u), glm::length(of_v))};
 }
 
 }  // namespace lekalo::geometry

@@ -142,11 +142,9 @@ void MeridianSurface::add_hit(LineHits& hits, const Line& line, double t, double
   if (!in_v && std::max(domain_.v.lo - v, v - domain_.v.hi) < kShallowReach * domain_.v.width()) {
     // Rounding of a line that hardly crosses the surface moves the hit far: through an edge it must meet both faces.
     const SurfaceJet jet = evaluate(u, v, 1);
-    const Vec3 normal = glm::cross(jet.du(), jet.dv());
-    const double length = glm::length(line.direction);
-    const double sine = std::abs(glm::dot(normal, line.direction)) / (glm::length(normal) * length);
-    const double rounding = kShallowSlack * (glm::length(line.origin) + std::abs(t) * length);
-    in_v = within(domain_.v, v, std::min(rounding / (sine * glm::length(jet.dv())), kShallowReach * domain_.v.width()));
+    const double size = glm::length(jet.point()) + glm::length(frame_.origin);
+    const double slack = kShallowSlack * size * shift_of_hit(jet, line.direction).largest().y;
+    in_v = within(domain_.v, v, std::min(slack, kShallowReach * domain_.v.width()));
   }
   if (!in_v) return;
   const auto in_u = angle_within(domain_.u, u);

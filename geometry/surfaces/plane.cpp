@@ -87,17 +87,26 @@ void Plane::add_hit(const Line& line, const Interval& range, double rough, doubl
     hits.add({t, 0, 0});
     return;
   }
-  const double x = glm::dot(from, frame_.x) + s * glm::dot(line.direction, frame_.x);
-  const double y = glm::dot(from, frame_.y) + s * glm::dot(line.direction, frame_.y);
+  const double along_x = glm::dot(line.direction, frame_.x), along_y = glm::dot(line.direction, frame_.y);
+  const double x = glm::dot(from, frame_.x) + s * along_x;
+  const double y = glm::dot(from, frame_.y) + s * along_y;
   if (domain_.contains(x, y)) {
     hits.add({t, x, y});
     return;
   }
-  // Rounding of a line that the plane hardly turns against moves the hit far: through an edge it must meet both faces.
-  const double length = taxicab(line.direction);
-  const double shallow =
-      bounded() ? kShallowSlack * (taxicab(line.origin) + std::abs(t) * length) * length * std::abs(inverse) : 0;
-  const auto u = within(domain_.u, x, shallow), v = within(domain_.v, y, shallow);
+  if (!bounded()) {
+    const auto u = within(domain_.u, x), v = within(domain_.v, y);
+    if (u && v) hits.add({t, *u, *v});
+    return;
+  }
+  // Rounding of a line that the plane hardly turns against moves the hit far along it: through an edge it must meet
+  // both faces. Inside is what comes within the rounding of the edge itself, which is the same for both.
+  const double rounding = kShallowSlack * (distance_ + taxicab(from));
+  const auto slack = [&](double along) {
+    const double lean = along * inverse;
+    return rounding * std::sqrt(1 + lean * lean);
+  };
+  const auto u = within(domain_.u, x, slack(along_x)), v = within(domain_.v, y, slack(along_y));
   if (u && v) hits.add({t, *u, *v});
 }
 

@@ -101,17 +101,25 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
   const double unit = size / speed, room = 4 * kLargestStep + 1e-15 * std::abs(moved.start) / unit;
   // Where a root of the quartic may still become a hit in the range.
   const Interval wanted{(range.lo - moved.start) / unit - room, (range.hi - moved.start) / unit + room};
-  const auto add = [&](double s) {
-    if (!wanted.contains(s)) return;
-    // Newton on (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic.
+  // Half the derivative by s of f = (rho - R)^2 + z^2 - r^2, which has less rounding than the quartic, and f.
+  const auto half_slope = [&](double s, double& f) {
+    const Vec3 p = o + s * d;
+    const double rho = std::sqrt(p.x * p.x + p.y * p.y), across = rho - major;
+    f = across * across + (p.z - minor) * (p.z + minor);
+    return across * (p.x * d.x + p.y * d.y) / rho + p.z * d.z;
+  };
+  const auto refined = [&](double s) {
     for (int step = 0; step < 2; ++step) {
-      const Vec3 p = o + s * d;
-      const double rho = std::sqrt(p.x * p.x + p.y * p.y), across = rho - major;
-      const double f = across * across + (p.z - minor) * (p.z + minor);
-      const double change = -0.5 * f / (across * (p.x * d.x + p.y * d.y) / rho + p.z * d.z);
+      double f = 0;
+      const double slope = half_slope(s, f), change = -0.5 * f / slope;
       if (!(std::abs(change) <= kLargestStep)) break;
       s += change;
     }
+    return s;
+  };
+  const auto add = [&](double root) {
+    if (!wanted.contains(root)) return;
+    const double s = refined(root);
     const double t = moved.start + s * unit;
     if (!range.contains(t)) return;
     if (needs_no_parameters(hits)) {
@@ -120,11 +128,21 @@ void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& 
     }
     const Vec3 p = o + s * d;
     const auto u = angle_within(domain_.u, std::atan2(p.y, p.x));
-    const auto v = angle_within(domain_.v, std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y) - major));
+    const double angle = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y) - major);
+    const auto v = angle_within(domain_.v, angle);
     if (u && v) hits.add({t, *u, *v});
   };
   const auto add_all = [&](const Crossings& found) {
-    for (int i = 0; i < found.count && !hits.is_enough(); ++i) add(found.s[i]);
+    for (int i = 0; i < found.count && !hits.is_enough(); ++i) {
+      // Beside a tip Newton's iteration may end twice at one of two crossings, which it cannot tell apart: a line that
+      // passes the tip.
+      double f = 0;
+      const bool close = major < minor && i + 1 < found.count && found.s[i + 1] - found.s[i] < 2 * kLargestStep;
+      if (close && half_slope(refined(found.s[i]), f) * half_slope(refined(found.s[i + 1]), f) > 0)
+        ++i;
+      else
+        add(found.s[i]);
+    }
   };
 
   const double discriminant = b * b - k;

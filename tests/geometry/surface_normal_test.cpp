@@ -1,6 +1,8 @@
 // Normals at places where r_u x r_v vanishes, against closed forms of the limits (Golovanov 2016, 3.1).
+#include "geometry/curves/bezier_curve.h"
 #include "geometry/formula.h"
 #include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/surface_checks.h"
 
 namespace lekalo::geometry {
@@ -133,6 +135,20 @@ TEST(ParametricNormal, BezierEdgeShrunkToAPoint) {
     }
   }
   EXPECT_GT(turn, 1e-4);  // the surface is curved there
+}
+
+// Nearer to a pole than the doubles of its coordinates tell, the derivative along the turn is rounding and may point
+// anywhere.
+TEST(ParametricNormal, BesideAPoleFarOffTheOrigin) {
+  const Vec3 pole(2347.3, -2739.1, 1563.7);
+  const Vec3 axis = glm::normalize(Vec3(0.3, -0.2, 0.9)), side = glm::normalize(glm::cross(axis, Vec3(1, 2, 0.3)));
+  const std::vector<Vec3> points{pole, pole + 0.9 * side, pole + 0.1 * side + 1.1 * axis, pole + 2.0 * axis};
+  const RevolutionSurface spindle(std::make_shared<NurbsCurve>(bezier_curve(points)), Axis{pole, axis});
+  const Vec3 limit = spindle.normal(0, 0);
+  EXPECT_LE(distance(limit, glm::dot(limit, axis) * axis), 1e-12);
+  for (double u = 1e-17; u < 1e-5; u *= 3)
+    for (double v = 0; v < kTwoPi; v += 0.1)
+      EXPECT_LE(distance(spindle.normal(u, v), limit), 3 * u + 1e-7) << u << " " << v;
 }
 
 TEST(ParametricNormal, ReversedSurfacesTurnTheirNormals) {

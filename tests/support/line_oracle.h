@@ -47,7 +47,7 @@ class PatchOracle {
   }
 
   // In order of t. `undecided` tells that there were more rectangles than room: the line runs along the patch, or
-  // through a collapsed edge.
+  // through a collapsed edge; or that a root is no place but a stretch of the line, which lies in the patch there.
   std::vector<Root> roots(const Line& given, bool* undecided = nullptr) const {
     // The line with its origin at its foot near the patch.
     long double along = 0, square = 0;
@@ -75,8 +75,9 @@ class PatchOracle {
     }
     Search search{4 * 2.3e-16 * largest, {}, false};
     halve(net, 0.5, 0.5, 0.5, 0.5, search);
-    if (undecided) *undecided = search.full;
-    std::vector<Root> found = cluster(search.cells, line);
+    bool runs_along = false;
+    std::vector<Root> found = cluster(search.cells, line, runs_along);
+    if (undecided) *undecided = search.full || runs_along;
     for (Root& root : found) root.t = static_cast<double>(foot + root.t);
     return found;
   }
@@ -87,6 +88,7 @@ class PatchOracle {
  private:
   static constexpr int kMostDegree = 15;
   static constexpr size_t kMostPoints = 64, kMostCells = 4096;
+  static constexpr double kPlace = 1e-6;  // of the size: what is longer is no place
   struct Net {
     std::array<double, kMostPoints> f, g;
   };
@@ -176,7 +178,9 @@ class PatchOracle {
     halve(b, u + du, v + dv, along_u ? hu / 2 : hu, along_u ? hv : hv / 2, search);
   }
 
-  std::vector<Root> cluster(const std::vector<Cell>& cells, const Line& line) const {
+  std::vector<Root> cluster(const std::vector<Cell>& cells, const Line& line, bool& runs_along) const {
+    const double per_length2 = 1 / glm::dot(line.direction, line.direction);
+    const auto along = [&](const Vec3& x) { return glm::dot(x - line.origin, line.direction) * per_length2; };
     std::vector<int> group(cells.size());
     for (size_t i = 0; i < cells.size(); ++i) group[i] = static_cast<int>(i);
     const auto find = [&](int i) {
@@ -191,13 +195,23 @@ class PatchOracle {
     std::vector<Root> roots;
     for (size_t i = 0; i < cells.size(); ++i) {
       if (find(static_cast<int>(i)) != static_cast<int>(i)) continue;
-      double u = 0, v = 0, n = 0;
-      for (size_t j = 0; j < cells.size(); ++j)
-        if (find(static_cast<int>(j)) == static_cast<int>(i)) u += cells[j].u, v += cells[j].v, n += 1;
+      double u = 0, v = 0, n = 0, first = geometry::kInfinity, last = -geometry::kInfinity;
+      const auto reaches = [&](const Cell& c, double du, double dv) {
+        const double t = along(local_point(c.u + du, c.v + dv));
+        first = std::min(first, t);
+        last = std::max(last, t);
+      };
+      for (size_t j = 0; j < cells.size(); ++j) {
+        if (find(static_cast<int>(j)) != static_cast<int>(i)) continue;
+        const Cell& c = cells[j];
+        u += c.u, v += c.v, n += 1;
+        if (std::max(c.hu, c.hv) < 1e-9) continue;
+        for (const double side : {-1, 1}) reaches(c, side * c.hu, side * c.hv), reaches(c, side * c.hu, -side * c.hv);
+      }
       u /= n;
       v /= n;
-      const Vec3 x = local_point(u, v);
-      roots.push_back({glm::dot(x - line.origin, line.direction) / glm::dot(line.direction, line.direction), u, v});
+      runs_along = runs_along || last - first > kPlace * radius_ * std::sqrt(per_length2);
+      roots.push_back({along(local_point(u, v)), u, v});
     }
     std::sort(roots.begin(), roots.end(), [](const Root& a, const Root& b) { return a.t < b.t; });
     return roots;

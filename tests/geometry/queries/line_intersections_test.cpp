@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/curves/bezier_curve.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/patches.h"
+#include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 #include "support/line_oracle.h"
@@ -220,6 +222,62 @@ TEST(LineIntersections, LinesThroughEdgesAndVerticesStayEven) {
     }
     EXPECT_EQ(odd, 0) << name << " of " << count;
     tests::report_figure(std::string(name) + "_edge_aimed_odd", odd);
+  }
+}
+
+// Lines in, or nearly in, the plane of a face and just past its border: the face must not take them for lines through
+// the edge that its neighbours miss.
+TEST(LineIntersections, LinesPastAnEdgeFromFarAwayStayEven) {
+  const Frame frame = frame_from({0.1, 0.2, -0.3}, {0.2, -0.3, 0.9}, {1, 0.1, 0});
+  const LineIntersector block(box(Frame{{-0.4, 0.1, 0.2}}, {1, 2, 3})),
+      five(prism(Frame(), {{0, 0}, {2, 0}, {2.5, 1}, {1, 2}, {-0.5, 1}}, 2)), wedged(wedge(frame, {3, 2, 1.5}, 1)),
+      pointed(pyramid(frame, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0, 2}));
+  const std::pair<const LineIntersector*, Line> cases[] = {
+      {&block,
+       {{0x1.3333337b875b7p-1, 0x1.12d6374efe767p+18, -0x1.c7738d2f7a97cp+21},
+        {0x0p+0, -0x1.3415bc3dd7b0dp-4, 0x1.fe8cb510a0d52p-1}}},
+      {&block,
+       {{-0x1.4519b96e4b745p+18, 0x1.9999988552d92p-4, -0x1.c6eefc016ed2cp+21},
+        {0x1.6c6e1d1c63a74p-4, -0x0p+0, 0x1.fdf82ecd60af8p-1}}},
+      {&five,
+       {{0x1.138709238e5aep+20, 0x1.1386e9238e58ep+21, 0x1.8e071510a4731p+21},
+        {-0x1.1848e3aaeb6a2p-2, -0x1.1848e3aaeb6a2p-1, -0x1.94e6957e4b05dp-1}}},
+      {&five,
+       {{0x1.01677d2a25273p+21, 0x1.5734bc38318d5p+20, -0x1.8d01fab07530fp+21},
+        {-0x1.05d96011b663fp-1, -0x1.5d21d56cf32fep-2, 0x1.93dd0dd573eabp-1}}},
+      {&wedged,
+       {{0x1.ce73513fe872ap+19, -0x1.1cbff4d305f4ep+22, 0x1.21c5a1e1dc9c5p+20},
+        {-0x1.8b58669fb7d0fp-3, 0x1.e6dc68a5795bbp-1, -0x1.ef729a1b5b54fp-3}}},
+      {&wedged,
+       {{0x1.cd3a1b72e4d54p+20, -0x1.ec83e90f4117fp+21, -0x1.f5bbf95e31619p+20},
+        {-0x1.8a4c94240c4f8p-2, 0x1.a50c2b54a5f3ap-1, 0x1.acedd279d289ap-2}}},
+      {&pointed,
+       {{0x1.db6c0c92958ccp+20, -0x1.7d8a0023f4e94p+21, 0x1.19960ed22e021p+20},
+        {-0x1.025e51a5579cap-1, 0x1.9eb1fcf3393c6p-1, -0x1.320e5eb262953p-2}}},
+      {&pointed,
+       {{0x1.cf47530e1c728p+19, 0x1.44cc24ccb7fa5p+21, 0x1.40ed275f9d295p+21},
+        {-0x1.f789c744847abp-3, -0x1.6105d20b6428ap-1, -0x1.5cd0af765629p-1}}},
+  };
+  for (const auto& [body, line] : cases) EXPECT_EQ(body->all_hits(line).size() % 2, 0u);
+}
+
+// A line through a pole meets cells on several sides of it; far off the origin they see it at different places.
+TEST(LineIntersections, APoleFarOffTheOriginIsOneCrossing) {
+  const Vec3 center(2345.6, -2736.5, 1563.7);
+  std::vector<Vec3> points{{0, 0, -1}, {0.9, 0, -1}, {0.1, 0, 0.1}, {1.2, 0, 0.6}, {0, 0, 1}};
+  for (Vec3& p : points) p += center;
+  const LineIntersector spindle(
+      std::make_shared<RevolutionSurface>(std::make_shared<NurbsCurve>(bezier_curve(points)), Axis{center, {0, 0, 1}}));
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < tests::tier_count(100000); ++k) {
+    const Vec3 d = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    const double off = std::pow(10, -15 + 6 * unit(random));
+    const Vec3 through = points[0] + off * Vec3(normal(random), normal(random), 0);
+    const std::vector<SurfaceHit> hits = spindle.all_hits({through - 2 * unit(random) * d, d});
+    EXPECT_EQ(hits.size() % 2, 0u) << k;
+    for (size_t i = 1; i < hits.size(); ++i) EXPECT_GT(hits[i].t - hits[i - 1].t, 1e-9) << k;
   }
 }
 

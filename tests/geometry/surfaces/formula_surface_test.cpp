@@ -200,6 +200,39 @@ TEST(FormulaSurface, LinesMeetWhitneysUmbrellaWhereItsEquationSays) {
   });
 }
 
+// Lines in a plane u = c meet (u v, u, v^2 + u) where they meet the parabola there. A cell that is clipped to the plane
+// alone is soon thinner than the rounding of the surface's points.
+TEST(FormulaSurface, LinesAcrossOneParameterMeetItsParabola) {
+  const LineIntersector intersector(
+      std::make_shared<FormulaSurface>(surface({"u*v", "u", "v^2 + u"}, {{0.2, 1}, {-1, 1}})));
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < tests::tier_count(100000); ++i) {
+    const double u = 0.21 + 0.78 * unit(random), first = -0.99 + 1.98 * unit(random),
+                 second = -0.99 + 1.98 * unit(random);
+    if (std::abs(first - second) < 1e-3) continue;
+    const Vec3 a(u * first, u, first * first + u), b(u * second, u, second * second + u);
+    const Vec3 d = (b - a) / glm::length(b - a);  // d.y is 0
+    const std::vector<SurfaceHit> found = intersector.all_hits({a - 2.0 * d, d});
+    ASSERT_EQ(found.size(), 2u) << i << " " << u << " " << first << " " << second;
+    EXPECT_NEAR(found[0].t, 2, 1e-9) << i;
+    EXPECT_NEAR(found[1].t, 2 + glm::length(b - a), 1e-9) << i;
+  }
+}
+
+// Lines that lie in the surface, through its double line, its pinch point and cells that are all singular: nothing is
+// asked but that they end soon.
+TEST(FormulaSurface, LinesInARuledSurfaceEnd) {
+  const LineIntersector umbrella(
+      std::make_shared<FormulaSurface>(surface({"u*v", "u", "v^2"}, {{-1.2, 1.2}, {-1.2, 1.2}})));
+  for (const double v : {0.0, 0.3, 0.7345, 1.2})
+    for (const double off : {0.0, 1e-15, 1e-12}) {
+      const Vec3 d = glm::normalize(Vec3(v, 1, 0));
+      const Vec3 p = Vec3(0, 0, v * v) + off * Vec3(0.3, -0.5, 0.8);
+      EXPECT_LE(umbrella.all_hits({p - 2.0 * d, d}).size(), 4u) << v << " " << off;
+    }
+}
+
 TEST(FormulaSurface, LinesMeetSteinersRomanSurfaceWhereItsEquationSays) {
   const auto roman = std::make_shared<FormulaSurface>(surface(
       {"cos(u)*cos(v)*sin(v)", "sin(u)*cos(v)*sin(v)", "cos(u)*sin(u)*cos(v)^2"}, {{0, kPi}, {-0.5 * kPi, 0.5 * kPi}}));

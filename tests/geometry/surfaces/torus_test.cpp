@@ -1,5 +1,6 @@
 #include "geometry/surfaces/torus.h"
 
+#include "geometry/queries/line_intersections.h"
 #include "geometry/surfaces/analytic_formulas.h"
 
 namespace lekalo::geometry {
@@ -98,6 +99,26 @@ TEST(TorusSurface, LinesThroughTheTipsKeepParity) {
       }
     }
   }
+}
+
+// Lines that pass beside a tip, nearer than the roots of a quartic tell from a line through it.
+TEST(TorusSurface, LinesBesideTheTipsKeepParity) {
+  const LineIntersector apple(std::make_shared<TorusSurface>(kSkewFrame, 1, 2)),
+      lemon(std::make_shared<TorusSurface>(kSkewFrame, -1, 2));
+  const Vec3 tip = kSkewFrame.point({0, 0, std::sqrt(3.0)});
+  std::mt19937_64 random(10);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int hits = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 direction = checks::random_direction(random);
+    const Vec3 by = std::pow(10, -13 + 7 * unit(random)) * checks::random_direction(random);
+    const Line line{tip + by - 10.0 * direction, direction};
+    ASSERT_EQ(apple.all_hits(line).size() % 2, 0u) << i;
+    const size_t inner = lemon.all_hits(line).size();
+    ASSERT_EQ(inner % 2, 0u) << i;
+    hits += static_cast<int>(inner);
+  }
+  EXPECT_GT(hits, 2000);
 }
 
 // Tangent lines moved by e inward or outward; none may leave a single hit.

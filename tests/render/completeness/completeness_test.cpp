@@ -6,12 +6,16 @@
 // dyadic parts. Origins lie in the bounds, two, a thousand and a million sizes away; subjects also lie a thousand and a
 // million sizes off the origin of coordinates.
 //
-// The band: a ray is in it where the oracle's own number of hits changes with one of 32 shifts (the corners of a cube
-// and 24 directions, for rays at the corners of open surfaces) of 1e-9 of the size and of the rounding of the
-// coordinates that go into the line, or its hits move as far as those found are off, where two of its crossings are
-// that near to each other or to the ray's origin, and where the oracle cannot tell. Such rays are counted and reported;
-// of the random ones there is at most one in ten thousand.
+// The band: a ray is in it where the oracle's own hits are others after a shift of 1e-9 of the size and of the rounding
+// of the coordinates that go into the line: their number changes, one is gone and another appears, or they move as far
+// as those found are off. Shifts go to the corners of a cube, in 24 directions, and to the surface around each hit that
+// was found (at narrow corners of open surfaces, and where a line hardly turns from the surface, few others tell). It
+// is in it, too, where a shift takes one of its hits from one side of the subject to the other, where two of its
+// crossings are that near to each other or to its origin, and where the oracle cannot tell. Such rays are counted and
+// reported; of the random ones there is at most one in ten thousand.
 #include <gtest/gtest.h>
+
+#include <set>
 
 #include "render/completeness/patch_entries.h"
 #include "render/completeness/shape_entries.h"
@@ -21,7 +25,8 @@
 namespace lekalo::render::completeness {
 namespace {
 
-const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));         // where subjects off the origin lie
+const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));  // where subjects off the origin lie
+constexpr double kJump = 1e-4;                      // of the size: a hit that a shift moves farther is another one
 constexpr int kAllRandom = 10000000, kAllAimed = 1000000;  // of all surfaces, in the full tier
 
 std::vector<Entry> all_entries() {
@@ -54,7 +59,6 @@ Ray random_ray(const Subject& subject, Random& random) {
 // Along a silhouette or past a special place; false where none was found.
 bool aimed_ray(const Subject& subject, const World& world, Random& random, Ray& ray) {
   const double size = subject.box.diameter();
-  double farthest = 1e6;
   const auto any_shift = [&](double least) { return size * std::pow(10.0, -3 + (least + 3) * unit(random)); };
   Vec3 through;
   if (!subject.special || unit(random) < 0.5) {
@@ -70,13 +74,12 @@ bool aimed_ray(const Subject& subject, const World& world, Random& random, Ray& 
     through = at.position + (unit(random) < 0.5 ? 1 : -1) * any_shift(-9) * normal;
   } else {
     const auto [place, other] = subject.special(random);
-    farthest = subject.farthest;
     const bool along = unit(random) < 0.2 && glm::length(other - place) > 1e-3 * size;
     ray.direction = along ? glm::normalize(other - place) : any_direction(random);
     through = unit(random) < 0.3 ? place : place + any_shift(-12) * any_direction(random);
   }
   const double kind = unit(random);
-  ray.origin = through - (kind < 0.6 ? 2 * unit(random) : kind < 0.8 ? 1e3 : farthest) * size * ray.direction;
+  ray.origin = through - (kind < 0.6 ? 2 * unit(random) : kind < 0.8 ? 1e3 : 1e6) * size * ray.direction;
   return true;
 }
 
@@ -151,14 +154,40 @@ class Comparison {
       if (std::abs(all[i] - ray.t_min) <= reach || (i > 0 && all[i] - all[i - 1] <= reach)) return true;
     // How far the shifts move the hits: farther than those found are off, where the line passes an edge of two faces.
     std::vector<double> moves(truth.size(), 0.0);
-    Random random(1);
-    for (int copy = 0; copy < 32; ++copy) {
+    const auto changes = [&](const Vec3& shift) {
       Ray shifted = ray;
-      shifted.origin += reach * (copy < 8 ? Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1)
-                                          : std::sqrt(3) * any_direction(random));
+      shifted.origin += shift;
       const std::vector<double> there = truth_of(shifted, undecided);
       if (there.size() != truth.size() || undecided) return true;
-      for (size_t i = 0; i < truth.size(); ++i) moves[i] = std::max(moves[i], std::abs(there[i] - truth[i]));
+      for (size_t i = 0; i < truth.size(); ++i) {
+        const double moved = std::abs(there[i] - truth[i]);
+        if (moved > kJump * size_) return true;  // not the same hit: one is gone, and there is another
+        moves[i] = std::max(moves[i], moved);
+      }
+      return false;
+    };
+    Random random(1);
+    for (int copy = 0; copy < 8; ++copy)
+      if (changes(reach * Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1))) return true;
+    for (int copy = 8; copy < 32; ++copy)
+      if (changes(std::sqrt(3) * reach * any_direction(random))) return true;
+    for (const Hit& hit : found) {
+      // What was found beside a narrow corner, or where the line hardly turns from the surface, few shifts lead to.
+      const SurfacePoint at = world_.surface_point(ray, hit);
+      // So flat that a shift takes the hit from one side of the subject to the other: the line runs in the surface.
+      if (std::abs(glm::dot(at.geometric_normal, ray.direction)) * size_ <= reach) return true;
+      const Vec3 to_hit = at.position - ray.at(hit.t);
+      const double lu = glm::length(at.du), lv = glm::length(at.dv);
+      for (int u = -1; u <= 1; ++u)
+        for (int v = -1; v <= 1; ++v) {
+          Vec3 aside(0);
+          if (u != 0 && lu > 0) aside += u / lu * at.du;
+          if (v != 0 && lv > 0) aside += v / lv * at.dv;
+          if (glm::length(aside) > 0) aside *= reach / glm::length(aside);
+          Vec3 shift = to_hit + aside;
+          shift -= glm::dot(shift, ray.direction) * ray.direction;
+          if (glm::length(shift) <= std::sqrt(3) * reach && changes(shift)) return true;
+        }
     }
     bool moved = found.size() == truth.size();
     for (size_t i = 0; moved && i < truth.size(); ++i) moved = std::abs(found[i].t - truth[i]) <= moves[i];
@@ -241,6 +270,50 @@ std::string name_of(const testing::TestParamInfo<size_t>& info) { return word(al
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Completeness, testing::Range<size_t>(0, all_entries().size()), name_of);
 
+// Rays that the suite found wrong once; none is in the band.
+TEST(CompletenessOfRays, ThatWereWrongOnce) {
+  struct Case {
+    std::string name;
+    double distance;  // of the subject off the origin, in sizes
+    Ray ray;
+  };
+  const auto ray = [](const Vec3& origin, const Vec3& direction) {
+    Ray made;
+    made.origin = origin;
+    made.direction = direction;
+    return made;
+  };
+  const Case cases[] = {
+      // Normals of a pole's neighbourhood pointed both ways: one crossing twice.
+      {"spindle", 1e3,
+       ray({0x1.26019abc04244p+11, -0x1.56ee7d0d0915bp+11, 0x1.87e0722a4798ap+10},
+           {-0x1.2de2b34ce8084p-4, -0x1.73a8d501edd4dp-1, -0x1.5e20a0c1d40c1p-1})},
+      // Grazes where a weight is a thousandth of others: their rounding was taken for its own.
+      {"weights_1e6_7_4", 0,
+       ray({0x1.16641562f8ebep+9, -0x1.cc5f3fbca97fbp+10, -0x1.62230521c4446p+7},
+           {-0x1.26b06ad2e3d51p-2, 0x1.e815bf229de96p-1, 0x1.77cd1197c18cdp-4})},
+      {"weights_1e6_7_4", 0,
+       ray({-0x1.1bd76059dd0e2p+9, 0x1.cd6fa7f5baec7p+10, 0x1.17694529dcc49p+5},
+           {0x1.2d65ca47d69dbp-2, -0x1.e93ba358819cap-1, -0x1.26fd072a31d2fp-6})},
+      // Lines across one parameter: the cell shrank to the rounding of the surface's points, where nothing settles.
+      {"formula_ruled_cubic", 0,
+       ray({-0x1.7e76bd9efd959p+0, 0x1.6666664819c2dp-2, 0x1.9012fa878e6c6p+2},
+           {0x1.cdd0b4e4c763cp-3, 0x0p+0, -0x1.f2d02144c2a8p-1})},
+      {"formula_torus", 1e3,
+       ray({0x1.21c73f7c725cap+12, -0x1.52160f0843bdep+12, 0x1.82463fd0ef3bcp+11},
+           {0x1.736753db8ab45p-4, 0x1.fde40ea4ae905p-1, 0x0p+0})},
+  };
+  for (const Entry& entry : all_entries())
+    for (const Case& one : cases) {
+      if (one.name != entry.name) continue;
+      const Subject subject = entry.make(one.distance * entry.make(Vec3(0)).box.diameter() * kAway);
+      const World world(model_of(subject));
+      Tally tally;
+      Comparison(subject, world).compare(one.ray, tally);
+      EXPECT_EQ(tally.wrong + tally.other + tally.band, 0) << one.name;
+    }
+}
+
 // The closed ones of all entries, and more.
 std::vector<Entry> all_closed_entries() {
   std::vector<Entry> entries = closed_entries();
@@ -258,7 +331,7 @@ class Parity : public testing::TestWithParam<size_t> {
 };
 
 // A ray with an odd number is in the band if it grazes an edge: the numbers of its shifts by 1e-9 of the size (and of
-// the rounding of its coordinates) are all even, and not all the same.
+// the rounding of its coordinates) are even, but for few, and not all the same.
 TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
   const Entry& entry = entries()[GetParam()];
   const auto share = [&](int all) { return tests::tier_count(all / static_cast<int>(entries().size()) + 1); };
@@ -273,16 +346,17 @@ TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
     const Vec3 center = subject.box.center();
     const auto grazes = [&](const Ray& ray) {
       const double reach = 1e-9 * size + 8e-16 * (glm::length(ray.origin) + glm::length(ray.origin - center));
-      size_t least = 1000, most = 0;
-      for (int copy = 0; copy < 8; ++copy) {
+      Random shifts(1);
+      std::set<size_t> counts;
+      int still_odd = 0;
+      for (int copy = 0; copy < 32; ++copy) {
         Ray shifted = ray;
-        shifted.origin += reach * Vec3(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1);
+        shifted.origin += std::sqrt(3) * reach * any_direction(shifts);
         const size_t count = world.all_hits(shifted).size();
-        if (count % 2 != 0) return false;
-        least = std::min(least, count);
-        most = std::max(most, count);
+        count % 2 == 0 ? static_cast<void>(counts.insert(count)) : static_cast<void>(++still_odd);
       }
-      return least < most;
+      // A shift along the edge changes nothing.
+      return counts.size() > 1 && still_odd <= 2;
     };
     const auto follow = [&](Ray ray, Count& count) {
       // From outside: at least one size before the middle of the bounds.
@@ -300,7 +374,6 @@ TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
     };
     for (int k = static_cast<int>(part * share(kAllRandom)); k > 0; --k) follow(random_ray(subject, random), any);
     Ray ray;
-    if (distance > subject.farthest) continue;
     for (int k = static_cast<int>(part * share(kAllAimed)); k > 0; --k)
       if (aimed_ray(subject, world, random, ray)) follow(ray, aimed);
   }

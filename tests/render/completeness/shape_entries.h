@@ -282,13 +282,12 @@ inline Subject body_subject(const Body& body, const Vec3& offset, const Truth& t
   subject.transform = Affine::translation(offset);
   subject.box = transformed(bounds(body), subject.transform);
   subject.truth = moved(offset, truth);
-  subject.farthest = 1e3;  // from farther a line's rounding takes it past one face of an edge and not the other
   subject.special = [=](Random& random) {
     const Edge& edge = placed->edges[static_cast<size_t>(unit(random) * placed->edges.size())];
     const Interval range = edge.curve->domain();
     const double t = unit(random) < 0.2 ? range.lo : range.lo + unit(random) * range.width();
     const Vec3 place = edge.curve->point(t) + offset;
-    return std::pair(place, place);  // not along it: lines in a plane face are outside what is asked
+    return std::pair(place, edge.curve->point(range.lo + unit(random) * range.width()) + offset);
   };
   return subject;
 }

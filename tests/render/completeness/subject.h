@@ -32,9 +32,7 @@ struct Subject {
   // Differences from the oracle's t up to this share of the size count as none: what the oracle's own arithmetic
   // allows.
   double same = 1e-9;
-  double band = 1e-9;     // half its width, of the size
-  double farthest = 1e6;  // that origins of rays aimed at special places lie away, and aimed-at closed subjects off the
-                          // origin, in sizes
+  double band = 1e-9;  // half its width, of the size
 };
 
 // Makes a subject that lies near the origin, or moved by the offset.
