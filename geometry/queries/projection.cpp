@@ -6,6 +6,7 @@
 
 #include "geometry/curves/parameter_line.h"
 #include "geometry/numerics/root_search.h"
+#include "geometry/queries/smooth_pieces.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/tolerances.h"
 
@@ -22,32 +23,13 @@ constexpr double kAtPole = 1e-6;
 // Feet nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFoot = 1e-11;
 
-Interval along(const Box3& box, int axis) { return {box.lo[axis], box.hi[axis]}; }
-
-// (p - r) . d
-Interval product(const Vec3& p, const Box3& r, const Box3& d) {
-  Interval sum(0);
-  for (int k = 0; k < 3; ++k) sum += (Interval(p[k]) - along(r, k)) * along(d, k);
-  return sum;
-}
-Interval product(const Box3& a, const Box3& b) {
-  Interval sum(0);
-  for (int k = 0; k < 3; ++k) sum += along(a, k) * along(b, k);
-  return sum;
-}
-Interval square(const Box3& a) { return sqr(along(a, 0)) + sqr(along(a, 1)) + sqr(along(a, 2)); }
-
 // f(t) = (p - r) . r' on a smooth piece (Golovanov 2016, (4.1.3)).
 struct CurveSystem {
   const Vec3& p;
   const Curve& curve;
   Interval piece;
 
-  // A little inside of the piece, so that derivatives at a break are those of this side.
-  CurveJet jet(double t) const {
-    const double inside = 1e-15 * piece.width();
-    return curve.evaluate(std::clamp(t, piece.lo, std::max(piece.lo, piece.hi - inside)), 2);
-  }
+  CurveJet jet(double t) const { return evaluate_within(curve, piece, t, 2); }
   SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& box) const {
     const CurveEnclosure r = curve.enclose(box[0], 2);
     return {{product(p, r.d[0], r.d[1])}, {{{product(p, r.d[0], r.d[2]) - square(r.d[1])}}}};
@@ -145,12 +127,7 @@ struct SurfaceSystem {
   const Surface& surface;
   Rectangle piece;
 
-  SurfaceJet jet(double u, double v) const {
-    const auto inside = [](double x, const Interval& range) {
-      return std::clamp(x, range.lo, std::max(range.lo, range.hi - 1e-15 * range.width()));
-    };
-    return surface.evaluate(inside(u, piece.u), inside(v, piece.v), 2);
-  }
+  SurfaceJet jet(double u, double v) const { return evaluate_within(surface, piece, u, v, 2); }
   SystemValue<Interval, 2, 2> enclose(const ParameterBox<2>& box) const {
     const SurfaceEnclosure s = surface.enclose({box[0], box[1]}, 2);
     const Box3 &r = s.d(0, 0), &u = s.d(1, 0), &v = s.d(0, 1);
