@@ -4,13 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "geometry/curves/bezier_curve.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/ellipse.h"
 #include "geometry/curves/segment.h"
+#include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
+#include "support/root_oracle.h"
+#include "support/tier.h"
 
 namespace lekalo::geometry {
 namespace {
@@ -106,6 +111,130 @@ TEST(CurveAndSurface, ACircleLiesOnACylinderAsFarAsThatGoes) {
   ASSERT_EQ(met.on_surface.size(), 1u);
   EXPECT_NEAR(met.on_surface[0].lo, 0, 1e-9);
   EXPECT_NEAR(met.on_surface[0].hi, kPi, 1e-9);
+}
+
+// Random pairs against halving.
+
+using tests::Bernstein;
+
+double unit(std::mt19937_64& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+struct RandomPoints {
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+};
+RandomPoints random_points(std::mt19937_64& random, int count, bool flat) {
+  RandomPoints result;
+  for (int k = 0; k < count; ++k) {
+    result.points.emplace_back(unit(random), unit(random), flat ? 0 : unit(random));
+    result.weights.push_back(std::pow(10.0, unit(random) - 0.5));
+  }
+  return result;
+}
+Bernstein<4> homogeneous(const RandomPoints& from, const std::array<int, 3>& degree) {
+  Bernstein<4> form;
+  form.degree = degree;
+  for (size_t k = 0; k < from.points.size(); ++k) {
+    const double w = from.weights[k];
+    form.c.push_back({w * from.points[k].x, w * from.points[k].y, w * from.points[k].z, w});
+  }
+  return form;
+}
+
+// Two forms of disjoint parameters; boxes of their points.
+using Pair = std::array<Bernstein<4>, 2>;
+bool boxes_meet(const Pair& pair) {
+  Vec3 lo[2], hi[2];
+  for (int side = 0; side < 2; ++side) {
+    lo[side] = Vec3(kInfinity), hi[side] = Vec3(-kInfinity);
+    for (const auto& c : pair[side].c) {
+      const Vec3 p = Vec3(c[0], c[1], c[2]) / c[3];
+      lo[side] = glm::min(lo[side], p), hi[side] = glm::max(hi[side], p);
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+    if (lo[0][k] > hi[1][k] + 1e-13 || lo[1][k] > hi[0][k] + 1e-13) return false;
+  return true;
+}
+
+TEST(RandomCurves, NoMeetingInThePlaneIsLost) {
+  std::mt19937_64 random(1);
+  int compared = 0, met = 0, unclear_pairs = 0;
+  for (int trial = tests::tier_count(10000); trial > 0; --trial) {
+    const int n = 2 + trial % 5, m = 2 + trial / 5 % 5;
+    const RandomPoints pa = random_points(random, n + 1, true), pb = random_points(random, m + 1, true);
+    const Pair pair{homogeneous(pa, {n, 0, 0}), homogeneous(pb, {m, 0, 0})};
+    bool unclear = false;
+    const auto truth = tests::roots_by_halving<2, Pair>(
+        pair, 1e-9, boxes_meet,
+        [](const Pair& both, int axis, bool upper) {
+          Pair part = both;
+          part[axis] = both[axis].half(0, upper);
+          return part;
+        },
+        unclear);
+    if (unclear) {
+      ++unclear_pairs;
+      continue;
+    }
+    const CurveMeetings found = intersect(bezier_curve(pa.points, pa.weights), bezier_curve(pb.points, pb.weights));
+    ++compared;
+    met += static_cast<int>(truth.size());
+    EXPECT_EQ(found.points.size(), truth.size()) << "pair " << trial;
+    EXPECT_TRUE(found.common.empty());
+    for (const auto& root : truth)
+      EXPECT_TRUE(std::any_of(found.points.begin(), found.points.end(),
+                              [&](const CurveMeeting& one) {
+                                return std::abs(one.s - root[0]) < 1e-6 && std::abs(one.t - root[1]) < 1e-6;
+                              }))
+          << "pair " << trial << " at " << root[0] << ", " << root[1];
+    for (const CurveMeeting& one : found.points) EXPECT_LT(one.distance, 1e-13);
+  }
+  EXPECT_GT(met, compared / 2);
+  EXPECT_LT(unclear_pairs, compared / 50 + 2);
+  tests::report_figure("pairs", compared);
+  tests::report_figure("meetings", met);
+}
+
+TEST(RandomCurves, NoMeetingWithASurfaceIsLost) {
+  std::mt19937_64 random(2);
+  int compared = 0, met = 0, unclear_pairs = 0;
+  for (int trial = tests::tier_count(1000); trial > 0; --trial) {
+    const int n = 2 + trial % 3;
+    const RandomPoints curve = random_points(random, n + 1, false);
+    RandomPoints net = random_points(random, 16, false);
+    const Pair pair{homogeneous(curve, {n, 0, 0}), homogeneous(net, {0, 3, 3})};
+    bool unclear = false;
+    const auto truth = tests::roots_by_halving<3, Pair>(
+        pair, 1e-7, boxes_meet,
+        [](const Pair& both, int axis, bool upper) {
+          Pair part = both;
+          part[axis > 0] = both[axis > 0].half(axis, upper);
+          return part;
+        },
+        unclear);
+    if (unclear) {
+      ++unclear_pairs;
+      continue;
+    }
+    const SurfaceMeetings found =
+        intersect(bezier_curve(curve.points, curve.weights), bezier_surface(Grid<Vec3>{4, 4, net.points}, net.weights));
+    ++compared;
+    met += static_cast<int>(truth.size());
+    EXPECT_EQ(found.points.size(), truth.size()) << "pair " << trial;
+    for (const auto& root : truth)
+      EXPECT_TRUE(std::any_of(found.points.begin(), found.points.end(),
+                              [&](const SurfaceMeeting& one) {
+                                return std::abs(one.t - root[0]) < 1e-4 && std::abs(one.u - root[1]) < 1e-4 &&
+                                       std::abs(one.v - root[2]) < 1e-4;
+                              }))
+          << "pair " << trial << " at " << root[0];
+    for (const SurfaceMeeting& one : found.points) EXPECT_LT(one.distance, 1e-13);
+  }
+  EXPECT_GT(met, compared / 4);
+  tests::report_figure("pairs", compared);
+  tests::report_figure("unclear", unclear_pairs);
+  tests::report_figure("meetings", met);
 }
 
 }  // namespace
