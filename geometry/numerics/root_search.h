@@ -190,32 +190,38 @@ class Search {
 
   // F is one-to-one on the box: keeps the solution that it has, if any. False where no iteration converges.
   bool follow(const ParameterBox<N>& box, ParameterPlace<N> x, const Inverse& c) {
-    // Newton's iteration is soon there if there is a solution.
+    // Newton's iteration is soon there if there is a solution: until its steps are rounding and no longer get shorter.
+    double before = kInfinity;
     for (int step = 0; step < kMostNewtonSteps; ++step) {
       Inverse own;
       const SystemValue<double, N, M> there = system_.evaluate(x);
       if (!solve_for<N, M>(there.derivative, own)) break;
       const Step next = stepped(box, x, own, there);
       x = next.to;
-      if (!next.small) continue;
+      const bool settled = next.length <= kSettled || (next.length <= kNearlySettled && next.length > 0.5 * before);
+      before = next.length;
+      if (!settled) continue;
       if (next.leads_out) break;
       if (holds(x)) keep(x);
       return true;
     }
-    // With C kept the step, moved back to the box, is a contraction: it ends at the solution or there is none.
+    // With C kept the step, moved back to the box, is a contraction: after so many it stands at the solution, or there
+    // is none.
+    Step last;
     for (int step = 0; step < kMostSteps; ++step) {
-      const Step next = stepped(box, x, c, system_.evaluate(x));
-      x = next.to;
-      if (!next.small) continue;
-      if (!next.leads_out && holds(x)) keep(x);
-      return true;
+      last = stepped(box, x, c, system_.evaluate(x));
+      x = last.to;
+      if (last.length <= kSettled) break;
     }
-    return false;
+    if (!(last.length <= kNearlySettled)) return false;
+    if (!last.leads_out && holds(x)) keep(x);
+    return true;
   }
 
   struct Step {
     ParameterPlace<N> to;
-    bool small = true, leads_out = false;
+    double length = 0;  // the longest of all parameters, of the domain's sides
+    bool leads_out = false;
   };
   Step stepped(const ParameterBox<N>& box, const ParameterPlace<N>& x, const Inverse& c,
                const SystemValue<double, N, M>& there) const {
@@ -224,9 +230,8 @@ class Search {
       double free = x[i];
       for (int k = 0; k < M; ++k) free -= c[i][k] * there.value[k];
       step.to[i] = box[i].clamp(free);
-      const double rounding = 8 * kEpsilon * std::max({std::abs(x[i]), std::abs(box[i].lo), std::abs(box[i].hi)});
-      step.small = step.small && std::abs(step.to[i] - x[i]) <= rounding;
-      step.leads_out = step.leads_out || !(std::abs(free - step.to[i]) <= options_.slack[i] + rounding);
+      step.length = std::max(step.length, std::abs(step.to[i] - x[i]) / domain_[i].width());
+      step.leads_out = step.leads_out || !(std::abs(free - step.to[i]) <= options_.slack[i]);
     }
     return step;
   }
@@ -308,7 +313,8 @@ class Search {
     result_.open = std::move(joined);
   }
 
-  static constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr double kSettled = 1e-15, kNearlySettled = 1e-8;
   static constexpr double kOneToOne = 0.9;      // rows that sum up to less, so that rounding does not matter
   static constexpr double kWorthCutting = 0.5;  // of the volume: a cut that leaves more is followed by a halving
   static constexpr int kMostCuts = 20;
