@@ -10,6 +10,10 @@ lekalo: 1
 parameters: { tube: 0.5 }
 geometry:
   rim:   { type: circle, radius: 2 }
+  apex:  [3, 0, 4]
+  chord: { type: segment, from: [-4, 1, 0], to: [4, 1, 0] }
+  tangent: { type: segment, from: [-4, 2, 0], to: [4, 2, 0] }
+  pole:  { type: segment, from: [0, 0.6, 0], to: [0, 0.6, 2] }
   ring:  { type: torus_body, major_radius: 2, minor_radius: tube }
   tire:  { type: torus_surface, major_radius: 2, minor_radius: tube }
   ball:  { type: ball, center: [0, 0, 3], radius: 1.5 }
@@ -104,6 +108,43 @@ class Numbers(ProgramTest):
         tile = self.measure("tile", "--topology")
         self.assertEqual([tile[key] for key in ("points", "sides", "triangles", "euler_characteristic", "closed")],
                          [4, 5, 2, 1, False])
+
+    def test_distance_from_a_point(self):
+        """The torus' four feet (Golovanov 2016, 4.2) and a circle's two; a point by name."""
+        found = self.measure("tire", "--to", "1,2,2")
+        ring = math.hypot(math.sqrt(5) - 2, 2)
+        self.assert_near(found["distance"], ring - 0.5, 1e-14)
+        self.assertEqual([foot["kind"] for foot in found["feet"]], ["minimum", "saddle", "saddle", "maximum"])
+        self.assert_near(found["feet"][0]["u"], math.atan2(2, 1), 1e-14)
+        found = self.measure("rim", "--to", "apex")
+        self.assert_near([foot["distance"] for foot in found["feet"]], [math.hypot(1, 4), math.hypot(3, 4)], 1e-14)
+        found = self.measure("rim", "--to", "0,0,1")
+        self.assert_near([found["distance"], *found["arcs"][0]], [math.sqrt(5), 0, 2 * math.pi], 1e-14)
+        text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]
+        self.assertIn("minimum", text)
+
+    def test_intersections(self):
+        found = self.measure("rim", "--intersect", "chord")
+        self.assert_near([one["point"] for one in found["points"]], [[math.sqrt(3), 1, 0], [-math.sqrt(3), 1, 0]], 1e-14)
+        self.assertFalse(any(one["contact"] for one in found["points"]))
+        found = self.measure("rim", "--intersect", "tangent")
+        self.assertEqual([one["contact"] for one in found["points"]], [True])
+        for words in ("pole", "shell"), ("shell", "pole"):
+            found = self.measure(words[0], "--intersect", words[1])
+            self.assert_near([one["point"] for one in found["points"]], [[0, 0.6, 0.8]], 1e-14)
+        found = self.measure("rim", "--intersect", "rim")
+        self.assertEqual(found["points"], [])
+        self.assert_near(found["common"][0]["t"], [0, 2 * math.pi], 1e-12)
+        text = self.run_program("measure", "scene.yaml", "rim", "--intersect", "tangent")[0]
+        self.assertIn("contact", text)
+
+    def test_questions_without_an_answer(self):
+        for words, message in ((("block", "--to", "0,0,0"), "neither a curve nor a surface"),
+                               (("rim", "--to", "ring"), "'ring' is no point"),
+                               (("rim", "--to", "apexx"), "apex"), (("rim", "--to", "1,2"), "--to"),
+                               (("shell", "--intersect", "tire"), "one must be a curve"),
+                               (("rim", "--tolerance", 1), "--tolerance belongs to")):
+            self.assertIn(message, self.run_program("measure", "scene.yaml", *words, code=USAGE)[1])
 
     def test_against_a_table(self):
         angles = [0.1 * k for k in range(63)]

@@ -43,6 +43,8 @@ complete -c lekalo -n '__fish_seen_subcommand_from schema' -l suite -d 'of regre
 complete -c lekalo -n '__fish_seen_subcommand_from test' -l junit -r -d 'JUnit XML file'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l topology -d 'list vertices, edges, faces'
 complete -c lekalo -n '__fish_seen_subcommand_from types' -l markdown -r -d 'write the reference into a folder'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l to -x -d 'a point: name or x,y,z'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l intersect -x -d 'a curve or surface'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l against -r -d 'table of samples, or a name'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l tolerance -x -d 'largest difference that passes'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l samples -x -d 'places in each direction'

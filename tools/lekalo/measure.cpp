@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "command.h"
+#include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/queries/shape_measures.h"
 
@@ -84,7 +85,7 @@ constexpr int kSamples = 65;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against;
+  std::string name, against, to, intersect;
   std::optional<double> tolerance;
   std::optional<int> samples, order;
   bool topology = false, json = false;
@@ -110,9 +111,19 @@ ordered_json as_json(const std::vector<render::ExternalNote>& notes) {
   return list;
 }
 
+// A point of the scene, or "x,y,z".
+Vec3 point_named(const render::LoadedScene& scene, const std::string& text) {
+  if (text.find(',') != std::string::npos) {
+    const std::vector<double> numbers = parse_numbers(text, 3, "--to");
+    return {numbers[0], numbers[1], numbers[2]};
+  }
+  if (const auto* point = std::get_if<Vec3>(&find_geometry(scene, text))) return *point;
+  throw UsageError(fmt::format("'{}' is no point: --to takes a point of the scene, or X,Y,Z", text));
+}
+
 int run(const Options& options) {
-  if (options.tolerance && options.against.empty())
-    throw UsageError("--tolerance belongs to --against SAMPLES.csv or --against NAME");
+  if (options.tolerance && options.against.empty() && options.intersect.empty())
+    throw UsageError("--tolerance belongs to --against SAMPLES.csv, --against NAME or --intersect NAME");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
   print_external_notes(scene, !options.json);
@@ -129,6 +140,13 @@ int run(const Options& options) {
     check_table_name(scene, options.against);
     out = compare_with_table(options.name, entity, load_table(options.against), options.against, options.tolerance);
     print = print_comparison;
+  } else if (!options.to.empty()) {
+    out = distance_to_point(options.name, entity, options.to, point_named(scene, options.to));
+    print = print_distance;
+  } else if (!options.intersect.empty()) {
+    out = intersections(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
+                        options.tolerance.value_or(geometry::kSamePoint));
+    print = print_intersections;
   } else if (options.topology) {
     out = topology(options.name, entity);
     print = print_topology;
@@ -202,11 +220,14 @@ void print_measures(const ordered_json& measured) {
 }
 
 void add_measure(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("measure", "Length, area, volume, moments; topology; comparison with a table");
+  auto* sub = app.add_subcommand(
+      "measure", "Length, area, volume, moments; topology; distance, intersections; comparison with a table");
   sub->footer(
       "Examples:\n"
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
+      "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
+      "  lekalo measure curves.yaml rim --intersect cut\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
@@ -217,12 +238,27 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
+  auto* to = sub->add_option("--to", options->to, "distance from a point, with all its feet on the curve or surface")
+                 ->type_name("NAME|X,Y,Z")
+                 ->excludes(topology);
+  auto* intersect = sub->add_option("--intersect", options->intersect,
+                                    "where the curve or surface meets another: crossings, contacts, common parts")
+                        ->type_name("NAME")
+                        ->excludes(topology)
+                        ->excludes(to);
   sub->add_option("--against", options->against,
                   "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
                   "domain is mapped linearly")
       ->type_name("FILE|NAME")
-      ->excludes(topology);
-  sub->add_option("--tolerance", options->tolerance, "largest difference that passes")->type_name("X");
+      ->excludes(topology)
+      ->excludes(to)
+      ->excludes(intersect);
+  sub->add_option("--tolerance", options->tolerance,
+                  fmt::format("largest difference that passes; of --intersect the part of the size below which points "
+                              "are one [{:g}]",
+                              geometry::kSamePoint))
+      ->type_name("X")
+      ->check(CLI::NonNegativeNumber);
   sub->add_option("--samples", options->samples, fmt::format("places in each direction [{}]", kSamples))
       ->check(CLI::Range(2, 10000));
   sub->add_option("--order", options->order, "compare derivatives up to this order [2]")->check(CLI::Range(0, 2));

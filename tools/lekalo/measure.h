@@ -31,4 +31,16 @@ ordered_json compare_pair(const std::string& name, const render::Entity& entity,
                           const render::Entity& other, int samples, int order, std::optional<double> tolerance);
 void print_pair(const ordered_json& compared);
 
+// The distance of a curve or surface from a point, and all feet of the point on it. Throws UsageError for anything
+// else.
+ordered_json distance_to_point(const std::string& name, const render::Entity& entity, const std::string& to,
+                               const geometry::Vec3& point);
+void print_distance(const ordered_json& found);
+
+// Where two curves, or a curve and a surface, meet. `tolerance`, relative to the size of both: points nearer than that
+// are one. Throws UsageError for anything else.
+ordered_json intersections(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                           const render::Entity& other, double tolerance);
+void print_intersections(const ordered_json& found);
+
 }  // namespace lekalo::command

@@ -1,0 +1,227 @@
+// All feet of points on curves and surfaces: the checks of Golovanov 2016, 4.1 and 4.2, closed forms, and counts
+// against a search by sampling.
+#include "geometry/queries/projection.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/curves/bezier_curve.h"
+#include "geometry/curves/circle.h"
+#include "geometry/curves/ellipse.h"
+#include "geometry/curves/polyline.h"
+#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/torus.h"
+#include "support/root_oracle.h"
+#include "support/tier.h"
+
+namespace lekalo::geometry {
+namespace {
+
+TEST(PointOnCurve, AnEllipseSeenFromOutsideHasTwoFeet) {
+  const Ellipse ellipse(Frame(), 3, 1);
+  const CurveFeet found = project({2, 2, 0}, ellipse);
+  ASSERT_EQ(found.feet.size(), 2u);
+  EXPECT_NEAR(found.feet[0].t, 0.95878005667540448735, 1e-15);
+  EXPECT_NEAR(found.feet[0].distance, 1.2134181759280895, 1e-15);
+  EXPECT_EQ(found.feet[0].kind, FootKind::minimum);
+  EXPECT_NEAR(found.feet[1].t, 3.2843076863330900374, 1e-15);
+  EXPECT_NEAR(found.feet[1].distance, 5.4115698877204800, 2e-15);
+  EXPECT_EQ(found.feet[1].kind, FootKind::maximum);
+}
+
+TEST(PointOnCurve, AnEllipseSeenFromInsideItsEvoluteHasFour) {
+  const Ellipse ellipse(Frame(), 3, 1);
+  const CurveFeet found = project({0.5, 0.25, 0}, ellipse);
+  ASSERT_EQ(found.feet.size(), 4u);
+  const double t[] = {1.3880560138528246, 4.9072895131392039, 6.2447076993398143, 3.1679100416171234};
+  const double distance[] = {0.73473948417309830, 1.2337292720851672, 2.5143818735657148, 3.5098545222674713};
+  const FootKind kind[] = {FootKind::minimum, FootKind::minimum, FootKind::maximum, FootKind::maximum};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(found.feet[k].t, t[k], 2e-15);
+    EXPECT_NEAR(found.feet[k].distance, distance[k], 2e-15);
+    EXPECT_EQ(found.feet[k].kind, kind[k]);
+  }
+}
+
+TEST(PointOnCurve, TheCentreOfACircleIsAsFarFromAllOfIt) {
+  const Circle circle(Frame(), 2);
+  const CurveFeet found = project({0, 0, 1}, circle);
+  ASSERT_EQ(found.arcs.size(), 1u);
+  EXPECT_EQ(found.arcs[0], circle.domain());
+  ASSERT_EQ(found.feet.size(), 1u);
+  EXPECT_NEAR(found.feet[0].distance, std::sqrt(5.0), 1e-15);
+}
+
+TEST(PointOnSurface, ATorusHasFourFeet) {
+  const TorusSurface torus(Frame(), 3, 1);
+  const SurfaceFeet found = project({1, 2, 2}, torus);
+  ASSERT_EQ(found.feet.size(), 4u);
+  EXPECT_NEAR(found.feet[0].u, 1.1071487177940905, 1e-15);
+  EXPECT_NEAR(found.feet[0].v, 1.9356601549083798, 1e-15);
+  EXPECT_NEAR(found.feet[0].distance, 1.1409325386385396, 1e-15);
+  EXPECT_EQ(found.feet[0].kind, FootKind::minimum);
+  EXPECT_EQ(found.feet[3].kind, FootKind::maximum);
+}
+
+TEST(PointOnSurface, ASphereHasTwoFeet) {
+  const SphereSurface sphere(Frame(), 2);
+  const SurfaceFeet found = project({1, 2, 2}, sphere);
+  ASSERT_EQ(found.feet.size(), 2u);
+  EXPECT_NEAR(found.feet[0].distance, 1, 1e-15);
+  EXPECT_NEAR(found.feet[1].distance, 5, 1e-15);
+  const SurfaceFeet above = project({0, 0, 5}, sphere);
+  ASSERT_EQ(above.feet.size(), 2u);
+  EXPECT_NEAR(above.feet[0].distance, 3, 1e-15);
+  EXPECT_NEAR(above.feet[1].distance, 7, 1e-15);
+}
+
+TEST(PointOnSurface, CornersEdgesAndInsideOfASquare) {
+  const NurbsSurface square = bezier_surface(Grid<Vec3>{2, 2, {{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}}});
+  const auto nearest = [&](const Vec3& p) { return project(p, square).feet.at(0); };
+  EXPECT_EQ(nearest({1, 0.5, 3}).kind, FootKind::minimum);
+  EXPECT_NEAR(nearest({1, 0.5, 3}).distance, 3, 1e-15);
+  EXPECT_EQ(nearest({3, 0.5, 0}).kind, FootKind::border);
+  EXPECT_NEAR(nearest({3, 0.5, 0}).distance, 1, 1e-15);
+  EXPECT_NEAR(nearest({5, 6, 0}).distance, 5, 1e-15);
+  EXPECT_EQ(project({5, 6, 0}, square).feet.size(), 1u);
+}
+
+// Random points against halving of Bernstein forms.
+
+using tests::Bernstein;
+
+double unit(std::mt19937_64& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+double binomial(int n, int k) {
+  double result = 1;
+  for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
+  return result;
+}
+
+// The scalar product of two polynomials of u and v.
+Bernstein<1> dot(const Bernstein<3>& a, const Bernstein<3>& b) {
+  Bernstein<1> r;
+  for (int k = 0; k < 3; ++k) r.degree[k] = a.degree[k] + b.degree[k];
+  r.c.assign(static_cast<size_t>(r.degree[0] + 1) * (r.degree[1] + 1), {0});
+  for (int i = 0; i <= a.degree[0]; ++i)
+    for (int j = 0; j <= a.degree[1]; ++j)
+      for (int k = 0; k <= b.degree[0]; ++k)
+        for (int l = 0; l <= b.degree[1]; ++l) {
+          const auto &x = a.c[a.index(i, j, 0)], &y = b.c[b.index(k, l, 0)];
+          const double factor = binomial(a.degree[0], i) * binomial(b.degree[0], k) / binomial(r.degree[0], i + k) *
+                                binomial(a.degree[1], j) * binomial(b.degree[1], l) / binomial(r.degree[1], j + l);
+          r.c[r.index(i + k, j + l, 0)][0] += factor * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+        }
+  return r;
+}
+Bernstein<3> derivative(const Bernstein<3>& a, int axis) {
+  Bernstein<3> r;
+  r.degree = a.degree;
+  --r.degree[axis];
+  r.c.resize(static_cast<size_t>(r.degree[0] + 1) * (r.degree[1] + 1));
+  for (int i = 0; i <= r.degree[0]; ++i)
+    for (int j = 0; j <= r.degree[1]; ++j)
+      for (int d = 0; d < 3; ++d)
+        r.c[r.index(i, j, 0)][d] =
+            a.degree[axis] * (a.c[a.index(i + (axis == 0), j + (axis == 1), 0)][d] - a.c[a.index(i, j, 0)][d]);
+  return r;
+}
+bool changes_sign(const Bernstein<1>& f) {
+  bool plus = false, minus = false;
+  for (const auto& c : f.c) plus = plus || c[0] > -1e-14, minus = minus || c[0] < 1e-14;
+  return plus && minus;
+}
+Bernstein<3> way_from(const Vec3& p, const std::vector<Vec3>& points, const std::array<int, 3>& degree) {
+  Bernstein<3> way;
+  way.degree = degree;
+  for (const Vec3& q : points) way.c.push_back({q.x - p.x, q.y - p.y, q.z - p.z});
+  return way;
+}
+
+TEST(RandomFeet, NoneOnACurveIsLost) {
+  std::mt19937_64 random(3);
+  int compared = 0, feet = 0, unclear_points = 0;
+  for (int trial = tests::tier_count(10000); trial > 0; --trial) {
+    const int n = 2 + trial % 6;
+    std::vector<Vec3> points(n + 1);
+    for (Vec3& p : points) p = {unit(random), unit(random), unit(random)};
+    const Vec3 p(unit(random), unit(random), unit(random));
+    const Bernstein<3> way = way_from(p, points, {n, 0, 0});
+    bool unclear = false;
+    const auto truth = tests::roots_by_halving<1, Bernstein<1>>(
+        dot(way, derivative(way, 0)), 1e-10, changes_sign,
+        [](const Bernstein<1>& f, int, bool upper) { return f.half(0, upper); }, unclear);
+    if (unclear) {
+      ++unclear_points;
+      continue;
+    }
+    const NurbsCurve curve = bezier_curve(points);
+    const CurveFeet found = project(p, curve);
+    const auto stationary = std::count_if(found.feet.begin(), found.feet.end(),
+                                          [](const CurveFoot& foot) { return foot.kind != FootKind::border; });
+    ++compared;
+    feet += static_cast<int>(truth.size());
+    EXPECT_EQ(stationary, static_cast<int>(truth.size())) << "trial " << trial;
+    for (const auto& root : truth)
+      EXPECT_TRUE(std::any_of(found.feet.begin(), found.feet.end(),
+                              [&](const CurveFoot& foot) { return std::abs(foot.t - root[0]) < 1e-7; }))
+          << "trial " << trial << " at " << root[0];
+    // The first is the nearest of all points.
+    for (int k = 0; k <= 64; ++k) EXPECT_LE(found.feet[0].distance, glm::length(curve.point(k / 64.0) - p) + 1e-15);
+  }
+  EXPECT_LT(unclear_points, compared / 50 + 2);
+  tests::report_figure("points", compared);
+  tests::report_figure("feet", feet);
+}
+
+TEST(RandomFeet, NoneOnASurfaceIsLost) {
+  std::mt19937_64 random(4);
+  int compared = 0, feet = 0, unclear_points = 0;
+  using Two = std::array<Bernstein<1>, 2>;
+  for (int trial = tests::tier_count(1000); trial > 0; --trial) {
+    const int n = 1 + trial % 3, m = 1 + trial / 3 % 3;
+    std::vector<Vec3> points;
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= m; ++j)
+        points.emplace_back((i + 0.6 * unit(random)) / n, (j + 0.6 * unit(random)) / m, unit(random));
+    const Vec3 p(unit(random), unit(random), 2 * unit(random) - 0.5);
+    const Bernstein<3> way = way_from(p, points, {n, m, 0});
+    bool unclear = false;
+    const auto truth = tests::roots_by_halving<2, Two>(
+        {dot(way, derivative(way, 0)), dot(way, derivative(way, 1))}, 1e-9,
+        [](const Two& f) { return changes_sign(f[0]) && changes_sign(f[1]); },
+        [](const Two& f, int axis, bool upper) {
+          return Two{f[0].half(axis, upper), f[1].half(axis, upper)};
+        },
+        unclear);
+    if (unclear) {
+      ++unclear_points;
+      continue;
+    }
+    const NurbsSurface surface = bezier_surface(Grid<Vec3>{n + 1, m + 1, points});
+    const SurfaceFeet found = project(p, surface);
+    const auto stationary = std::count_if(found.feet.begin(), found.feet.end(),
+                                          [](const SurfaceFoot& foot) { return foot.kind != FootKind::border; });
+    ++compared;
+    feet += static_cast<int>(truth.size());
+    EXPECT_EQ(stationary, static_cast<int>(truth.size())) << "trial " << trial;
+    for (const auto& root : truth)
+      EXPECT_TRUE(std::any_of(found.feet.begin(), found.feet.end(),
+                              [&](const SurfaceFoot& foot) {
+                                return std::abs(foot.u - root[0]) < 1e-6 && std::abs(foot.v - root[1]) < 1e-6;
+                              }))
+          << "trial " << trial << " at " << root[0] << ", " << root[1];
+    for (int i = 0; i <= 16; ++i)
+      for (int j = 0; j <= 16; ++j)
+        EXPECT_LE(found.feet[0].distance, glm::length(surface.point(i / 16.0, j / 16.0) - p) + 1e-15);
+  }
+  EXPECT_GT(feet, compared / 4);
+  EXPECT_LT(unclear_points, compared / 20 + 2);
+  tests::report_figure("points", compared);
+  tests::report_figure("feet", feet);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry
