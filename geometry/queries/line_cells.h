@@ -19,37 +19,15 @@
 // or a tangency of the line, reported not at all: a tangent line has two hits or none.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "geometry/queries/bezier_patch.h"
+#include "geometry/queries/cell_model.h"
 #include "geometry/queries/line_basis.h"
 #include "geometry/queries/proxy_patch.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
-
-// First-order model of a cell.
-struct CellModel {
-  Vec3 point{0};
-  Vec3 dx{0};
-  Vec3 dy{0};
-  Vec3 normal{0};  // unit, across dx and dy; zero where they are parallel
-  // Bounds over the cell on |S_x - dx| + |S_y - dy|, both taken apart as (shift_x dx + shift_y dy + bend normal):
-  // shares of dx and of dy, and a length. Infinite where dx and dy are parallel.
-  double shift_x = 0;
-  double shift_y = 0;
-  double bend = 0;
-  double variation_x = 0;  // bounds on the lengths of the differences
-  double variation_y = 0;
-  // Bounds on the extent in space along x, and along y, from the centre.
-  double reach_x() const { return glm::length(dx) + variation_x; }
-  double reach_y() const { return glm::length(dy) + variation_y; }
-};
-
-// The model of a rational Bezier patch over its whole square, x = 2 s - 1, y = 2 t - 1. All bounds are infinite where a
-// weight is not positive.
-CellModel model_of(const PatchView& patch);
 
 // A root in local coordinates x, y in [-1, 1] of the cell that was asked.
 struct CellHit {
@@ -77,49 +55,15 @@ class CellHits {
   std::vector<CellHit> more_;
 };
 
-// A cell's place in the square of a patch: [x - hx, x + hx] times [y - hy, y + hy].
-struct CellPlace {
-  double x = 0, y = 0, hx = 1, hy = 1;
-};
-
-// A cell of a rational Bezier patch for many lines, small because every line that comes near reads it: in floats whose
-// rounding is part of the bounds. Its frame measures a vector in shares of dx and dy and by its part along the normal.
-struct PatchCell {
-  using Four = std::array<float, 4>;
-  std::array<Four, 3> frame;  // columns: the parts of (1, 0, 0), (0, 1, 0), (0, 0, 1); fourth, the middle's x, y, z
-  Four lo, hi;                // box of the cell in its frame, about the middle; fourth, shift_x and shift_y
-  float bend;
-  float reach_x, reach_y;  // bounds on the extent in space along x and y from the middle
-  float x, y, hx, hy;      // its place, exactly
-
-  // `part`: the patch restricted to the place; `model`: of the part.
-  PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place);
-  CellPlace place() const { return {x, y, hx, hy}; }
-};
-
 // All meetings of the line with a cell of a patch, but for some with a t certainly outside the interval.
 void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t, CellHits& hits);
 
-// The same for a rectangle of any surface, from evaluate and enclose.
-CellModel model_of(const Surface& surface, const Rectangle& box);
-// `proxy` is proxy_of(surface, box), kept by the caller.
+// The same for a rectangle of any surface. `proxy` is proxy_of(surface, box), kept by the caller.
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
                const LineBasis& line, CellHits& hits);
 
 // True if no line of that direction meets the cell twice.
 bool meets_once(const CellModel& model, const Vec3& direction);
 bool meets_once(const PatchCell& cell, const Vec3& direction);
-
-// How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do
-// not graze a cell of roughness below 1/4 are decided without halving.
-double roughness(const CellModel& model);
-
-// Cells up to this roughness are not cut further when a target is built: few enough to be found quickly, flat enough
-// that most lines are decided without halving.
-inline constexpr double kFlat = 0.2;
-
-// The cut that flattens more, judged by the second differences of the control points: across the direction in which the
-// patch bends more, or, where twist is most of it, across the longer of the cell's extents x and y.
-bool flattens_across_u(const PatchView& patch, double x, double y);
 
 }  // namespace lekalo::geometry

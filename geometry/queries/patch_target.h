@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/queries/acceptance.h"
+#include "geometry/queries/cell_model.h"
 #include "geometry/queries/line_cells.h"
 #include "geometry/queries/line_intersections.h"
 
