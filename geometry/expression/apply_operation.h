@@ -111,20 +111,6 @@ T quotient(const T& a, const T& b) {
   }
 }
 
-// What rays ask for along a line.
-template <class T>
-constexpr bool kIsThirdOrder = std::is_same_v<T, Jet<double, 3>>;
-
-// The function with the value f and the derivatives f1, f2, f3 at a.value(), of a (Faa di Bruno's formula).
-inline Jet<double, 3> composed(double f, double f1, double f2, double f3, const Jet<double, 3>& a) {
-  const double square = a.c[1] * a.c[1];
-  Jet<double, 3> r(f);
-  r.c[1] = f1 * a.c[1];
-  r.c[2] = f1 * a.c[2] + 0.5 * f2 * square;
-  r.c[3] = f1 * a.c[3] + a.c[1] * (f2 * a.c[2] + 1.0 / 6 * f3 * square);
-  return r;
-}
-
 template <class T>
 void sine_and_cosine(const T& a, T& sine, T& cosine) {
   using std::cos, std::sin;
@@ -136,10 +122,6 @@ void sine_and_cosine(const T& a, T& sine, T& cosine) {
       sine.c[k] = c * a.c[k];
       cosine.c[k] = -s * a.c[k];
     }
-  } else if constexpr (kIsThirdOrder<T>) {
-    const double x = a.c[0], s = std::sin(x), c = std::cos(x);
-    sine = composed(s, c, -s, -c, a);
-    cosine = composed(c, -s, -c, s, a);
   } else if constexpr (kIsJet<T>) {
     sin_cos(a, sine, cosine);
   } else {
@@ -230,7 +212,7 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
       return chosen(truth(b), a, c);
     case Operation::sin:
     case Operation::cos:
-      if constexpr (kIsFirstOrder<T> || kIsThirdOrder<T>) {
+      if constexpr (kIsFirstOrder<T>) {
         T sine, cosine;
         sine_and_cosine(a, sine, cosine);
         return operation == Operation::sin ? sine : cosine;
@@ -258,12 +240,7 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
     case Operation::atanh:
       return atanh(a);
     case Operation::exp:
-      if constexpr (kIsThirdOrder<T>) {
-        const double e = exp(a.c[0]);
-        return composed(e, e, e, e, a);
-      } else {
-        return exp(a);
-      }
+      return exp(a);
     case Operation::log:
       return log(a);
     case Operation::log10:

@@ -117,7 +117,7 @@ class Numbers(ProgramTest):
         self.assertEqual([foot["kind"] for foot in found["feet"]], ["minimum", "saddle", "saddle", "maximum"])
         self.assert_near(found["feet"][0]["u"], math.atan2(2, 1), 1e-14)
         found = self.measure("rim", "--to", "apex")
-        self.assert_near([foot["distance"] for foot in found["feet"]], [math.hypot(1, 4), math.hypot(3, 4)], 1e-14)
+        self.assert_near([foot["distance"] for foot in found["feet"]], [math.hypot(1, 4), math.hypot(5, 4)], 1e-14)
         found = self.measure("rim", "--to", "0,0,1")
         self.assert_near([found["distance"], *found["arcs"][0]], [math.sqrt(5), 0, 2 * math.pi], 1e-14)
         text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]

@@ -1,5 +1,6 @@
 // Roots by subdivision alone: boxes of parameters are halved and dropped where the convex hull of Bezier points, or
-// Bernstein coefficients of one sign, exclude a root; no Newton, no interval arithmetic, no code of the library's queries.
+// Bernstein coefficients of one sign, exclude a root; no Newton, no interval arithmetic, no code of the library's
+// queries.
 #pragma once
 
 #include <array>
@@ -87,7 +88,8 @@ std::vector<std::array<double, N>> roots_by_halving(const State& all, double sma
     for (size_t k = 0; k < clusters.size();) {
       bool near = true;
       for (int i = 0; i < N; ++i)
-        near = near && clusters[k].lo[i] <= one.hi[i] + 1000 * smallest && one.lo[i] <= clusters[k].hi[i] + 1000 * smallest;
+        near = near && clusters[k].lo[i] <= one.hi[i] + 1000 * smallest &&
+               one.lo[i] <= clusters[k].hi[i] + 1000 * smallest;
       if (!near) {
         ++k;
         continue;

@@ -227,7 +227,7 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
-      "  lekalo measure curves.yaml rim --intersect cut\n"
+      "  lekalo measure curves.yaml rim --intersect chord\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
