@@ -18,12 +18,12 @@ bool Acceptance::is_inside(const LineHit& hit, const Line& line, const Surface& 
   // line, and the neighbour across the edge, which it may cross steeply, has accepted it.
   const Interval &u = trim_->u_range(), &v = trim_->v_range();
   const double beyond = std::max({u.lo - hit.u, hit.u - u.hi, v.lo - hit.v, hit.v - v.hi});
-  if (beyond > kShallowReach * std::max(u.width(), v.width())) return false;
+  const double farthest = kShallowReach * std::max(u.width(), v.width());
+  if (beyond > farthest || !trim_->contains(hit.u, hit.v, farthest)) return false;
   const SurfaceJet jet = surface.evaluate(hit.u, hit.v, 1);
   const HitShift shift = shift_of_hit(jet, line.direction);
   const double rounding = kShallowSlack * (glm::length(jet.point()) + glm::length(jet.du()) * u.width() +
                                            glm::length(jet.dv()) * v.width());
-  const double farthest = kShallowReach * std::max(u.width(), v.width());
   const double slack = std::min(std::max(slack_, rounding * std::max(shift.across.x, shift.across.y)), farthest);
   const double lean = glm::length(shift.along);
   if (!(lean < kInfinity)) return false;

@@ -251,8 +251,8 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       for (int i = 0; i < count; ++i) mix(6);
       continue;
     }
-    // A sample, whose ray shadow_ray becomes; none if it matters to nothing.
-    const auto take = [&](int i) -> std::optional<Taken> {
+    // A sample, whose ray shadow_ray becomes; none if it matters to nothing. (Inline: twice called, it would not be.)
+    const auto take = [&](int i) __attribute__((always_inline))->std::optional<Taken> {
       const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
       const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
       Taken taken{.cosine = glm::dot(seen.normal, sample.direction)};
@@ -271,7 +271,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       return taken;
     };
     // What a sample brings. `hidden`: something stands in its way.
-    const auto add = [&](const Taken& taken, const Ray& to_light, bool hidden) {
+    const auto add = [&](const Taken& taken, const Ray& to_light, bool hidden) __attribute__((always_inline)) {
       if (taken.is_dark()) {
         mix(4);
         return;
