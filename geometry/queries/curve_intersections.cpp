@@ -46,25 +46,26 @@ double sine_between(const Vec3& a, const Vec3& b) {
   return lengths > 0 ? glm::length(glm::cross(a, b)) / lengths : 0;
 }
 
-// Newton's iteration for N equations; the start where it does not end inside `reach` of it.
-template <int N, class Equations>
+// Newton's iteration for M equations in N unknowns, least squares of more; the start where it does not end inside
+// `reach` of it.
+template <int N, int M, class Equations>
 ParameterPlace<N> refined(const ParameterPlace<N>& start, const ParameterPlace<N>& reach, Equations&& equations) {
   ParameterPlace<N> x = start;
   for (int step = 0; step < kMostSteps; ++step) {
-    const SystemValue<double, N, N> there = equations(x);
-    root_search::Matrix<N> inverse;
-    if (!root_search::invert<N>(there.derivative, inverse)) return start;
+    const SystemValue<double, N, M> there = equations(x);
+    std::array<std::array<double, M>, N> inverse;
+    if (!root_search::solve_for<N, M>(there.derivative, inverse)) return start;
     bool small = true;
     for (int i = 0; i < N; ++i) {
       double by = 0;
-      for (int k = 0; k < N; ++k) by -= inverse[i][k] * there.value[k];
+      for (int k = 0; k < M; ++k) by -= inverse[i][k] * there.value[k];
       x[i] += by;
       small = small && std::abs(by) <= 1e-14 * std::max(1.0, std::abs(x[i]));
       if (!(std::abs(x[i] - start[i]) <= reach[i])) return start;
     }
     if (small) return x;
   }
-  return start;
+  return x;
 }
 
 // r_a(s) - r_b(t) = 0: three equations, two unknowns.
@@ -100,7 +101,7 @@ struct PairSystem {
     };
     const Vec3 n = glm::cross(a0.d[1], curvature(a0) - curvature(b0));
     if (!(glm::dot(n, n) > 0)) return start;
-    return refined<2>(start, reach, [&](const ParameterPlace<2>& at) {
+    return refined<2, 2>(start, reach, [&](const ParameterPlace<2>& at) {
       const CurveJet ra = a.evaluate(at[0], 2), rb = b.evaluate(at[1], 2);
       const Vec3 way = ra.d[0] - rb.d[0];
       SystemValue<double, 2, 2> f;
@@ -141,7 +142,7 @@ struct PierceSystem {
   }
   // (r - s) . s_u = (r - s) . s_v = 0 and r' . (s_u x s_v) = 0.
   ParameterPlace<3> contact_near(const ParameterPlace<3>& start, const ParameterPlace<3>& reach) const {
-    return refined<3>(start, reach, [&](const ParameterPlace<3>& at) {
+    return refined<3, 3>(start, reach, [&](const ParameterPlace<3>& at) {
       const CurveJet r = curve.evaluate(at[0], 2);
       const SurfaceJet s = surface.evaluate(at[1], at[2], 2);
       const Vec3 way = r.d[0] - s.point(), normal = glm::cross(s.du(), s.dv());
@@ -283,24 +284,29 @@ class CurvePair {
     for (const auto& box : found.open) {
       ParameterPlace<2> middle, reach;
       for (int i = 0; i < 2; ++i) middle[i] = box[i].middle(), reach[i] = box[i].width() + 10 * options.least[i];
-      ParameterPlace<2> at = system.contact_near(middle, reach);
-      at = {system.piece_a.clamp(at[0]), system.piece_b.clamp(at[1])};
-      add(at, true);
+      const auto within = [&](const ParameterPlace<2>& at) -> ParameterPlace<2> {
+        return {system.piece_a.clamp(at[0]), system.piece_b.clamp(at[1])};
+      };
+      // Where they do not touch they cross at an angle too small to tell, or at a cusp.
+      if (!add(within(system.contact_near(middle, reach)), true))
+        add(within(refined<2, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); })), true);
     }
   }
 
-  void add(const ParameterPlace<2>& at, bool contact) {
+  // False if the curves are farther from each other there than the tolerance.
+  bool add(const ParameterPlace<2>& at, bool contact) {
     const CurveJet ra = a_.evaluate(at[0], 1), rb = b_.evaluate(at[1], 1);
     CurveMeeting meeting{at[0], at[1], 0.5 * (ra.d[0] + rb.d[0]), glm::length(ra.d[0] - rb.d[0])};
-    if (!(meeting.distance <= tolerance_)) return;
+    if (!(meeting.distance <= tolerance_)) return false;
     meeting.contact = contact && sine_between(ra.d[1], rb.d[1]) < kParallel;
     const double near_a = 4 * least_ * a_.domain().width(), near_b = 4 * least_ * b_.domain().width();
-    if (is_within(parts_, at[0], near_a)) return;
+    if (is_within(parts_, at[0], near_a)) return true;
     for (CurveMeeting& other : result_.points)
       if (glm::length(other.point - meeting.point) <= 4 * tolerance_ && is_one_place(a_, other.s, at[0], near_a) &&
           is_one_place(b_, other.t, at[1], near_b))
-        return;
+        return true;
     result_.points.push_back(meeting);
+    return true;
   }
 
   const Curve &a_, &b_;
@@ -317,7 +323,8 @@ class CurveAndSurface {
   CurveAndSurface(const Curve& curve, const Surface& surface, double tolerance) : curve_(curve), surface_(surface) {
     box_ = bounds(curve);
     Box3 all = box_;
-    if (surface.bounded()) all.include(bounds(surface));
+    if (surface.bounded()) surface_box_ = bounds(surface), all.include(surface_box_);
+    relative_ = tolerance;
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
     least_ = least_box(tolerance);
     patches_ = patches();
@@ -379,7 +386,7 @@ class CurveAndSurface {
   void find_parts_on_surface(const std::vector<CurvePiece>& pieces) {
     const auto lies_on = [&](double t) {
       const Vec3 p = curve_.point(t);
-      if (surface_.bounded() && !bounds(surface_).inflated(tolerance_).contains(p)) return false;
+      if (!surface_box_.inflated(tolerance_).contains(p)) return false;
       const SurfaceFeet found = project(p, surface_);
       return !found.feet.empty() && found.feet[0].distance <= tolerance_;
     };
@@ -394,7 +401,7 @@ class CurveAndSurface {
             std::pair(HeldParameter::v, domain.v.lo), std::pair(HeldParameter::v, domain.v.hi)}) {
         const ParameterLine edge(surface, held, at);
         if (bounds(edge).diameter() <= tolerance_) continue;
-        const CurveMeetings met = intersect(curve_, edge, tolerance_ / std::max(box_.diameter(), 1e-300));
+        const CurveMeetings met = intersect(curve_, edge, relative_);
         for (const CurveMeeting& one : met.points) places.push_back(one.s);
         for (const CommonPart& one : met.common) places.insert(places.end(), {one.s.lo, one.s.hi});
       }
@@ -413,32 +420,37 @@ class CurveAndSurface {
     for (const auto& box : found.open) {
       ParameterPlace<3> middle, reach;
       for (int i = 0; i < 3; ++i) middle[i] = box[i].middle(), reach[i] = box[i].width() + 10 * options.least[i];
-      ParameterPlace<3> at = system.contact_near(middle, reach);
-      at = {system.piece.clamp(at[0]), system.patch.u.clamp(at[1]), system.patch.v.clamp(at[2])};
-      add(at, true);
+      const auto within = [&](const ParameterPlace<3>& at) -> ParameterPlace<3> {
+        return {system.piece.clamp(at[0]), system.patch.u.clamp(at[1]), system.patch.v.clamp(at[2])};
+      };
+      if (!add(within(system.contact_near(middle, reach)), true))
+        add(within(refined<3, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); })), true);
     }
   }
 
-  void add(const ParameterPlace<3>& at, bool contact) {
+  // False if the curve is farther from the surface there than the tolerance.
+  bool add(const ParameterPlace<3>& at, bool contact) {
     const CurveJet r = curve_.evaluate(at[0], 1);
     const SurfaceJet s = surface_.evaluate(at[1], at[2], 1);
     SurfaceMeeting meeting{at[0], at[1], at[2], r.d[0], glm::length(r.d[0] - s.point())};
-    if (!(meeting.distance <= tolerance_)) return;
+    if (!(meeting.distance <= tolerance_)) return false;
     const Vec3 normal = glm::cross(s.du(), s.dv());
     const double sine =
         std::abs(glm::dot(r.d[1], normal)) / std::max(glm::length(r.d[1]) * glm::length(normal), 1e-300);
     meeting.contact = contact && sine < kParallel;
     const double near = 4 * least_ * curve_.domain().width();
-    if (is_within(result_.on_surface, at[0], near)) return;
+    if (is_within(result_.on_surface, at[0], near)) return true;
     for (const SurfaceMeeting& other : result_.points)
       if (glm::length(other.point - meeting.point) <= 4 * tolerance_ && is_one_place(curve_, other.t, at[0], near))
-        return;
+        return true;
     result_.points.push_back(meeting);
+    return true;
   }
 
   const Curve& curve_;
   const Surface& surface_;
-  Box3 box_;
+  Box3 box_, surface_box_ = Box3::everything();
+  double relative_ = 0;   // the tolerance, as a part of the size
   double tolerance_ = 0;  // a length
   double least_ = 0;      // part of a domain
   std::vector<Rectangle> patches_;

@@ -65,6 +65,23 @@ TEST(TwoCurves, CirclesThatNearlyTouchAreToldApart) {
   EXPECT_EQ(intersect(Circle(Frame(), 2), Circle(at({3 + 1e-6, 0, 0}), 1)).points.size(), 0u);
 }
 
+// Cubics through the origin, flat there to the second order: a crossing with parallel tangents.
+TEST(TwoCurves, AnInflectionCrossesItsTangent) {
+  const NurbsCurve cubic = bezier_curve(std::vector<Vec3>{{-1, -1, 0}, {-1.0 / 3, 1, 0}, {1.0 / 3, -1, 0}, {1, 1, 0}});
+  const CurveMeetings met = intersect(cubic, Segment({-1, 0, 0}, {1, 0, 0}));
+  ASSERT_EQ(met.points.size(), 1u);
+  EXPECT_TRUE(met.points[0].contact);
+  EXPECT_NEAR(met.points[0].s, 0.5, 1e-3);  // y stays below the tolerance as far as its cube root
+}
+
+TEST(TwoCurves, AlmostParallelSegmentsCross) {
+  for (const double slope : {1e-3, 1e-5, 1e-7}) {
+    const CurveMeetings met = intersect(Segment({-1, 0, 0}, {1, 0, 0}), Segment({-1, -slope, 0}, {1, slope, 0}));
+    ASSERT_EQ(met.points.size(), 1u) << slope;
+    EXPECT_NEAR(met.points[0].s, 0.5, 1e-15 / slope) << slope;
+  }
+}
+
 TEST(TwoCurves, ArcsOfOneCircleHaveAPartInCommon) {
   const Circle whole(Frame(), 2), arc(Frame(), 2, {-1, 1});
   const CurveMeetings met = intersect(arc, whole);
@@ -102,6 +119,14 @@ TEST(CurveAndSurface, ALineMeetsTouchesOrMissesASphere) {
   EXPECT_TRUE(along.points[0].contact);
   EXPECT_NEAR(along.points[0].t, 0.5, 1e-14);
   EXPECT_TRUE(intersect(Segment({-5, 2.1, 0}, {5, 2.1, 0}), sphere).points.empty());
+}
+
+TEST(CurveAndSurface, ASmallCurveMeetsALargeSurface) {
+  const SphereSurface sphere(Frame(), 1000);
+  const SurfaceMeetings met = intersect(Segment({999.999, 0.5, 0.25}, {1000.001, 0.5, 0.25}), sphere);
+  ASSERT_EQ(met.points.size(), 1u);
+  EXPECT_NEAR(glm::length(met.points[0].point), 1000, 1e-12);
+  EXPECT_TRUE(met.on_surface.empty());
 }
 
 TEST(CurveAndSurface, ACircleLiesOnACylinderAsFarAsThatGoes) {
