@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/trace/hierarchy_parts.h"
+#include "render/trace/hierarchy_rays.h"
 
 namespace lekalo::render {
 
@@ -13,36 +13,10 @@ namespace {
 
 using Query = Hierarchy::Query;
 
-// The end of a float ray, rounded outward: 2^-24 of x is enough, since boxes are inflated by more.
-float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
-
 bool keeps(const std::vector<HalfSpace>& clips, const Vec3& point) {
   for (const HalfSpace& clip : clips)
     if (glm::dot(point - clip.through, clip.normal) > 0) return false;
   return true;
-}
-
-// The point where the line meets the triangle's plane, in double, with the weights clamped to the triangle.
-bool triangle_hit(const geometry::Mesh& mesh, int triangle, const Line& line, Hit& hit) {
-  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
-  const Vec3 &a = mesh.points[at.point[0]], ab = mesh.points[at.point[1]] - a, ac = mesh.points[at.point[2]] - a;
-  const Vec3 n = glm::cross(ab, ac);
-  const double slope = glm::dot(n, line.direction), area2 = glm::dot(n, n);
-  if (slope == 0 || area2 == 0) return false;
-  const double per_area2 = 1 / area2;
-  hit.t = glm::dot(n, a - line.origin) / slope;
-  const Vec3 p = line.at(hit.t) - a;
-  hit.b = std::clamp(glm::dot(glm::cross(p, ac), n) * per_area2, 0.0, 1.0);
-  hit.c = std::clamp(glm::dot(glm::cross(ab, p), n) * per_area2, 0.0, 1.0 - hit.b);
-  hit.piece = triangle;
-  hit.face = at.face;
-  if (!mesh.parameters.empty() && at.parameter[0] >= 0) {
-    const geometry::Vec2 q = (1 - hit.b - hit.c) * mesh.parameters[at.parameter[0]] +
-                             hit.b * mesh.parameters[at.parameter[1]] + hit.c * mesh.parameters[at.parameter[2]];
-    hit.u = q.x;
-    hit.v = q.y;
-  }
-  return std::isfinite(hit.t);
 }
 
 void test_instance(const GeometryRecord& record, Query& query) {
@@ -147,16 +121,6 @@ constexpr size_t kLastBit = 63;
 
 bool is_listed(uint64_t set, size_t i) { return set >> std::min(i, kLastBit) & 1; }
 
-void begin(Query& query, const Ray& ray) {
-  query.t_min = ray.t_min;
-  query.t_max = ray.t_max;
-  query.kind = static_cast<uint32_t>(ray.kind);
-  query.left_instance = ray.left_instance;
-  query.left_face = ray.left_face;
-  query.left_piece = ray.left_piece;
-  query.left_for_good = ray.left_for_good;
-}
-
 }  // namespace
 
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
@@ -194,35 +158,6 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
 }
 
 namespace {
-
-// What of a ray matters to a hierarchy: from where it enters the bounding sphere, in double.
-struct Stretch {
-  double start, end;  // t
-  Vec3 from;          // at the start, relative to the sphere's centre
-  double slack;       // float uncertainty of t
-  bool empty;
-};
-
-inline __attribute__((always_inline)) Stretch stretch_in(const Hierarchy::Parts& p, const Line& line, double t_min,
-                                                         double t_max) {
-  const Vec3& d = line.direction;
-  const Vec3 origin = line.origin - p.center;
-  const double a = glm::dot(d, d), r2 = p.radius * p.radius * (1 + 2e-6);
-  // Rays have unit directions; only lines in the space of an instance have others.
-  const bool unit = std::abs(a - 1) < 1e-12;
-  Stretch s{t_min, t_max, origin + t_min * d, kBoxInflation * p.radius / (unit ? 1 : std::sqrt(a)), false};
-  if (!(glm::dot(s.from, s.from) <= r2)) {
-    const double foot = -glm::dot(origin, d) / a;
-    const Vec3 nearest = origin + foot * d;
-    const double half = std::sqrt((r2 - glm::dot(nearest, nearest)) / a);  // NaN for a line that passes by
-    s.start = std::max(t_min, foot - half);
-    s.end = std::min(t_max, foot + half);
-    s.from = origin + s.start * d;
-    s.empty = !(half > 0);
-  }
-  s.empty = s.empty || !(s.start <= s.end);
-  return s;
-}
 
 // The part of a query that Embree's hierarchy answers.
 void run_scene(const Hierarchy::Parts& p, Query& query) {
@@ -266,116 +201,6 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
   }
 }
 
-// Rays that Embree takes at once, and those whose hits are then computed at once: what these need of the mesh is
-// fetched for all of them before.
-constexpr size_t kPacket = 8, kBatch = 64;
-// Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
-// their directions differ by no more; else one after the other.
-constexpr float kTogether = 0.1f;
-
-float largest(float x, float y, float z) { return std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)); }
-
-// At most kPacket rays for Embree; `any` is false if none of them comes near the hierarchy.
-struct Packet {
-  alignas(32) int valid[kPacket];
-  RTCRayHit8 rays;
-  RTCIntersectContext context;
-  bool any = false;
-
-  Packet(const Hierarchy::Parts& p, std::span<const Ray> from) {
-    RTCRay8& to = rays.ray;
-    float spread = 0;
-    size_t first = kPacket;  // that is not empty
-    const float per_radius = static_cast<float>(1 / p.radius);
-    for (size_t i = 0; i < kPacket; ++i) {
-      const Ray& ray = from[std::min(i, from.size() - 1)];
-      const Stretch s = stretch_in(p, ray, ray.t_min, ray.t_max);
-      valid[i] = i < from.size() && !s.empty ? -1 : 0;
-      to.org_x[i] = static_cast<float>(s.from.x), to.org_y[i] = static_cast<float>(s.from.y);
-      to.org_z[i] = static_cast<float>(s.from.z);
-      to.dir_x[i] = static_cast<float>(ray.direction.x), to.dir_y[i] = static_cast<float>(ray.direction.y);
-      to.dir_z[i] = static_cast<float>(ray.direction.z);
-      to.tnear[i] = 0;
-      to.tfar[i] = ray_end(s.end - s.start + s.slack);
-      to.time[i] = 0;
-      to.mask[i] = ~0u;
-      to.id[i] = 0;
-      to.flags[i] = 0;
-      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      if (!valid[i]) continue;
-      first = std::min(first, i);
-      const float turn = largest(to.dir_x[i] - to.dir_x[first], to.dir_y[i] - to.dir_y[first],
-                                 to.dir_z[i] - to.dir_z[first]),
-                  shift = largest(to.org_x[i] - to.org_x[first], to.org_y[i] - to.org_y[first],
-                                  to.org_z[i] - to.org_z[first]);
-      spread = std::max(spread, std::max(turn, per_radius * shift));
-    }
-    any = first < kPacket;
-    rtcInitIntersectContext(&context);
-    context.flags = spread <= kTogether ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  }
-};
-
-// The triangle that a ray meets first, in float.
-struct Met {
-  const GeometryRecord* record = nullptr;
-  int triangle = 0;
-};
-
-void meet_triangles(const Hierarchy::Parts& p, std::span<const Ray> rays, Met* met) {
-  Packet packet(p, rays);
-  if (!packet.any) return;
-  rtcIntersect8(packet.valid, p.scene, &packet.context, &packet.rays);
-  const RTCHit8& hit = packet.rays.hit;
-  for (size_t i = 0; i < rays.size(); ++i)
-    if (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      met[i] = {p.records[hit.geomID[i]].get(), static_cast<int>(hit.primID[i])};
-      __builtin_prefetch(&met[i].record->leaf->mesh->triangles[met[i].triangle]);
-    }
-}
-
-void fetch_corners(const geometry::Mesh& mesh, int triangle) {
-  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
-  for (int k = 0; k < 3; ++k) {
-    __builtin_prefetch(&mesh.points[at.point[k]]);
-    if (!mesh.normals.empty() && at.normal[k] >= 0) __builtin_prefetch(&mesh.normals[at.normal[k]]);
-    if (!mesh.parameters.empty() && at.parameter[k] >= 0) __builtin_prefetch(&mesh.parameters[at.parameter[k]]);
-  }
-}
-
-// The nearest triangles of at most kBatch rays.
-void run_batch(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hit> hits) {
-  Met met[kBatch];
-  for (size_t i = 0; i < rays.size(); i += kPacket) {
-    const size_t next = std::min(i + kPacket, rays.size()), last = std::min(next + kPacket, rays.size());
-    for (size_t k = next; k < last; ++k) {
-      __builtin_prefetch(&rays[k]);
-      __builtin_prefetch(&rays[k].t_max);
-    }
-    meet_triangles(p, rays.subspan(i, next - i), met + i);
-  }
-  for (size_t i = 0; i < rays.size(); ++i)
-    if (met[i].record) fetch_corners(*met[i].record->leaf->mesh, met[i].triangle);
-  const double slack = kBoxInflation * p.radius;
-  for (size_t i = 0; i < rays.size(); ++i) {
-    if (met[i].record && triangle_hit(*met[i].record->leaf->mesh, met[i].triangle, rays[i], hits[i]) &&
-        hits[i].t >= rays[i].t_min - slack)
-      hits[i].instance = met[i].record->leaf_number;
-    else
-      hits[i].instance = -1;
-  }
-}
-
-// `number` is that of the first unbounded thing in lists of obstacles.
-inline __attribute__((always_inline)) void run_unbounded(const Hierarchy::Parts& p, Query& query, size_t number) {
-  for (const GeometryRecord* record : p.unbounded) {
-    if (!is_listed(query.among.listed, number++)) continue;
-    if (query.is_done()) return;
-    for (int i = 0; i < record->count; ++i) test(*record, i, query);
-  }
-}
-
 }  // namespace
 
 void Hierarchy::run(Query& query) const {
@@ -394,7 +219,11 @@ void Hierarchy::run(Query& query) const {
     }
   }
   if (p.scene && query.among.scene) run_scene(p, query);
-  run_unbounded(p, query, number);
+  for (const GeometryRecord* record : p.unbounded) {
+    if (!is_listed(query.among.listed, number++)) continue;
+    if (query.is_done()) return;
+    for (int i = 0; i < record->count; ++i) test(*record, i, query);
+  }
 }
 
 bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
@@ -403,27 +232,6 @@ bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
   query.nearest = &hit;
   run(query);
   return query.found;
-}
-
-void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
-  const Parts& p = *parts_;
-  if (!p.plain_triangles) {
-    for (size_t i = 0; i < rays.size(); ++i)
-      if (!nearest(rays[i], hits[i])) hits[i].instance = -1;
-    return;
-  }
-  for (size_t i = 0; i < rays.size(); i += kBatch) {
-    const size_t count = std::min(kBatch, rays.size() - i);
-    run_batch(p, rays.subspan(i, count), hits.subspan(i, count));
-  }
-  for (size_t i = 0; i < rays.size() && !p.unbounded.empty(); ++i) {
-    Query query(rays[i]);
-    begin(query, rays[i]);
-    query.nearest = &hits[i];
-    query.found = hits[i].instance >= 0;
-    if (query.found) query.t_max = hits[i].t;
-    run_unbounded(p, query, 0);
-  }
 }
 
 Obstacles Hierarchy::obstacles(const Ray& from, const Box3& to) const {
@@ -450,25 +258,6 @@ bool Hierarchy::occluded(const Ray& ray, const Obstacles& among) const {
   query.among = among;
   run(query);
   return query.found;
-}
-
-bool Hierarchy::gains_by_lists() const { return parts_->plain_triangles; }
-
-void Hierarchy::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
-  const Parts& p = *parts_;
-  if (!p.plain_triangles || !among.scene) {
-    for (size_t i = 0; i < rays.size(); ++i) occluded[i] = this->occluded(rays[i], among);
-    return;
-  }
-  const Obstacles unbounded{p.unbounded.empty() ? 0 : among.listed, false};
-  for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
-    const size_t end = std::min(begin + kPacket, rays.size());
-    Packet packet(p, rays.subspan(begin, end - begin));
-    if (packet.any) rtcOccluded8(packet.valid, p.scene, &packet.context, &packet.rays.ray);
-    for (size_t i = begin; i < end; ++i)
-      occluded[i] =
-          (packet.valid[i - begin] && packet.rays.ray.tfar[i - begin] < 0) || this->occluded(rays[i], unbounded);
-  }
 }
 
 std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {

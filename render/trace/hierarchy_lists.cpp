@@ -1,0 +1,156 @@
+// Queries of lists of rays: packets through Embree where a hierarchy has nothing but plain triangles; double decides as
+// for single rays.
+#include <algorithm>
+#include <cmath>
+
+#include "render/trace/hierarchy_rays.h"
+
+namespace lekalo::render {
+
+namespace {
+
+// Rays that Embree takes at once, and those whose hits are then computed at once: what these need of the mesh is
+// fetched for all of them before.
+constexpr size_t kPacket = 8, kBatch = 64;
+// Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
+// their directions differ by no more; else one after the other.
+constexpr float kTogether = 0.1f;
+
+float largest(float x, float y, float z) { return std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)); }
+
+// At most kPacket rays for Embree; `any` is false if none of them comes near the hierarchy.
+struct Packet {
+  alignas(32) int valid[kPacket];
+  RTCRayHit8 rays;
+  RTCIntersectContext context;
+  bool any = false;
+
+  Packet(const Hierarchy::Parts& p, std::span<const Ray> from) {
+    RTCRay8& to = rays.ray;
+    float spread = 0;
+    size_t first = kPacket;  // that is not empty
+    const float per_radius = static_cast<float>(1 / p.radius);
+    for (size_t i = 0; i < kPacket; ++i) {
+      const Ray& ray = from[std::min(i, from.size() - 1)];
+      const Stretch s = stretch_in(p, ray, ray.t_min, ray.t_max);
+      valid[i] = i < from.size() && !s.empty ? -1 : 0;
+      to.org_x[i] = static_cast<float>(s.from.x), to.org_y[i] = static_cast<float>(s.from.y);
+      to.org_z[i] = static_cast<float>(s.from.z);
+      to.dir_x[i] = static_cast<float>(ray.direction.x), to.dir_y[i] = static_cast<float>(ray.direction.y);
+      to.dir_z[i] = static_cast<float>(ray.direction.z);
+      to.tnear[i] = 0;
+      to.tfar[i] = ray_end(s.end - s.start + s.slack);
+      to.time[i] = 0;
+      to.mask[i] = ~0u;
+      to.id[i] = 0;
+      to.flags[i] = 0;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      if (!valid[i]) continue;
+      first = std::min(first, i);
+      const float turn = largest(to.dir_x[i] - to.dir_x[first], to.dir_y[i] - to.dir_y[first],
+                                 to.dir_z[i] - to.dir_z[first]),
+                  shift = largest(to.org_x[i] - to.org_x[first], to.org_y[i] - to.org_y[first],
+                                  to.org_z[i] - to.org_z[first]);
+      spread = std::max(spread, std::max(turn, per_radius * shift));
+    }
+    any = first < kPacket;
+    rtcInitIntersectContext(&context);
+    context.flags = spread <= kTogether ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+};
+
+// The triangle that a ray meets first, in float.
+struct Met {
+  const GeometryRecord* record = nullptr;
+  int triangle = 0;
+};
+
+void meet_triangles(const Hierarchy::Parts& p, std::span<const Ray> rays, Met* met) {
+  Packet packet(p, rays);
+  if (!packet.any) return;
+  rtcIntersect8(packet.valid, p.scene, &packet.context, &packet.rays);
+  const RTCHit8& hit = packet.rays.hit;
+  for (size_t i = 0; i < rays.size(); ++i)
+    if (hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+      met[i] = {p.records[hit.geomID[i]].get(), static_cast<int>(hit.primID[i])};
+      __builtin_prefetch(&met[i].record->leaf->mesh->triangles[met[i].triangle]);
+    }
+}
+
+void fetch_corners(const geometry::Mesh& mesh, int triangle) {
+  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
+  for (int k = 0; k < 3; ++k) {
+    __builtin_prefetch(&mesh.points[at.point[k]]);
+    if (!mesh.normals.empty() && at.normal[k] >= 0) __builtin_prefetch(&mesh.normals[at.normal[k]]);
+    if (!mesh.parameters.empty() && at.parameter[k] >= 0) __builtin_prefetch(&mesh.parameters[at.parameter[k]]);
+  }
+}
+
+// The nearest triangles of at most kBatch rays.
+void run_batch(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hit> hits) {
+  Met met[kBatch];
+  for (size_t i = 0; i < rays.size(); i += kPacket) {
+    const size_t next = std::min(i + kPacket, rays.size()), last = std::min(next + kPacket, rays.size());
+    for (size_t k = next; k < last; ++k) {
+      __builtin_prefetch(&rays[k]);
+      __builtin_prefetch(&rays[k].t_max);
+    }
+    meet_triangles(p, rays.subspan(i, next - i), met + i);
+  }
+  for (size_t i = 0; i < rays.size(); ++i)
+    if (met[i].record) fetch_corners(*met[i].record->leaf->mesh, met[i].triangle);
+  const double slack = kBoxInflation * p.radius;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (met[i].record && triangle_hit(*met[i].record->leaf->mesh, met[i].triangle, rays[i], hits[i]) &&
+        hits[i].t >= rays[i].t_min - slack)
+      hits[i].instance = met[i].record->leaf_number;
+    else
+      hits[i].instance = -1;
+  }
+}
+
+}  // namespace
+
+void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
+  const Parts& p = *parts_;
+  if (!p.plain_triangles) {
+    for (size_t i = 0; i < rays.size(); ++i)
+      if (!nearest(rays[i], hits[i])) hits[i].instance = -1;
+    return;
+  }
+  for (size_t i = 0; i < rays.size(); i += kBatch) {
+    const size_t count = std::min(kBatch, rays.size() - i);
+    run_batch(p, rays.subspan(i, count), hits.subspan(i, count));
+  }
+  for (size_t i = 0; i < rays.size() && !p.unbounded.empty(); ++i) {
+    Query query(rays[i]);
+    begin(query, rays[i]);
+    query.among.scene = false;
+    query.nearest = &hits[i];
+    query.found = hits[i].instance >= 0;
+    if (query.found) query.t_max = hits[i].t;
+    run(query);
+  }
+}
+
+bool Hierarchy::gains_by_lists() const { return parts_->plain_triangles; }
+
+void Hierarchy::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
+  const Parts& p = *parts_;
+  if (!p.plain_triangles || !among.scene) {
+    for (size_t i = 0; i < rays.size(); ++i) occluded[i] = this->occluded(rays[i], among);
+    return;
+  }
+  const Obstacles unbounded{p.unbounded.empty() ? 0 : among.listed, false};
+  for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
+    const size_t end = std::min(begin + kPacket, rays.size());
+    Packet packet(p, rays.subspan(begin, end - begin));
+    if (packet.any) rtcOccluded8(packet.valid, p.scene, &packet.context, &packet.rays.ray);
+    for (size_t i = begin; i < end; ++i)
+      occluded[i] =
+          (packet.valid[i - begin] && packet.rays.ray.tfar[i - begin] < 0) || this->occluded(rays[i], unbounded);
+  }
+}
+
+}  // namespace lekalo::render
