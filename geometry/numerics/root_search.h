@@ -56,6 +56,29 @@ struct RootSearchResult {
   bool complete = true;                     // false where there were more than most_boxes
 };
 
+// Hulls of boxes that touch, or nearly (`by`).
+template <int N>
+std::vector<ParameterBox<N>> joined_boxes(const std::vector<ParameterBox<N>>& boxes, const std::array<double, N>& by) {
+  std::vector<ParameterBox<N>> joined;
+  for (ParameterBox<N> box : boxes) {
+    for (size_t k = 0; k < joined.size();) {
+      bool touch = true;
+      for (int i = 0; i < N; ++i)
+        touch = touch && joined[k][i].lo - by[i] <= box[i].hi && box[i].lo <= joined[k][i].hi + by[i];
+      if (!touch) {
+        ++k;
+        continue;
+      }
+      for (int i = 0; i < N; ++i) box[i] = hull(box[i], joined[k][i]);
+      joined[k] = joined.back();
+      joined.pop_back();
+      k = 0;
+    }
+    joined.push_back(box);
+  }
+  return joined;
+}
+
 namespace root_search {
 
 template <int N>
@@ -283,26 +306,9 @@ class Search {
     boxes_.push_back(lower);
   }
 
-  // Hulls of open boxes that touch; isolated solutions inside of one belong to it.
+  // Isolated solutions inside of an open box belong to it.
   void join_open() {
-    std::vector<ParameterBox<N>> joined;
-    for (ParameterBox<N> box : result_.open) {
-      for (size_t k = 0; k < joined.size();) {
-        bool touch = true;
-        for (int i = 0; i < N; ++i)
-          touch = touch && joined[k][i].lo - options_.least[i] <= box[i].hi &&
-                  box[i].lo <= joined[k][i].hi + options_.least[i];
-        if (!touch) {
-          ++k;
-          continue;
-        }
-        for (int i = 0; i < N; ++i) box[i] = hull(box[i], joined[k][i]);
-        joined[k] = joined.back();
-        joined.pop_back();
-        k = 0;
-      }
-      joined.push_back(box);
-    }
+    std::vector<ParameterBox<N>> joined = joined_boxes<N>(result_.open, options_.least);
     std::erase_if(result_.isolated, [&](const ParameterPlace<N>& x) {
       return std::any_of(joined.begin(), joined.end(), [&](const ParameterBox<N>& box) {
         for (int i = 0; i < N; ++i)

@@ -1,0 +1,665 @@
+// All curves of solutions of N - 1 equations in N unknowns in a box of parameters, certified by interval arithmetic
+// (Krawczyk's operator with one unknown as the parameter: Moore, Kearfott, Cloud 2009, chapter 8; tracing: Golovanov
+// 2016, 4.8; Patrikalakis, Maekawa 2002, chapter 5).
+//
+// With the unknown x_a for the parameter and C about the inverse of the derivatives by the others, every solution in a
+// box X with x_a in I satisfies
+//
+//   y in y0 - C F(c, y0) - C F_a(X) (I - c) + (I - C F_y(X)) (Y - y0),   c the middle of I.
+//
+// Where the rows of I - C F_y(X), weighed with the sides of X, sum up to less than 1 there is at most one solution for
+// each x_a: X is a chart. The box is halved into charts and boxes without solutions. In a chart the curve is found by
+// slices of x_a, and followed from there step by step to the border of the box or back to its beginning. Each step has a
+// chart of its own, a tube, whose sides the curve cannot leave. A slice of a chart is done when all that it may contain
+// lies in one tube: so no curve is lost, however short.
+//
+// Boxes that stay undecided until their image is small hold singular solutions, where F' loses its rank: contacts,
+// crossings of the curves of solutions, cusps, poles. The curves end near these.
+#pragma once
+
+#include <optional>
+
+#include "geometry/numerics/root_search.h"
+#include "geometry/vectors.h"
+
+namespace lekalo::geometry {
+
+// A curve of solutions from one place to another.
+template <int N>
+struct SolutionArc {
+  std::vector<ParameterPlace<N>> nodes;  // solutions to rounding, in order; a closed arc repeats the first at the end
+  // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another.
+  std::vector<ParameterBox<N>> tubes;
+  bool closed = false;
+  // The arc ends next to a singular solution rather than on the border of the domain.
+  bool begins_singular = false, ends_singular = false;
+};
+
+template <int N>
+struct SolutionCurves {
+  std::vector<SolutionArc<N>> arcs;
+  std::vector<ParameterBox<N>> open;  // hulls of what is not decided: singular solutions
+  bool complete = true;               // false where there were more than most_boxes: the solutions are no curves
+};
+
+template <int N>
+struct SolutionCurveOptions {
+  // Boxes with smaller images are not halved; a length in space.
+  double least = 0;
+  // So far outside of the domain a solution still counts (it is moved to the border).
+  std::array<double, N> slack{};
+  // The error of each equation's value.
+  std::array<double, N - 1> rounding{};
+  // Direction of the curve in space and in the parameters (of the domain's sides) changes by no more in one step;
+  // radians.
+  double most_turn = 0.3;
+  int most_boxes = 20000;
+};
+
+namespace solution_curves {
+
+template <int M>
+double determinant(root_search::Matrix<M> a) {
+  double result = 1;
+  for (int column = 0; column < M; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < M; ++row)
+      if (std::abs(a[row][column]) > std::abs(a[pivot][column])) pivot = row;
+    if (!(std::abs(a[pivot][column]) > 0)) return 0;
+    if (pivot != column) std::swap(a[pivot], a[column]), result = -result;
+    result *= a[column][column];
+    for (int row = column + 1; row < M; ++row) {
+      const double factor = a[row][column] / a[column][column];
+      for (int k = column; k < M; ++k) a[row][k] -= factor * a[column][k];
+    }
+  }
+  return result;
+}
+
+template <int N>
+using Derivatives = std::array<std::array<double, N>, N - 1>;
+
+// The direction in which all equations stay, of unit length in units of `scale`; zero where the rank is lost. Its sign
+// is that of the minors, so that it does not jump along a curve.
+template <int N>
+ParameterPlace<N> direction_of(const Derivatives<N>& j, const std::array<double, N>& scale) {
+  ParameterPlace<N> result{};
+  double square = 0;
+  for (int left_out = 0; left_out < N; ++left_out) {
+    root_search::Matrix<N - 1> minor;
+    for (int k = 0; k < N - 1; ++k)
+      for (int i = 0, to = 0; i < N; ++i)
+        if (i != left_out) minor[k][to++] = j[k][i] * scale[i];
+    result[left_out] = (left_out % 2 ? -1 : 1) * determinant<N - 1>(minor);
+    square += result[left_out] * result[left_out];
+  }
+  const double length = std::sqrt(square);
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  for (double& x : result) x /= length;
+  return result;
+}
+
+// One unknown as the parameter and the inverse of the derivatives by the others.
+template <int N>
+struct Chart {
+  int along = 0;
+  std::array<int, N - 1> others{};
+  std::array<std::array<double, N - 1>, N - 1> inverse{};  // [of others][equation]
+};
+
+template <int N>
+std::optional<Chart<N>> chart_of(const Derivatives<N>& j, int along) {
+  Chart<N> chart;
+  chart.along = along;
+  for (int i = 0, to = 0; i < N; ++i)
+    if (i != along) chart.others[to++] = i;
+  root_search::Matrix<N - 1> square;
+  for (int k = 0; k < N - 1; ++k)
+    for (int i = 0; i < N - 1; ++i) square[k][i] = j[k][chart.others[i]];
+  if (!root_search::invert<N - 1>(square, chart.inverse)) return std::nullopt;
+  return chart;
+}
+
+template <int N>
+int largest(const ParameterPlace<N>& direction) {
+  int best = 0;
+  for (int i = 1; i < N; ++i)
+    if (std::abs(direction[i]) > std::abs(direction[best])) best = i;
+  return best;
+}
+
+// A chart over a box: what its derivatives allow.
+template <int N>
+struct ChartBox {
+  static constexpr int M = N - 1;
+  Chart<N> chart;
+  ParameterBox<N> box;
+  std::array<std::array<double, M>, M> error{};  // |I - C F_y(X)|
+  std::array<Interval, M> slope;                 // C F_a(X)
+  double shrinks = 0;                            // the largest weighed sum of a row of `error`
+
+  ChartBox(const Chart<N>& chart, const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range)
+      : chart(chart), box(box) {
+    for (int i = 0; i < M; ++i) {
+      double reach = 0;
+      for (int j = 0; j < M; ++j) {
+        Interval e = i == j ? Interval(1) : Interval(0);
+        for (int k = 0; k < M; ++k) e -= Interval(chart.inverse[i][k]) * range.derivative[k][chart.others[j]];
+        error[i][j] = magnitude(e);
+        reach = next_up(reach + next_up(error[i][j] * box[chart.others[j]].width()));
+      }
+      slope[i] = Interval(0);
+      for (int k = 0; k < M; ++k) slope[i] += Interval(chart.inverse[i][k]) * range.derivative[k][chart.along];
+      const double side = box[chart.others[i]].width();
+      const double part = side > 0 ? reach / side : reach > 0 ? 2.0 : 0.0;
+      shrinks = std::isfinite(part) ? std::max(shrinks, part) : 2.0;
+    }
+  }
+  bool is_one_to_one() const { return shrinks < 0.7; }
+
+  // Where solutions in the box with the parameter in `slice` can lie, seen from the place x with the values f.
+  ParameterBox<N> reachable(const Interval& slice, const ParameterPlace<N>& x, const std::array<Interval, M>& f,
+                            const ParameterBox<N>& within, int times) const {
+    ParameterBox<N> y = within;
+    y[chart.along] = slice;
+    std::array<Interval, M> base;
+    for (int i = 0; i < M; ++i) {
+      base[i] = Interval(x[chart.others[i]]) - slope[i] * (slice - Interval(x[chart.along]));
+      for (int k = 0; k < M; ++k) base[i] -= Interval(chart.inverse[i][k]) * f[k];
+    }
+    for (int time = 0; time < times; ++time) {
+      ParameterBox<N> next = y;
+      bool shrinks_on = false;
+      for (int i = 0; i < M; ++i) {
+        double reach = 0;
+        for (int j = 0; j < M; ++j) {
+          const Interval& of = y[chart.others[j]];
+          const double from = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
+          reach = next_up(reach + next_up(error[i][j] * next_up(from)));
+        }
+        next[chart.others[i]] = intersect(y[chart.others[i]], base[i] + Interval(-reach, reach));
+        if (next[chart.others[i]].empty()) return next;
+        shrinks_on = shrinks_on || next[chart.others[i]].width() < 0.97 * y[chart.others[i]].width();
+      }
+      y = next;
+      if (!shrinks_on) break;
+    }
+    return y;
+  }
+};
+
+template <int N>
+bool is_empty(const ParameterBox<N>& box) {
+  for (const Interval& x : box)
+    if (x.empty()) return true;
+  return false;
+}
+
+template <int N>
+bool contains(const ParameterBox<N>& outer, const ParameterBox<N>& inner) {
+  for (int i = 0; i < N; ++i)
+    if (!outer[i].contains(inner[i])) return false;
+  return true;
+}
+
+template <int N, class System>
+class Search {
+ public:
+  static constexpr int M = N - 1;
+  using Place = ParameterPlace<N>;
+  using Box = ParameterBox<N>;
+
+  Search(const System& system, const Box& domain, const SolutionCurveOptions<N>& options)
+      : system_(system), domain_(domain), options_(options) {
+    for (int i = 0; i < N; ++i) scale_[i] = domain[i].width();
+  }
+
+  SolutionCurves<N> run() {
+    std::vector<Box> level{domain_};
+    while (!level.empty()) {
+      if (static_cast<int>(level.size()) > options_.most_boxes) {
+        result_.complete = false;
+        result_.open.insert(result_.open.end(), level.begin(), level.end());
+        break;
+      }
+      boxes_.clear();
+      for (const Box& box : level) visit(box);
+      level.swap(boxes_);
+    }
+    result_.open = joined_boxes<N>(result_.open, slack_box());
+    return std::move(result_);
+  }
+
+ private:
+  std::array<double, N> slack_box() const {
+    std::array<double, N> by;
+    for (int i = 0; i < N; ++i) by[i] = std::max(options_.slack[i], 1e-9 * scale_[i]);
+    return by;
+  }
+
+  static std::array<Interval, M> values_of(const SystemValue<double, N, M>& there, bool count) {
+    std::array<Interval, M> f;
+    for (int k = 0; k < M; ++k) f[k] = Interval(count ? there.value[k] : 0.0);
+    return f;
+  }
+
+  void visit(const Box& box) {
+    const SystemValue<Interval, N, M> range = system_.enclose(box);
+    for (int k = 0; k < M; ++k)
+      if (range.value[k].lo > options_.rounding[k] || range.value[k].hi < -options_.rounding[k]) return;
+    Place middle;
+    std::array<double, N> sides;
+    for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
+    const SystemValue<double, N, M> there = system_.evaluate(middle);
+    if (is_excluded(box, range, middle, there, sides)) return;
+    const Place direction = direction_of<N>(there.derivative, sides);
+    // The unknown that changes most, seen in units of the box.
+    const std::optional<Chart<N>> chart = chart_of<N>(there.derivative, largest<N>(direction));
+    if (chart) {
+      const ChartBox<N> over(*chart, box, range);
+      if (over.is_one_to_one()) return cover(over, middle);
+    }
+    divide(box);
+  }
+
+  // The mean value form in the combination of equations that changes least over the box: surfaces that are nearly
+  // parallel are told apart across them.
+  bool is_excluded(const Box& box, const SystemValue<Interval, N, M>& range, const Place& middle,
+                   const SystemValue<double, N, M>& there, const std::array<double, N>& sides) const {
+    std::array<double, M> weights{};
+    weights[0] = 1;
+    if constexpr (M > 1) {
+      root_search::Matrix<M> gram{}, inverse;
+      double trace = 0;
+      for (int a = 0; a < M; ++a)
+        for (int b = 0; b < M; ++b)
+          for (int i = 0; i < N; ++i)
+            gram[a][b] += there.derivative[a][i] * there.derivative[b][i] * sides[i] * sides[i];
+      for (int a = 0; a < M; ++a) trace += gram[a][a];
+      for (int a = 0; a < M; ++a) gram[a][a] += 1e-14 * trace;
+      if (!root_search::invert<M>(gram, inverse)) return false;
+      // Inverse iteration for the eigenvector of the smallest eigenvalue.
+      weights.fill(1);
+      for (int time = 0; time < 4; ++time) {
+        std::array<double, M> next{};
+        double most = 0;
+        for (int a = 0; a < M; ++a) {
+          for (int b = 0; b < M; ++b) next[a] += inverse[a][b] * weights[b];
+          most = std::max(most, std::abs(next[a]));
+        }
+        if (!(most > 0) || !std::isfinite(most)) return false;
+        for (int a = 0; a < M; ++a) weights[a] = next[a] / most;
+      }
+    }
+    Interval sum(0);
+    for (int k = 0; k < M; ++k)
+      sum += Interval(weights[k]) *
+             Interval(there.value[k] - options_.rounding[k], there.value[k] + options_.rounding[k]);
+    for (int i = 0; i < N; ++i) {
+      Interval by(0);
+      for (int k = 0; k < M; ++k) by += Interval(weights[k]) * range.derivative[k][i];
+      sum += by * (box[i] - Interval(middle[i]));
+    }
+    return !sum.contains(0);
+  }
+
+  // Across the parameter that moves the image most.
+  void divide(const Box& box) {
+    const std::array<double, N> extents = system_.extents(box);
+    int best = 0;
+    double most = -1;
+    for (int i = 0; i < N; ++i)
+      if (extents[i] > most && box[i].middle() > box[i].lo && box[i].middle() < box[i].hi) best = i, most = extents[i];
+    if (most <= options_.least) {
+      result_.open.push_back(box);
+      return;
+    }
+    Box lower = box, upper = box;
+    lower[best].hi = upper[best].lo = box[best].middle();
+    boxes_.push_back(lower);
+    boxes_.push_back(upper);
+  }
+
+  // Finds the curves in a chart that are not known yet.
+  void cover(const ChartBox<N>& over, const Place& middle) {
+    const int along = over.chart.along;
+    Box wide = over.box;  // with the slack of the domain's border
+    for (int i = 0; i < N; ++i)
+      if (i != along) wide[i] = {wide[i].lo - options_.slack[i], wide[i].hi + options_.slack[i]};
+    std::vector<Interval> slices{over.box[along]};
+    int slices_seen = 0;
+    while (!slices.empty()) {
+      const Interval slice = slices.back();
+      slices.pop_back();
+      Place x = middle;
+      x[along] = slice.middle();
+      SystemValue<double, N, M> there;
+      const bool found = solve_in(over, wide, x, there);
+      if (++slices_seen > kMostSlices) {
+        result_.open.push_back(over.box);
+        return;
+      }
+      // What was found is the solution, to rounding; where the equations are flat their values' rounding says nothing.
+      const Box reached = over.reachable(slice, x, values_of(there, !found), wide, kTimes);
+      if (is_empty<N>(reached)) continue;
+      if (is_known(reached)) continue;
+      if (found && !is_known_place(x)) {
+        if (!trace(inside(x))) {
+          // It cannot be followed from here: next to a singular solution.
+          result_.open.push_back(over.box);
+          return;
+        }
+        if (is_known_place(x)) {
+          slices.push_back(slice);
+          continue;
+        }
+      }
+      if (slice.width() <= kLeastSlice * scale_[along]) continue;
+      slices.push_back({slice.lo, slice.middle()});
+      slices.push_back({slice.middle(), slice.hi});
+    }
+  }
+
+  Place inside(Place x) const {
+    for (int i = 0; i < N; ++i) x[i] = domain_[i].clamp(x[i]);
+    return x;
+  }
+
+  // The solution with x[along] as it is, if it has one in the box; else a place of the box near which it would be.
+  bool solve_in(const ChartBox<N>& over, const Box& wide, Place& x, SystemValue<double, N, M>& there) const {
+    const Chart<N>& chart = over.chart;
+    double length = 0;
+    bool leads_out = false;
+    for (int step = 0; step < kMostSteps; ++step) {
+      there = system_.evaluate(x);
+      // Newton's steps first; the fixed inverse always contracts.
+      std::optional<Chart<N>> own;
+      if (step < kNewtonSteps) own = chart_of<N>(there.derivative, chart.along);
+      const auto& c = own ? own->inverse : chart.inverse;
+      length = 0, leads_out = false;
+      for (int i = 0; i < M; ++i) {
+        const int unknown = chart.others[i];
+        double free = x[unknown];
+        for (int k = 0; k < M; ++k) free -= c[i][k] * there.value[k];
+        const double to = wide[unknown].clamp(free);
+        if (!(std::abs(free - to) <= 1e-3 * options_.slack[unknown])) leads_out = true;
+        length = std::max(length, std::abs(to - x[unknown]) / scale_[unknown]);
+        x[unknown] = to;
+      }
+      if (length <= kSettled) break;
+      if (step > 4 && step < kNewtonSteps && length < kNearlySettled) break;
+    }
+    there = system_.evaluate(x);
+    return !leads_out && length <= kNearlySettled;
+  }
+
+  bool is_known(const Box& box) const {
+    Box clipped = box;
+    for (int i = 0; i < N; ++i) {
+      clipped[i] = intersect(box[i], domain_[i]);
+      if (clipped[i].empty()) clipped[i] = Interval(domain_[i].clamp(box[i].lo));
+    }
+    for (const SolutionArc<N>& arc : result_.arcs)
+      for (const Box& tube : arc.tubes)
+        if (contains<N>(tube, clipped)) return true;
+    for (const Box& tube : loose_tubes_)
+      if (contains<N>(tube, clipped)) return true;
+    return false;
+  }
+  bool is_known_place(const Place& place) const {
+    Box box;
+    for (int i = 0; i < N; ++i) box[i] = Interval(domain_[i].clamp(place[i]));
+    return is_known(box);
+  }
+
+  // --- following a curve
+
+  struct Ahead {
+    Place to;
+    Box tube;
+    bool at_border = false;
+  };
+
+  // False where not one step can be certified.
+  bool trace(const Place& start) {
+    SolutionArc<N> arc;
+    meets_known_ = false;
+    arc.nodes.push_back(start);
+    const Place first = direction_of<N>(system_.evaluate(start).derivative, scale_);
+    arc.ends_singular = follow(arc, first, start);
+    if (!arc.closed) {
+      std::reverse(arc.nodes.begin(), arc.nodes.end());
+      std::reverse(arc.tubes.begin(), arc.tubes.end());
+      arc.begins_singular = arc.ends_singular;
+      Place back = first;
+      for (double& x : back) x = -x;
+      arc.ends_singular = follow(arc, back, start);
+      // In the sense of the direction's sign.
+      std::reverse(arc.nodes.begin(), arc.nodes.end());
+      std::reverse(arc.tubes.begin(), arc.tubes.end());
+      std::swap(arc.begins_singular, arc.ends_singular);
+    }
+    if (arc.nodes.size() == 1) return !arc.begins_singular && !arc.ends_singular;
+    // What runs into a known arc is its last bit, before a singular solution.
+    if (meets_known_)
+      loose_tubes_.insert(loose_tubes_.end(), arc.tubes.begin(), arc.tubes.end());
+    else
+      result_.arcs.push_back(std::move(arc));
+    return true;
+  }
+
+  // From the last node on; true if it ends next to a singular solution.
+  bool follow(SolutionArc<N>& arc, Place direction, const Place& start) {
+    double step = kFirstStep;
+    const size_t known = arc.nodes.size();
+    while (arc.nodes.size() < known + kMostNodes) {
+      const Place x = arc.nodes.back();
+      Ahead ahead;
+      for (;;) {
+        if (advance(x, direction, step, ahead)) break;
+        step *= 0.5;
+        if (step < kLeastStep || (step < kShortStep && too_short(x, direction, step))) return true;
+      }
+      if (ahead.to == x) return false;  // the curve leaves the domain here
+      if (arc.nodes.size() > known && passes(ahead, x, direction, start)) {
+        arc.nodes.push_back(start);
+        arc.tubes.push_back(ahead.tube);
+        arc.closed = true;
+        return false;
+      }
+      arc.nodes.push_back(ahead.to);
+      arc.tubes.push_back(ahead.tube);
+      meets_known_ = meets_known_ || is_known_place(ahead.to);
+      if (ahead.at_border || meets_known_) return false;
+      const Place next = direction_of<N>(system_.evaluate(ahead.to).derivative, scale_);
+      double with = 0;
+      for (int i = 0; i < N; ++i) with += next[i] * direction[i];
+      direction = next;
+      if (with < 0)
+        for (double& d : direction) d = -d;
+      step = std::min(1.7 * step, kLongestStep);
+    }
+    return true;
+  }
+
+  bool too_short(const Place& x, const Place& direction, double step) const {
+    Box box;
+    for (int i = 0; i < N; ++i) {
+      const double to = domain_[i].clamp(x[i] + step * direction[i] * scale_[i]);
+      box[i] = {std::min(x[i], to), std::max(x[i], to)};
+    }
+    double most = 0;
+    for (const double extent : system_.extents(box)) most = std::max(most, extent);
+    return most < 0.1 * options_.least;
+  }
+
+  // Whether the way to `ahead` goes through the place where the arc began.
+  bool passes(const Ahead& ahead, const Place& x, const Place& direction, const Place& start) const {
+    for (int i = 0; i < N; ++i)
+      if (!ahead.tube[i].contains(start[i])) return false;
+    const int along = largest<N>(direction);
+    const double at = (start[along] - x[along]) * (direction[along] > 0 ? 1 : -1);
+    const double to = (ahead.to[along] - x[along]) * (direction[along] > 0 ? 1 : -1);
+    return at > 0 && at <= to;
+  }
+
+  // One step; false where it is too long to be certified.
+  bool advance(const Place& x, const Place& direction, double step, Ahead& ahead) {
+    const int along = largest<N>(direction);
+    Place to;
+    for (int i = 0; i < N; ++i) to[i] = x[i] + step * direction[i] * scale_[i];
+    ahead.at_border = false;
+    const double free = to[along];
+    to[along] = domain_[along].clamp(to[along]);
+    if (to[along] == x[along]) {
+      ahead.to = x;
+      return true;
+    }
+    if (to[along] != free) {
+      const double share = (to[along] - x[along]) / (free - x[along]);
+      for (int i = 0; i < N; ++i)
+        if (i != along) to[i] = x[i] + share * (to[i] - x[i]);
+    }
+    if (!settle(to, along, step)) return false;
+    ahead.at_border = to[along] != free;
+    int out = -1;
+    double share = 1;
+    for (int i = 0; i < N; ++i) {
+      if (i == along) continue;
+      const double border = domain_[i].clamp(to[i]);
+      if (std::abs(to[i] - border) <= options_.slack[i]) {
+        to[i] = border;
+        continue;
+      }
+      const double part = to[i] != x[i] ? (border - x[i]) / (to[i] - x[i]) : 0;
+      if (out < 0 || part < share) out = i, share = part;
+    }
+    if (out >= 0) {
+      // The curve leaves the domain on the way: the place on the border.
+      Place at;
+      for (int i = 0; i < N; ++i) at[i] = x[i] + share * (to[i] - x[i]);
+      at[out] = domain_[out].clamp(to[out]);
+      if (x[out] == at[out]) {
+        ahead.to = x;
+        return leaves_at_once(x, direction, out);
+      }
+      if (!settle(at, out, step)) return false;
+      for (int i = 0; i < N; ++i) {
+        const double border = domain_[i].clamp(at[i]);
+        if (std::abs(at[i] - border) > options_.slack[i]) return false;
+        at[i] = border;
+      }
+      const double side = (at[along] - x[along]) * (to[along] - x[along]);
+      if (!(side >= 0) || std::abs(at[along] - x[along]) > 1.5 * std::abs(to[along] - x[along])) return false;
+      if (at[along] == x[along]) {
+        ahead.to = x;
+        return true;
+      }
+      to = at;
+      ahead.at_border = true;
+    }
+    if (turns_too_much(x, to, direction)) return false;
+    ahead.to = to;
+    return certify(x, to, along, step, ahead.tube);
+  }
+
+  // At a border that the curve touches from inside it may stay a little beyond: only a true exit ends it.
+  bool leaves_at_once(const Place& x, const Place& direction, int out) const {
+    const bool low = x[out] - domain_[out].lo < domain_[out].hi - x[out];
+    return low ? direction[out] < 0 : direction[out] > 0;
+  }
+
+  // Newton's iteration with one unknown held.
+  bool settle(Place& x, int held, double step) const {
+    const Place start = x;
+    double before = kInfinity;
+    for (int time = 0; time < kMostHeldSteps; ++time) {
+      const SystemValue<double, N, M> there = system_.evaluate(x);
+      const std::optional<Chart<N>> chart = chart_of<N>(there.derivative, held);
+      if (!chart) return false;
+      double length = 0;
+      for (int i = 0; i < M; ++i) {
+        const int unknown = chart->others[i];
+        double by = 0;
+        for (int k = 0; k < M; ++k) by += chart->inverse[i][k] * there.value[k];
+        x[unknown] -= by;
+        length = std::max(length, std::abs(by) / scale_[unknown]);
+        if (!(std::abs(x[unknown] - start[unknown]) <= 0.7 * step * scale_[unknown])) return false;
+      }
+      if (length <= kSettled || (length < kRounding && length >= 0.5 * before)) return true;
+      before = length;
+    }
+    return false;
+  }
+  bool turns_too_much(const Place& x, const Place& to, const Place& direction) const {
+    Place next = direction_of<N>(system_.evaluate(to).derivative, scale_);
+    double with = 0;
+    for (int i = 0; i < N; ++i) with += next[i] * direction[i];
+    const double cosine = std::cos(options_.most_turn);
+    if (with < 0)
+      for (double& d : next) d = -d;
+    if (!(std::abs(with) >= cosine)) return true;
+    const Vec3 here = system_.motion(x, scaled(direction)), there = system_.motion(to, scaled(next));
+    const double lengths = glm::length(here) * glm::length(there);
+    return lengths > 0 && glm::dot(here, there) < cosine * lengths;
+  }
+  Place scaled(Place direction) const {
+    for (int i = 0; i < N; ++i) direction[i] *= scale_[i];
+    return direction;
+  }
+
+  // A tube about the way from x to `to`: a chart whose sides the curve cannot reach.
+  bool certify(const Place& x, const Place& to, int along, double step, Box& tube) const {
+    Place middle;
+    for (int i = 0; i < N; ++i) {
+      const double low = std::min(x[i], to[i]), high = std::max(x[i], to[i]);
+      const double beside = i == along ? 0.1 * (high - low) : 0.1 * (high - low) + 0.35 * step * scale_[i];
+      tube[i] = {std::max(domain_[i].lo, low - beside), std::min(domain_[i].hi, high + beside)};
+      middle[i] = domain_[i].clamp(0.5 * (x[i] + to[i]));
+    }
+    const std::optional<Chart<N>> chart = chart_of<N>(system_.evaluate(middle).derivative, along);
+    if (!chart) return false;
+    const ChartBox<N> over(*chart, tube, system_.enclose(tube));
+    if (!over.is_one_to_one()) return false;
+    const Box reached = over.reachable(tube[along], x, {}, tube, 1);
+    if (is_empty<N>(reached)) return false;
+    for (int i = 0; i < N; ++i) {
+      if (i == along) continue;
+      if (reached[i].lo <= tube[i].lo && tube[i].lo > domain_[i].lo) return false;
+      if (reached[i].hi >= tube[i].hi && tube[i].hi < domain_[i].hi) return false;
+    }
+    return true;
+  }
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr double kSettled = 4e-16, kRounding = 1e-12, kNearlySettled = 1e-9;
+  static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
+  static constexpr double kLeastSlice = 1e-12;
+  static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250;
+
+  const System& system_;
+  const Box domain_;
+  const SolutionCurveOptions<N>& options_;
+  std::array<double, N> scale_{};
+  std::vector<Box> boxes_;
+  std::vector<Box> loose_tubes_;
+  bool meets_known_ = false;
+  SolutionCurves<N> result_;
+};
+
+}  // namespace solution_curves
+
+// `system` has these members:
+//   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>&) const      certified ranges over a box in the domain
+//   SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding; a
+//                                                                              little outside of the domain too
+//   std::array<double, N> extents(const ParameterBox<N>&) const                bounds of how far each parameter moves
+//                                                                              the image in space, over a box
+//   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const      velocity in space: at a place, moving so
+template <int N, class System>
+SolutionCurves<N> search_solution_curves(const System& system, const ParameterBox<N>& domain,
+                                         const SolutionCurveOptions<N>& options) {
+  return solution_curves::Search<N, System>(system, domain, options).run();
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,385 @@
+#include "geometry/queries/contour_assembly.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Parts of the size of the surfaces.
+constexpr double kLeastImage = 1e-6;      // boxes with smaller images are not divided
+constexpr double kShortestBranch = 1e-9;  // shorter arcs are corners that the curve touches
+constexpr double kSameEnd = 1e-8;         // ends of arcs on borders that are one place
+// A solution so far outside of a piece, of its sides, is moved onto the border.
+constexpr double kBorder = 1e-13;
+constexpr double kNearSingular = 60;      // of the least image: an arc that ends so near to a singular point ends there
+
+// Directions so opposite go on from each other through a crossing.
+constexpr double kStraightOn = -0.5;
+constexpr double kSmooth = -0.9999;
+
+}  // namespace
+
+template <int N>
+void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
+  const EquationsPtr equations = std::move(given);
+  const ParameterBox<N> domain = equations->domain();
+  SolutionCurveOptions<N> options;
+  options.least = kLeastImage * size_;
+  for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
+  options.rounding.fill(equations->rounding());
+  SolutionCurves<N> found = search_solution_curves<N>(*equations, domain, options);
+  complete_ = complete_ && found.complete;
+  for (SolutionArc<N>& arc : found.arcs) {
+    Part part{equations, std::move(arc), 0};
+    for (size_t k = 1; k < part.arc.nodes.size(); ++k)
+      part.length += glm::length(equations->point(part.arc.nodes[k]) - equations->point(part.arc.nodes[k - 1]));
+    if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
+  }
+  if (found.complete)
+    for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
+}
+
+// An arc along the border of a piece is found by the neighbour too.
+template <int N>
+bool ContourAssembly<N>::runs_along_border(const Part& part) const {
+  const ParameterBox<N> domain = part.equations->domain();
+  for (int i = 0; i < N; ++i)
+    for (const double border : {domain[i].lo, domain[i].hi}) {
+      bool along = true;
+      for (const ParameterPlace<N>& x : part.arc.nodes)
+        along = along && std::abs(x[i] - border) <= 1e-10 * domain[i].width();
+      if (along) return true;
+    }
+  return false;
+}
+
+template <int N>
+void ContourAssembly<N>::drop_doubles() {
+  std::vector<Part> kept;
+  std::vector<bool> on_border;
+  for (Part& part : parts_) {
+    const bool along = runs_along_border(part);
+    bool known = false;
+    const auto point = [](const Part& p, size_t k) { return p.equations->point(p.arc.nodes[k]); };
+    const auto last = [](const Part& p) { return p.arc.nodes.size() - 1; };
+    for (size_t k = 0; along && !known && k < kept.size(); ++k) {
+      if (!on_border[k] || std::abs(kept[k].length - part.length) > 0.05 * part.length) continue;
+      const Vec3 a0 = point(part, 0), a1 = point(part, last(part)), b0 = point(kept[k], 0),
+                 b1 = point(kept[k], last(kept[k]));
+      // Where they end next to a singular point they do so anywhere near.
+      const bool singular = part.arc.begins_singular || part.arc.ends_singular;
+      const double near = (singular ? kNearSingular * kLeastImage : kSameEnd) * size_;
+      const bool same = (glm::length(a0 - b0) < near && glm::length(a1 - b1) < near) ||
+                        (glm::length(a0 - b1) < near && glm::length(a1 - b0) < near);
+      if (!same) continue;
+      // The other's middle node must lie within the sag of this one's chords.
+      const Vec3 middle = point(part, last(part) / 2);
+      double nearest = kInfinity;
+      for (size_t i = 0; i < last(kept[k]); ++i) {
+        const Vec3 from = point(kept[k], i), chord = point(kept[k], i + 1) - from;
+        const double share = std::clamp(glm::dot(middle - from, chord) / glm::dot(chord, chord), 0.0, 1.0);
+        nearest = std::min(nearest, glm::length(from + share * chord - middle) / glm::length(chord));
+      }
+      known = last(part) < 2 || nearest < 0.1;
+    }
+    if (known) continue;
+    kept.push_back(std::move(part));
+    on_border.push_back(along);
+  }
+  parts_ = std::move(kept);
+}
+
+// A singular solution: F = 0 and F' loses its rank, l^T F'(x) v = 0 for the left null vector l and both right ones v.
+// Gauss and Newton, of the second order as all vanish there.
+template <int N>
+typename ContourAssembly<N>::SingularPlace ContourAssembly<N>::refined(const EquationsPtr& equations,
+                                                                       const ParameterBox<N>& box) const {
+  constexpr int M = N - 1;
+  const ParameterBox<N> domain = equations->domain();
+  ParameterPlace<N> scale, start;
+  for (int i = 0; i < N; ++i) scale[i] = domain[i].width(), start[i] = box[i].middle();
+  const auto second = [&](const ParameterPlace<N>& x, const ParameterPlace<N>& w) {
+    std::array<Jet<double, kMaxContourOrder>, N> way;
+    for (int i = 0; i < N; ++i) way[i].c[0] = domain[i].clamp(x[i]), way[i].c[1] = w[i];
+    const auto series = equations->series(way);
+    Eigen::Matrix<double, M, 1> f;
+    for (int k = 0; k < M; ++k) f[k] = 2 * series.equations[k].c[2];
+    return f;
+  };
+  const auto combined = [&](const ParameterPlace<N>& x, const ParameterPlace<N>& v, const ParameterPlace<N>& w) {
+    ParameterPlace<N> sum, difference;
+    for (int i = 0; i < N; ++i) sum[i] = v[i] + w[i], difference[i] = v[i] - w[i];
+    return Eigen::Matrix<double, M, 1>(0.25 * (second(x, sum) - second(x, difference)));
+  };
+  ParameterPlace<N> x = start;
+  bool converged = false;
+  for (int step = 0; step < 15 && !converged; ++step) {
+    const auto there = equations->evaluate(x);
+    Eigen::Matrix<double, M, N> j;
+    for (int k = 0; k < M; ++k)
+      for (int i = 0; i < N; ++i) j(k, i) = there.derivative[k][i] * scale[i];
+    const Eigen::JacobiSVD<Eigen::Matrix<double, M, N>> svd(j, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Matrix<double, M, 1> left = svd.matrixU().col(M - 1);
+    Eigen::Matrix<double, N + 1, 1> f;
+    Eigen::Matrix<double, N + 1, N> a;
+    for (int k = 0; k < M; ++k) f[k] = there.value[k];
+    a.template topRows<M>() = j;
+    for (int c = 0; c < 2; ++c) {
+      const Eigen::Matrix<double, N, 1> v = svd.matrixV().col(N - 2 + c);
+      f[M + c] = left.dot(j * v);
+      ParameterPlace<N> way;
+      for (int i = 0; i < N; ++i) way[i] = v[i] * scale[i];
+      for (int i = 0; i < N; ++i) {
+        ParameterPlace<N> unit{};
+        unit[i] = scale[i];
+        a(M + c, i) = left.dot(combined(x, way, unit));
+      }
+    }
+    const Eigen::Matrix<double, N, 1> by = a.completeOrthogonalDecomposition().solve(-f);
+    double most = 0;
+    for (int i = 0; i < N; ++i) {
+      x[i] += by[i] * scale[i];
+      most = std::max(most, std::abs(by[i]));
+    }
+    if (!std::isfinite(most)) break;
+    converged = most < 1e-13;
+  }
+  bool stays = true;
+  for (int i = 0; i < N; ++i) {
+    const double reach = 2 * box[i].width() + 1e-5 * scale[i];
+    stays = stays && std::abs(x[i] - start[i]) <= reach;
+    x[i] = domain[i].clamp(x[i]);
+  }
+  if (!stays) x = start;
+  // At a pole the equations say little: onto it.
+  for (int i = 0; i < N; ++i)
+    for (const bool upper : {false, true}) {
+      ParameterPlace<N> at = x;
+      at[i] = upper ? domain[i].hi : domain[i].lo;
+      if (equations->is_pole(i, upper) &&
+          glm::length(equations->point(at) - equations->point(x)) <= kNearSingular * kLeastImage * size_)
+        x = at;
+    }
+  return {equations, x, equations->point(x), equations->distance(x), -1};
+}
+
+template <int N>
+void ContourAssembly<N>::find_singular_points() {
+  for (const auto& [equations, box] : open_) places_.push_back(refined(equations, box));
+  for (SingularPlace& place : places_) {
+    for (size_t k = 0; k < points_.size() && place.group < 0; ++k)
+      if (glm::length(points_[k].point - place.point) <= 10 * kLeastImage * size_) place.group = static_cast<int>(k);
+    if (place.group < 0) {
+      place.group = static_cast<int>(points_.size());
+      points_.push_back({{ContourPointKind::contact, place.point,
+                         {place.place.begin(), place.place.end()}, place.distance}});
+    } else if (place.distance < points_[place.group].distance) {
+      ContourPoint& point = points_[place.group];
+      point.point = place.point, point.distance = place.distance;
+      point.parameters.assign(place.place.begin(), place.place.end());
+    }
+  }
+}
+
+template <int N>
+void ContourAssembly<N>::collect_ends() {
+  for (size_t p = 0; p < parts_.size(); ++p) {
+    const Part& part = parts_[p];
+    for (const bool at_end : {false, true}) {
+      const size_t last = part.arc.nodes.size() - 1;
+      const ParameterPlace<N>& x = part.arc.nodes[at_end ? last : 0];
+      const ParameterPlace<N>& before = part.arc.nodes[at_end ? last - 1 : 1];
+      End end{static_cast<int>(p), at_end, at_end ? part.arc.ends_singular : part.arc.begins_singular,
+              part.equations->point(x)};
+      // The tangent, to the side of the chord; the chord where there is none.
+      const Vec3 chord = end.point - part.equations->point(before);
+      ParameterPlace<N> scale;
+      for (int i = 0; i < N; ++i) scale[i] = part.equations->domain()[i].width();
+      ParameterPlace<N> direction = solution_curves::direction_of<N>(part.equations->evaluate(x).derivative, scale);
+      for (int i = 0; i < N; ++i) direction[i] *= scale[i];
+      const Vec3 tangent = part.equations->motion(x, direction);
+      const double side = glm::dot(tangent, chord), lengths = glm::length(tangent) * glm::length(chord);
+      end.outward = std::abs(side) > 0.5 * lengths ? (side > 0 ? 1.0 : -1.0) * glm::normalize(tangent)
+                                                   : glm::normalize(chord);
+      ends_.push_back(end);
+    }
+  }
+  for (End& end : ends_)
+    if (!parts_[end.part].arc.closed) attach_singular(end);
+  // What begins and ends at one singular point, and leaves it by no more than the search resolves, is none.
+  for (size_t p = 0; p < parts_.size(); ++p) {
+    End &begin = ends_[end_index(static_cast<int>(p), false)], &end = ends_[end_index(static_cast<int>(p), true)];
+    const bool debris = begin.singular_point >= 0 && begin.singular_point == end.singular_point &&
+                        parts_[p].length <= 3 * kNearSingular * kLeastImage * size_;
+    if (debris) begin.singular_point = end.singular_point = kDropped;
+  }
+}
+
+template <int N>
+void ContourAssembly<N>::attach_singular(End& end) {
+  double nearest = (end.singular ? kNearSingular : 1.0) * kLeastImage * size_;
+  for (const SingularPlace& place : places_) {
+    const double apart = glm::length(place.point - end.point);
+    if (apart <= nearest) nearest = apart, end.singular_point = place.group;
+  }
+}
+
+template <int N>
+void ContourAssembly<N>::pair(std::vector<int> group, bool all) {
+  while (group.size() > 1) {
+    int best_a = -1, best_b = -1;
+    double best = 2;
+    for (size_t a = 0; a < group.size(); ++a)
+      for (size_t b = a + 1; b < group.size(); ++b) {
+        const double with = glm::dot(ends_[group[a]].outward, ends_[group[b]].outward);
+        if (with < best) best = with, best_a = static_cast<int>(a), best_b = static_cast<int>(b);
+      }
+    if (best_a < 0 || !(best < kStraightOn || (all && group.size() == 2))) return;
+    End &a = ends_[group[best_a]], &b = ends_[group[best_b]];
+    a.mate_part = b.part, a.mate_at_end = b.at_end;
+    b.mate_part = a.part, b.mate_at_end = a.at_end;
+    group.erase(group.begin() + best_b);
+    group.erase(group.begin() + best_a);
+  }
+}
+
+template <int N>
+void ContourAssembly<N>::pair_ends() {
+  for (size_t k = 0; k < points_.size(); ++k) {
+    std::vector<int> group;
+    for (size_t e = 0; e < ends_.size(); ++e)
+      if (ends_[e].singular_point == static_cast<int>(k)) group.push_back(static_cast<int>(e));
+    if (group.size() > 2) points_[k].kind = ContourPointKind::crossing;
+    if (group.size() == 1 || group.size() == 2) points_[k].kind = ContourPointKind::end;
+    // Where a curve goes on smoothly only its parameters are singular.
+    points_[k].passed =
+        group.size() == 2 && glm::dot(ends_[group[0]].outward, ends_[group[1]].outward) < kSmooth;
+    pair(group, true);
+  }
+  std::vector<bool> taken(ends_.size(), false);
+  for (size_t e = 0; e < ends_.size(); ++e) {
+    if (taken[e] || ends_[e].singular_point != kRegular || parts_[ends_[e].part].arc.closed) continue;
+    std::vector<int> group;
+    for (size_t f = e; f < ends_.size(); ++f)
+      if (!taken[f] && ends_[f].singular_point == kRegular && !parts_[ends_[f].part].arc.closed &&
+          glm::length(ends_[f].point - ends_[e].point) <= kSameEnd * size_)
+        group.push_back(static_cast<int>(f)), taken[f] = true;
+    pair(group, true);
+  }
+}
+
+template <int N>
+void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPlace<N>& shift,
+                                std::vector<ContourSegment<N>>& segments) const {
+  const auto& nodes = part.arc.nodes;
+  const size_t count = nodes.size();
+  for (size_t k = 0; k + 1 < count; ++k) {
+    const size_t from = backwards ? count - 1 - k : k, to = backwards ? from - 1 : from + 1;
+    ContourSegment<N> segment{part.equations, nodes[from], nodes[to], part.arc.tubes[std::min(from, to)], {}, {}, {}, {}};
+    if (k == 0 && !segments.empty())
+      for (int i = 0; i < N; ++i)
+        if (periods_[i] > 0) {
+          const double before = segments.back().end[i] + segments.back().shift[i];
+          shift[i] = periods_[i] * std::round((before - segment.begin[i]) / periods_[i]);
+        }
+    segment.shift = shift;
+    segment.from = segments.empty() || k > 0 ? part.equations->point(nodes[from]) : segments.back().to;
+    segment.to = part.equations->point(nodes[to]);
+    if (segment.from != segment.to) segments.push_back(std::move(segment));
+  }
+}
+
+// From the end of an arc to the singular point next to it, or back from there.
+template <int N>
+void ContourAssembly<N>::append_straight(const End& end, bool inward, const ParameterPlace<N>& shift,
+                                         std::vector<ContourSegment<N>>& segments) const {
+  if (end.singular_point < 0) return;
+  const Part& part = parts_[end.part];
+  const ParameterPlace<N> at_arc = part.arc.nodes[end.at_end ? part.arc.nodes.size() - 1 : 0];
+  ParameterPlace<N> at_point = at_arc;
+  double nearest = kInfinity;
+  for (const SingularPlace& place : places_) {
+    if (place.group != end.singular_point || place.equations != part.equations) continue;
+    double apart = 0;
+    for (int i = 0; i < N; ++i)
+      apart += std::abs(place.place[i] - at_arc[i]) / part.equations->domain()[i].width();
+    if (apart < nearest) nearest = apart, at_point = place.place;
+  }
+  ContourSegment<N> segment{part.equations, inward ? at_point : at_arc, inward ? at_arc : at_point, {}, {}, {}, {}, {}};
+  for (int i = 0; i < N; ++i) segment.tube[i] = {1, 0};
+  segment.shift = shift;
+  const Vec3 point = points_[end.singular_point].point;
+  segment.from = inward ? point : end.point;
+  segment.to = inward ? end.point : point;
+  if (glm::length(segment.to - segment.from) > 1e-14 * size_) segments.push_back(std::move(segment));
+}
+
+template <int N>
+Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) const {
+  std::vector<ContourSegment<N>> segments;
+  ParameterPlace<N> shift{};
+  bool closed = false;
+  int entry = first;
+  for (;;) {
+    const End& in = ends_[entry];
+    const Part& part = parts_[in.part];
+    used[in.part] = true;
+    append_straight(in, true, shift, segments);
+    append(part, in.at_end, shift, segments);
+    if (part.arc.closed) {
+      closed = true;
+      break;
+    }
+    const End& out = ends_[end_index(in.part, !in.at_end)];
+    append_straight(out, false, shift, segments);
+    if (out.mate_part < 0) break;
+    entry = end_index(out.mate_part, out.mate_at_end);
+    if (entry == first) {
+      closed = true;
+      break;
+    }
+  }
+  if (closed && segments.size() > 1) segments.back().to = segments.front().from;
+  Contour contour;
+  contour.closed = closed;
+  for (const ContourSegment<N>& segment : segments) contour.error = std::max(contour.error, segment.equations->distance(segment.begin));
+  const auto solution = std::make_shared<const ContourSolution<N>>(std::move(segments), closed);
+  for (const ContourSegment<N>& segment : solution->segments()) {
+    if (!segment.is_certified()) continue;
+    const auto at = solution->at(segment.t.middle(), 0);
+    ParameterPlace<N> x;
+    for (int i = 0; i < N; ++i) x[i] = at.x[i].c[0] - segment.shift[i];
+    contour.error = std::max(contour.error, segment.equations->distance(x));
+  }
+  contour.curve = std::make_shared<ContourCurve<N>>(solution);
+  for (int i = 0; i < N; i += 2) contour.images.push_back(std::make_shared<ContourImage<N>>(solution, i));
+  return contour;
+}
+
+template <int N>
+Contours ContourAssembly<N>::joined() {
+  drop_doubles();
+  find_singular_points();
+  collect_ends();
+  pair_ends();
+  Contours result;
+  result.complete = complete_;
+  std::vector<bool> used(parts_.size(), false);
+  // Open branches begin at an end that is joined with none; what is left then is closed.
+  for (const bool open : {true, false})
+    for (size_t e = 0; e < ends_.size(); ++e)
+      if (!used[ends_[e].part] && ends_[e].singular_point != kDropped && (!open || (ends_[e].mate_part < 0 && !parts_[ends_[e].part].arc.closed)))
+        result.branches.push_back(branch_from(static_cast<int>(e), used));
+  for (const SingularPoint& point : points_)
+    if (!point.passed && (point.kind != ContourPointKind::contact || point.distance <= tolerance_))
+      result.points.push_back(point);
+  return result;
+}
+
+template class ContourAssembly<2>;
+template class ContourAssembly<4>;
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,272 @@
+#include "geometry/queries/contour_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries/smooth_pieces.h"
+
+namespace lekalo::geometry {
+
+template <int N>
+SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPlace<N>& place) const {
+  const ParameterBox<N> all = domain();
+  ParameterPlace<N> inside;
+  bool is_inside = true;
+  for (int i = 0; i < N; ++i) {
+    inside[i] = all[i].clamp(place[i]);
+    is_inside = is_inside && inside[i] == place[i];
+  }
+  SystemValue<double, N, N - 1> there = evaluate_inside(inside);
+  if (!is_inside)
+    for (int k = 0; k < N - 1; ++k)
+      for (int i = 0; i < N; ++i) there.value[k] += there.derivative[k][i] * (place[i] - inside[i]);
+  return there;
+}
+template class ContourEquations<2>;
+template class ContourEquations<4>;
+
+namespace {
+
+double largest_length(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
+
+std::array<double, 2> extents_of(const Surface& surface, const Rectangle& box) {
+  const SurfaceEnclosure s = surface.enclose(box, 1);
+  return {largest_length(s.d(1, 0)) * box.u.width(), largest_length(s.d(0, 1)) * box.v.width()};
+}
+
+// The parameter of a surface, 0 or 1.
+bool is_pole_of(const Surface& surface, const Rectangle& piece, int parameter, bool upper) {
+  const DegenerateEdges edges = surface.degenerate_edges();
+  const Rectangle all = surface.domain();
+  if (parameter == 0) return upper ? edges.u_max && piece.u.hi == all.u.hi : edges.u_min && piece.u.lo == all.u.lo;
+  return upper ? edges.v_max && piece.v.hi == all.v.hi : edges.v_min && piece.v.lo == all.v.lo;
+}
+
+template <class T>
+struct Tangents {
+  Triple<T> s, s_u, s_v;
+};
+
+class FunctionEquations final : public ContourEquations<2> {
+ public:
+  FunctionEquations(SurfacePtr surface, const Rectangle& piece, SurfaceFunction function)
+      : surface_(std::move(surface)), piece_(piece), function_(std::move(function)) {
+    // Rounding of the terms, from their size over the piece.
+    double most = 0;
+    for (int i = 0; i <= 4; ++i)
+      for (int j = 0; j <= 4; ++j) {
+        const ParameterPlace<2> at{piece.u.lo + piece.u.width() * i / 4, piece.v.lo + piece.v.width() * j / 4};
+        const auto there = evaluate_inside(at);
+        most = std::max(most, std::abs(there.value[0]) + std::abs(there.derivative[0][0]) * piece.u.width() +
+                                  std::abs(there.derivative[0][1]) * piece.v.width());
+      }
+    rounding_ = 1e-15 * most;
+  }
+
+  ParameterBox<2> domain() const override { return {piece_.u, piece_.v}; }
+
+  SystemValue<Interval, 2, 1> enclose(const ParameterBox<2>& box) const override {
+    const SurfaceEnclosure boxes = surface_->enclose({box[0], box[1]}, 1 + tangents());
+    SystemValue<Interval, 2, 1> result;
+    for (int i = 0; i < 2; ++i) {
+      const Jet<Interval, 1> f = apply(function_.slope_ranges, boxes, towards<Interval>(box[0], i == 0),
+                                       towards<Interval>(box[1], i == 1));
+      result.value[0] = f.c[0];
+      result.derivative[0][i] = f.c[1];
+    }
+    return result;
+  }
+  std::array<double, 2> extents(const ParameterBox<2>& box) const override {
+    return extents_of(*surface_, {box[0], box[1]});
+  }
+  bool is_pole(int parameter, bool upper) const override { return is_pole_of(*surface_, piece_, parameter, upper); }
+  Vec3 point(const ParameterPlace<2>& at) const override {
+    return evaluate_within(*surface_, piece_, at[0], at[1], 0).point();
+  }
+  Vec3 motion(const ParameterPlace<2>& at, const ParameterPlace<2>& by) const override {
+    const SurfaceJet s = evaluate_within(*surface_, piece_, at[0], at[1], 1);
+    return by[0] * s.du() + by[1] * s.dv();
+  }
+  double distance(const ParameterPlace<2>& at) const override {
+    const auto f = evaluate(at);
+    if (!function_.needs_tangents) return std::abs(f.value[0]);
+    for (int i = 0; i < 2; ++i)
+      for (const bool upper : {false, true})
+        if (is_pole(i, upper) && at[i] == (upper ? domain()[i].hi : domain()[i].lo)) return distance_at_pole(at);
+    const SurfaceJet s = evaluate_within(*surface_, piece_, at[0], at[1], 1);
+    // Along the gradient in the parameters, or nothing where that vanishes.
+    const double square = sqr(f.derivative[0][0]) + sqr(f.derivative[0][1]);
+    if (!(square > 0)) return 0;
+    const double by = f.value[0] / square;
+    return glm::length(by * f.derivative[0][0] * s.du() + by * f.derivative[0][1] * s.dv());
+  }
+  double rounding() const override { return rounding_; }
+
+  ContourSeries<double, kMaxContourOrder, 2> series(
+      const std::array<Jet<double, kMaxContourOrder>, 2>& x) const override {
+    const SurfaceJet jet = evaluate_within(*surface_, piece_, x[0].c[0], x[1].c[0], kMaxSurfaceOrder);
+    return {{apply(function_.series, jet, x[0], x[1])}, along_surface(jet, x[0], x[1])};
+  }
+  ContourSeries<Interval, 2, 2> series(const std::array<Jet<Interval, 2>, 2>& x) const override {
+    const int order = std::min(2 + tangents(), surface_->enclosure_order());
+    SurfaceEnclosure boxes = surface_->enclose({x[0].c[0], x[1].c[0]}, order);
+    if (order < 2 + tangents()) estimate_third(x, boxes);
+    return {{apply(function_.series_ranges, boxes, x[0], x[1])}, along_surface(boxes, x[0], x[1])};
+  }
+  int highest_order() const override { return kMaxContourOrder - tangents(); }
+
+ protected:
+  SystemValue<double, 2, 1> evaluate_inside(const ParameterPlace<2>& at) const override {
+    const SurfaceJet jet = evaluate_within(*surface_, piece_, at[0], at[1], 1 + tangents());
+    SystemValue<double, 2, 1> result;
+    for (int i = 0; i < 2; ++i) {
+      const Jet<double, 1> f =
+          apply(function_.slopes, jet, towards<double>(at[0], i == 0), towards<double>(at[1], i == 1));
+      result.value[0] = f.c[0];
+      result.derivative[0][i] = f.c[1];
+    }
+    return result;
+  }
+
+ private:
+  int tangents() const { return function_.needs_tangents ? 1 : 0; }
+
+  // The function by the limit of the normal there.
+  double distance_at_pole(const ParameterPlace<2>& at) const {
+    const Vec3 p = point(at);
+    const Frame frame = frame_about(p, surface_->normal_sign() * surface_->normal(at[0], at[1]));
+    const auto constant = [](const Vec3& v) {
+      return Triple<Jet<double, 1>>{Jet<double, 1>(v.x), Jet<double, 1>(v.y), Jet<double, 1>(v.z)};
+    };
+    return std::abs(function_.slopes(constant(p), constant(frame.x), constant(frame.y)).c[0]);
+  }
+
+  template <class S>
+  static Jet<S, 1> towards(const S& value, bool moves) {
+    Jet<S, 1> x(value);
+    x.c[1] = S(moves ? 1.0 : 0.0);
+    return x;
+  }
+
+  template <class S, int K, class Derivatives>
+  Jet<S, K> apply(const SurfaceFunction::Of<Jet<S, K>>& f, const Derivatives& d, const Jet<S, K>& u,
+                  const Jet<S, K>& v) const {
+    Tangents<Jet<S, K>> at;
+    at.s = along_surface(d, u, v);
+    if (function_.needs_tangents) at.s_u = along_surface(d, u, v, 1, 0), at.s_v = along_surface(d, u, v, 0, 1);
+    return f(at.s, at.s_u, at.s_v);
+  }
+
+  // Surfaces that enclose two derivatives only: the third is taken from places of the box, with as much again around
+  // it. This is the one range here that is not certified; it reaches the second derivative of the contour alone.
+  void estimate_third(const std::array<Jet<Interval, 2>, 2>& x, SurfaceEnclosure& boxes) const {
+    for (int k = 0; k <= 3; ++k) {
+      Box3 seen;
+      for (int i = 0; i <= 2; ++i)
+        for (int j = 0; j <= 2; ++j)
+          seen.include(evaluate_within(*surface_, piece_, x[0].c[0].lo + 0.5 * i * x[0].c[0].width(),
+                                       x[1].c[0].lo + 0.5 * j * x[1].c[0].width(), 3)
+                           .d(3 - k, k));
+      boxes.values[SurfaceJet::index(3 - k, k)] = seen.inflated(0.5 * seen.diameter());
+    }
+  }
+
+  const SurfacePtr surface_;
+  const Rectangle piece_;
+  const SurfaceFunction function_;
+  double rounding_ = 0;
+};
+
+class MeetingEquations final : public ContourEquations<4> {
+ public:
+  MeetingEquations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s, const Rectangle& piece_s)
+      : r_(std::move(r)), s_(std::move(s)), piece_r_(piece_r), piece_s_(piece_s) {
+    Box3 all = r_->enclose(piece_r, 0).d(0, 0);
+    all.include(s_->enclose(piece_s, 0).d(0, 0));
+    rounding_ = 2e-15 * std::max(glm::length(glm::max(glm::abs(all.lo), glm::abs(all.hi))), all.diameter());
+  }
+
+  ParameterBox<4> domain() const override { return {piece_r_.u, piece_r_.v, piece_s_.u, piece_s_.v}; }
+
+  SystemValue<Interval, 4, 3> enclose(const ParameterBox<4>& box) const override {
+    const SurfaceEnclosure r = r_->enclose({box[0], box[1]}, 1), s = s_->enclose({box[2], box[3]}, 1);
+    SystemValue<Interval, 4, 3> result;
+    for (int k = 0; k < 3; ++k) {
+      result.value[k] = along(r.d(0, 0), k) - along(s.d(0, 0), k);
+      result.derivative[k] = {along(r.d(1, 0), k), along(r.d(0, 1), k), -along(s.d(1, 0), k), -along(s.d(0, 1), k)};
+    }
+    return result;
+  }
+  std::array<double, 4> extents(const ParameterBox<4>& box) const override {
+    const std::array<double, 2> r = extents_of(*r_, {box[0], box[1]}), s = extents_of(*s_, {box[2], box[3]});
+    return {r[0], r[1], s[0], s[1]};
+  }
+  bool is_pole(int parameter, bool upper) const override {
+    return parameter < 2 ? is_pole_of(*r_, piece_r_, parameter, upper)
+                         : is_pole_of(*s_, piece_s_, parameter - 2, upper);
+  }
+  Vec3 point(const ParameterPlace<4>& at) const override {
+    return evaluate_within(*r_, piece_r_, at[0], at[1], 0).point();
+  }
+  Vec3 motion(const ParameterPlace<4>& at, const ParameterPlace<4>& by) const override {
+    const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
+    return by[0] * r.du() + by[1] * r.dv();
+  }
+  double distance(const ParameterPlace<4>& at) const override {
+    return glm::length(evaluate_within(*r_, piece_r_, at[0], at[1], 0).point() -
+                       evaluate_within(*s_, piece_s_, at[2], at[3], 0).point());
+  }
+  double rounding() const override { return rounding_; }
+
+  ContourSeries<double, kMaxContourOrder, 4> series(
+      const std::array<Jet<double, kMaxContourOrder>, 4>& x) const override {
+    return difference<double, kMaxContourOrder>(
+        evaluate_within(*r_, piece_r_, x[0].c[0], x[1].c[0], kMaxContourOrder),
+        evaluate_within(*s_, piece_s_, x[2].c[0], x[3].c[0], kMaxContourOrder), x);
+  }
+  ContourSeries<Interval, 2, 4> series(const std::array<Jet<Interval, 2>, 4>& x) const override {
+    return difference<Interval, 2>(r_->enclose({x[0].c[0], x[1].c[0]}, 2), s_->enclose({x[2].c[0], x[3].c[0]}, 2), x);
+  }
+  int highest_order() const override { return kMaxContourOrder; }
+
+ protected:
+  SystemValue<double, 4, 3> evaluate_inside(const ParameterPlace<4>& at) const override {
+    const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
+    const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 1);
+    SystemValue<double, 4, 3> result;
+    for (int k = 0; k < 3; ++k) {
+      result.value[k] = r.point()[k] - s.point()[k];
+      result.derivative[k] = {r.du()[k], r.dv()[k], -s.du()[k], -s.dv()[k]};
+    }
+    return result;
+  }
+
+ private:
+  template <class S, int K, class Derivatives>
+  static ContourSeries<S, K, 4> difference(const Derivatives& r, const Derivatives& s,
+                                           const std::array<Jet<S, K>, 4>& x) {
+    ContourSeries<S, K, 4> result;
+    result.point = along_surface(r, x[0], x[1]);
+    const Triple<Jet<S, K>> apart = result.point - along_surface(s, x[2], x[3]);
+    result.equations = {apart.x, apart.y, apart.z};
+    return result;
+  }
+
+  const SurfacePtr r_, s_;
+  const Rectangle piece_r_, piece_s_;
+  double rounding_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ContourEquations<2>> function_equations(SurfacePtr surface, const Rectangle& piece,
+                                                        SurfaceFunction function) {
+  return std::make_unique<FunctionEquations>(std::move(surface), piece, std::move(function));
+}
+
+std::unique_ptr<ContourEquations<4>> meeting_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
+                                                       const Rectangle& piece_s) {
+  return std::make_unique<MeetingEquations>(std::move(r), piece_r, std::move(s), piece_s);
+}
+
+}  // namespace lekalo::geometry

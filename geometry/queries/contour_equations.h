@@ -1,0 +1,80 @@
+// Equations whose solutions are curves on surfaces: where two surfaces meet, r(u, v) = s(a, b) (Golovanov 2016, (4.7.2)),
+// and where a function of one surface's point and tangents vanishes: silhouettes (4.6.5), isophotes, reflection lines,
+// sections. N unknowns, N - 1 equations; geometry/queries/contours.h finds the curves.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "geometry/numerics/root_search.h"
+#include "geometry/surface_series.h"
+
+namespace lekalo::geometry {
+
+// Derivatives of contours are known to this order; a function of the tangents costs one.
+inline constexpr int kMaxContourOrder = 4;
+
+// Along the way x(t): the equations and the point in space.
+template <class S, int K, int N>
+struct ContourSeries {
+  std::array<Jet<S, K>, N - 1> equations;
+  Triple<Jet<S, K>> point;
+};
+
+// Over one smooth piece of the surface, or of each of both. Immutable; safe to use from many threads.
+template <int N>
+class ContourEquations {
+ public:
+  virtual ~ContourEquations() = default;
+
+  virtual ParameterBox<N> domain() const = 0;
+  virtual SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box) const = 0;
+  // Beyond the borders of the piece it goes on as there, linearly.
+  SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const;
+  // How far each parameter moves a point in space over a box, at most.
+  virtual std::array<double, N> extents(const ParameterBox<N>& box) const = 0;
+  // Whether the border of the piece at that side of a parameter is one point in space: a pole.
+  virtual bool is_pole(int parameter, bool at_upper_end) const = 0;
+  // Of the first surface; inside the piece.
+  virtual Vec3 point(const ParameterPlace<N>& place) const = 0;
+  virtual Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const = 0;
+  // How far a place is from a solution, a length: the distance of the surfaces, or the Newton step.
+  virtual double distance(const ParameterPlace<N>& place) const = 0;
+  // The error of an equation's value by rounding.
+  virtual double rounding() const = 0;
+
+  // x_i(t) as Taylor polynomials about a place of the piece, or over a box.
+  virtual ContourSeries<double, kMaxContourOrder, N> series(
+      const std::array<Jet<double, kMaxContourOrder>, N>& x) const = 0;
+  virtual ContourSeries<Interval, 2, N> series(const std::array<Jet<Interval, 2>, N>& x) const = 0;
+  // The highest derivative of the contour that series() gives.
+  virtual int highest_order() const = 0;
+
+ protected:
+  virtual SystemValue<double, N, N - 1> evaluate_inside(const ParameterPlace<N>& place) const = 0;
+};
+
+// A function of a surface's point and tangents, for each kind of number, that vanishes on the contour. One of the point
+// alone is a distance. One of the tangents vanishes at poles too.
+struct SurfaceFunction {
+  template <class T>
+  using Of = std::function<T(const Triple<T>& s, const Triple<T>& s_u, const Triple<T>& s_v)>;
+  bool needs_tangents = true;
+  Of<Jet<double, 1>> slopes;
+  Of<Jet<Interval, 1>> slope_ranges;
+  Of<Jet<double, kMaxContourOrder>> series;
+  Of<Jet<Interval, 2>> series_ranges;
+
+  // From one formula for all: a callable with a template parameter list, [](const auto& s, const auto& s_u, ...).
+  template <class Formula>
+  static SurfaceFunction from(bool needs_tangents, Formula formula) {
+    return {needs_tangents, formula, formula, formula, formula};
+  }
+};
+
+std::unique_ptr<ContourEquations<2>> function_equations(SurfacePtr surface, const Rectangle& piece,
+                                                        SurfaceFunction function);
+std::unique_ptr<ContourEquations<4>> meeting_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
+                                                       const Rectangle& piece_s);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,62 @@
+// Curves on surfaces that are given by equations: where two surfaces meet (Golovanov 2016, 4.7 and 4.8), silhouettes
+// (4.6), isophotes, reflection lines, sections by planes. Capabilities 4.6e, 4.7a-d, 4.8a-c.
+//
+// All of them are found, by one search (geometry/numerics/solution_curves.h) over each smooth piece of the surface or
+// each pair of pieces that can meet, then joined over the borders of pieces into branches that are as long as they can
+// be. Where branches cross, each goes straight on.
+#pragma once
+
+#include <vector>
+
+#include "geometry/curve.h"
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+struct Contour {
+  CurvePtr curve;                 // in space
+  std::vector<Curve2Ptr> images;  // on the surface, or on both, with the same parameter
+  bool closed = false;
+  double error = 0;  // the largest distance from the surfaces or from the true contour seen along it
+};
+
+enum class ContourPointKind {
+  contact,   // isolated: the surfaces touch, the silhouette shrinks to a point
+  crossing,  // branches cross here
+  end        // branches end here, or turn back
+};
+struct ContourPoint {
+  ContourPointKind kind = ContourPointKind::contact;
+  Vec3 point{0};
+  std::vector<double> parameters;  // u, v of the surface, or of both
+  double distance = 0;             // between the surfaces
+};
+
+struct Contours {
+  std::vector<Contour> branches;
+  std::vector<ContourPoint> points;  // singular ones
+  // False where the solutions are no curves: surfaces that coincide or touch along a curve, a plane seen edge-on.
+  bool complete = true;
+};
+
+// How a scene is seen: along a direction, or from an eye.
+struct ViewOf {
+  bool central = false;
+  Vec3 direction_or_eye{0, 0, -1};
+};
+
+// `tolerance` is relative to the size of both: surfaces that come so near to each other touch. Throws
+// std::invalid_argument for unbounded surfaces other than planes, and for two unbounded planes.
+Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance = kSamePoint);
+
+// These take one surface, which must be bounded (std::invalid_argument).
+Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal);
+// Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5).
+Contours silhouette(const SurfacePtr& surface, const ViewOf& view);
+// Where the normal (that of the surface) stands at `angle` to `direction`; pi/2 is the silhouette. In (0, pi).
+Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle);
+// Where the mirrored way of sight meets the straight line `lamp`: how stylists judge a surface.
+Contours reflection_line(const SurfacePtr& surface, const ViewOf& view, const Line& lamp);
+
+}  // namespace lekalo::geometry
