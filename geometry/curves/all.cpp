@@ -9,7 +9,12 @@
   X(arc_through_points_type)  \
   X(bezier_curve_type)        \
   X(nurbs_curve_type)         \
-  X(formula_curve_type)
+  X(formula_curve_type)       \
+  X(intersection_curve_type)  \
+  X(section_curve_type)       \
+  X(silhouette_curve_type)    \
+  X(isophote_curve_type)      \
+  X(reflection_line_type)
 
 namespace lekalo::geometry {
 

@@ -9,9 +9,9 @@
 //
 // Where the rows of I - C F_y(X), weighed with the sides of X, sum up to less than 1 there is at most one solution for
 // each x_a: X is a chart. The box is halved into charts and boxes without solutions. In a chart the curve is found by
-// slices of x_a, and followed from there step by step to the border of the box or back to its beginning. Each step has a
-// chart of its own, a tube, whose sides the curve cannot leave. A slice of a chart is done when all that it may contain
-// lies in one tube: so no curve is lost, however short.
+// slices of x_a, and followed from there step by step to the border of the box or back to its beginning. Each step has
+// a chart of its own, a tube, whose sides the curve cannot leave. A slice of a chart is done when all that it may
+// contain lies in one tube: so no curve is lost, however short.
 //
 // Boxes that stay undecided until their image is small hold singular solutions, where F' loses its rank: contacts,
 // crossings of the curves of solutions, cusps, poles. The curves end near these.
@@ -293,8 +293,8 @@ class Search {
     }
     Interval sum(0);
     for (int k = 0; k < M; ++k)
-      sum += Interval(weights[k]) *
-             Interval(there.value[k] - options_.rounding[k], there.value[k] + options_.rounding[k]);
+      sum +=
+          Interval(weights[k]) * Interval(there.value[k] - options_.rounding[k], there.value[k] + options_.rounding[k]);
     for (int i = 0; i < N; ++i) {
       Interval by(0);
       for (int k = 0; k < M; ++k) by += Interval(weights[k]) * range.derivative[k][i];
@@ -635,7 +635,8 @@ class Search {
   static constexpr double kSettled = 4e-16, kRounding = 1e-12, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
   static constexpr double kLeastSlice = 1e-12;
-  static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250;
+  static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000,
+                       kMostSlices = 250;
 
   const System& system_;
   const Box domain_;
@@ -650,8 +651,9 @@ class Search {
 }  // namespace solution_curves
 
 // `system` has these members:
-//   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>&) const      certified ranges over a box in the domain
-//   SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding; a
+//   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>&) const      certified ranges over a box in the
+//   domain SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding;
+//   a
 //                                                                              little outside of the domain too
 //   std::array<double, N> extents(const ParameterBox<N>&) const                bounds of how far each parameter moves
 //                                                                              the image in space, over a box

@@ -14,7 +14,7 @@ constexpr double kShortestBranch = 1e-9;  // shorter arcs are corners that the c
 constexpr double kSameEnd = 1e-8;         // ends of arcs on borders that are one place
 // A solution so far outside of a piece, of its sides, is moved onto the border.
 constexpr double kBorder = 1e-13;
-constexpr double kNearSingular = 60;      // of the least image: an arc that ends so near to a singular point ends there
+constexpr double kNearSingular = 60;  // of the least image: an arc that ends so near to a singular point ends there
 
 // Directions so opposite go on from each other through a crossing.
 constexpr double kStraightOn = -0.5;
@@ -174,8 +174,8 @@ void ContourAssembly<N>::find_singular_points() {
       if (glm::length(points_[k].point - place.point) <= 10 * kLeastImage * size_) place.group = static_cast<int>(k);
     if (place.group < 0) {
       place.group = static_cast<int>(points_.size());
-      points_.push_back({{ContourPointKind::contact, place.point,
-                         {place.place.begin(), place.place.end()}, place.distance}});
+      points_.push_back(
+          {{ContourPointKind::contact, place.point, {place.place.begin(), place.place.end()}, place.distance}});
     } else if (place.distance < points_[place.group].distance) {
       ContourPoint& point = points_[place.group];
       point.point = place.point, point.distance = place.distance;
@@ -202,8 +202,8 @@ void ContourAssembly<N>::collect_ends() {
       for (int i = 0; i < N; ++i) direction[i] *= scale[i];
       const Vec3 tangent = part.equations->motion(x, direction);
       const double side = glm::dot(tangent, chord), lengths = glm::length(tangent) * glm::length(chord);
-      end.outward = std::abs(side) > 0.5 * lengths ? (side > 0 ? 1.0 : -1.0) * glm::normalize(tangent)
-                                                   : glm::normalize(chord);
+      end.outward =
+          std::abs(side) > 0.5 * lengths ? (side > 0 ? 1.0 : -1.0) * glm::normalize(tangent) : glm::normalize(chord);
       ends_.push_back(end);
     }
   }
@@ -255,8 +255,7 @@ void ContourAssembly<N>::pair_ends() {
     if (group.size() > 2) points_[k].kind = ContourPointKind::crossing;
     if (group.size() == 1 || group.size() == 2) points_[k].kind = ContourPointKind::end;
     // Where a curve goes on smoothly only its parameters are singular.
-    points_[k].passed =
-        group.size() == 2 && glm::dot(ends_[group[0]].outward, ends_[group[1]].outward) < kSmooth;
+    points_[k].passed = group.size() == 2 && glm::dot(ends_[group[0]].outward, ends_[group[1]].outward) < kSmooth;
     pair(group, true);
   }
   std::vector<bool> taken(ends_.size(), false);
@@ -278,7 +277,8 @@ void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPlace
   const size_t count = nodes.size();
   for (size_t k = 0; k + 1 < count; ++k) {
     const size_t from = backwards ? count - 1 - k : k, to = backwards ? from - 1 : from + 1;
-    ContourSegment<N> segment{part.equations, nodes[from], nodes[to], part.arc.tubes[std::min(from, to)], {}, {}, {}, {}};
+    ContourSegment<N> segment{
+        part.equations, nodes[from], nodes[to], part.arc.tubes[std::min(from, to)], {}, {}, {}, {}};
     if (k == 0 && !segments.empty())
       for (int i = 0; i < N; ++i)
         if (periods_[i] > 0) {
@@ -304,8 +304,7 @@ void ContourAssembly<N>::append_straight(const End& end, bool inward, const Para
   for (const SingularPlace& place : places_) {
     if (place.group != end.singular_point || place.equations != part.equations) continue;
     double apart = 0;
-    for (int i = 0; i < N; ++i)
-      apart += std::abs(place.place[i] - at_arc[i]) / part.equations->domain()[i].width();
+    for (int i = 0; i < N; ++i) apart += std::abs(place.place[i] - at_arc[i]) / part.equations->domain()[i].width();
     if (apart < nearest) nearest = apart, at_point = place.place;
   }
   ContourSegment<N> segment{part.equations, inward ? at_point : at_arc, inward ? at_arc : at_point, {}, {}, {}, {}, {}};
@@ -345,7 +344,8 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   if (closed && segments.size() > 1) segments.back().to = segments.front().from;
   Contour contour;
   contour.closed = closed;
-  for (const ContourSegment<N>& segment : segments) contour.error = std::max(contour.error, segment.equations->distance(segment.begin));
+  for (const ContourSegment<N>& segment : segments)
+    contour.error = std::max(contour.error, segment.equations->distance(segment.begin));
   const auto solution = std::make_shared<const ContourSolution<N>>(std::move(segments), closed);
   for (const ContourSegment<N>& segment : solution->segments()) {
     if (!segment.is_certified()) continue;
@@ -371,7 +371,8 @@ Contours ContourAssembly<N>::joined() {
   // Open branches begin at an end that is joined with none; what is left then is closed.
   for (const bool open : {true, false})
     for (size_t e = 0; e < ends_.size(); ++e)
-      if (!used[ends_[e].part] && ends_[e].singular_point != kDropped && (!open || (ends_[e].mate_part < 0 && !parts_[ends_[e].part].arc.closed)))
+      if (!used[ends_[e].part] && ends_[e].singular_point != kDropped &&
+          (!open || (ends_[e].mate_part < 0 && !parts_[ends_[e].part].arc.closed)))
         result.branches.push_back(branch_from(static_cast<int>(e), used));
   for (const SingularPoint& point : points_)
     if (!point.passed && (point.kind != ContourPointKind::contact || point.distance <= tolerance_))

@@ -185,8 +185,7 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
     }
   }
   root_search::Matrix<N> inverse;
-  const bool regular =
-      root_search::invert<N>(system.matrix(segment.equations->evaluate(center), center), inverse);
+  const bool regular = root_search::invert<N>(system.matrix(segment.equations->evaluate(center), center), inverse);
   bool solved = false;
   Triple<Jet<Interval, 2>> point;
   // The solution of A y = b for all A of the system over the box: y in C b + [-1, 1] q / (1 - q) |C b|, q the norm of
@@ -323,9 +322,7 @@ template <int N>
 CurveJet ContourImage<N>::evaluate(double t, int order) const {
   const double beyond = t - domain().clamp(t);
   const auto series = solution_->at(domain().clamp(t), std::max(order, beyond != 0 ? 1 : 0));
-  const auto part = [&](int k) {
-    return factorial(k) * Vec3(series.x[first_].c[k], series.x[first_ + 1].c[k], 0);
-  };
+  const auto part = [&](int k) { return factorial(k) * Vec3(series.x[first_].c[k], series.x[first_ + 1].c[k], 0); };
   CurveJet jet;
   jet.order = order;
   for (int k = 0; k <= order; ++k) jet.d[k] = part(k);

@@ -1,9 +1,9 @@
 // A contour as a curve: it carries solutions of its equations as nodes and solves them again where it is evaluated
 // (Golovanov 2016, 4.7; capabilities 4.7a, 4.7d).
 //
-// Its parameter is the length of the polygon of its nodes. Between two nodes the point at t lies in the plane across the
-// chord through the chord's point at t; with the equations these are N equations for N unknowns. Their Taylor series
-// gives the derivatives, their intervals the enclosures.
+// Its parameter is the length of the polygon of its nodes. Between two nodes the point at t lies in the plane across
+// the chord through the chord's point at t; with the equations these are N equations for N unknowns. Their Taylor
+// series gives the derivatives, their intervals the enclosures.
 #pragma once
 
 #include <memory>

@@ -69,8 +69,8 @@ class FunctionEquations final : public ContourEquations<2> {
     const SurfaceEnclosure boxes = surface_->enclose({box[0], box[1]}, 1 + tangents());
     SystemValue<Interval, 2, 1> result;
     for (int i = 0; i < 2; ++i) {
-      const Jet<Interval, 1> f = apply(function_.slope_ranges, boxes, towards<Interval>(box[0], i == 0),
-                                       towards<Interval>(box[1], i == 1));
+      const Jet<Interval, 1> f =
+          apply(function_.slope_ranges, boxes, towards<Interval>(box[0], i == 0), towards<Interval>(box[1], i == 1));
       result.value[0] = f.c[0];
       result.derivative[0][i] = f.c[1];
     }
@@ -220,9 +220,9 @@ class MeetingEquations final : public ContourEquations<4> {
 
   ContourSeries<double, kMaxContourOrder, 4> series(
       const std::array<Jet<double, kMaxContourOrder>, 4>& x) const override {
-    return difference<double, kMaxContourOrder>(
-        evaluate_within(*r_, piece_r_, x[0].c[0], x[1].c[0], kMaxContourOrder),
-        evaluate_within(*s_, piece_s_, x[2].c[0], x[3].c[0], kMaxContourOrder), x);
+    return difference<double, kMaxContourOrder>(evaluate_within(*r_, piece_r_, x[0].c[0], x[1].c[0], kMaxContourOrder),
+                                                evaluate_within(*s_, piece_s_, x[2].c[0], x[3].c[0], kMaxContourOrder),
+                                                x);
   }
   ContourSeries<Interval, 2, 4> series(const std::array<Jet<Interval, 2>, 4>& x) const override {
     return difference<Interval, 2>(r_->enclose({x[0].c[0], x[1].c[0]}, 2), s_->enclose({x[2].c[0], x[3].c[0]}, 2), x);

@@ -1,5 +1,6 @@
 #include "geometry/queries/contours.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,8 +28,7 @@ Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function)
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
   const Periods periods = surface->periods();
   ContourAssembly<2> assembly(size, kSamePoint * size, {periods.u, periods.v});
-  for (const SurfacePiece& piece : surface->pieces())
-    assembly.add(function_equations(surface, piece.domain, function));
+  for (const SurfacePiece& piece : surface->pieces()) assembly.add(function_equations(surface, piece.domain, function));
   return assembly.joined();
 }
 
@@ -44,6 +44,51 @@ Vec3 unit(const Vec3& v, const char* what) {
   const double length = glm::length(v);
   if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument(what);
   return v / length;
+}
+
+// Zeros of m . (r' x i): changes of sign between neighbours among so many places of each segment, and where its size
+// has a small least value between two of one sign both beside it.
+std::vector<double> cusps(const Surface& surface, const Contour& contour, const ViewOf& view) {
+  constexpr int kPlaces = 6;
+  const auto across = [&](double t) {
+    const CurveJet r = contour.curve->evaluate(t, 1);
+    const Vec3 place = contour.images[0]->point(t);
+    const Vec3 i = view.central ? r.d[0] - view.direction_or_eye : view.direction_or_eye;
+    return glm::dot(surface.normal(place.x, place.y), glm::cross(r.d[1], i));
+  };
+  std::vector<double> result;
+  const auto bisect = [&](double lo, double hi, double at_lo) {
+    for (int step = 0; step < 60 && lo < hi; ++step) {
+      const double middle = 0.5 * (lo + hi), f = across(middle);
+      ((f > 0) == (at_lo > 0) ? lo : hi) = middle;
+    }
+    result.push_back(0.5 * (lo + hi));
+  };
+  std::vector<double> places;
+  for (const CurvePiece& piece : contour.curve->pieces())
+    for (int k = 0; k < kPlaces; ++k) places.push_back(piece.domain.lo + piece.domain.width() * k / kPlaces);
+  places.push_back(contour.curve->domain().hi);
+  std::vector<double> values;
+  for (const double t : places) values.push_back(across(t));
+  for (size_t k = 0; k + 1 < places.size(); ++k) {
+    if ((values[k] > 0) != (values[k + 1] > 0)) bisect(places[k], places[k + 1], values[k]);
+    if (k == 0 || (values[k] > 0) != (values[k - 1] > 0) || (values[k] > 0) != (values[k + 1] > 0)) continue;
+    if (!(std::abs(values[k]) < std::abs(values[k - 1]) && std::abs(values[k]) < std::abs(values[k + 1]))) continue;
+    // Two cusps may lie between: thirds towards the least size until the sign turns.
+    double lo = places[k - 1], hi = places[k + 1];
+    for (int step = 0; step < 60; ++step) {
+      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3, at_a = across(a), at_b = across(b);
+      const double turned = (at_a > 0) != (values[k] > 0) ? a : (at_b > 0) != (values[k] > 0) ? b : kInfinity;
+      if (turned < kInfinity) {
+        bisect(places[k - 1], turned, values[k]);
+        bisect(turned, places[k + 1], -values[k]);
+        break;
+      }
+      (std::abs(at_a) < std::abs(at_b) ? hi : lo) = std::abs(at_a) < std::abs(at_b) ? b : a;
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
 }
 
 ViewOf checked(ViewOf view) {
@@ -81,20 +126,23 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
 
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
   const Triple<double> n = triple(unit(normal, "the normal of the plane has no length")), o = triple(origin);
-  return contours_of(surface, SurfaceFunction::from(false, [=](const auto& s, const auto&, const auto&) {
-                       return dot(n, s - o);
-                     }));
+  return contours_of(
+      surface, SurfaceFunction::from(false, [=](const auto& s, const auto&, const auto&) { return dot(n, s - o); }));
 }
 
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   const ViewOf view = checked(given);
-  return contours_of(surface, SurfaceFunction::from(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
-                       return dot(sight(view, s), cross(s_u, s_v));
-                     }));
+  Contours found =
+      contours_of(surface, SurfaceFunction::from(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
+                    return dot(sight(view, s), cross(s_u, s_v));
+                  }));
+  for (Contour& contour : found.branches) contour.cusps = cusps(*surface, contour, view);
+  return found;
 }
 
 Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle) {
-  if (!(angle > 0 && angle < kPi)) throw std::invalid_argument("the angle of an isophote lies between 0 and 180 degrees");
+  if (!(angle > 0 && angle < kPi))
+    throw std::invalid_argument("the angle of an isophote lies between 0 and 180 degrees");
   const Triple<double> d = triple(unit(direction, "the direction of the light has no length"));
   const double cosine = surface->normal_sign() * std::cos(angle);
   return contours_of(surface, SurfaceFunction::from(true, [=](const auto&, const auto& s_u, const auto& s_v) {

@@ -85,7 +85,7 @@ constexpr int kSamples = 65;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, intersect;
+  std::string name, against, to, intersect, section, silhouette;
   std::optional<double> tolerance;
   std::optional<int> samples, order;
   bool topology = false, json = false;
@@ -111,6 +111,8 @@ ordered_json as_json(const std::vector<render::ExternalNote>& notes) {
   return list;
 }
 
+bool is_surface(const render::Entity& entity) { return std::holds_alternative<geometry::SurfacePtr>(entity); }
+
 // A point of the scene, or "x,y,z".
 Vec3 point_named(const render::LoadedScene& scene, const std::string& text) {
   if (text.find(',') != std::string::npos) {
@@ -128,8 +130,15 @@ int run(const Options& options) {
   const render::Entity& entity = find_geometry(scene, options.name);
   print_external_notes(scene, !options.json);
   const bool of_pair = !options.against.empty() && is_in_scene(scene, options.against);
-  if ((options.samples || options.order) && !of_pair)
-    throw UsageError("--samples and --order belong to --against NAME, another curve or surface of the scene");
+  const bool of_contours =
+      is_surface(entity) && (!options.section.empty() || !options.silhouette.empty() ||
+                             (!options.intersect.empty() && is_surface(find_geometry(scene, options.intersect))));
+  if (options.order && !of_pair)
+    throw UsageError("--order belongs to --against NAME, another curve or surface of the scene");
+  if (options.samples && !of_pair && !of_contours)
+    throw UsageError(
+        "--samples belongs to --against NAME, another curve or surface of the scene, and to intersections, sections "
+        "and silhouettes of surfaces");
   ordered_json out;
   void (*print)(const ordered_json&) = print_measures;
   if (of_pair) {
@@ -143,6 +152,18 @@ int run(const Options& options) {
   } else if (!options.to.empty()) {
     out = distance_to_point(options.name, entity, options.to, point_named(scene, options.to));
     print = print_distance;
+  } else if (of_contours) {
+    const int samples = options.samples.value_or(0);
+    if (!options.section.empty())
+      out = section(options.name, entity, options.section, samples);
+    else if (!options.silhouette.empty())
+      out = silhouette_seen(options.name, entity, options.silhouette, scene.model->camera.get(), samples);
+    else
+      out = surface_meetings(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
+                             options.tolerance.value_or(geometry::kSamePoint), samples);
+    print = print_contours;
+  } else if (!options.section.empty() || !options.silhouette.empty()) {
+    throw UsageError(fmt::format("'{}' is no surface: sections and silhouettes are taken of those", options.name));
   } else if (!options.intersect.empty()) {
     out = intersections(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
                         options.tolerance.value_or(geometry::kSamePoint));
@@ -228,6 +249,8 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure plate.yaml plate --topology\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
+      "  lekalo measure ring.yaml ring --section 0,0,0.2,0,0,1 --samples 100 --json\n"
+      "  lekalo measure ring.yaml ring --silhouette camera\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
@@ -246,20 +269,39 @@ void add_measure(CLI::App& app, Action& action) {
                         ->type_name("NAME")
                         ->excludes(topology)
                         ->excludes(to);
+  auto* section = sub->add_option("--section", options->section,
+                                  "where a plane cuts the surface: a point of the plane and its normal")
+                      ->type_name("X,Y,Z,NX,NY,NZ")
+                      ->excludes(topology)
+                      ->excludes(to)
+                      ->excludes(intersect);
+  auto* silhouette =
+      sub->add_option("--silhouette", options->silhouette,
+                      "the surface's outline as the scene's camera sees it, along a direction, or from an eye")
+          ->type_name("camera|DX,DY,DZ|eye:X,Y,Z")
+          ->excludes(topology)
+          ->excludes(to)
+          ->excludes(intersect)
+          ->excludes(section);
   sub->add_option("--against", options->against,
                   "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
                   "domain is mapped linearly")
       ->type_name("FILE|NAME")
       ->excludes(topology)
       ->excludes(to)
-      ->excludes(intersect);
+      ->excludes(intersect)
+      ->excludes(section)
+      ->excludes(silhouette);
   sub->add_option("--tolerance", options->tolerance,
                   fmt::format("largest difference that passes; of --intersect the part of the size below which points "
                               "are one [{:g}]",
                               geometry::kSamePoint))
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--samples", options->samples, fmt::format("places in each direction [{}]", kSamples))
+  sub->add_option("--samples", options->samples,
+                  fmt::format("of --against, places in each direction [{}]; of curves that surfaces make, points along "
+                              "each branch",
+                              kSamples))
       ->check(CLI::Range(2, 10000));
   sub->add_option("--order", options->order, "compare derivatives up to this order [2]")->check(CLI::Range(0, 2));
   sub->add_flag("--json", options->json, "print JSON");

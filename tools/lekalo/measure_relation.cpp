@@ -157,8 +157,7 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
     else if (surface && other_curve)
       found = meetings(**other_curve, **surface, tolerance);
     else
-      throw UsageError(
-          fmt::format("'{}' and '{}': one must be a curve, the other a curve or surface", name, other_name));
+      throw UsageError(fmt::format("'{}' and '{}': meetings are found of curves and surfaces", name, other_name));
     out.update(found);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("'{}' with '{}': {}", name, other_name, error.what()));

@@ -1,0 +1,162 @@
+// Curves that surfaces make: where two meet, sections by planes, silhouettes.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "command.h"
+#include "geometry/queries/contours.h"
+#include "geometry/queries/mass_properties.h"
+#include "measure.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::Contour;
+using geometry::ContourPoint;
+using geometry::ContourPointKind;
+using geometry::Contours;
+using geometry::SurfacePtr;
+using geometry::Vec3;
+
+const char* word(ContourPointKind kind) {
+  switch (kind) {
+    case ContourPointKind::contact:
+      return "contact";
+    case ContourPointKind::crossing:
+      return "crossing";
+    case ContourPointKind::end:
+      return "end";
+  }
+  return "";
+}
+
+const SurfacePtr& surface_of(const std::string& name, const render::Entity& entity) {
+  if (const auto* surface = std::get_if<SurfacePtr>(&entity)) return *surface;
+  throw UsageError(fmt::format("'{}' is no surface", name));
+}
+
+// The names of parameters: those of the surface, or of both.
+constexpr const char* kParameters[] = {"u", "v", "u_other", "v_other"};
+
+ordered_json sample(const Contour& contour, double t) {
+  ordered_json row{{"t", t}, {"point", to_json(contour.curve->point(t))}};
+  for (size_t k = 0; k < contour.images.size(); ++k) {
+    const Vec3 place = contour.images[k]->point(t);
+    row[kParameters[2 * k]] = place.x;
+    row[kParameters[2 * k + 1]] = place.y;
+  }
+  return row;
+}
+
+ordered_json rows(const Contours& found, int samples) {
+  ordered_json out;
+  out["branches"] = ordered_json::array();
+  for (const Contour& contour : found.branches) {
+    const geometry::Interval t = contour.curve->domain();
+    const geometry::Measured length = geometry::measure(*contour.curve).length;
+    ordered_json row{{"closed", contour.closed},
+                     {"length", length.value},
+                     {"length_error", length.error},
+                     {"error", contour.error},
+                     {"t", {t.lo, t.hi}}};
+    row["begin"] = sample(contour, t.lo);
+    row["end"] = sample(contour, t.hi);
+    if (!contour.cusps.empty())
+      for (const double cusp : contour.cusps) row["cusps"].push_back(sample(contour, cusp));
+    for (int k = 0; k < samples; ++k) row["samples"].push_back(sample(contour, t.lo + t.width() * k / (samples - 1)));
+    out["branches"].push_back(row);
+  }
+  out["points"] = ordered_json::array();
+  for (const ContourPoint& point : found.points) {
+    ordered_json row{{"kind", word(point.kind)}, {"point", to_json(point.point)}};
+    for (size_t i = 0; i < point.parameters.size(); ++i) row[kParameters[i]] = point.parameters[i];
+    row["distance"] = point.distance;
+    out["points"].push_back(row);
+  }
+  out["complete"] = found.complete;
+  return out;
+}
+
+template <class Query>
+ordered_json asked(const std::string& name, const char* key, const std::string& with, int samples, Query&& query) {
+  ordered_json out{{"name", name}, {key, with}};
+  try {
+    out.update(rows(query(), samples));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("'{}': {}", name, error.what()));
+  }
+  return out;
+}
+
+Vec3 vector_of(const ordered_json& v) { return {v[0], v[1], v[2]}; }
+
+std::string parameters(const ordered_json& row) {
+  std::string text;
+  for (const char* key : kParameters)
+    if (row.contains(key)) text += fmt::format("  {} {:<.17g}", key, row[key].get<double>());
+  return text;
+}
+
+void print_row(const char* label, const ordered_json& row) {
+  fmt::print("    {:<8} {}{}\n", label, digits(vector_of(row["point"])), parameters(row));
+}
+
+}  // namespace
+
+ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                              const render::Entity& other, double tolerance, int samples) {
+  return asked(name, "with", other_name, samples,
+               [&] { return intersect(surface_of(name, entity), surface_of(other_name, other), tolerance); });
+}
+
+ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples) {
+  const std::vector<double> p = parse_numbers(plane, 6, "--section");
+  return asked(name, "section", plane, samples, [&] {
+    return plane_section(surface_of(name, entity), {p[0], p[1], p[2]}, {p[3], p[4], p[5]});
+  });
+}
+
+ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
+                             const render::Camera* camera, int samples) {
+  geometry::ViewOf seen;
+  if (view == "camera") {
+    if (!camera) throw UsageError("the scene has no camera: --silhouette takes DX,DY,DZ or eye:X,Y,Z too");
+    seen.central = !camera->is_parallel();
+    seen.direction_or_eye =
+        seen.central ? camera->ray(0.5 * camera->width(), 0.5 * camera->height()).origin : camera->view_direction();
+  } else {
+    seen.central = view.starts_with("eye:");
+    const std::vector<double> p = parse_numbers(seen.central ? view.substr(4) : view, 3, "--silhouette");
+    seen.direction_or_eye = {p[0], p[1], p[2]};
+  }
+  return asked(name, "silhouette", view, samples, [&] { return silhouette(surface_of(name, entity), seen); });
+}
+
+void print_contours(const ordered_json& found) {
+  const size_t branches = found["branches"].size(), points = found["points"].size();
+  for (const char* key : {"with", "section", "silhouette"})
+    if (found.contains(key))
+      fmt::print("'{}' {} '{}': {} branch{}, {} singular point{}{}\n", found["name"].get<std::string>(), key,
+                 found[key].get<std::string>(), branches, branches == 1 ? "" : "es", points, points == 1 ? "" : "s",
+                 found["complete"].get<bool>() ? "" : "; surfaces that coincide or touch along a curve are left out");
+  int number = 0;
+  for (const ordered_json& branch : found["branches"]) {
+    fmt::print("  {} {:<7} length {}   error {:.2g}   off by {:.2g}\n", ++number,
+               branch["closed"].get<bool>() ? "closed" : "open", digits(branch["length"].get<double>()),
+               branch["length_error"].get<double>(), branch["error"].get<double>());
+    if (branch.contains("samples")) {
+      for (const ordered_json& row : branch["samples"]) print_row("", row);
+    } else {
+      print_row("begin", branch["begin"]);
+      if (!branch["closed"].get<bool>()) print_row("end", branch["end"]);
+    }
+    if (branch.contains("cusps"))
+      for (const ordered_json& row : branch["cusps"]) print_row("cusp", row);
+  }
+  for (const ordered_json& point : found["points"])
+    fmt::print("  {:<9} {}{}\n", point["kind"].get<std::string>(), digits(vector_of(point["point"])),
+               parameters(point));
+}
+
+}  // namespace lekalo::command
