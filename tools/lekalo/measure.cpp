@@ -111,7 +111,9 @@ ordered_json as_json(const std::vector<render::ExternalNote>& notes) {
   return list;
 }
 
-bool is_surface(const render::Entity& entity) { return std::holds_alternative<geometry::SurfacePtr>(entity); }
+bool has_faces(const render::Entity& entity) {
+  return std::holds_alternative<geometry::SurfacePtr>(entity) || std::holds_alternative<geometry::BodyPtr>(entity);
+}
 
 // A point of the scene, or "x,y,z".
 Vec3 point_named(const render::LoadedScene& scene, const std::string& text) {
@@ -131,8 +133,8 @@ int run(const Options& options) {
   print_external_notes(scene, !options.json);
   const bool of_pair = !options.against.empty() && is_in_scene(scene, options.against);
   const bool of_contours =
-      is_surface(entity) && (!options.section.empty() || !options.silhouette.empty() ||
-                             (!options.intersect.empty() && is_surface(find_geometry(scene, options.intersect))));
+      has_faces(entity) && (!options.section.empty() || !options.silhouette.empty() ||
+                            (!options.intersect.empty() && has_faces(find_geometry(scene, options.intersect))));
   if (options.order && !of_pair)
     throw UsageError("--order belongs to --against NAME, another curve or surface of the scene");
   if (options.samples && !of_pair && !of_contours)
@@ -163,7 +165,8 @@ int run(const Options& options) {
                              options.tolerance.value_or(geometry::kSamePoint), samples);
     print = print_contours;
   } else if (!options.section.empty() || !options.silhouette.empty()) {
-    throw UsageError(fmt::format("'{}' is no surface: sections and silhouettes are taken of those", options.name));
+    throw UsageError(
+        fmt::format("'{}' is neither a surface nor a body: sections and silhouettes are taken of those", options.name));
   } else if (!options.intersect.empty()) {
     out = intersections(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
                         options.tolerance.value_or(geometry::kSamePoint));
@@ -264,20 +267,22 @@ void add_measure(CLI::App& app, Action& action) {
   auto* to = sub->add_option("--to", options->to, "distance from a point, with all its feet on the curve or surface")
                  ->type_name("NAME|X,Y,Z")
                  ->excludes(topology);
-  auto* intersect = sub->add_option("--intersect", options->intersect,
-                                    "where the curve or surface meets another: crossings, contacts, common parts")
-                        ->type_name("NAME")
-                        ->excludes(topology)
-                        ->excludes(to);
+  auto* intersect =
+      sub->add_option("--intersect", options->intersect,
+                      "where the curve, surface or body meets another: crossings, contacts, common parts, curves")
+          ->type_name("NAME")
+          ->excludes(topology)
+          ->excludes(to);
   auto* section = sub->add_option("--section", options->section,
-                                  "where a plane cuts the surface: a point of the plane and its normal")
+                                  "where a plane cuts the surface or body: a point of the plane and its normal")
                       ->type_name("X,Y,Z,NX,NY,NZ")
                       ->excludes(topology)
                       ->excludes(to)
                       ->excludes(intersect);
   auto* silhouette =
-      sub->add_option("--silhouette", options->silhouette,
-                      "the surface's outline as the scene's camera sees it, along a direction, or from an eye")
+      sub->add_option(
+             "--silhouette", options->silhouette,
+             "the outline of the surface or body as the scene's camera sees it, along a direction, or from an eye")
           ->type_name("camera|DX,DY,DZ|eye:X,Y,Z")
           ->excludes(topology)
           ->excludes(to)

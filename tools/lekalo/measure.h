@@ -43,13 +43,13 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
                            const render::Entity& other, double tolerance);
 void print_intersections(const ordered_json& found);
 
-// Where two surfaces meet, with `samples` points along each branch (0 or at least 2). Throws UsageError for anything
-// else.
+// Where two surfaces or bodies meet, with `samples` points along each branch (0 or at least 2). Throws UsageError for
+// anything else.
 ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
                               const render::Entity& other, double tolerance, int samples);
-// Where the plane "X,Y,Z,NX,NY,NZ" cuts a surface.
+// Where the plane "X,Y,Z,NX,NY,NZ" cuts a surface or body.
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples);
-// The silhouette of a surface: `view` is "camera", a direction of sight "DX,DY,DZ", or "eye:X,Y,Z".
+// The silhouette of a surface or body: `view` is "camera", a direction of sight "DX,DY,DZ", or "eye:X,Y,Z".
 ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
                              const render::Camera* camera, int samples);
 void print_contours(const ordered_json& found);

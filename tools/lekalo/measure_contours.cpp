@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/contours.h"
+#include "geometry/queries/body_contours.h"
 #include "geometry/queries/mass_properties.h"
 #include "measure.h"
 
@@ -12,6 +12,7 @@ namespace lekalo::command {
 
 namespace {
 
+using geometry::BodyPtr;
 using geometry::Contour;
 using geometry::ContourPoint;
 using geometry::ContourPointKind;
@@ -33,7 +34,7 @@ const char* word(ContourPointKind kind) {
 
 const SurfacePtr& surface_of(const std::string& name, const render::Entity& entity) {
   if (const auto* surface = std::get_if<SurfacePtr>(&entity)) return *surface;
-  throw UsageError(fmt::format("'{}' is no surface", name));
+  throw UsageError(fmt::format("'{}' is neither a surface nor a body", name));
 }
 
 // The names of parameters: those of the surface, or of both.
@@ -47,6 +48,17 @@ ordered_json sample(const Contour& contour, double t) {
     row[kParameters[2 * k + 1]] = place.y;
   }
   return row;
+}
+
+void put_points(ordered_json& out, const std::vector<ContourPoint>& points, bool complete) {
+  out["points"] = ordered_json::array();
+  for (const ContourPoint& point : points) {
+    ordered_json row{{"kind", word(point.kind)}, {"point", to_json(point.point)}};
+    for (size_t i = 0; i < point.parameters.size(); ++i) row[kParameters[i]] = point.parameters[i];
+    row["distance"] = point.distance;
+    out["points"].push_back(row);
+  }
+  out["complete"] = complete;
 }
 
 ordered_json rows(const Contours& found, int samples) {
@@ -67,22 +79,54 @@ ordered_json rows(const Contours& found, int samples) {
     for (int k = 0; k < samples; ++k) row["samples"].push_back(sample(contour, t.lo + t.width() * k / (samples - 1)));
     out["branches"].push_back(row);
   }
-  out["points"] = ordered_json::array();
-  for (const ContourPoint& point : found.points) {
-    ordered_json row{{"kind", word(point.kind)}, {"point", to_json(point.point)}};
-    for (size_t i = 0; i < point.parameters.size(); ++i) row[kParameters[i]] = point.parameters[i];
-    row["distance"] = point.distance;
-    out["points"].push_back(row);
+  put_points(out, found.points, found.complete);
+  return out;
+}
+
+// Of a body: loops of parts of faces.
+ordered_json rows(const geometry::BodyContours& found, const geometry::Body& body, const geometry::Body* other,
+                  int samples) {
+  ordered_json out;
+  out["branches"] = ordered_json::array();
+  for (const geometry::BodyContour& branch : found.branches) {
+    ordered_json row{{"closed", branch.closed}};
+    double length = 0, length_error = 0, error = 0;
+    ordered_json parts = ordered_json::array();
+    for (const geometry::BodyContourPart& part : branch.parts) {
+      const geometry::Interval all = part.contour.curve->domain();
+      const geometry::Measured first = arc_length(*part.contour.curve, part.t.lo, std::min(part.t.hi, all.hi));
+      length += first.value, length_error += first.error;
+      if (part.t.hi > all.hi) {
+        const geometry::Measured rest = arc_length(*part.contour.curve, all.lo, part.t.hi - all.width());
+        length += rest.value, length_error += rest.error;
+      }
+      error = std::max(error, part.contour.error);
+      ordered_json of_part{{"face", body.faces[part.face].origin.text()}};
+      if (other) of_part["face_other"] = other->faces[part.other_face].origin.text();
+      of_part["begin"] = to_json(part.begin);
+      of_part["end"] = to_json(part.end);
+      for (int k = 0; k < samples; ++k) {
+        const double share = static_cast<double>(k) / (samples - 1);
+        const double t = part.t.lo + part.t.width() * (part.backwards ? 1 - share : share);
+        of_part["samples"].push_back(sample(part.contour, t <= all.hi ? t : t - all.width()));
+      }
+      parts.push_back(of_part);
+    }
+    row["length"] = length;
+    row["length_error"] = length_error;
+    row["error"] = error;
+    row["parts"] = parts;
+    out["branches"].push_back(row);
   }
-  out["complete"] = found.complete;
+  put_points(out, found.points, found.complete);
   return out;
 }
 
 template <class Query>
-ordered_json asked(const std::string& name, const char* key, const std::string& with, int samples, Query&& query) {
+ordered_json asked(const std::string& name, const char* key, const std::string& with, Query&& query) {
   ordered_json out{{"name", name}, {key, with}};
   try {
-    out.update(rows(query(), samples));
+    out.update(query());
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("'{}': {}", name, error.what()));
   }
@@ -106,14 +150,23 @@ void print_row(const char* label, const ordered_json& row) {
 
 ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
                               const render::Entity& other, double tolerance, int samples) {
-  return asked(name, "with", other_name, samples,
-               [&] { return intersect(surface_of(name, entity), surface_of(other_name, other), tolerance); });
+  return asked(name, "with", other_name, [&] {
+    const BodyPtr* a = std::get_if<BodyPtr>(&entity);
+    const BodyPtr* b = std::get_if<BodyPtr>(&other);
+    if (a && b) return rows(intersect(**a, **b, tolerance), **a, b->get(), samples);
+    if (a) return rows(intersect(**a, surface_of(other_name, other), tolerance), **a, nullptr, samples);
+    if (b) return rows(intersect(**b, surface_of(name, entity), tolerance), **b, nullptr, samples);
+    return rows(intersect(surface_of(name, entity), surface_of(other_name, other), tolerance), samples);
+  });
 }
 
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples) {
   const std::vector<double> p = parse_numbers(plane, 6, "--section");
-  return asked(name, "section", plane, samples, [&] {
-    return plane_section(surface_of(name, entity), {p[0], p[1], p[2]}, {p[3], p[4], p[5]});
+  const Vec3 origin{p[0], p[1], p[2]}, normal{p[3], p[4], p[5]};
+  return asked(name, "section", plane, [&] {
+    if (const BodyPtr* body = std::get_if<BodyPtr>(&entity))
+      return rows(plane_section(**body, origin, normal), **body, nullptr, samples);
+    return rows(plane_section(surface_of(name, entity), origin, normal), samples);
   });
 }
 
@@ -130,7 +183,11 @@ ordered_json silhouette_seen(const std::string& name, const render::Entity& enti
     const std::vector<double> p = parse_numbers(seen.central ? view.substr(4) : view, 3, "--silhouette");
     seen.direction_or_eye = {p[0], p[1], p[2]};
   }
-  return asked(name, "silhouette", view, samples, [&] { return silhouette(surface_of(name, entity), seen); });
+  return asked(name, "silhouette", view, [&] {
+    if (const BodyPtr* body = std::get_if<BodyPtr>(&entity))
+      return rows(silhouette(**body, seen), **body, nullptr, samples);
+    return rows(silhouette(surface_of(name, entity), seen), samples);
+  });
 }
 
 void print_contours(const ordered_json& found) {
@@ -145,7 +202,12 @@ void print_contours(const ordered_json& found) {
     fmt::print("  {} {:<7} length {}   error {:.2g}   off by {:.2g}\n", ++number,
                branch["closed"].get<bool>() ? "closed" : "open", digits(branch["length"].get<double>()),
                branch["length_error"].get<double>(), branch["error"].get<double>());
-    if (branch.contains("samples")) {
+    if (branch.contains("parts")) {
+      for (const ordered_json& part : branch["parts"])
+        fmt::print("    {}{}: {} to {}\n", part["face"].get<std::string>(),
+                   part.contains("face_other") ? " and " + part["face_other"].get<std::string>() : "",
+                   digits(vector_of(part["begin"])), digits(vector_of(part["end"])));
+    } else if (branch.contains("samples")) {
       for (const ordered_json& row : branch["samples"]) print_row("", row);
     } else {
       print_row("begin", branch["begin"]);
