@@ -53,7 +53,7 @@ struct SolutionCurveOptions {
   // Direction of the curve in space and in the parameters (of the domain's sides) changes by no more in one step;
   // radians.
   double most_turn = 0.3;
-  int most_boxes = 20000;
+  int most_boxes = 8000;
 };
 
 namespace solution_curves {

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastImage = 1e-6;      // boxes with smaller images are not divided
 constexpr double kShortestBranch = 1e-9;  // shorter arcs are corners that the curve touches
 constexpr double kSameEnd = 1e-8;         // ends of arcs on borders that are one place
+constexpr int kBoxesOfNoCurve = 500;
 // A solution so far outside of a piece, of its sides, is moved onto the border.
 constexpr double kBorder = 1e-13;
 constexpr double kNearSingular = 60;  // of the least image: an arc that ends so near to a singular point ends there
@@ -19,6 +20,18 @@ constexpr double kNearSingular = 60;  // of the least image: an arc that ends so
 // Directions so opposite go on from each other through a crossing.
 constexpr double kStraightOn = -0.5;
 constexpr double kSmooth = -0.9999;
+
+// The equations of a piece as the search asks them.
+template <int N>
+struct Searched {
+  const ContourEquations<N>& equations;
+  std::array<KnownEnclosures, 2>& known;
+
+  SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box, &known); }
+  SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.extents(box, known); }
+  Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const { return equations.motion(place, by); }
+};
 
 }  // namespace
 
@@ -30,7 +43,9 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
   options.least = kLeastImage * size_;
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
-  SolutionCurves<N> found = search_solution_curves<N>(*equations, domain, options);
+  // Once surfaces coincide somewhere they do so on many pieces.
+  if (!complete_) options.most_boxes = kBoxesOfNoCurve;
+  SolutionCurves<N> found = search_solution_curves<N>(Searched<N>{*equations, known_}, domain, options);
   complete_ = complete_ && found.complete;
   for (SolutionArc<N>& arc : found.arcs) {
     Part part{equations, std::move(arc), 0};
@@ -154,13 +169,14 @@ typename ContourAssembly<N>::SingularPlace ContourAssembly<N>::refined(const Equ
     x[i] = domain[i].clamp(x[i]);
   }
   if (!stays) x = start;
-  // At a pole the equations say little: onto it.
+  // At a pole the equations say little: onto it, if neither surface's point goes far by that.
+  const double near = kNearSingular * kLeastImage * size_;
   for (int i = 0; i < N; ++i)
     for (const bool upper : {false, true}) {
       ParameterPlace<N> at = x;
       at[i] = upper ? domain[i].hi : domain[i].lo;
-      if (equations->is_pole(i, upper) &&
-          glm::length(equations->point(at) - equations->point(x)) <= kNearSingular * kLeastImage * size_)
+      if (equations->is_pole(i, upper) && glm::length(equations->point(at) - equations->point(x)) <= near &&
+          equations->distance(at) <= equations->distance(x) + near)
         x = at;
     }
   return {equations, x, equations->point(x), equations->distance(x), -1};
@@ -192,8 +208,13 @@ void ContourAssembly<N>::collect_ends() {
       const size_t last = part.arc.nodes.size() - 1;
       const ParameterPlace<N>& x = part.arc.nodes[at_end ? last : 0];
       const ParameterPlace<N>& before = part.arc.nodes[at_end ? last - 1 : 1];
-      End end{static_cast<int>(p), at_end, at_end ? part.arc.ends_singular : part.arc.begins_singular,
+      End end{static_cast<int>(p), at_end, at_end ? part.arc.ends_singular : part.arc.begins_singular, false,
               part.equations->point(x)};
+      for (int i = 0; i < N; ++i)
+        for (const bool upper : {false, true})
+          end.at_pole =
+              end.at_pole || (part.equations->is_pole(i, upper) &&
+                              x[i] == (upper ? part.equations->domain()[i].hi : part.equations->domain()[i].lo));
       // The tangent, to the side of the chord; the chord where there is none.
       const Vec3 chord = end.point - part.equations->point(before);
       ParameterPlace<N> scale;
@@ -239,6 +260,8 @@ void ContourAssembly<N>::pair(std::vector<int> group, bool all) {
       }
     if (best_a < 0 || !(best < kStraightOn || (all && group.size() == 2))) return;
     End &a = ends_[group[best_a]], &b = ends_[group[best_b]];
+    // What runs into an apex ends there, unless the surface is smooth.
+    if (a.at_pole && b.at_pole && !(best < kSmooth)) return;
     a.mate_part = b.part, a.mate_at_end = b.at_end;
     b.mate_part = a.part, b.mate_at_end = a.at_end;
     group.erase(group.begin() + best_b);

@@ -32,7 +32,7 @@ class ContourAssembly {
   struct End {
     int part = 0;
     bool at_end = false;
-    bool singular = false;
+    bool singular = false, at_pole = false;
     Vec3 point{0}, outward{0};
     int mate_part = -1;  // joined with
     bool mate_at_end = false;
@@ -65,6 +65,7 @@ class ContourAssembly {
   void append_straight(const End& end, bool inward, const ParameterPlace<N>& shift,
                        std::vector<ContourSegment<N>>& segments) const;
 
+  std::array<KnownEnclosures, 2> known_;
   double size_, tolerance_;
   std::array<double, N> periods_;
   std::vector<Part> parts_;

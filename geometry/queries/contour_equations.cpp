@@ -1,7 +1,9 @@
 #include "geometry/queries/contour_equations.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "geometry/queries/smooth_pieces.h"
 
@@ -25,13 +27,28 @@ SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPlace
 template class ContourEquations<2>;
 template class ContourEquations<4>;
 
+size_t KnownEnclosures::Hash::operator()(const std::array<double, 4>& key) const {
+  std::uint64_t sum = 0;
+  for (const double x : key) sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u, sum ^= sum >> 29;
+  return sum;
+}
+
+const KnownEnclosures::First& KnownEnclosures::of(const Surface& surface, const Rectangle& box) {
+  const auto [found, is_new] = known_.try_emplace({box.u.lo, box.u.hi, box.v.lo, box.v.hi});
+  if (is_new) {
+    const SurfaceEnclosure s = surface.enclose(box, 1);
+    found->second = {s.d(0, 0), s.d(1, 0), s.d(0, 1)};
+  }
+  return found->second;
+}
+
 namespace {
 
 double largest_length(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
 
-std::array<double, 2> extents_of(const Surface& surface, const Rectangle& box) {
-  const SurfaceEnclosure s = surface.enclose(box, 1);
-  return {largest_length(s.d(1, 0)) * box.u.width(), largest_length(s.d(0, 1)) * box.v.width()};
+std::array<double, 2> extents_of(const Surface& surface, const Rectangle& box, KnownEnclosures& known) {
+  const KnownEnclosures::First& s = known.of(surface, box);
+  return {largest_length(s.du) * box.u.width(), largest_length(s.dv) * box.v.width()};
 }
 
 // The parameter of a surface, 0 or 1.
@@ -42,15 +59,25 @@ bool is_pole_of(const Surface& surface, const Rectangle& piece, int parameter, b
   return upper ? edges.v_max && piece.v.hi == all.v.hi : edges.v_min && piece.v.lo == all.v.lo;
 }
 
+// Of the piece's side: so near to a pole its Taylor polynomial is used.
+constexpr double kNearPole = 1e-4;
+
 template <class T>
 struct Tangents {
   Triple<T> s, s_u, s_v;
 };
 
+// A function of the tangents vanishes at a pole, where one of them does. Where the surface encloses its derivatives to
+// the fourth order that tangent is divided by the distance from the pole in the parameter: then the function is regular
+// there, and says where contours go through the pole.
 class FunctionEquations final : public ContourEquations<2> {
  public:
   FunctionEquations(SurfacePtr surface, const Rectangle& piece, SurfaceFunction function)
       : surface_(std::move(surface)), piece_(piece), function_(std::move(function)) {
+    if (function_.needs_tangents && surface_->enclosure_order() >= kMaxSurfaceOrder)
+      for (int i = 0; i < 2; ++i)
+        for (const bool upper : {false, true})
+          if (is_pole(i, upper)) poles_.push_back({i == 0, upper, upper ? domain()[i].hi : domain()[i].lo});
     // Rounding of the terms, from their size over the piece.
     double most = 0;
     for (int i = 0; i <= 4; ++i)
@@ -65,7 +92,7 @@ class FunctionEquations final : public ContourEquations<2> {
 
   ParameterBox<2> domain() const override { return {piece_.u, piece_.v}; }
 
-  SystemValue<Interval, 2, 1> enclose(const ParameterBox<2>& box) const override {
+  SystemValue<Interval, 2, 1> enclose(const ParameterBox<2>& box, std::array<KnownEnclosures, 2>*) const override {
     const SurfaceEnclosure boxes = surface_->enclose({box[0], box[1]}, 1 + tangents());
     SystemValue<Interval, 2, 1> result;
     for (int i = 0; i < 2; ++i) {
@@ -76,8 +103,17 @@ class FunctionEquations final : public ContourEquations<2> {
     }
     return result;
   }
-  std::array<double, 2> extents(const ParameterBox<2>& box) const override {
-    return extents_of(*surface_, {box[0], box[1]});
+  std::array<double, 2> extents(const ParameterBox<2>& box, std::array<KnownEnclosures, 2>& known) const override {
+    std::array<double, 2> extents = extents_of(*surface_, {box[0], box[1]}, known[0]);
+    // At a pole where the function is regular the parameter along the edge counts as elsewhere.
+    if (!poles_.empty()) {
+      const std::array<double, 2> whole = extents_of(*surface_, piece_, known[0]);
+      for (const Pole& pole : poles_) {
+        const int along = pole.of_u ? 1 : 0;
+        extents[along] = whole[along] * box[along].width() / domain()[along].width();
+      }
+    }
+    return extents;
   }
   bool is_pole(int parameter, bool upper) const override { return is_pole_of(*surface_, piece_, parameter, upper); }
   Vec3 point(const ParameterPlace<2>& at) const override {
@@ -129,6 +165,12 @@ class FunctionEquations final : public ContourEquations<2> {
   }
 
  private:
+  // Edges that are one point; of_u: u is constant along it.
+  struct Pole {
+    bool of_u, upper;
+    double at;
+  };
+
   int tangents() const { return function_.needs_tangents ? 1 : 0; }
 
   // The function by the limit of the normal there.
@@ -154,7 +196,75 @@ class FunctionEquations final : public ContourEquations<2> {
     Tangents<Jet<S, K>> at;
     at.s = along_surface(d, u, v);
     if (function_.needs_tangents) at.s_u = along_surface(d, u, v, 1, 0), at.s_v = along_surface(d, u, v, 0, 1);
+    for (const Pole& pole : poles_) {
+      // Along the edge the other parameter moves nothing.
+      Triple<Jet<S, K>>& vanishing = pole.of_u ? at.s_v : at.s_u;
+      Jet<S, K> height = pole.of_u ? u - S(pole.at) : v - S(pole.at);
+      if (is_near(pole, height.c[0]))
+        vanishing = quotient_at(pole, d, u, v);
+      else
+        vanishing = narrowed(vanishing / height, pole, d, u, v);
+      if (pole.upper) vanishing = -vanishing;
+    }
     return f(at.s, at.s_u, at.s_v);
+  }
+
+  bool is_near(const Pole& pole, double height) const { return std::abs(height) < kNearPole * width(pole); }
+  static bool is_near(const Pole&, const Interval& height) { return mignitude(height) < 0.5 * magnitude(height); }
+  // A quotient of ranges is wide in its derivatives: by the square of the distance from the pole.
+  template <int K>
+  Triple<Jet<Interval, K>> narrowed(Triple<Jet<Interval, K>> quotient, const Pole& pole, const SurfaceEnclosure& d,
+                                    const Jet<Interval, K>& u, const Jet<Interval, K>& v) const {
+    const Triple<Jet<Interval, K>> other = quotient_at(pole, d, u, v);
+    for (int k = 0; k <= K; ++k) {
+      quotient.x.c[k] = intersect(quotient.x.c[k], other.x.c[k]);
+      quotient.y.c[k] = intersect(quotient.y.c[k], other.y.c[k]);
+      quotient.z.c[k] = intersect(quotient.z.c[k], other.z.c[k]);
+    }
+    return quotient;
+  }
+  template <int K>
+  static Triple<Jet<double, K>> narrowed(const Triple<Jet<double, K>>& quotient, const Pole&, const SurfaceJet&,
+                                         const Jet<double, K>&, const Jet<double, K>&) {
+    return quotient;
+  }
+  double width(const Pole& pole) const { return pole.of_u ? piece_.u.width() : piece_.v.width(); }
+
+  // q = s_u / (v - v0) = integral over x in [0, 1] of s_uv(u, v0 + x (v - v0)), for an edge v = v0 that is a pole:
+  //   q_(u^i v^j) = integral of x^j s_(u^(i+1) v^(j+1)), which lies in the range of that derivative by j + 1.
+  template <int K>
+  Triple<Jet<Interval, K>> quotient_at(const Pole& pole, const SurfaceEnclosure&, const Jet<Interval, K>& u,
+                                       const Jet<Interval, K>& v) const {
+    Rectangle box{u.c[0], v.c[0]};
+    (pole.of_u ? box.u : box.v) = hull(pole.of_u ? box.u : box.v, Interval(pole.at));
+    const SurfaceEnclosure s = surface_->enclose(box, K + 2);
+    SurfaceEnclosure q;
+    for (int i = 0; i <= K; ++i)
+      for (int j = 0; i + j <= K; ++j) {
+        const Box3& of = s.d(i + 1, j + 1);
+        const double by = 1.0 / ((pole.of_u ? i : j) + 1);
+        q.values[SurfaceJet::index(i, j)] = {by * of.lo, by * of.hi};
+      }
+    return along_surface(q, u, v);
+  }
+  // The same from the Taylor polynomial at the edge; near enough to it that what is left out is rounding.
+  template <int K>
+  Triple<Jet<double, K>> quotient_at(const Pole& pole, const SurfaceJet&, const Jet<double, K>& u,
+                                     const Jet<double, K>& v) const {
+    const SurfaceJet s = evaluate_within(*surface_, piece_, pole.of_u ? pole.at : u.c[0], pole.of_u ? v.c[0] : pole.at,
+                                         kMaxSurfaceOrder);
+    const double height = pole.of_u ? u.c[0] - pole.at : v.c[0] - pole.at;
+    SurfaceJet q(kMaxSurfaceOrder);
+    for (int i = 0; i + 1 < kMaxSurfaceOrder; ++i)
+      for (int j = 0; i + j + 2 <= kMaxSurfaceOrder; ++j) {
+        const int across = pole.of_u ? i : j;  // of the parameter that leads away from the pole
+        double factor = 1, power = 1;
+        for (int k = 0; i + j + 2 + k <= kMaxSurfaceOrder; ++k) {
+          if (k > 0) factor /= k, power *= height;
+          q.d(i, j) += factor * power / (across + k + 1) * (pole.of_u ? s.d(i + 1 + k, j + 1) : s.d(i + 1, j + 1 + k));
+        }
+      }
+    return along_surface(q, u, v);
   }
 
   // Surfaces that enclose two derivatives only: the third is taken from places of the box, with as much again around
@@ -174,6 +284,7 @@ class FunctionEquations final : public ContourEquations<2> {
   const SurfacePtr surface_;
   const Rectangle piece_;
   const SurfaceFunction function_;
+  std::vector<Pole> poles_;
   double rounding_ = 0;
 };
 
@@ -188,17 +299,22 @@ class MeetingEquations final : public ContourEquations<4> {
 
   ParameterBox<4> domain() const override { return {piece_r_.u, piece_r_.v, piece_s_.u, piece_s_.v}; }
 
-  SystemValue<Interval, 4, 3> enclose(const ParameterBox<4>& box) const override {
-    const SurfaceEnclosure r = r_->enclose({box[0], box[1]}, 1), s = s_->enclose({box[2], box[3]}, 1);
+  SystemValue<Interval, 4, 3> enclose(const ParameterBox<4>& box,
+                                      std::array<KnownEnclosures, 2>* known) const override {
+    std::array<KnownEnclosures, 2> own;
+    std::array<KnownEnclosures, 2>& enclosures = known ? *known : own;
+    const KnownEnclosures::First &r = enclosures[0].of(*r_, {box[0], box[1]}),
+                                 &s = enclosures[1].of(*s_, {box[2], box[3]});
     SystemValue<Interval, 4, 3> result;
     for (int k = 0; k < 3; ++k) {
-      result.value[k] = along(r.d(0, 0), k) - along(s.d(0, 0), k);
-      result.derivative[k] = {along(r.d(1, 0), k), along(r.d(0, 1), k), -along(s.d(1, 0), k), -along(s.d(0, 1), k)};
+      result.value[k] = along(r.point, k) - along(s.point, k);
+      result.derivative[k] = {along(r.du, k), along(r.dv, k), -along(s.du, k), -along(s.dv, k)};
     }
     return result;
   }
-  std::array<double, 4> extents(const ParameterBox<4>& box) const override {
-    const std::array<double, 2> r = extents_of(*r_, {box[0], box[1]}), s = extents_of(*s_, {box[2], box[3]});
+  std::array<double, 4> extents(const ParameterBox<4>& box, std::array<KnownEnclosures, 2>& known) const override {
+    const std::array<double, 2> r = extents_of(*r_, {box[0], box[1]}, known[0]),
+                                s = extents_of(*s_, {box[2], box[3]}, known[1]);
     return {r[0], r[1], s[0], s[1]};
   }
   bool is_pole(int parameter, bool upper) const override {

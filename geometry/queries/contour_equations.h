@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <unordered_map>
 
 #include "geometry/numerics/root_search.h"
 #include "geometry/surface_series.h"
@@ -21,6 +22,22 @@ struct ContourSeries {
   Triple<Jet<S, K>> point;
 };
 
+// First-order enclosures of one surface that a search has asked for: it halves the same rectangles again and again,
+// with other rectangles of the other surface.
+class KnownEnclosures {
+ public:
+  struct First {
+    Box3 point, du, dv;
+  };
+  const First& of(const Surface& surface, const Rectangle& box);
+
+ private:
+  struct Hash {
+    size_t operator()(const std::array<double, 4>& key) const;
+  };
+  std::unordered_map<std::array<double, 4>, First, Hash> known_;
+};
+
 // Over one smooth piece of the surface, or of each of both. Immutable; safe to use from many threads.
 template <int N>
 class ContourEquations {
@@ -28,11 +45,13 @@ class ContourEquations {
   virtual ~ContourEquations() = default;
 
   virtual ParameterBox<N> domain() const = 0;
-  virtual SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box) const = 0;
+  // A search brings what it knows of the first and the second surface.
+  virtual SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box,
+                                                  std::array<KnownEnclosures, 2>* known = nullptr) const = 0;
   // Beyond the borders of the piece it goes on as there, linearly.
   SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const;
   // How far each parameter moves a point in space over a box, at most.
-  virtual std::array<double, N> extents(const ParameterBox<N>& box) const = 0;
+  virtual std::array<double, N> extents(const ParameterBox<N>& box, std::array<KnownEnclosures, 2>& known) const = 0;
   // Whether the border of the piece at that side of a parameter is one point in space: a pole.
   virtual bool is_pole(int parameter, bool at_upper_end) const = 0;
   // Of the first surface; inside the piece.

@@ -3,7 +3,6 @@
 
 #include "geometry/describe.h"
 #include "geometry/queries/contours.h"
-#include "geometry/queries/mass_properties.h"
 #include "geometry/queries/projection.h"
 
 namespace lekalo::geometry {
@@ -22,9 +21,8 @@ std::string list_of(const std::vector<Contour>& branches) {
   constexpr size_t kListed = 6;
   for (size_t k = 0; k < branches.size() && k < kListed; ++k) {
     const Vec3 at = branches[k].curve->point(0);
-    text +=
-        fmt::format("{}{} {}, length {:.4g}, through [{:.4g}, {:.4g}, {:.4g}]", k == 0 ? "" : "; ", k + 1,
-                    branches[k].closed ? "closed" : "open", measure(*branches[k].curve).length.value, at.x, at.y, at.z);
+    text += fmt::format("{}{} {}, length {:.4g}, through [{:.4g}, {:.4g}, {:.4g}]", k == 0 ? "" : "; ", k + 1,
+                        branches[k].closed ? "closed" : "open", contour_length(branches[k]).value, at.x, at.y, at.z);
   }
   return text + (branches.size() > kListed ? "; ..." : "");
 }

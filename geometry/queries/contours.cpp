@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/numerics/quadrature.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/surfaces/plane.h"
 
@@ -97,6 +98,26 @@ ViewOf checked(ViewOf view) {
 }
 
 }  // namespace
+
+Measured contour_length(const Contour& contour, const Interval& t) {
+  static const GaussRule coarse = gauss_legendre(6), fine = gauss_legendre(9);
+  Measured sum;
+  for (const CurvePiece& piece : contour.curve->pieces()) {
+    const Interval part = intersect(t, piece.domain);
+    if (!(part.width() > 0)) continue;
+    const auto by = [&](const GaussRule& rule) {
+      double length = 0;
+      for (size_t k = 0; k < rule.nodes.size(); ++k)
+        length += 0.5 * part.width() * rule.weights[k] *
+                  glm::length(contour.curve->evaluate(part.middle() + 0.5 * part.width() * rule.nodes[k], 1).d[1]);
+      return length;
+    };
+    const double length = by(fine);
+    sum.value += length;
+    sum.error += std::abs(length - by(coarse)) + 1e-16 * length;
+  }
+  return sum;
+}
 
 Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   for (const bool swapped : {false, true}) {

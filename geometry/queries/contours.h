@@ -10,6 +10,7 @@
 
 #include "geometry/curve.h"
 #include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/mass_properties.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -41,6 +42,11 @@ struct Contours {
   // False where the solutions are no curves: surfaces that coincide or touch along a curve, a plane seen edge-on.
   bool complete = true;
 };
+
+// The length of a part of a contour: by Gauss's rule on each of its pieces, which are short arcs. Other rules for
+// curves ask for more digits than a tiny loop between large surfaces has.
+Measured contour_length(const Contour& contour, const Interval& t);
+inline Measured contour_length(const Contour& contour) { return contour_length(contour, contour.curve->domain()); }
 
 // How a scene is seen: along a direction, or from an eye.
 struct ViewOf {

@@ -93,6 +93,7 @@ class MeridianFormula : public MeridianSurface {
  protected:
   using MeridianSurface::MeridianSurface;
 
+  int enclosure_order() const override { return kMaxSurfaceOrder; }
   MeridianJet<double> meridian(double v, int order) const override {
     MeridianJet<double> jet;
     switch (order) {
@@ -111,7 +112,7 @@ class MeridianFormula : public MeridianSurface {
     }
   }
   MeridianJet<Interval> meridian(const Interval& v, int order) const override {
-    return order == 0 ? derivatives<0>(v) : derivatives<2>(v);
+    return order == 0 ? derivatives<0>(v) : order <= 2 ? derivatives<2>(v) : derivatives<kMaxSurfaceOrder>(v);
   }
 
  private:

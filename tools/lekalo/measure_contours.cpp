@@ -66,7 +66,7 @@ ordered_json rows(const Contours& found, int samples) {
   out["branches"] = ordered_json::array();
   for (const Contour& contour : found.branches) {
     const geometry::Interval t = contour.curve->domain();
-    const geometry::Measured length = geometry::measure(*contour.curve).length;
+    const geometry::Measured length = contour_length(contour);
     ordered_json row{{"closed", contour.closed},
                      {"length", length.value},
                      {"length_error", length.error},
@@ -94,10 +94,10 @@ ordered_json rows(const geometry::BodyContours& found, const geometry::Body& bod
     ordered_json parts = ordered_json::array();
     for (const geometry::BodyContourPart& part : branch.parts) {
       const geometry::Interval all = part.contour.curve->domain();
-      const geometry::Measured first = arc_length(*part.contour.curve, part.t.lo, std::min(part.t.hi, all.hi));
+      const geometry::Measured first = contour_length(part.contour, part.t);
       length += first.value, length_error += first.error;
       if (part.t.hi > all.hi) {
-        const geometry::Measured rest = arc_length(*part.contour.curve, all.lo, part.t.hi - all.width());
+        const geometry::Measured rest = contour_length(part.contour, {all.lo, part.t.hi - all.width()});
         length += rest.value, length_error += rest.error;
       }
       error = std::max(error, part.contour.error);

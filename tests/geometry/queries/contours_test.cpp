@@ -1,0 +1,465 @@
+// Contours on surfaces: the checks of Golovanov 2016, 4.6 to 4.8, singular and nearly singular cases whose truth is
+// known, and random pairs against counts on a grid of Bernstein forms (support/level_oracle.h).
+#include "geometry/queries/contours.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/nurbs_surface.h"
+#include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/torus.h"
+#include "support/level_oracle.h"
+#include "support/tier.h"
+
+namespace lekalo::geometry {
+namespace {
+
+using tests::BernsteinSquare;
+using tests::LevelCurves;
+using tests::LevelGrid;
+
+Frame at(const Vec3& origin) {
+  Frame frame;
+  frame.origin = origin;
+  return frame;
+}
+SurfacePtr cylinder(const Frame& frame, double radius, double height) {
+  return std::make_shared<CylinderSurface>(frame, radius, height);
+}
+SurfacePtr sphere(const Vec3& center, double radius) { return std::make_shared<SphereSurface>(at(center), radius); }
+SurfacePtr torus(double major, double minor) { return std::make_shared<TorusSurface>(Frame(), major, minor); }
+Frame along_x() { return frame_from({-3, 0, 0}, {1, 0, 0}, {0, 1, 0}); }
+
+double length_of(const Contour& contour) { return contour_length(contour).value; }
+double length_of(const Contours& found) {
+  double sum = 0;
+  for (const Contour& one : found.branches) sum += length_of(one);
+  return sum;
+}
+int closed_count(const Contours& found) {
+  return static_cast<int>(
+      std::count_if(found.branches.begin(), found.branches.end(), [](const Contour& one) { return one.closed; }));
+}
+
+// What every contour promises, on the surfaces of its images.
+void check_promises(const Contours& found, const std::vector<SurfacePtr>& surfaces, double size) {
+  for (const Contour& contour : found.branches) {
+    EXPECT_LT(contour.error, 1e-13 * size);
+    const Interval domain = contour.curve->domain();
+    const Vec3 begin = contour.curve->point(domain.lo), end = contour.curve->point(domain.hi);
+    EXPECT_EQ(contour.closed, glm::length(begin - end) < 1e-12 * size);
+    for (int k = 0; k <= 20; ++k) {
+      const double t = domain.lo + domain.width() * (k + 0.3) / 21;
+      const CurveJet r = contour.curve->evaluate(t, 2);
+      for (size_t i = 0; i < contour.images.size(); ++i) {
+        const Vec3 uv = contour.images[i]->point(t);
+        EXPECT_LT(glm::length(surfaces[i]->point(uv.x, uv.y) - r.d[0]), 1e-13 * size);
+      }
+      // Derivatives against differences.
+      const double h = 1e-5 * domain.width();
+      const Vec3 before = contour.curve->point(t - h), behind = contour.curve->point(t + h);
+      for (const CurvePiece& piece : contour.curve->pieces())
+        if (piece.domain.lo < t - h && t + h < piece.domain.hi)
+          EXPECT_LT(glm::length((behind - before) / (2 * h) - r.d[1]), 1e-5 * glm::length(r.d[1])) << t;
+      const CurveEnclosure over = contour.curve->enclose({std::max(domain.lo, t - h), std::min(domain.hi, t + h)}, 1);
+      EXPECT_TRUE(over.d[0].inflated(1e-14 * size).contains(r.d[0]));
+      EXPECT_TRUE(over.d[1].inflated(1e-12).contains(r.d[1]));
+    }
+  }
+}
+
+TEST(Contours, TwoCylindersMeetInTwoLoops) {
+  const SurfacePtr a = cylinder(at({0, 0, -3}), 1, 6), b = cylinder(along_x(), 2, 6);
+  const Contours found = intersect(a, b);
+  ASSERT_EQ(found.branches.size(), 2u);
+  EXPECT_TRUE(found.points.empty());
+  for (const Contour& loop : found.branches) {
+    EXPECT_TRUE(loop.closed);
+    EXPECT_NEAR(length_of(loop), 6.39448891369661909, 1e-13);
+  }
+  check_promises(found, {a, b}, 8);
+}
+
+TEST(Contours, EqualCylindersMeetInTwoEllipsesThatCross) {
+  const SurfacePtr a = cylinder(at({0, 0, -3}), 1, 6), b = cylinder(along_x(), 1, 6);
+  const Contours found = intersect(a, b);
+  ASSERT_EQ(found.branches.size(), 2u);
+  ASSERT_EQ(found.points.size(), 2u);
+  for (const ContourPoint& point : found.points) {
+    EXPECT_EQ(point.kind, ContourPointKind::crossing);
+    EXPECT_LT(glm::length(glm::abs(point.point) - Vec3(0, 1, 0)), 1e-12);
+  }
+  // Ellipses in the planes x = z and x = -z with the axes 1 and sqrt 2.
+  for (const Contour& one : found.branches) {
+    EXPECT_TRUE(one.closed);
+    EXPECT_NEAR(length_of(one), 7.640395578055424, 1e-11);
+    const Interval t = one.curve->domain();
+    const Vec3 first = one.curve->point(0.1 * t.hi);
+    const double side = first.x * first.z > 0 ? 1 : -1;
+    for (int k = 0; k < 50; ++k) {
+      const Vec3 p = one.curve->point(t.hi * k / 50);
+      EXPECT_NEAR(p.x, side * p.z, 1e-9);
+    }
+  }
+  check_promises(found, {a, b}, 8);
+}
+
+TEST(Contours, VillarceauCircles) {
+  const SurfacePtr ring = torus(3, 1);
+  const Contours found = plane_section(ring, {0, 0, 0}, {0, -1.0 / 3, std::sqrt(8.0) / 3});
+  ASSERT_EQ(found.branches.size(), 2u);
+  ASSERT_EQ(found.points.size(), 2u);
+  for (const Contour& circle : found.branches) {
+    EXPECT_NEAR(length_of(circle), 6 * kPi, 1e-11);
+    double nearest = kInfinity, farthest = 0;
+    for (const double side : {-1.0, 1.0}) {
+      double low = kInfinity, high = 0;
+      for (int k = 0; k < 60; ++k) {
+        const double apart = glm::length(circle.curve->point(circle.curve->domain().hi * k / 60) - Vec3(side, 0, 0));
+        low = std::min(low, apart), high = std::max(high, apart);
+      }
+      if (high - low < farthest - nearest || farthest == 0) nearest = low, farthest = high;
+    }
+    EXPECT_NEAR(nearest, 3, 1e-9);
+    EXPECT_NEAR(farthest, 3, 1e-9);
+  }
+  check_promises(found, {ring}, 8);
+}
+
+TEST(Contours, VivianisCurveCrossesItself) {
+  const SurfacePtr a = sphere({0, 0, 0}, 2), b = cylinder(at({1, 0, -3}), 1, 6);
+  const Contours found = intersect(a, b);
+  ASSERT_EQ(found.branches.size(), 1u);
+  EXPECT_TRUE(found.branches[0].closed);
+  EXPECT_NEAR(length_of(found), 2 * 7.64039557805542404, 1e-11);
+  ASSERT_EQ(found.points.size(), 1u);
+  EXPECT_EQ(found.points[0].kind, ContourPointKind::crossing);
+  EXPECT_LT(glm::length(found.points[0].point - Vec3(2, 0, 0)), 1e-12);
+  check_promises(found, {a, b}, 8);
+}
+
+// The silhouettes of a torus at an elevation are drawn as the offsets, at the minor radius, of an ellipse.
+TEST(Contours, TorusSilhouetteIsAnOffsetOfAnEllipse) {
+  const SurfacePtr ring = torus(3, 1);
+  const double phi = 20 * kPi / 180;
+  const Vec3 right(1, 0, 0), up(0, -std::sin(phi), std::cos(phi));
+  const Contours found = silhouette(ring, {false, {0, -std::cos(phi), -std::sin(phi)}});
+  ASSERT_EQ(found.branches.size(), 2u);
+  EXPECT_TRUE(found.points.empty());
+  std::vector<Vec2> cusps;
+  for (const Contour& contour : found.branches) {
+    EXPECT_TRUE(contour.closed);
+    for (int k = 0; k < 40; ++k) {
+      // The center circle's point nearest in the picture is where the ellipse's normal passes: at the same u.
+      const double t = contour.curve->domain().hi * k / 40, u = contour.images[0]->point(t).x;
+      const Vec3 p = contour.curve->point(t), c(3 * std::cos(u), 3 * std::sin(u), 0);
+      const Vec2 apart(glm::dot(p - c, right), glm::dot(p - c, up));
+      EXPECT_NEAR(glm::length(apart), 1, 1e-13);
+      const Vec2 tangent(-3 * std::sin(u), -3 * std::cos(u) * std::sin(phi));
+      EXPECT_NEAR(glm::dot(apart, tangent), 0, 1e-12);
+    }
+    for (const double t : contour.cusps) {
+      const Vec3 p = contour.curve->point(t);
+      cusps.push_back({glm::dot(p, right), glm::dot(p, up)});
+    }
+  }
+  ASSERT_EQ(cusps.size(), 4u);
+  for (const Vec2& cusp : cusps) {
+    EXPECT_NEAR(std::abs(cusp.x), 2.13563290663288, 1e-13);
+    EXPECT_NEAR(std::abs(cusp.y), 0.379038768782451, 1e-13);
+  }
+  check_promises(found, {ring}, 8);
+}
+
+TEST(Contours, CuspsAppearWhereTheMinorRadiusIsLarge) {
+  const auto count = [](double degrees) {
+    const double phi = degrees * kPi / 180;
+    size_t cusps = 0;
+    for (const Contour& one : silhouette(torus(3, 1), {false, {0, -std::cos(phi), -std::sin(phi)}}).branches)
+      cusps += one.cusps.size();
+    return cusps;
+  };
+  // r > R sin^2: below 35.264 degrees.
+  EXPECT_EQ(count(35.2), 4u);
+  EXPECT_EQ(count(35.3), 0u);
+  EXPECT_EQ(count(70), 0u);
+}
+
+TEST(Contours, TorusSeenEdgeOnHasCrossingSilhouettes) {
+  const Contours found = silhouette(torus(3, 1), {false, {0, 1, 0}});
+  ASSERT_EQ(found.branches.size(), 4u);
+  EXPECT_EQ(closed_count(found), 4);
+  ASSERT_EQ(found.points.size(), 4u);
+  for (const ContourPoint& point : found.points) EXPECT_EQ(point.kind, ContourPointKind::crossing);
+  EXPECT_NEAR(length_of(found), 2 * 2 * kPi + 2 * 6 * kPi, 1e-11);
+}
+
+TEST(Contours, SphereSilhouettes) {
+  const SurfacePtr ball = sphere({0, 0, 0}, 2);
+  const Vec3 eye(3, 0, 4);
+  const Contours central = silhouette(ball, {true, eye});
+  ASSERT_EQ(central.branches.size(), 1u);
+  EXPECT_NEAR(length_of(central), kTwoPi * 1.8330302779823359, 1e-12);
+  for (int k = 0; k < 20; ++k) EXPECT_NEAR(glm::dot(central.branches[0].curve->point(0.5 * k), eye) / 5, 0.8, 1e-14);
+  check_promises(central, {ball}, 4);
+  // Through the poles, along seams, across everything.
+  for (const Vec3& view : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 0), Vec3(0.3, 0.5, 0.8)}) {
+    const Contours parallel = silhouette(ball, {false, view});
+    ASSERT_EQ(parallel.branches.size(), 1u) << view.x << " " << view.y;
+    EXPECT_TRUE(parallel.branches[0].closed);
+    EXPECT_TRUE(parallel.points.empty());
+    EXPECT_NEAR(length_of(parallel), 4 * kPi, 1e-11);
+  }
+  // From inside there is none.
+  EXPECT_TRUE(silhouette(ball, {true, {0.3, 0.2, 0.1}}).branches.empty());
+}
+
+TEST(Contours, GeneratorsOfConesAndCylinders) {
+  const Contours two = silhouette(cylinder(Frame(), 1, 2), {false, {0, 1, 0.4}});
+  ASSERT_EQ(two.branches.size(), 2u);
+  for (const Contour& one : two.branches) {
+    EXPECT_FALSE(one.closed);
+    EXPECT_NEAR(length_of(one), 2, 1e-13);
+    EXPECT_NEAR(std::abs(one.curve->point(1).x), 1, 1e-14);
+  }
+  const auto cone = std::make_shared<ConeSurface>(Frame(), 1.0, 0.0, 2.0);
+  // Half angle atan 1/2 = 26.57 degrees: seen steeper there is no outline.
+  const auto seen = [&](double degrees) {
+    const double a = degrees * kPi / 180;
+    return silhouette(cone, {false, {0, std::sin(a), -std::cos(a)}}).branches.size();
+  };
+  EXPECT_EQ(seen(26), 0u);
+  EXPECT_EQ(seen(27), 2u);
+}
+
+TEST(Contours, SectionsThroughPolesAndSeams) {
+  const SurfacePtr ball = sphere({0, 0, 0}, 2);
+  for (const Vec3& normal : {Vec3(0, 1, 0), Vec3(1, 0.3, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(1, 2, 3)}) {
+    const Contours found = plane_section(ball, {0, 0, 0}, normal);
+    ASSERT_EQ(found.branches.size(), 1u);
+    EXPECT_TRUE(found.branches[0].closed);
+    EXPECT_TRUE(found.points.empty());
+    EXPECT_NEAR(length_of(found), 4 * kPi, 1e-11);
+    check_promises(found, {ball}, 4);
+  }
+}
+
+TEST(Contours, SpheresThatNearlyTouch) {
+  // Two unit spheres at the distance 2 - d meet in a circle of the radius sqrt(d - d^2/4).
+  for (const double d : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const Contours found =
+        intersect(sphere({0, 0, 0}, 1), sphere({1.2 - 0.6 * d, 0.96 - 0.48 * d, 1.28 - 0.64 * d}, 1));
+    ASSERT_EQ(found.branches.size(), 1u) << d;
+    EXPECT_TRUE(found.branches[0].closed);
+    EXPECT_NEAR(length_of(found) / kTwoPi, std::sqrt(d - d * d / 4), 1e-9) << d;
+    EXPECT_TRUE(found.points.empty()) << d;
+  }
+  const Contours touching = intersect(sphere({0, 0, 0}, 1), sphere({1.2, 0.96, 1.28}, 1));
+  EXPECT_TRUE(touching.branches.empty());
+  ASSERT_EQ(touching.points.size(), 1u);
+  EXPECT_EQ(touching.points[0].kind, ContourPointKind::contact);
+  EXPECT_LT(glm::length(touching.points[0].point - Vec3(0.6, 0.48, 0.64)), 1e-8);
+  for (const double gap : {1e-7, 1e-4}) {
+    const double s = 1 + gap / 2;
+    const Contours apart = intersect(sphere({0, 0, 0}, 1), sphere({1.2 * s, 0.96 * s, 1.28 * s}, 1));
+    EXPECT_TRUE(apart.branches.empty()) << gap;
+    EXPECT_TRUE(apart.points.empty()) << gap;
+  }
+}
+
+TEST(Contours, TangentPlanesOfATorus) {
+  // Inside, the plane x = 2 touches at a saddle: a figure of eight.
+  const Contours eight = plane_section(torus(3, 1), {2, 0, 0}, {1, 0, 0});
+  ASSERT_EQ(eight.points.size(), 1u);
+  EXPECT_EQ(eight.points[0].kind, ContourPointKind::crossing);
+  EXPECT_LT(glm::length(eight.points[0].point - Vec3(2, 0, 0)), 1e-12);
+  ASSERT_EQ(eight.branches.size(), 1u);
+  EXPECT_TRUE(eight.branches[0].closed);
+  // Outside, x = 4 touches at one point.
+  const Contours point = plane_section(torus(3, 1), {4, 0, 0}, {1, 0, 0});
+  EXPECT_TRUE(point.branches.empty());
+  ASSERT_EQ(point.points.size(), 1u);
+  EXPECT_LT(glm::length(point.points[0].point - Vec3(4, 0, 0)), 1e-8);
+}
+
+TEST(Contours, WhatIsNoCurveIsSaidSo) {
+  // A sphere in a tube of its radius touches along a circle; a plane on the top of a torus likewise; coincident
+  // spheres.
+  EXPECT_FALSE(intersect(sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 1)).complete);
+  const auto plane = std::make_shared<Plane>(Frame(), Rectangle{{-1, 1}, {-1, 1}});
+  EXPECT_FALSE(plane_section(plane, {0, 0, 0}, {0, 0, 1}).complete);
+  EXPECT_TRUE(plane_section(plane, {0, 0, 1}, {0, 0, 1}).complete);
+}
+
+TEST(Contours, WrongInputIsRefused) {
+  const auto unbounded = std::make_shared<Plane>(Frame());
+  EXPECT_THROW(silhouette(unbounded, {}), std::invalid_argument);
+  EXPECT_THROW(intersect(unbounded, unbounded), std::invalid_argument);
+  EXPECT_THROW(silhouette(torus(3, 1), {false, {0, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(plane_section(torus(3, 1), {0, 0, 0}, {0, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(isophote(torus(3, 1), {0, 0, 1}, 0), std::invalid_argument);
+  EXPECT_NO_THROW(intersect(torus(3, 1), unbounded));
+}
+
+TEST(Contours, IsophotesOfASphereAreParallels) {
+  const Contours found = isophote(sphere({1, 2, 3}, 2), {1, 2, 2}, kPi / 3);
+  ASSERT_EQ(found.branches.size(), 1u);
+  EXPECT_NEAR(length_of(found), kTwoPi * 2 * std::sin(kPi / 3), 1e-12);
+  for (int k = 0; k < 20; ++k)
+    EXPECT_NEAR(glm::dot(found.branches[0].curve->point(0.5 * k) - Vec3(1, 2, 3), Vec3(1, 2, 2)) / 3, 1, 1e-13);
+}
+
+// Each point of a reflection line sends the way of sight to the lamp.
+TEST(Contours, ReflectionLinesMeetTheLamp) {
+  const SurfacePtr ring = torus(3, 1);
+  const Vec3 eye(2, -9, 5);
+  const Line lamp{{0, 0, 8}, {1, 0.2, 0}};
+  const Contours found = reflection_line(ring, {true, eye}, lamp);
+  ASSERT_FALSE(found.branches.empty());
+  for (const Contour& one : found.branches)
+    for (int k = 0; k < 20; ++k) {
+      const double t = one.curve->domain().hi * (k + 0.5) / 20;
+      const Vec3 p = one.curve->point(t), uv = one.images[0]->point(t), n = ring->normal(uv.x, uv.y);
+      const Vec3 d = glm::reflect(glm::normalize(p - eye), n), l = glm::normalize(lamp.direction);
+      const Vec3 across = glm::cross(d, l);
+      EXPECT_NEAR(glm::dot(p - lamp.origin, across) / glm::length(across), 0, 1e-12);
+    }
+}
+
+// --- random patches
+
+struct RandomPatch {
+  std::shared_ptr<NurbsSurface> surface;
+  std::array<BernsteinSquare, 4> homogeneous;  // w x, w y, w z, w
+
+  RandomPatch(std::mt19937& random, double height, double unevenness) {
+    std::uniform_real_distribution<double> d(-1, 1);
+    NurbsSurfaceForm form;
+    form.degree_u = form.degree_v = 3;
+    form.knots_u = form.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+    for (BernsteinSquare& b : homogeneous) b.n = b.m = 3;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const double w = std::exp(unevenness * d(random));
+        const Vec3 p(i / 1.5 - 1 + 0.2 * d(random), j / 1.5 - 1 + 0.2 * d(random), height * d(random));
+        const Vec4 q(w * p, w);
+        form.points.push_back(q);
+        for (int k = 0; k < 4; ++k) homogeneous[k].c.push_back(q[k]);
+      }
+    surface = std::make_shared<NurbsSurface>(form);
+  }
+};
+
+struct Counts {
+  int clear = 0, unclear = 0, curves = 0;
+};
+
+void compare(const Contours& found, const LevelCurves& truth, Counts& counts, int number) {
+  if (truth.unclear) {
+    ++counts.unclear;
+    return;
+  }
+  ++counts.clear;
+  counts.curves += truth.loops + truth.open;
+  EXPECT_TRUE(found.complete) << number;
+  EXPECT_EQ(closed_count(found), truth.loops) << number;
+  EXPECT_EQ(static_cast<int>(found.branches.size()) - closed_count(found), truth.open) << number;
+  EXPECT_TRUE(found.points.empty()) << number;
+}
+
+void report(const Counts& counts) {
+  tests::report_figure("compared", counts.clear);
+  tests::report_figure("curves", counts.curves);
+  tests::report_figure("unclear_to_the_oracle", counts.unclear);
+  EXPECT_LT(counts.unclear, 0.1 * (counts.clear + counts.unclear) + 1);
+}
+
+constexpr int kGridDepth = 8;
+
+TEST(RandomContours, PatchesWithSpheres) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> d(-1, 1);
+  Counts counts;
+  for (int k = 0; k < tests::tier_count(500, 12); ++k) {
+    const RandomPatch patch(random, 0.8, k % 3 ? 0.5 : 2.0);
+    const Vec3 c(0.6 * d(random), 0.6 * d(random), 0.6 * d(random));
+    const double r = 0.3 + 0.5 * std::abs(d(random));
+    const auto& [x, y, z, w] = patch.homogeneous;
+    const auto apart = [&](const BernsteinSquare& a, double from) { return (a - from * w) * (a - from * w); };
+    const BernsteinSquare f = apart(x, c.x) + apart(y, c.y) + apart(z, c.z) - (r * r) * (w * w);
+    const SurfacePtr ball = sphere(c, r);
+    const Contours found = intersect(patch.surface, ball);
+    compare(found, LevelGrid::count(f, kGridDepth), counts, k);
+    check_promises(found, {patch.surface, ball}, 3);
+  }
+  report(counts);
+}
+
+TEST(RandomContours, PatchesWithTori) {
+  std::mt19937 random(43);
+  std::uniform_real_distribution<double> d(-1, 1);
+  Counts counts;
+  for (int k = 0; k < tests::tier_count(500, 12); ++k) {
+    const RandomPatch patch(random, 0.8, 0.5);
+    const double R = 0.5 + 0.2 * d(random), r = 0.2 + 0.1 * d(random);
+    const auto& [x, y, z, w] = patch.homogeneous;
+    const BernsteinSquare sum = x * x + y * y + z * z + (R * R - r * r) * (w * w);
+    const BernsteinSquare f = sum * sum - (4 * R * R) * ((x * x + y * y) * (w * w));
+    const SurfacePtr ring = torus(R, r);
+    const Contours found = intersect(patch.surface, ring);
+    compare(found, LevelGrid::count(f, kGridDepth), counts, k);
+    check_promises(found, {patch.surface, ring}, 3);
+  }
+  report(counts);
+}
+
+TEST(RandomContours, PlaneSections) {
+  std::mt19937 random(47);
+  std::uniform_real_distribution<double> d(-1, 1);
+  Counts counts;
+  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+    const RandomPatch patch(random, 0.8, k % 2 ? 0.5 : 3.0);
+    const Vec3 n = glm::normalize(Vec3(0.4 * d(random), 0.4 * d(random), 1)), o(0, 0, 0.3 * d(random));
+    const auto& [x, y, z, w] = patch.homogeneous;
+    const BernsteinSquare f = n.x * x + n.y * y + n.z * z - glm::dot(n, o) * w;
+    const Contours found = plane_section(patch.surface, o, n);
+    compare(found, LevelGrid::count(f, kGridDepth), counts, k);
+    check_promises(found, {patch.surface}, 3);
+  }
+  report(counts);
+}
+
+// i . (s_u x s_v) w^3 / w: the determinant of (i, 0), (A, w), (A_u, w_u), (A_v, w_v).
+TEST(RandomContours, Silhouettes) {
+  std::mt19937 random(53);
+  std::uniform_real_distribution<double> d(-1, 1);
+  Counts counts;
+  for (int k = 0; k < tests::tier_count(200, 20); ++k) {
+    const RandomPatch patch(random, 0.8, 0.4);
+    const bool central = k % 2;
+    const Vec3 view(3 * d(random), 3 * d(random), central ? 3 + d(random) : 0.5 * d(random));
+    // Central: (s - eye) . ..., and s lies in the span of the other rows.
+    const std::array<double, 4> row = {view.x, view.y, view.z, central ? 1.0 : 0.0};
+    const auto& h = patch.homogeneous;
+    std::array<BernsteinSquare, 4> hu, hv;
+    for (int i = 0; i < 4; ++i) hu[i] = h[i].by_u(), hv[i] = h[i].by_v();
+    const auto minor = [&](int a, int b, int c) {
+      return h[a] * (hu[b] * hv[c] - hu[c] * hv[b]) - h[b] * (hu[a] * hv[c] - hu[c] * hv[a]) +
+             h[c] * (hu[a] * hv[b] - hu[b] * hv[a]);
+    };
+    const BernsteinSquare f =
+        row[0] * minor(1, 2, 3) - row[1] * minor(0, 2, 3) + row[2] * minor(0, 1, 3) - row[3] * minor(0, 1, 2);
+    const Contours found = silhouette(patch.surface, {central, view});
+    compare(found, LevelGrid::count(f, kGridDepth), counts, k);
+    check_promises(found, {patch.surface}, 3);
+  }
+  report(counts);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry
