@@ -64,8 +64,9 @@ void check_promises(const Contours& found, const std::vector<SurfacePtr>& surfac
       const double h = 1e-5 * domain.width();
       const Vec3 before = contour.curve->point(t - h), behind = contour.curve->point(t + h);
       for (const CurvePiece& piece : contour.curve->pieces())
-        if (piece.domain.lo < t - h && t + h < piece.domain.hi)
+        if (piece.domain.lo < t - h && t + h < piece.domain.hi) {
           EXPECT_LT(glm::length((behind - before) / (2 * h) - r.d[1]), 1e-5 * glm::length(r.d[1])) << t;
+        }
       const CurveEnclosure over = contour.curve->enclose({std::max(domain.lo, t - h), std::min(domain.hi, t + h)}, 1);
       EXPECT_TRUE(over.d[0].inflated(1e-14 * size).contains(r.d[0]));
       EXPECT_TRUE(over.d[1].inflated(1e-12).contains(r.d[1]));
