@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/curves/parameter_line.h"
+#include "geometry/queries/distance_sheet.h"
 #include "geometry/queries/smooth_pieces.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/tolerances.h"
@@ -13,128 +14,8 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Unit tangents that differ by more make a kink, derivatives across a line that differ by more of their length a
-// crease.
-constexpr double kSharp = 1e-9;
-// What leaves a line or plane by less than this part of its size is straight or plane.
-constexpr double kFlat = 1e-13;
-// Directions tried about a corner, places along an edge that is one point.
-constexpr int kDirections = 16, kPlacesOfPole = 32;
-
-std::array<double, 2> direction(int k, int count) {
-  const double angle = kTwoPi * k / count;
-  // Along a border exactly, not a rounding error beyond.
-  const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
-  return {exact(std::cos(angle)), exact(std::sin(angle))};
-}
-
-// A surface, or a face of a body: its patches and how to step into them.
-struct Sheet {
-  SurfacePtr surface;
-  std::shared_ptr<const TrimRegion> trim;
-  std::array<double, 2> scale{};
-  std::vector<const DistanceElement*> patches;
-
-  // The step from a place in that direction, none if that leads out of the sheet.
-  std::optional<DistanceStep> step(const Vec2& from, const std::array<double, 2>& direction) const {
-    std::array<double, 2> to{from.x + kSmallStep * scale[0] * direction[0],
-                             from.y + kSmallStep * scale[1] * direction[1]};
-    if (trim && !trim->contains(to[0], to[1])) return std::nullopt;
-    const Periods periods = surface->periods();
-    const Rectangle domain = surface->domain();
-    if (periods.u > 0) to[0] -= periods.u * std::floor((to[0] - domain.u.lo) / periods.u);
-    if (periods.v > 0) to[1] -= periods.v * std::floor((to[1] - domain.v.lo) / periods.v);
-    for (const DistanceElement* patch : patches) {
-      if (!patch->domain[0].contains(to[0]) || !patch->domain[1].contains(to[1])) continue;
-      DistanceStep step{patch, {}, direction};
-      for (int i = 0; i < 2; ++i) step.at[i] = patch->domain[i].clamp(to[i] - kSmallStep * scale[i] * direction[i]);
-      return step;
-    }
-    return std::nullopt;
-  }
-  void add_all_around(const Vec2& from, std::vector<DistanceStep>& steps) const {
-    for (int k = 0; k < kDirections; ++k)
-      if (const auto one = step(from, direction(k, kDirections))) steps.push_back(*one);
-  }
-  // To both sides of an image in the parameter plane.
-  void add_across(const CurveJet& image, std::vector<DistanceStep>& steps) const {
-    const double a = image.d[1].x / scale[0], b = image.d[1].y / scale[1], length = std::hypot(a, b);
-    if (!(length > 0)) return add_all_around(Vec2(image.d[0]), steps);
-    for (const double side : {1.0, -1.0})
-      if (const auto one = step(Vec2(image.d[0]), {-side * b / length, side * a / length})) steps.push_back(*one);
-  }
-};
-
-bool is_straight(const CurvePiece& piece, const Curve& curve, DistanceElement& element) {
-  const CurveJet jet = evaluate_within(curve, piece.domain, piece.domain.middle(), 1);
-  const double length = glm::length(jet.d[1]), size = element.box.diameter();
-  if (!(length > 0)) return false;
-  element.axis = jet.d[1] / length;
-  if (piece.is_rational())
-    return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec4& p) {
-      return glm::length(glm::cross(Vec3(p) / p.w - jet.d[0], element.axis)) <= kFlat * size;
-    });
-  const Box3 second = curve.enclose(piece.domain, 2).d[2];
-  const double width = piece.domain.width();
-  return glm::length(glm::max(glm::abs(second.lo), glm::abs(second.hi))) * width * width <= kFlat * size;
-}
-
-bool is_plane(const SurfacePiece& piece, const Surface& surface, DistanceElement& element) {
-  const SurfaceJet jet = evaluate_within(surface, piece.domain, piece.domain.u.middle(), piece.domain.v.middle(), 1);
-  const Vec3 across = glm::cross(jet.du(), jet.dv());
-  const double length = glm::length(across), size = element.box.diameter();
-  if (!(length > 0)) return false;
-  element.axis = across / length;
-  if (piece.is_rational())
-    return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec4& p) {
-      return std::abs(glm::dot(Vec3(p) / p.w - jet.point(), element.axis)) <= kFlat * size;
-    });
-  if (dynamic_cast<const Plane*>(&surface)) return true;
-  const SurfaceEnclosure over = surface.enclose(piece.domain, 2);
-  const auto bends = [&](const Box3& box, double a, double b) {
-    return !(glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) * a * b <= kFlat * size);
-  };
-  const double u = piece.domain.u.width(), v = piece.domain.v.width();
-  return !bends(over.d(2, 0), u, u) && !bends(over.d(1, 1), u, v) && !bends(over.d(0, 2), v, v);
-}
-
-// Pieces that a transcendental parametrisation only has for its rational form are one smooth piece.
-bool go_on(const ParameterMap& before, const ParameterMap& behind) {
-  return before.kind != ParameterMap::Kind::affine && behind.kind != ParameterMap::Kind::affine;
-}
-
-std::vector<CurvePiece> smooth_pieces(const Curve& curve) {
-  std::vector<CurvePiece> result;
-  for (CurvePiece& piece : curve.pieces()) {
-    if (result.empty() || !go_on(result.back().map, piece.map)) {
-      result.push_back(std::move(piece));
-      continue;
-    }
-    result.back().domain.hi = piece.domain.hi;
-    result.back().points.clear();
-  }
-  return result;
-}
-
-std::vector<SurfacePiece> smooth_pieces(const Surface& surface) {
-  // Those that begin in the same column and row as one before.
-  std::vector<SurfacePiece> result;
-  for (SurfacePiece& piece : surface.pieces()) {
-    bool joined = false;
-    for (SurfacePiece& other : result) {
-      Rectangle &all = other.domain, &own = piece.domain;
-      const bool beside = all.v == own.v && all.u.hi == own.u.lo && go_on(other.map_u, piece.map_u);
-      const bool above = all.u == own.u && all.v.hi == own.v.lo && go_on(other.map_v, piece.map_v);
-      if (!beside && !above) continue;
-      all = {hull(all.u, own.u), hull(all.v, own.v)};
-      other.points.clear();
-      joined = true;
-      break;
-    }
-    if (!joined) result.push_back(std::move(piece));
-  }
-  return result;
-}
+// Places along an edge that is one point.
+constexpr int kPlacesOfPole = 32;
 
 class Gathering {
  public:
@@ -151,7 +32,9 @@ class Gathering {
   // The smooth pieces of a curve of its own, with its kinks and, where it is open, ends.
   void add_curve(const CurvePtr& curve) {
     const std::vector<DistanceElement*> pieces = add_pieces(curve, {.kind = DistancePlace::Kind::curve});
-    const bool closed = curve->is_closed() || curve->period() > 0;
+    const double width = curve->domain().width();
+    const bool closed =
+        curve->is_closed() || (curve->period() > 0 && std::abs(curve->period() - width) <= kDomainSlack * width);
     bool any = false;
     for (size_t k = 0; k <= pieces.size(); ++k) {
       DistanceElement* before = k > 0 ? pieces[k - 1] : closed ? pieces.back() : nullptr;
@@ -174,7 +57,7 @@ class Gathering {
 
   // Where the domain does not reach its `borders` the surface goes on.
   void add_surface(const SurfacePtr& surface, const Rectangle& borders) {
-    const auto sheet = std::make_shared<Sheet>();
+    const auto sheet = std::make_shared<DistanceSheet>();
     sheet->surface = surface;
     const DistancePlace place{.kind = DistancePlace::Kind::surface};
     add_patches(*sheet, place, surface->domain());
@@ -224,7 +107,7 @@ class Gathering {
   }
 
   // The patches of a sheet inside of `cut`.
-  void add_patches(Sheet& sheet, const DistancePlace& place, const Rectangle& cut) {
+  void add_patches(DistanceSheet& sheet, const DistancePlace& place, const Rectangle& cut) {
     std::vector<SurfacePiece> pieces = smooth_pieces(*sheet.surface);
     if (pieces.empty()) pieces.push_back({cut, {}, {}, 0, 0, {}});
     sheet.scale = {cut.u.width(), cut.v.width()};
@@ -249,7 +132,7 @@ class Gathering {
   }
 
   // Borders of the domain (of a face they are edges), creases inside, corners and poles.
-  void add_lines(const std::shared_ptr<Sheet>& sheet, const DistancePlace& place, const Rectangle& domain,
+  void add_lines(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, const Rectangle& domain,
                  const Rectangle& borders) {
     const bool is_face = place.kind == DistancePlace::Kind::face;
     const Surface& surface = *sheet->surface;
@@ -258,8 +141,8 @@ class Gathering {
     std::array<std::vector<double>, 2> lines, poles;
     for (const int i : {0, 1}) {
       const Interval range = i == 0 ? domain.u : domain.v;
-      for (const double at : sharp_places(*sheet, i, domain, borders)) {
-        mark(*sheet, i, at);
+      for (const double at : sheet->sharp_places(i, domain, borders)) {
+        sheet->mark(i, at);
         const bool border = at == range.lo || at == range.hi;
         if (border && is_face) continue;
         const ParameterLine line(sheet->surface, i == 0 ? HeldParameter::u : HeldParameter::v, at);
@@ -284,51 +167,7 @@ class Gathering {
       }
   }
 
-  // Of the parameter i: ends of the domain unless the surface goes on smoothly there, and creases.
-  static std::vector<double> sharp_places(const Sheet& sheet, int i, const Rectangle& domain,
-                                          const Rectangle& borders) {
-    const Interval range = i == 0 ? domain.u : domain.v, other = i == 0 ? domain.v : domain.u;
-    const Interval border = i == 0 ? borders.u : borders.v;
-    const Periods periods = sheet.surface->periods();
-    const double period = i == 0 ? periods.u : periods.v;
-    const bool periodic = period > 0 && std::abs(period - range.width()) <= kDomainSlack * range.width();
-    const auto is_crease = [&](double below, double above) {
-      for (int k = 0; k <= 8; ++k) {
-        const double t = other.lo + other.width() * k / 8;
-        const auto across = [&](double at) {
-          const SurfaceJet s = i == 0 ? sheet.surface->evaluate(at, t, 1) : sheet.surface->evaluate(t, at, 1);
-          return i == 0 ? s.du() : s.dv();
-        };
-        const Vec3 a = across(within({range.lo, below}, below)), b = across(above);
-        if (glm::length(a * glm::length(b) - b * glm::length(a)) > kSharp * glm::length(a) * glm::length(b))
-          return true;
-      }
-      return false;
-    };
-    std::vector<double> places;
-    for (const DistanceElement* patch : sheet.patches)
-      if (patch->domain[i].lo > range.lo) places.push_back(patch->domain[i].lo);
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    std::erase_if(places, [&](double at) { return !is_crease(at, at); });
-    if (periodic && is_crease(range.hi, range.lo)) places.push_back(range.lo);
-    if (!periodic && border.lo == range.lo) places.push_back(range.lo);
-    if (!periodic && border.hi == range.hi) places.push_back(range.hi);
-    return places;
-  }
-
-  static void mark(const Sheet& sheet, int i, double at) {
-    const Rectangle domain = sheet.surface->domain();
-    const Interval range = i == 0 ? domain.u : domain.v;
-    const bool seam = at == range.lo && (i == 0 ? sheet.surface->periods().u : sheet.surface->periods().v) > 0;
-    for (const DistanceElement* patch : sheet.patches) {
-      auto* marked = const_cast<DistanceElement*>(patch);
-      if (patch->domain[i].lo == at) marked->ends_lo[i] = true;
-      if (patch->domain[i].hi == at || (seam && patch->domain[i].hi == range.hi)) marked->ends_hi[i] = true;
-    }
-  }
-
-  void add_line(const std::shared_ptr<Sheet>& sheet, const DistancePlace& place, int i, double at,
+  void add_line(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, int i, double at,
                 const std::vector<double>& poles) {
     const auto line = std::make_shared<ParameterLine>(sheet->surface, i == 0 ? HeldParameter::u : HeldParameter::v, at);
     for (DistanceElement* element : add_pieces(line, place)) {
@@ -354,7 +193,7 @@ class Gathering {
     }
   }
 
-  void add_pole(const std::shared_ptr<Sheet>& sheet, const DistancePlace& place, int i, double at,
+  void add_pole(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, int i, double at,
                 const Interval& along) {
     DistancePlace pole = place;
     (i == 0 ? pole.u : pole.v) = at;
@@ -375,7 +214,7 @@ class Gathering {
 
   void add_face(const Body& body, int index) {
     const Face& face = body.faces[index];
-    const auto sheet = std::make_shared<Sheet>();
+    const auto sheet = std::make_shared<DistanceSheet>();
     sheet->surface = face.surface;
     sheet->trim = trim_of(body, index);
     Rectangle cut = face.surface->domain();
@@ -391,13 +230,13 @@ class Gathering {
     sheets_.push_back(sheet);
   }
 
-  const std::shared_ptr<Sheet>& sheet_of(const Body& body, int coedge) const {
+  const std::shared_ptr<DistanceSheet>& sheet_of(const Body& body, int coedge) const {
     return sheets_[body.loops[body.coedges[coedge].loop].face];
   }
 
   std::vector<DistanceElement*> add_edge(const Body& body, int index) {
     const Edge& edge = body.edges[index];
-    std::vector<std::pair<std::shared_ptr<Sheet>, Curve2Ptr>> images;
+    std::vector<std::pair<std::shared_ptr<DistanceSheet>, Curve2Ptr>> images;
     for (const int coedge : edge.coedges) images.emplace_back(sheet_of(body, coedge), body.coedges[coedge].image);
     const DistancePlace place{.kind = DistancePlace::Kind::edge, .index = index};
     const std::vector<DistanceElement*> pieces = add_pieces(edge.curve, place);
@@ -428,7 +267,7 @@ class Gathering {
     place.point = body.vertices[index].point;
     // Where the vertex lies on the images of its edges, and along which of these all points are it.
     struct Corner {
-      std::shared_ptr<Sheet> sheet;
+      std::shared_ptr<DistanceSheet> sheet;
       Curve2Ptr image;
       double t;
       bool pole;
@@ -465,7 +304,7 @@ class Gathering {
   }
 
   DistanceElements& elements_;
-  std::vector<std::shared_ptr<Sheet>> sheets_;  // of the faces of a body
+  std::vector<std::shared_ptr<DistanceSheet>> sheets_;  // of the faces of a body
 };
 
 // What of an unbounded plane can be nearest to a thing in the box: the feet of its points, and a border around.

@@ -16,13 +16,58 @@ namespace lekalo::geometry {
 
 // Minima whose distances differ by less than this part of them are as near.
 inline constexpr double kTie = 1e-12;
+// Distances that differ by less than this part of the size are equal, points nearer than that one.
+inline constexpr double kEqualDistance = 1e-12, kOnePlace = 1e-7;
+// A slope along which the distance grows by less than this part of the size for its length is level.
+inline constexpr double kLevel = 1e-8;
+
+using ElementPlace = std::array<double, 2>;
+
+struct ElementPair {
+  const DistanceElement *a, *b;
+  double from = 0;  // the distance of their boxes
+  int unknowns() const { return a->dimension + b->dimension; }
+};
+
+// The nearest places of all that were looked at.
+struct NearestSeen {
+  double distance = kInfinity;
+  ElementPair pair{};
+  ElementPlace a{}, b{};
+};
+
+// A minimum while it is sorted among others. `absorbed`: it is part of another one.
+struct FoundMinimum {
+  DistanceMinimum minimum;
+  const DistanceElement *a, *b;
+  bool absorbed = false;
+  bool family = false;  // of two straight or plane elements
+};
+
+// The parameters of a place are its element's own, not those of a line on a surface.
+inline bool has_two_parameters(const DistancePlace& place) {
+  return place.kind == DistancePlace::Kind::surface || place.kind == DistancePlace::Kind::face;
+}
+
+inline DistanceMinimum minimum_at(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b) {
+  DistanceMinimum minimum;
+  minimum.a = pair.a->place_at(a), minimum.b = pair.b->place_at(b);
+  minimum.distance = glm::length(minimum.a.point - minimum.b.point);
+  const auto range_of = [](const DistancePlace& place) -> std::array<Interval, 2> {
+    if (has_two_parameters(place)) return {Interval(place.u), Interval(place.v)};
+    return {Interval(place.t), Interval(0)};
+  };
+  minimum.range_a = range_of(minimum.a), minimum.range_b = range_of(minimum.b);
+  return minimum;
+}
 
 template <int N>
 class DistanceSystem {
  public:
-  // `limit` falls to the distances of the places looked at. With `nearest` boxes where all is farther are left out.
-  DistanceSystem(const DistanceElement& a, const DistanceElement& b, double& limit, bool nearest)
-      : a_(a), b_(b), limit_(limit), nearest_(nearest) {}
+  // What is looked at is remembered in `seen`, if that is asked for. With `nearest` boxes where all is farther are left
+  // out.
+  explicit DistanceSystem(const ElementPair& pair, NearestSeen* seen = nullptr, bool nearest = false)
+      : a_(*pair.a), b_(*pair.b), seen_(seen), nearest_(nearest) {}
 
   ParameterBox<N> domain() const {
     ParameterBox<N> box;
@@ -55,7 +100,7 @@ class DistanceSystem {
     if (!thin && is_outside(box)) return none;
     const auto [ra, rb] = ranges(box);
     const Box3 w = difference(ra.point, rb.point);
-    if (!thin && nearest_ && std::sqrt(square(w).lo) > limit_ * (1 + kTie)) return none;
+    if (!thin && nearest_ && std::sqrt(square(w).lo) > seen_->distance * (1 + kTie)) return none;
     SystemValue<Interval, N, N> result = gradient(w, ra, rb);
     if (!thin)
       for (int i = 0; i < N; ++i)
@@ -66,7 +111,8 @@ class DistanceSystem {
   SystemValue<double, N, N> evaluate(const ParameterPlace<N>& at) const {
     const ElementJet ja = a_.jet(of_a(at)), jb = b_.jet(of_b(at));
     const Vec3 w = ja.point - jb.point;
-    if (glm::length(w) < limit_ && keeps(at)) limit_ = glm::length(w);
+    if (seen_ && glm::length(w) < seen_->distance && keeps(at))
+      *seen_ = {glm::length(w), {&a_, &b_}, of_a(at), of_b(at)};
     SystemValue<double, N, N> result;
     const auto first = [&](int i) { return is_of_a(i) ? ja.first[i] : -jb.first[i - a_.dimension]; };
     for (int i = 0; i < N; ++i) {
@@ -143,9 +189,26 @@ class DistanceSystem {
   }
 
   const DistanceElement &a_, &b_;
-  double& limit_;
+  NearestSeen* seen_;
   bool nearest_;
 };
+
+// `count` places along each side of a box.
+template <int N>
+std::vector<ParameterPlace<N>> starts(const ParameterBox<N>& box, int count) {
+  std::vector<ParameterPlace<N>> result{{}};
+  for (int i = 0; i < N; ++i) {
+    std::vector<ParameterPlace<N>> more;
+    for (const ParameterPlace<N>& place : result)
+      for (int k = 0; k < count; ++k) {
+        more.push_back(place);
+        // Not where symmetric things are level.
+        more.back()[i] = box[i].lo + box[i].width() * (k + 0.52 - 0.01 * i) / count;
+      }
+    result = std::move(more);
+  }
+  return result;
+}
 
 // Downhill from a place to where the distance is least within the box, by Newton's steps made shorter until they lead
 // down (Levenberg and Marquardt).

@@ -123,6 +123,28 @@ class Numbers(ProgramTest):
         text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]
         self.assertIn("minimum", text)
 
+    def test_distance_between_things(self):
+        """A ball of radius 1.5 at height 3 above a box of height 3; a chord above a torus; a disc's rim inside a sphere."""
+        found = self.measure("ball", "--to", "chord")
+        self.assert_near(found["distance"], math.hypot(3, 1) - 1.5, 1e-14)
+        self.assertTrue(0 <= found["distance"] - found["bound"] < 1e-13)
+        self.assertEqual((found["kind"], found["meet"], len(found["minima"])), ("body", False, 1))
+        self.assert_near(found["minima"][0]["at_other"]["t"], 0.5, 1e-12)
+        found = self.measure("block", "--to", "10,1,1.5")
+        self.assert_near([one["distance"] for one in found["minima"]], [9, 10], 1e-14)
+        self.assertTrue(all("face" in one["at"] for one in found["minima"]))
+        found = self.measure("block", "--to", "10,1,1.5", "--nearest")
+        self.assertEqual(len(found["minima"]), 1)
+        found = self.measure("tire", "--to", "rim")
+        self.assert_near(found["distance"], 0.5, 1e-13)
+        self.assertFalse(found["minima"][0]["isolated"])
+        self.assertEqual(len(found["minima"][0]["at_other"]["t_range"]), 2)
+        found = self.measure("shell", "--to", "block")
+        self.assertEqual((found["meet"], found["distance"], found["bound"]), (True, 0, 0))
+        text = self.run_program("measure", "scene.yaml", "tire", "--to", "rim")[0]
+        self.assertIn("places beside are as near", text)
+        self.assertIn("they meet", self.run_program("measure", "scene.yaml", "shell", "--to", "block")[0])
+
     def test_intersections(self):
         found = self.measure("rim", "--intersect", "chord")
         self.assert_near([one["point"] for one in found["points"]], [[math.sqrt(3), 1, 0], [-math.sqrt(3), 1, 0]], 1e-14)
@@ -139,8 +161,10 @@ class Numbers(ProgramTest):
         self.assertIn("contact", text)
 
     def test_questions_without_an_answer(self):
-        for words, message in ((("block", "--to", "0,0,0"), "neither a curve nor a surface"),
-                               (("rim", "--to", "ring"), "'ring' is no point"),
+        for words, message in ((("tile", "--to", "0,0,0"), "'tile' is no curve"),
+                               (("rim", "--to", "tile"), "'tile' is no point"),
+                               (("floor", "--to", "floor"), "give one of the planes a domain"),
+                               (("rim", "--nearest"), "--nearest belongs to --to"),
                                (("rim", "--to", "apexx"), "apex"), (("rim", "--to", "1,2"), "--to"),
                                (("shell", "--intersect", "tire"), "one must be a curve"),
                                (("rim", "--tolerance", 1), "--tolerance belongs to")):

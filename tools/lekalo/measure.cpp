@@ -88,7 +88,7 @@ struct Options {
   std::string name, against, to, intersect, section, silhouette;
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, json = false;
+  bool topology = false, nearest = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -115,19 +115,17 @@ bool has_faces(const render::Entity& entity) {
   return std::holds_alternative<geometry::SurfacePtr>(entity) || std::holds_alternative<geometry::BodyPtr>(entity);
 }
 
-// A point of the scene, or "x,y,z".
-Vec3 point_named(const render::LoadedScene& scene, const std::string& text) {
-  if (text.find(',') != std::string::npos) {
-    const std::vector<double> numbers = parse_numbers(text, 3, "--to");
-    return {numbers[0], numbers[1], numbers[2]};
-  }
-  if (const auto* point = std::get_if<Vec3>(&find_geometry(scene, text))) return *point;
-  throw UsageError(fmt::format("'{}' is no point: --to takes a point of the scene, or X,Y,Z", text));
+// A thing of the scene, or the point "x,y,z".
+render::Entity thing_or_point(const render::LoadedScene& scene, const std::string& text, const std::string& option) {
+  if (text.find(',') == std::string::npos) return find_geometry(scene, text);
+  const std::vector<double> numbers = parse_numbers(text, 3, option);
+  return Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
 int run(const Options& options) {
   if (options.tolerance && options.against.empty() && options.intersect.empty())
     throw UsageError("--tolerance belongs to --against SAMPLES.csv, --against NAME or --intersect NAME");
+  if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
   print_external_notes(scene, !options.json);
@@ -152,7 +150,7 @@ int run(const Options& options) {
     out = compare_with_table(options.name, entity, load_table(options.against), options.against, options.tolerance);
     print = print_comparison;
   } else if (!options.to.empty()) {
-    out = distance_to_point(options.name, entity, options.to, point_named(scene, options.to));
+    out = distance_to(options.name, entity, options.to, thing_or_point(scene, options.to, "--to"), options.nearest);
     print = print_distance;
   } else if (of_contours) {
     const int samples = options.samples.value_or(0);
@@ -251,6 +249,7 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
+      "  lekalo measure curves.yaml chord --to dome\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
       "  lekalo measure ring.yaml ring --section 0,0,0.2,0,0,1 --samples 100 --json\n"
       "  lekalo measure ring.yaml ring --silhouette camera\n"
@@ -264,9 +263,11 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
-  auto* to = sub->add_option("--to", options->to, "distance from a point, with all its feet on the curve or surface")
+  auto* to = sub->add_option("--to", options->to,
+                             "distance from a point, with all its feet; from a curve, surface or body, with all minima")
                  ->type_name("NAME|X,Y,Z")
                  ->excludes(topology);
+  sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
                       "where the curve, surface or body meets another: crossings, contacts, common parts, curves")

@@ -31,10 +31,10 @@ ordered_json compare_pair(const std::string& name, const render::Entity& entity,
                           const render::Entity& other, int samples, int order, std::optional<double> tolerance);
 void print_pair(const ordered_json& compared);
 
-// The distance of a curve or surface from a point, and all feet of the point on it. Throws UsageError for anything
-// else.
-ordered_json distance_to_point(const std::string& name, const render::Entity& entity, const std::string& to,
-                               const geometry::Vec3& point);
+// The distance of a curve or surface from a point with all feet of the point on it; of a body from a point, and between
+// two of all these, with all local minima, or with `nearest` the nearest ones. Throws UsageError for anything else.
+ordered_json distance_to(const std::string& name, const render::Entity& entity, const std::string& to,
+                         const render::Entity& other, bool nearest);
 void print_distance(const ordered_json& found);
 
 // Where two curves, or a curve and a surface, meet. `tolerance`, relative to the size of both: points nearer than that
@@ -53,5 +53,10 @@ ordered_json section(const std::string& name, const render::Entity& entity, cons
 ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
                              const render::Camera* camera, int samples);
 void print_contours(const ordered_json& found);
+
+// Parts of these outputs: a range of a parameter; a point back from JSON; the row's parameters as text.
+ordered_json range(const geometry::Interval& x);
+geometry::Vec3 vector_of(const ordered_json& v);
+std::string parameters(const ordered_json& row);
 
 }  // namespace lekalo::command

@@ -54,6 +54,15 @@ TEST(PointOnCurve, TheCentreOfACircleIsAsFarFromAllOfIt) {
   EXPECT_NEAR(found.feet[0].distance, std::sqrt(5.0), 1e-15);
 }
 
+TEST(PointOnCurve, AnArcOfACircleHasEnds) {
+  const Circle arc(Frame(), 2, {0, 1});
+  const CurveFeet found = project({0, -3, 0}, arc);
+  ASSERT_EQ(found.feet.size(), 1u);
+  EXPECT_EQ(found.feet[0].kind, FootKind::border);
+  EXPECT_EQ(found.feet[0].t, 0);
+  EXPECT_NEAR(found.feet[0].distance, std::sqrt(13.0), 1e-15);
+}
+
 TEST(PointOnSurface, ATorusHasFourFeet) {
   const TorusSurface torus(Frame(), 3, 1);
   const SurfaceFeet found = project({1, 2, 2}, torus);
