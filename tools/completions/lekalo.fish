@@ -45,6 +45,8 @@ complete -c lekalo -n '__fish_seen_subcommand_from measure' -l topology -d 'list
 complete -c lekalo -n '__fish_seen_subcommand_from types' -l markdown -r -d 'write the reference into a folder'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l to -x -d 'a point (name or x,y,z), curve, surface or body'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l nearest -d 'of --to only the nearest place'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l position -x -d 'where a point lies: name, x,y,z or u,v'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l continuity -x -d 'how smoothly it joins a curve or surface'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l intersect -x -d 'a curve or surface'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l against -r -d 'table of samples, or a name'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l tolerance -x -d 'largest difference that passes'

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/queries/distance.h"
 #include "json.h"
 #include "render/scene/model.h"
 #include "render/scene/table.h"
@@ -54,9 +55,25 @@ ordered_json silhouette_seen(const std::string& name, const render::Entity& enti
                              const render::Camera* camera, int samples);
 void print_contours(const ordered_json& found);
 
+// Where the point of a scene or X,Y,Z (three numbers) lies by a surface, closed body or closed shape; U,V (two numbers)
+// in the region of a body's only face. Throws UsageError for anything else.
+ordered_json position_of(const std::string& name, const render::Entity& entity, const std::string& of,
+                         const std::vector<double>& place);
+void print_position(const ordered_json& found);
+
+// How smoothly two curves, two surfaces, or with an empty `other_name` the faces of a body, join: the jump of each
+// order. `tolerance`: what passes of each order, see geometry/queries/continuity.h. Throws UsageError for anything
+// else.
+ordered_json continuity_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                           const render::Entity* other, double tolerance);
+void print_continuity(const ordered_json& found);
+
 // Parts of these outputs: a range of a parameter; a point back from JSON; the row's parameters as text.
 ordered_json range(const geometry::Interval& x);
 geometry::Vec3 vector_of(const ordered_json& v);
+// A place on a thing; of a body its vertex, edge or face first.
+ordered_json place_row(const geometry::DistancePlace& place);
+std::string place_text(const ordered_json& place);
 std::string parameters(const ordered_json& row);
 
 }  // namespace lekalo::command

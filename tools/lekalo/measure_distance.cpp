@@ -81,23 +81,11 @@ std::optional<geometry::Distant> distant(const render::Entity& entity) {
   return std::nullopt;
 }
 
-bool has_two_parameters(const DistancePlace& place) {
-  return place.kind == DistancePlace::Kind::surface || place.kind == DistancePlace::Kind::face;
-}
-
-// Where on a thing; of a body its part first.
-ordered_json place_row(const DistancePlace& place, bool isolated, const std::array<Interval, 2>& ranges) {
-  ordered_json row = ordered_json::object();
-  const bool one = place.kind == DistancePlace::Kind::curve || place.kind == DistancePlace::Kind::edge;
-  if (place.kind == DistancePlace::Kind::vertex) row["vertex"] = place.index;
-  if (place.kind == DistancePlace::Kind::edge) row["edge"] = place.index;
-  if (place.kind == DistancePlace::Kind::face) row["face"] = place.index;
-  if (one) row["t"] = place.t;
-  if (has_two_parameters(place)) row["u"] = place.u, row["v"] = place.v;
-  row["point"] = to_json(place.point);
+ordered_json end_row(const DistancePlace& place, bool isolated, const std::array<Interval, 2>& ranges) {
+  ordered_json row = place_row(place);
   if (isolated) return row;
-  if (one) row["t_range"] = range(ranges[0]);
-  if (has_two_parameters(place)) row["u_range"] = range(ranges[0]), row["v_range"] = range(ranges[1]);
+  if (row.contains("t")) row["t_range"] = range(ranges[0]);
+  if (row.contains("u")) row["u_range"] = range(ranges[0]), row["v_range"] = range(ranges[1]);
   return row;
 }
 
@@ -109,19 +97,11 @@ ordered_json minima(const geometry::Distant& a, const geometry::Distant& b, bool
   for (const DistanceMinimum& one : found.minima)
     out["minima"].push_back({{"distance", one.distance},
                              {"isolated", one.isolated},
-                             {"at", place_row(one.a, one.isolated, one.range_a)},
-                             {"at_other", place_row(one.b, one.isolated, one.range_b)}});
+                             {"at", end_row(one.a, one.isolated, one.range_a)},
+                             {"at_other", end_row(one.b, one.isolated, one.range_b)}});
   return out;
 }
 
-std::string place_text(const ordered_json& place) {
-  std::string text;
-  for (const char* part : {"vertex", "edge", "face"})
-    if (place.contains(part)) text += fmt::format("{} {}  ", part, place[part].get<int>());
-  for (const char* key : {"t", "u", "v"})
-    if (place.contains(key)) text += fmt::format("{} {:.17g}  ", key, place[key].get<double>());
-  return text + "point " + digits(vector_of(place["point"]));
-}
 std::string ranges_text(const ordered_json& place) {
   std::string text;
   for (const char* key : {"t", "u", "v"})
@@ -157,6 +137,27 @@ void print_minima(const ordered_json& found) {
 ordered_json range(const Interval& x) { return ordered_json::array({x.lo, x.hi}); }
 
 Vec3 vector_of(const ordered_json& v) { return {v[0], v[1], v[2]}; }
+
+ordered_json place_row(const DistancePlace& place) {
+  using Kind = DistancePlace::Kind;
+  ordered_json row = ordered_json::object();
+  if (place.kind == Kind::vertex) row["vertex"] = place.index;
+  if (place.kind == Kind::edge) row["edge"] = place.index;
+  if (place.kind == Kind::face) row["face"] = place.index;
+  if (place.kind == Kind::curve || place.kind == Kind::edge) row["t"] = place.t;
+  if (place.kind == Kind::surface || place.kind == Kind::face) row["u"] = place.u, row["v"] = place.v;
+  row["point"] = to_json(place.point);
+  return row;
+}
+
+std::string place_text(const ordered_json& place) {
+  std::string text;
+  for (const char* part : {"vertex", "edge", "face"})
+    if (place.contains(part)) text += fmt::format("{} {}  ", part, place[part].get<int>());
+  for (const char* key : {"t", "u", "v"})
+    if (place.contains(key)) text += fmt::format("{} {:.17g}  ", key, place[key].get<double>());
+  return text + "point " + digits(vector_of(place["point"]));
+}
 
 std::string parameters(const ordered_json& row) {
   std::string text;
