@@ -1,5 +1,6 @@
-// Local minima of a distance by sampling and pattern search: no derivatives, no interval arithmetic, no code of the
-// library's queries. What it finds are minima; narrow ones may escape it.
+// Local minima of a distance, without interval arithmetic, Newton's iteration or code of the library's queries: by
+// sampling and pattern search, whose ends are minima but which narrow ones may escape; and by halving of Bernstein
+// forms (support/root_oracle.h), which none can.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "geometry/describe.h"
 #include "geometry/vectors.h"
+#include "support/root_oracle.h"
 
 namespace lekalo::tests {
 
@@ -44,6 +46,39 @@ class DistanceOracle {
     const double here = distance(x);
     each_neighbour(x, far, [&](const Place& y) { least = least && distance(y) >= here - 1e-14; });
     return least;
+  }
+
+  // Whether a stationary place (on a border: along it) is a minimum: the square grows from the border inwards, and its
+  // second differences along the border are positive definite (Cholesky). `way` must be a polynomial beyond [0, 1] too.
+  bool is_strict_minimum(const Place& x) const {
+    constexpr double kStep = 1e-4;
+    const auto square = [&](int i, double by_i, int j, double by_j) {
+      Place y = x;
+      y[i] += kStep * by_i;
+      y[j] += kStep * by_j;
+      return glm::dot(way_(y), way_(y));
+    };
+    std::vector<int> free;
+    for (int i = 0; i < N; ++i) {
+      if (x[i] > 0 && x[i] < 1)
+        free.push_back(i);
+      else if ((square(i, 1, i, 0) - square(i, -1, i, 0)) * (x[i] > 0 ? -1 : 1) < 0)
+        return false;
+    }
+    const size_t n = free.size();
+    std::vector<double> h(n * n);
+    for (size_t i = 0; i < n; ++i)
+      for (size_t j = 0; j < n; ++j)
+        h[i * n + j] = i == j ? square(free[i], 1, free[i], 0) + square(free[i], -1, free[i], 0) -
+                                    2 * square(free[i], 0, free[i], 0)
+                              : 0.25 * (square(free[i], 1, free[j], 1) + square(free[i], -1, free[j], -1) -
+                                        square(free[i], 1, free[j], -1) - square(free[i], -1, free[j], 1));
+    for (size_t k = 0; k < n; ++k) {
+      if (!(h[k * n + k] > 0)) return false;
+      for (size_t i = k + 1; i < n; ++i)
+        for (size_t j = k + 1; j < n; ++j) h[i * n + j] -= h[i * n + k] * h[k * n + j] / h[k * n + k];
+    }
+    return true;
   }
 
   // Increasing.
@@ -115,5 +150,72 @@ class DistanceOracle {
   std::function<geometry::Vec3(const Place&)> way_;
   int samples_;
 };
+
+// A polynomial with some of its parameters set to 0 or 1 (-1: left free).
+inline Bernstein<3> on_border(const Bernstein<3>& all, const std::array<int, 3>& held) {
+  Bernstein<3> r;
+  for (int k = 0; k < 3; ++k) r.degree[k] = held[k] < 0 ? all.degree[k] : 0;
+  for (int i = 0; i <= r.degree[0]; ++i)
+    for (int j = 0; j <= r.degree[1]; ++j)
+      for (int k = 0; k <= r.degree[2]; ++k)
+        r.c.push_back(all.c[all.index(held[0] > 0 ? all.degree[0] : i, held[1] > 0 ? all.degree[1] : j,
+                                      held[2] > 0 ? all.degree[2] : k)]);
+  return r;
+}
+
+// Places on the border `held` of [0, 1]^N (or inside, all free) where the length of `way` is stationary along it.
+template <int N, int F>
+void add_stationary(const Bernstein<3>& way, const std::array<int, 3>& held, const std::array<int, F>& free,
+                    std::vector<std::array<double, N>>& places, bool& unclear) {
+  using State = std::array<Bernstein<1>, F>;
+  const Bernstein<3> part = on_border(way, held);
+  State equations;
+  for (int i = 0; i < F; ++i) equations[i] = dot(part, derivative(part, free[i]));
+  const auto roots = roots_by_halving<F, State>(
+      equations, 1e-9, [](const State& f) { return std::all_of(f.begin(), f.end(), changes_sign); },
+      [&](const State& f, int axis, bool upper) {
+        State half = f;
+        for (Bernstein<1>& one : half) one = one.half(free[axis], upper);
+        return half;
+      },
+      unclear);
+  for (const auto& root : roots) {
+    std::array<double, N> place;
+    for (int i = 0; i < N; ++i) place[i] = held[i];
+    for (int i = 0; i < F; ++i) place[free[i]] = root[i];
+    places.push_back(place);
+  }
+}
+
+// All minima of the length of `way` over [0, 1]^N, N = 2 or 3.
+template <int N>
+std::vector<std::array<double, N>> minima_by_halving(const Bernstein<3>& way, const DistanceOracle<N>& oracle,
+                                                     bool& unclear) {
+  std::vector<std::array<double, N>> places, result;
+  int borders = 1;
+  for (int i = 0; i < N; ++i) borders *= 3;
+  for (int border = 0; border < borders; ++border) {
+    std::array<int, 3> held{0, 0, 0};
+    std::vector<int> free;
+    for (int i = 0, rest = border; i < N; ++i, rest /= 3) {
+      held[i] = rest % 3 - 1;
+      if (held[i] < 0) free.push_back(i);
+    }
+    if (free.empty()) {
+      std::array<double, N> corner;
+      for (int i = 0; i < N; ++i) corner[i] = held[i];
+      places.push_back(corner);
+    } else if (free.size() == 1) {
+      add_stationary<N, 1>(way, held, {free[0]}, places, unclear);
+    } else if (free.size() == 2) {
+      add_stationary<N, 2>(way, held, {free[0], free[1]}, places, unclear);
+    } else {
+      add_stationary<N, 3>(way, held, {0, 1, 2}, places, unclear);
+    }
+  }
+  for (const auto& place : places)
+    if (oracle.is_strict_minimum(place)) result.push_back(place);
+  return result;
+}
 
 }  // namespace lekalo::tests

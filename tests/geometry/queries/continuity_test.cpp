@@ -148,15 +148,21 @@ TEST(BodyContinuity, OfPrimitives) {
     EXPECT_EQ(found.order, 0);
     EXPECT_NEAR(found.jumps[1].largest, kPi / 2, 1e-14);
   }
-  for (int edge = 0; edge < static_cast<int>(round.edges.size()); ++edge)
-    if (round.edges[edge].kind == EdgeKind::seam)
-      EXPECT_EQ(continuity(round, edge).order, 3);
-    else
-      EXPECT_NEAR(continuity(round, edge).jumps[1].largest, kPi / 2, 1e-14);
+  for (int edge = 0; edge < static_cast<int>(round.edges.size()); ++edge) {
+    const Continuity found = continuity(round, edge);
+    if (round.edges[edge].kind == EdgeKind::seam) {
+      EXPECT_EQ(found.order, 3);
+    } else {
+      EXPECT_NEAR(found.jumps[1].largest, kPi / 2, 1e-14);
+    }
+  }
   for (int edge = 0; edge < static_cast<int>(ring.edges.size()); ++edge) EXPECT_EQ(continuity(ring, edge).order, 3);
   const Body tip = frustum(Frame(), 1, 0, 2);
-  for (int edge = 0; edge < static_cast<int>(tip.edges.size()); ++edge)
-    if (tip.edges[edge].kind == EdgeKind::pole) EXPECT_THROW(continuity(tip, edge), std::invalid_argument);
+  for (int edge = 0; edge < static_cast<int>(tip.edges.size()); ++edge) {
+    if (tip.edges[edge].kind == EdgeKind::pole) {
+      EXPECT_THROW(continuity(tip, edge), std::invalid_argument);
+    }
+  }
 }
 
 }  // namespace

@@ -273,7 +273,8 @@ void expect_all(const Distance& found, const tests::DistanceOracle<N>& oracle, i
     std::copy(parameters.begin(), parameters.end(), at.begin());
     EXPECT_NEAR(oracle.distance(at), one.distance, 1e-14);
     EXPECT_TRUE(one.isolated) << "trial " << trial;
-    EXPECT_TRUE(oracle.is_minimum(at, 1e-5)) << "trial " << trial << " at distance " << one.distance << " at " << testing::PrintToString(at);
+    EXPECT_TRUE(oracle.is_minimum(at, 1e-5))
+        << "trial " << trial << " at distance " << one.distance << " at " << testing::PrintToString(at);
   }
   minima += static_cast<int>(found.minima.size());
 }
@@ -312,6 +313,76 @@ TEST(RandomDistance, OfCurvesFromSurfacesLosesNoMinimum) {
     expect_all<3>(distance(&a, &b), oracle, trial, minima);
   }
   tests::report_figure("pairs", pairs);
+  tests::report_figure("minima", minima);
+}
+
+// The same against halving, which finds all: none lost, none too many.
+template <int N>
+void expect_exactly(const Distance& found, const tests::Bernstein<3>& way, const tests::DistanceOracle<N>& oracle,
+                    int trial, int& minima, int& unclear_pairs) {
+  bool unclear = false;
+  const auto truth = tests::minima_by_halving<N>(way, oracle, unclear);
+  if (unclear) {
+    ++unclear_pairs;
+    return;
+  }
+  ASSERT_EQ(found.minima.size(), truth.size()) << "trial " << trial << ": " << testing::PrintToString(truth);
+  for (const auto& place : truth)
+    EXPECT_TRUE(std::any_of(found.minima.begin(), found.minima.end(),
+                            [&](const DistanceMinimum& one) {
+                              std::vector<double> parameters;
+                              append(parameters, one.a);
+                              append(parameters, one.b);
+                              for (int i = 0; i < N; ++i)
+                                if (std::abs(parameters[i] - place[i]) > 1e-6) return false;
+                              return true;
+                            }))
+        << "trial " << trial << " at " << testing::PrintToString(place);
+  minima += static_cast<int>(truth.size());
+}
+
+TEST(RandomDistance, OfCurvesIsExactlyThatOfHalving) {
+  std::mt19937_64 random(14);
+  int minima = 0, unclear = 0;
+  const int pairs = tests::tier_count(1000);
+  for (int trial = 0; trial < pairs; ++trial) {
+    const auto p = random_points(random, 2 + trial % 4, 0), q = random_points(random, 2 + trial / 4 % 4, 0.4);
+    tests::Bernstein<3> way;
+    way.degree = {static_cast<int>(p.size()) - 1, static_cast<int>(q.size()) - 1, 0};
+    for (const Vec3& a : p)
+      for (const Vec3& b : q) way.c.push_back({a.x - b.x, a.y - b.y, a.z - b.z});
+    const NurbsCurve a = bezier_curve(p), b = bezier_curve(q);
+    const tests::DistanceOracle<2> oracle(
+        [&](const std::array<double, 2>& x) { return tests::bezier_point(p, x[0]) - tests::bezier_point(q, x[1]); }, 8);
+    expect_exactly<2>(distance(&a, &b), way, oracle, trial, minima, unclear);
+  }
+  EXPECT_LT(unclear, pairs / 20 + 2);
+  tests::report_figure("pairs", pairs - unclear);
+  tests::report_figure("minima", minima);
+}
+
+TEST(RandomDistance, OfCurvesFromSurfacesIsExactlyThatOfHalving) {
+  std::mt19937_64 random(15);
+  int minima = 0, unclear = 0;
+  const int pairs = tests::tier_count(1000);
+  for (int trial = 0; trial < pairs; ++trial) {
+    const Grid<Vec3> net = random_net(random, 1 + trial % 3, 1 + trial / 3 % 2, -0.8);
+    const auto p = random_points(random, 2 + trial % 2, 0);
+    tests::Bernstein<3> way;
+    way.degree = {static_cast<int>(p.size()) - 1, net.rows - 1, net.columns - 1};
+    for (const Vec3& a : p)
+      for (const Vec3& b : net.values) way.c.push_back({a.x - b.x, a.y - b.y, a.z - b.z});
+    const NurbsCurve a = bezier_curve(p);
+    const NurbsSurface b = bezier_surface(net);
+    const tests::DistanceOracle<3> oracle(
+        [&](const std::array<double, 3>& x) {
+          return tests::bezier_point(p, x[0]) - tests::bezier_point(net, x[1], x[2]);
+        },
+        8);
+    expect_exactly<3>(distance(&a, &b), way, oracle, trial, minima, unclear);
+  }
+  EXPECT_LT(unclear, pairs / 5 + 2);
+  tests::report_figure("pairs", pairs - unclear);
   tests::report_figure("minima", minima);
 }
 
