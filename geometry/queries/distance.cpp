@@ -188,23 +188,30 @@ class DistanceQuery {
     bound_ = std::min(bound_, lower_bound<N>(system, box, std::min(seen_.distance, own) - 1e-15 * size_));
   }
 
-  // Whether descents end where places beside are as near, or at a pole, about which all parameters are.
+  // Whether descents end where places beside are as near, or at a pole, about which all parameters are. (Those that
+  // the pole stops on their way to something nearer tell nothing.)
   template <int N>
-  static bool seems_level(const ElementPair& pair, const DistanceSystem<N>& system) {
+  bool seems_level(const ElementPair& pair, const DistanceSystem<N>& system) const {
     const ParameterBox<N> domain = system.domain();
+    double least = kInfinity, least_at_pole = kInfinity;
     for (const ParameterPlace<N>& start : starts<N>(domain, 2)) {
       const ParameterPlace<N> end = descended<N>(system, domain, start);
-      const auto singular = [](const DistanceElement& element, const ElementPlace& at) {
-        const ElementJet jet = element.jet(at);
-        for (int i = 0; i < element.dimension; ++i)
-          if (glm::length(jet.first[i]) * element.scale[i] <= 1e-6 * element.box.diameter()) return true;
-        return false;
-      };
-      if (singular(*pair.a, system.of_a(end)) || singular(*pair.b, system.of_b(end))) return true;
+      const double distance = glm::length(system.way(end));
+      least = std::min(least, distance);
+      if (is_singular(*pair.a, system.of_a(end)) || is_singular(*pair.b, system.of_b(end))) {
+        least_at_pole = std::min(least_at_pole, distance);
+        continue;
+      }
       bool inner = true;
       for (int i = 0; i < N; ++i) inner = inner && end[i] > domain[i].lo && end[i] < domain[i].hi;
       if (inner && !is_found_again<N>(system, end)) return true;
     }
+    return least_at_pole <= least + 1e-9 * size_;
+  }
+  static bool is_singular(const DistanceElement& element, const ElementPlace& at) {
+    const ElementJet jet = element.jet(at);
+    for (int i = 0; i < element.dimension; ++i)
+      if (glm::length(jet.first[i]) * element.scale[i] <= 1e-6 * element.box.diameter()) return true;
     return false;
   }
 

@@ -74,7 +74,8 @@ bool grows(const std::vector<DistanceStep>& off, const Vec3& towards, const Dist
     // At a cusp or pole the tangent is where the next place lies.
     if (!(glm::length(ahead) > kLevel * size)) ahead = step.into->at(step.moved(1e-2 * kSmallStep)) - jet.point;
     const double length = glm::length(ahead);
-    if (!(length > 0)) continue;
+    // Along an edge that is one point there is no way off.
+    if (!(length > kEqualDistance * size)) continue;
     const double slope = glm::dot(towards, ahead) / length;
     if (slope * minimum.distance > kLevel * size) return false;
     if (slope * minimum.distance < -kLevel * size) continue;

@@ -208,6 +208,18 @@ TEST(BodyDistance, OfCylindersAndBalls) {
   expect_certain(distance(Vec3(2, 0, 3), &upright), std::sqrt(2.0));
 }
 
+TEST(BodyDistance, TheTipOfAConeIsAVertex) {
+  const Body cone = frustum(frame_about({0.3, 0.2, 0.1}, {1, 2, 3}), 1, 0, 2);
+  const Vec3 axis = glm::normalize(Vec3(1, 2, 3)), tip = Vec3(0.3, 0.2, 0.1) + 2.0 * axis;
+  for (const Vec3& beside : {Vec3(0), Vec3(0.1, 0, 0), Vec3(0, -0.3, 0.2)}) {
+    const Distance found = distance(tip + axis + beside, &cone, DistanceMinima::nearest);
+    expect_certain(found, glm::length(axis + beside));
+    ASSERT_EQ(found.minima.size(), 1u);
+    EXPECT_TRUE(found.minima[0].isolated);
+    EXPECT_EQ(found.minima[0].b.kind, DistancePlace::Kind::vertex);
+  }
+}
+
 TEST(BodyDistance, TrimsAreKept) {
   // A square plate with a round hole over a point and a line that pass through the hole.
   const auto plane = std::make_shared<Plane>(Frame(), Rectangle{{-3, 3}, {-3, 3}});
