@@ -5,6 +5,7 @@
 
 #include "geometry/queries/distance_families.h"
 #include "geometry/queries/distance_neighbours.h"
+#include "geometry/queries/distance_pairs.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -58,26 +59,26 @@ class DistanceQuery {
   }
 
  private:
-  static double distance_of(const Box3& a, const Box3& b) {
-    return glm::length(glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), Vec3(0)));
-  }
-
   void search_all() {
-    std::vector<ElementPair> pairs;
-    for (const auto& a : a_)
-      for (const auto& b : b_) pairs.push_back({a.get(), b.get(), distance_of(a->box, b->box)});
-    std::stable_sort(pairs.begin(), pairs.end(), [](const ElementPair& x, const ElementPair& y) {
-      return x.from != y.from ? x.from < y.from : x.unknowns() < y.unknowns();
-    });
-    for (const ElementPair& pair : pairs) {
-      if (nearest_ && pair.from > seen_.distance * (1 + kTie) + kEqualDistance * size_) break;
-      if (is_flat_pair(pair))
-        flats_.push_back(pair);
-      else
-        search(pair);
-      if (stops_at_meeting_ && seen_.distance <= kMeeting * size_) return;
+    if (nearest_) {
+      NearestPairs pairs(a_, b_);
+      while (const auto pair = pairs.next()) {
+        if (pair->from > seen_.distance * (1 + kTie) + kEqualDistance * size_) break;
+        visit(*pair);
+        if (stops_at_meeting_ && seen_.distance <= kMeeting * size_) return;
+      }
+    } else {
+      for (const auto& a : a_)
+        for (const auto& b : b_) visit({a.get(), b.get()});
     }
     absorb_in_flats(flats_, size_, found_);
+  }
+
+  void visit(const ElementPair& pair) {
+    if (is_flat_pair(pair))
+      flats_.push_back(pair);
+    else
+      search(pair);
   }
 
   // Two parallel elements that are straight or plane: where they are nearest to each other reaches to their borders,
@@ -286,6 +287,8 @@ class DistanceQuery {
     if (result.minima.empty() || result.minima[0].distance > seen_.distance + kEqualDistance * size_) {
       result.minima.insert(result.minima.begin(), minimum_at(seen_.pair, seen_.a, seen_.b));
       result.minima[0].isolated = false;
+      // It contradicts what the search says of all other places: nothing is certain.
+      if (bound_ > seen_.distance) bound_ = 0;
     }
     result.distance = result.meet ? 0 : result.minima[0].distance;
     result.bound = result.meet ? 0 : std::clamp(bound_, 0.0, result.distance);

@@ -239,7 +239,7 @@ class SurfaceProjection {
     places.push_back(range.hi);
     // The derivative across the line, on the side towards less or greater parameters.
     const auto across = [&](double place, double t, bool below) {
-      const double beside = below ? std::max(range.lo, place - 1e-15 * range.width()) : place;
+      const double beside = below ? within({range.lo, place}, place) : place;
       const SurfaceJet s = holds_u ? surface_.evaluate(beside, t, 1) : surface_.evaluate(t, beside, 1);
       return holds_u ? s.du() : s.dv();
     };

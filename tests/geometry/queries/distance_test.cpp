@@ -108,6 +108,28 @@ TEST(CurveDistance, OfAKinkAndAClosedPolyline) {
   EXPECT_EQ(distance(&square, &axis).minima.size(), 4u);
 }
 
+TEST(CurveDistance, OfLongPolylinesIsThatOfTheirSegments) {
+  std::vector<Vec3> p, q;
+  for (int k = 0; k <= 100; ++k) {
+    const double t = kTwoPi * k / 100;
+    p.emplace_back(std::cos(t), std::sin(t), 0.1 * std::sin(7 * t));
+    q.emplace_back(1.3 * std::cos(t), 0.9 * std::sin(t), 0.3 + 0.1 * std::cos(5 * t));
+  }
+  double least = kInfinity;
+  for (size_t i = 0; i + 1 < p.size(); ++i)
+    for (size_t k = 0; k + 1 < q.size(); ++k) {
+      const Segment a(p[i], p[i + 1]), b(q[k], q[k + 1]);
+      least = std::min(least, distance(&a, &b).distance);
+    }
+  const NurbsCurve a = polyline(p), b = polyline(q);
+  const Distance all = distance(&a, &b), nearest = distance(&a, &b, DistanceMinima::nearest);
+  expect_certain(all, least);
+  expect_certain(nearest, least);
+  EXPECT_EQ(nearest.minima.size(), 1u);
+  EXPECT_TRUE(nearest.minima[0].isolated);
+  EXPECT_NEAR(nearest.minima[0].a.t, 32, 1e-12);
+}
+
 TEST(CurveDistance, FromAPointIsThatOfItsFeet) {
   const Circle circle(Frame(), 2);
   const Distance found = distance(Vec3(3, 0, 4), &circle);
@@ -239,6 +261,37 @@ TEST(BodyDistance, TrimsAreKept) {
   EXPECT_FALSE(flat.minima[0].isolated);
   EXPECT_NEAR(flat.minima[0].range_a[0].lo, 0.6, 1e-12);
   EXPECT_NEAR(flat.minima[0].range_a[0].hi, 1, 1e-12);
+}
+
+TEST(BodyDistance, OfATrimmedSphereByItsRim) {
+  // A round patch of the parameter plane: the foot on the sphere where that lies in the patch, else on the rim.
+  const auto sphere = std::make_shared<SphereSurface>(Frame(), 1);
+  Frame middle;
+  middle.origin = {2, 0.3, 0};
+  const Circle rim(middle, 0.6);
+  const Body patch = trimmed_surface(sphere, {std::make_shared<Circle>(rim)});
+  std::mt19937_64 random(22);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-2.5, 2.5)(random); };
+  int on_rim = 0;
+  const int points = tests::tier_count(1000, 20);
+  for (int k = 0; k < points; ++k) {
+    const Vec3 p(number(), number(), number());
+    const Vec2 foot(std::atan2(p.y, p.x), std::asin(p.z / glm::length(p)));
+    double expected = std::abs(glm::length(p) - 1);
+    if (!(glm::length(foot - Vec2(middle.origin)) < 0.6)) {
+      ++on_rim;
+      expected = kInfinity;
+      for (int i = 0; i < 20000; ++i) {
+        const Vec3 uv = rim.point(kTwoPi * i / 20000);
+        expected = std::min(expected, glm::length(sphere->point(uv.x, uv.y) - p));
+      }
+    }
+    const Distance found = distance(p, &patch, DistanceMinima::nearest);
+    EXPECT_LE(found.distance, expected + 1e-15) << k;
+    EXPECT_GE(found.distance, expected - 1e-6) << k;
+    EXPECT_GE(found.bound, found.distance - 1e-13);
+  }
+  EXPECT_GT(on_rim, points / 2);
 }
 
 // Random pairs: none of the minima that sampling and descent find is lost, and no place is nearer than the first.

@@ -63,6 +63,19 @@ TEST(PointOnCurve, AnArcOfACircleHasEnds) {
   EXPECT_NEAR(found.feet[0].distance, std::sqrt(13.0), 1e-15);
 }
 
+TEST(PointOnCurve, AKinkFarAlongAPolylineIsAFoot) {
+  // The knots are 0, 1, .., 100: one rounding error of a knot is more than 1e-15.
+  std::vector<Vec3> points;
+  for (int k = 0; k <= 100; ++k) points.emplace_back(0.1 * k, k % 2 ? 0.3 : 0.0, 0);
+  const NurbsCurve zigzag = polyline(points);
+  for (int k = 1; k < 100; k += 2) {
+    const CurveFoot nearest = project(Vec3(0.1 * k, 5, 0), zigzag).feet.at(0);
+    EXPECT_EQ(nearest.kind, FootKind::border);
+    EXPECT_NEAR(nearest.t, k, 1e-12);
+    EXPECT_NEAR(nearest.distance, 4.7, 1e-14);
+  }
+}
+
 TEST(PointOnSurface, ATorusHasFourFeet) {
   const TorusSurface torus(Frame(), 3, 1);
   const SurfaceFeet found = project({1, 2, 2}, torus);
