@@ -74,6 +74,6 @@ geometry::Vec3 vector_of(const ordered_json& v);
 // A place on a thing; of a body its vertex, edge or face first.
 ordered_json place_row(const geometry::DistancePlace& place);
 std::string place_text(const ordered_json& place);
-std::string parameters(const ordered_json& row);
+std::string parameter_text(const ordered_json& row);
 
 }  // namespace lekalo::command

@@ -159,7 +159,7 @@ std::string place_text(const ordered_json& place) {
   return text + "point " + digits(vector_of(place["point"]));
 }
 
-std::string parameters(const ordered_json& row) {
+std::string parameter_text(const ordered_json& row) {
   std::string text;
   for (const char* key : {"t", "t_other", "u", "v"})
     if (row.contains(key)) text += fmt::format("{}{} {:<20.17g}", text.empty() ? "" : " ", key, row[key].get<double>());
@@ -195,7 +195,7 @@ void print_distance(const ordered_json& found) {
   fmt::print("{} '{}' to {}: distance {}\n", found["kind"].get<std::string>(), found["name"].get<std::string>(),
              found["to"].get<std::string>(), digits(found["distance"].get<double>()));
   for (const ordered_json& foot : found["feet"])
-    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot["kind"].get<std::string>(), parameters(foot),
+    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot["kind"].get<std::string>(), parameter_text(foot),
                foot["distance"].get<double>(), digits(vector_of(foot["point"])));
   if (found.contains("arcs"))
     for (const ordered_json& arc : found["arcs"])

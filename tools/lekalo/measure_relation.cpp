@@ -75,7 +75,7 @@ void print_intersections(const ordered_json& found) {
              points, points == 1 ? "" : "s",
              parts == 0 ? "" : fmt::format(", {} part{} in common", parts, parts == 1 ? "" : "s"));
   for (const ordered_json& one : found["points"])
-    fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameters(one),
+    fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameter_text(one),
                digits(vector_of(one["point"])));
   for (const ordered_json& part : found["common"]) {
     fmt::print("  common   t {} to {}", digits(part["t"][0].get<double>()), digits(part["t"][1].get<double>()));
