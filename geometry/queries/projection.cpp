@@ -97,7 +97,9 @@ CurveFeet project(const Vec3& p, const Curve& curve) {
   for (const Interval& arc : result.arcs) add(arc.middle(), FootKind::degenerate);
 
   // Joints of pieces and ends: f falls from plus to minus there, or the curve ends on the rising side.
-  const bool closed = curve.is_closed() || curve.period() > 0;
+  // An arc of a periodic curve has ends.
+  const bool closed = curve.is_closed() || (curve.period() > 0 &&
+                                            std::abs(curve.period() - domain.width()) <= kDomainSlack * domain.width());
   for (size_t k = 0; k <= pieces.size(); ++k) {
     const bool inner = k > 0 && k < pieces.size();
     if (closed && k == pieces.size()) break;
@@ -237,7 +239,7 @@ class SurfaceProjection {
     places.push_back(range.hi);
     // The derivative across the line, on the side towards less or greater parameters.
     const auto across = [&](double place, double t, bool below) {
-      const double beside = below ? std::max(range.lo, place - 1e-15 * range.width()) : place;
+      const double beside = below ? within({range.lo, place}, place) : place;
       const SurfaceJet s = holds_u ? surface_.evaluate(beside, t, 1) : surface_.evaluate(t, beside, 1);
       return holds_u ? s.du() : s.dv();
     };

@@ -21,9 +21,10 @@ inline Interval product(const Vec3& p, const Box3& r, const Box3& d) {
 }
 inline Interval square(const Box3& a) { return sqr(along(a, 0)) + sqr(along(a, 1)) + sqr(along(a, 2)); }
 
-// The parameter, a little inside of the piece at its upper end, where evaluate() looks at the next one.
+// The parameter, a little inside of the piece at its upper end, where evaluate() looks at the next one: however far
+// from zero the piece lies.
 inline double within(const Interval& piece, double t) {
-  return std::clamp(t, piece.lo, std::max(piece.lo, piece.hi - 1e-15 * piece.width()));
+  return std::clamp(t, piece.lo, std::max(piece.lo, std::min(piece.hi - 1e-15 * piece.width(), next_down(piece.hi))));
 }
 inline CurveJet evaluate_within(const Curve& curve, const Interval& piece, double t, int order) {
   return curve.evaluate(within(piece, t), order);

@@ -20,6 +20,10 @@ geometry:
   block: { type: box, size: [1, 2, 3] }
   floor: { type: plane }
   shell: { type: sphere_surface, radius: 1, domain: { u: [0, 360 deg], v: [0, 90 deg] } }
+  south: { type: sphere_surface, radius: 1, domain: { u: [0, 360 deg], v: [-90 deg, 0] } }
+  bend:  { type: circle, center: [4, 3, 0], radius: 2, arc: [-90 deg, 0] }
+  inside: { type: half_space, through: [0, 0, 1], normal: z }
+  disc:  { type: trimmed_surface, of: { type: plane }, loops: [{ type: circle, radius: 2 }] }
   patch: { type: bezier_surface, points: [[[20, 0, 0], [20, 1, 1], [20, 2, 0]], [[21, 0, 1], [21, 1, 3], [21, 2, 1]],
            [[22, 0, 0], [22, 1, 1], [22, 2, 0]]] }
   tile:  { type: mesh, file: tile.obj }
@@ -123,6 +127,28 @@ class Numbers(ProgramTest):
         text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]
         self.assertIn("minimum", text)
 
+    def test_distance_between_things(self):
+        """A ball of radius 1.5 at height 3 above a box of height 3; a chord above a torus; a disc's rim inside a sphere."""
+        found = self.measure("ball", "--to", "chord")
+        self.assert_near(found["distance"], math.hypot(3, 1) - 1.5, 1e-14)
+        self.assertTrue(0 <= found["distance"] - found["bound"] < 1e-13)
+        self.assertEqual((found["kind"], found["meet"], len(found["minima"])), ("body", False, 1))
+        self.assert_near(found["minima"][0]["at_other"]["t"], 0.5, 1e-12)
+        found = self.measure("block", "--to", "10,1,1.5")
+        self.assert_near([one["distance"] for one in found["minima"]], [9, 10], 1e-14)
+        self.assertTrue(all("face" in one["at"] for one in found["minima"]))
+        found = self.measure("block", "--to", "10,1,1.5", "--nearest")
+        self.assertEqual(len(found["minima"]), 1)
+        found = self.measure("tire", "--to", "rim")
+        self.assert_near(found["distance"], 0.5, 1e-13)
+        self.assertFalse(found["minima"][0]["isolated"])
+        self.assertEqual(len(found["minima"][0]["at_other"]["t_range"]), 2)
+        found = self.measure("shell", "--to", "block")
+        self.assertEqual((found["meet"], found["distance"], found["bound"]), (True, 0, 0))
+        text = self.run_program("measure", "scene.yaml", "tire", "--to", "rim")[0]
+        self.assertIn("places beside are as near", text)
+        self.assertIn("they meet", self.run_program("measure", "scene.yaml", "shell", "--to", "block")[0])
+
     def test_intersections(self):
         found = self.measure("rim", "--intersect", "chord")
         self.assert_near([one["point"] for one in found["points"]], [[math.sqrt(3), 1, 0], [-math.sqrt(3), 1, 0]], 1e-14)
@@ -138,9 +164,51 @@ class Numbers(ProgramTest):
         text = self.run_program("measure", "scene.yaml", "rim", "--intersect", "tangent")[0]
         self.assertIn("contact", text)
 
+    def test_position(self):
+        for words, where, distance in ((("shell", "0,0,3"), "above", 2), (("shell", "0,0,0.5"), "below", 0.5),
+                                       (("floor", "3,4,-2"), "below", 2), (("block", "0.5,1,0.25"), "inside", 0.25),
+                                       (("block", "2,1,1"), "outside", 1), (("block", "1,1,1"), "on", 0),
+                                       (("ring", "2,0,0.25"), "inside", 0.25), (("ring", "apex"), "outside", math.hypot(1, 4) - 0.5),
+                                       (("disc", "1,0"), "inside", 1), (("disc", "3,0"), "outside", 1)):
+            found = self.measure(words[0], "--position", words[1])
+            self.assertEqual(found["position"], where, words)
+            self.assert_near(found["distance"], distance, 1e-13)
+        self.assertEqual(self.measure("inside", "--position", "5,6,0")["position"], "inside")
+        self.assertEqual(self.measure("inside", "--position", "5,6,2")["position"], "outside")
+        self.assertTrue(self.measure("block", "--position", "-1,-1,-1")["by_lines"])
+        self.assert_near(self.measure("shell", "--position", "0,0,0.5")["height"], -0.5, 1e-14)
+        text = self.run_program("measure", "scene.yaml", "block", "--position", "0.5,1,0.25")[0]
+        self.assertIn("0.5,1,0.25 is inside body 'block'", text)
+
+    def test_continuity(self):
+        """A box has right angles, two half spheres are one, a line meets the arc of a circle with a jump 1/2."""
+        joints = self.measure("block", "--continuity")["joints"]
+        self.assertEqual(len(joints), 12)
+        for joint in joints:
+            self.assertEqual(joint["order"], 0)
+            self.assert_near(joint["angle"]["largest"], math.pi / 2, 1e-14)
+        joints = self.measure("shell", "--continuity", "south")["joints"]
+        self.assertEqual([joint["order"] for joint in joints], [3])
+        self.assertEqual((joints[0]["edge"]["v"], joints[0]["edge_other"]["v"]), (0, 0))
+        found = self.measure("chord", "--continuity", "bend")
+        self.assertEqual((found["joints"][0]["end"], found["joints"][0]["end_other"]), ("last", "first"))
+        self.assertEqual(found["joints"][0]["order"], 1)
+        self.assert_near(found["joints"][0]["curvature"]["largest"], 0.5, 1e-14)
+        self.assertEqual(self.measure("chord", "--continuity", "bend", "--tolerance", 1)["joints"][0]["order"], 3)
+        text = self.run_program("measure", "scene.yaml", "chord", "--continuity", "bend")[0]
+        self.assertIn("G1: last end with first end", text)
+
     def test_questions_without_an_answer(self):
-        for words, message in ((("block", "--to", "0,0,0"), "neither a curve nor a surface"),
-                               (("rim", "--to", "ring"), "'ring' is no point"),
+        for words, message in ((("tile", "--to", "0,0,0"), "'tile' is no curve"),
+                               (("rim", "--to", "tile"), "'tile' is no point"),
+                               (("floor", "--to", "floor"), "give one of the planes a domain"),
+                               (("rim", "--nearest"), "--nearest belongs to --to"),
+                               (("rim", "--position", "0,0,0"), "'rim' is no surface"),
+                               (("disc", "--position", "0,0,1"), "the body is not closed"),
+                               (("block", "--position", "0,1"), "'block' is no body of one face"),
+                               (("rim", "--continuity"), "'rim' is no body"),
+                               (("rim", "--continuity", "chord"), "a closed curve has no ends"),
+                               (("rim", "--continuity", "tire"), "do not join"),
                                (("rim", "--to", "apexx"), "apex"), (("rim", "--to", "1,2"), "--to"),
                                (("shell", "--intersect", "tire"), "one must be a curve"),
                                (("rim", "--tolerance", 1), "--tolerance belongs to")):

@@ -44,6 +44,57 @@ struct Bernstein {
   }
 };
 
+inline double binomial(int n, int k) {
+  double result = 1;
+  for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
+  return result;
+}
+
+// The scalar product of two polynomials.
+inline Bernstein<1> dot(const Bernstein<3>& a, const Bernstein<3>& b) {
+  Bernstein<1> r;
+  size_t count = 1;
+  for (int k = 0; k < 3; ++k) r.degree[k] = a.degree[k] + b.degree[k], count *= r.degree[k] + 1;
+  r.c.assign(count, {0});
+  const auto each = [](const std::array<int, 3>& degree, auto&& visit) {
+    for (int i = 0; i <= degree[0]; ++i)
+      for (int j = 0; j <= degree[1]; ++j)
+        for (int k = 0; k <= degree[2]; ++k) visit(std::array{i, j, k});
+  };
+  each(a.degree, [&](const std::array<int, 3>& i) {
+    each(b.degree, [&](const std::array<int, 3>& j) {
+      const auto &x = a.c[a.index(i[0], i[1], i[2])], &y = b.c[b.index(j[0], j[1], j[2])];
+      double factor = 1;
+      for (int k = 0; k < 3; ++k)
+        factor *= binomial(a.degree[k], i[k]) * binomial(b.degree[k], j[k]) / binomial(r.degree[k], i[k] + j[k]);
+      r.c[r.index(i[0] + j[0], i[1] + j[1], i[2] + j[2])][0] += factor * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+    });
+  });
+  return r;
+}
+
+inline Bernstein<3> derivative(const Bernstein<3>& a, int axis) {
+  Bernstein<3> r;
+  r.degree = a.degree;
+  --r.degree[axis];
+  r.c.resize(size_t(r.degree[0] + 1) * (r.degree[1] + 1) * (r.degree[2] + 1));
+  for (int i = 0; i <= r.degree[0]; ++i)
+    for (int j = 0; j <= r.degree[1]; ++j)
+      for (int k = 0; k <= r.degree[2]; ++k)
+        for (int d = 0; d < 3; ++d)
+          r.c[r.index(i, j, k)][d] =
+              a.degree[axis] *
+              (a.c[a.index(i + (axis == 0), j + (axis == 1), k + (axis == 2))][d] - a.c[a.index(i, j, k)][d]);
+  return r;
+}
+
+// Whether the polynomial may vanish, for all that its coefficients say.
+inline bool changes_sign(const Bernstein<1>& f) {
+  bool plus = false, minus = false;
+  for (const auto& c : f.c) plus = plus || c[0] > -1e-14, minus = minus || c[0] < 1e-14;
+  return plus && minus;
+}
+
 // Places of [0, 1]^N where `may_vanish` cannot be denied down to `smallest`, those nearer than 1000 of it as one.
 // `unclear`: so many or so near to each other that their number tells nothing.
 template <int N, class State>

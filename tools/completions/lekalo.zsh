@@ -42,7 +42,7 @@ case $command in
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
   check) _arguments $scene '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point]:name or x,y,z' '--intersect[a curve or surface]:name' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
+  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point, curve, surface or body]:name or x,y,z' '--nearest[only the nearest place]' '--position[a point]:name, x,y,z or u,v' '--continuity[how smoothly it joins]:name' '--intersect[a curve or surface]:name' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -82,13 +83,16 @@ void put_body(ordered_json& out, const geometry::Body& body) {
 
 // Places in each direction where two curves or surfaces are compared.
 constexpr int kSamples = 65;
+// Jumps of a joint that pass unless told otherwise.
+constexpr double kSmooth = 1e-6;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, intersect, section, silhouette;
+  std::string name, against, to, intersect, section, silhouette, position;
+  std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, json = false;
+  bool topology = false, nearest = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -115,19 +119,25 @@ bool has_faces(const render::Entity& entity) {
   return std::holds_alternative<geometry::SurfacePtr>(entity) || std::holds_alternative<geometry::BodyPtr>(entity);
 }
 
-// A point of the scene, or "x,y,z".
-Vec3 point_named(const render::LoadedScene& scene, const std::string& text) {
-  if (text.find(',') != std::string::npos) {
-    const std::vector<double> numbers = parse_numbers(text, 3, "--to");
-    return {numbers[0], numbers[1], numbers[2]};
-  }
-  if (const auto* point = std::get_if<Vec3>(&find_geometry(scene, text))) return *point;
-  throw UsageError(fmt::format("'{}' is no point: --to takes a point of the scene, or X,Y,Z", text));
+// A thing of the scene, or the point "x,y,z".
+render::Entity thing_or_point(const render::LoadedScene& scene, const std::string& text, const std::string& option) {
+  if (text.find(',') == std::string::npos) return find_geometry(scene, text);
+  const std::vector<double> numbers = parse_numbers(text, 3, option);
+  return Vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+// The coordinates of a point of the scene, or those written: "x,y,z" or "u,v".
+std::vector<double> place_named(const render::LoadedScene& scene, const std::string& text) {
+  const auto commas = std::count(text.begin(), text.end(), ',');
+  if (commas > 0) return parse_numbers(text, commas == 1 ? 2 : 3, "--position");
+  if (const auto* point = std::get_if<Vec3>(&find_geometry(scene, text))) return {point->x, point->y, point->z};
+  throw UsageError(fmt::format("'{}' is no point: --position takes a point of the scene, X,Y,Z, or U,V", text));
 }
 
 int run(const Options& options) {
-  if (options.tolerance && options.against.empty() && options.intersect.empty())
-    throw UsageError("--tolerance belongs to --against SAMPLES.csv, --against NAME or --intersect NAME");
+  if (options.tolerance && options.against.empty() && options.intersect.empty() && !options.continuity)
+    throw UsageError("--tolerance belongs to --against SAMPLES.csv, --against NAME, --intersect NAME or --continuity");
+  if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
   print_external_notes(scene, !options.json);
@@ -152,8 +162,15 @@ int run(const Options& options) {
     out = compare_with_table(options.name, entity, load_table(options.against), options.against, options.tolerance);
     print = print_comparison;
   } else if (!options.to.empty()) {
-    out = distance_to_point(options.name, entity, options.to, point_named(scene, options.to));
+    out = distance_to(options.name, entity, options.to, thing_or_point(scene, options.to, "--to"), options.nearest);
     print = print_distance;
+  } else if (!options.position.empty()) {
+    out = position_of(options.name, entity, options.position, place_named(scene, options.position));
+    print = print_position;
+  } else if (options.continuity) {
+    const render::Entity* other = options.continuity->empty() ? nullptr : &find_geometry(scene, *options.continuity);
+    out = continuity_of(options.name, entity, *options.continuity, other, options.tolerance.value_or(kSmooth));
+    print = print_continuity;
   } else if (of_contours) {
     const int samples = options.samples.value_or(0);
     if (!options.section.empty())
@@ -251,9 +268,12 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
+      "  lekalo measure curves.yaml chord --to dome\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
       "  lekalo measure ring.yaml ring --section 0,0,0.2,0,0,1 --samples 100 --json\n"
       "  lekalo measure ring.yaml ring --silhouette camera\n"
+      "  lekalo measure curves.yaml dome --position 0,0,3\n"
+      "  lekalo measure plate.yaml plate --continuity\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
@@ -264,9 +284,11 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
-  auto* to = sub->add_option("--to", options->to, "distance from a point, with all its feet on the curve or surface")
+  auto* to = sub->add_option("--to", options->to,
+                             "distance from a point, with all its feet; from a curve, surface or body, with all minima")
                  ->type_name("NAME|X,Y,Z")
                  ->excludes(topology);
+  sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
                       "where the curve, surface or body meets another: crossings, contacts, common parts, curves")
@@ -288,6 +310,26 @@ void add_measure(CLI::App& app, Action& action) {
           ->excludes(to)
           ->excludes(intersect)
           ->excludes(section);
+  auto* position = sub->add_option("--position", options->position,
+                                   "where a point lies: above or below a surface, inside or outside of a body; or U,V "
+                                   "in the region of a trimmed surface")
+                       ->type_name("NAME|X,Y,Z|U,V")
+                       ->excludes(topology)
+                       ->excludes(to)
+                       ->excludes(intersect)
+                       ->excludes(section)
+                       ->excludes(silhouette);
+  auto* continuity =
+      sub->add_option("--continuity", options->continuity,
+                      "how smoothly it joins another curve or surface; alone, how a body's faces join: G0 to G3")
+          ->type_name("[NAME]")
+          ->expected(0, 1)
+          ->excludes(topology)
+          ->excludes(to)
+          ->excludes(intersect)
+          ->excludes(section)
+          ->excludes(silhouette)
+          ->excludes(position);
   sub->add_option("--against", options->against,
                   "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
                   "domain is mapped linearly")
@@ -296,11 +338,13 @@ void add_measure(CLI::App& app, Action& action) {
       ->excludes(to)
       ->excludes(intersect)
       ->excludes(section)
-      ->excludes(silhouette);
+      ->excludes(silhouette)
+      ->excludes(position)
+      ->excludes(continuity);
   sub->add_option("--tolerance", options->tolerance,
                   fmt::format("largest difference that passes; of --intersect the part of the size below which points "
-                              "are one [{:g}]",
-                              geometry::kSamePoint))
+                              "are one [{:g}]; of --continuity the relative jump that passes [{:g}]",
+                              geometry::kSamePoint, kSmooth))
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--samples", options->samples,

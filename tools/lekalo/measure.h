@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/queries/distance.h"
 #include "json.h"
 #include "render/scene/model.h"
 #include "render/scene/table.h"
@@ -31,10 +32,10 @@ ordered_json compare_pair(const std::string& name, const render::Entity& entity,
                           const render::Entity& other, int samples, int order, std::optional<double> tolerance);
 void print_pair(const ordered_json& compared);
 
-// The distance of a curve or surface from a point, and all feet of the point on it. Throws UsageError for anything
-// else.
-ordered_json distance_to_point(const std::string& name, const render::Entity& entity, const std::string& to,
-                               const geometry::Vec3& point);
+// The distance of a curve or surface from a point with all feet of the point on it; of a body from a point, and between
+// two of all these, with all local minima, or with `nearest` the nearest ones. Throws UsageError for anything else.
+ordered_json distance_to(const std::string& name, const render::Entity& entity, const std::string& to,
+                         const render::Entity& other, bool nearest);
 void print_distance(const ordered_json& found);
 
 // Where two curves, or a curve and a surface, meet. `tolerance`, relative to the size of both: points nearer than that
@@ -53,5 +54,26 @@ ordered_json section(const std::string& name, const render::Entity& entity, cons
 ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
                              const render::Camera* camera, int samples);
 void print_contours(const ordered_json& found);
+
+// Where the point of a scene or X,Y,Z (three numbers) lies by a surface, closed body or closed shape; U,V (two numbers)
+// in the region of a body's only face. Throws UsageError for anything else.
+ordered_json position_of(const std::string& name, const render::Entity& entity, const std::string& of,
+                         const std::vector<double>& place);
+void print_position(const ordered_json& found);
+
+// How smoothly two curves, two surfaces, or with an empty `other_name` the faces of a body, join: the jump of each
+// order. `tolerance`: what passes of each order, see geometry/queries/continuity.h. Throws UsageError for anything
+// else.
+ordered_json continuity_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                           const render::Entity* other, double tolerance);
+void print_continuity(const ordered_json& found);
+
+// Parts of these outputs: a range of a parameter; a point back from JSON; the row's parameters as text.
+ordered_json range(const geometry::Interval& x);
+geometry::Vec3 vector_of(const ordered_json& v);
+// A place on a thing; of a body its vertex, edge or face first.
+ordered_json place_row(const geometry::DistancePlace& place);
+std::string place_text(const ordered_json& place);
+std::string parameter_text(const ordered_json& row);
 
 }  // namespace lekalo::command

@@ -133,8 +133,6 @@ ordered_json asked(const std::string& name, const char* key, const std::string& 
   return out;
 }
 
-Vec3 vector_of(const ordered_json& v) { return {v[0], v[1], v[2]}; }
-
 std::string parameters(const ordered_json& row) {
   std::string text;
   for (const char* key : kParameters)

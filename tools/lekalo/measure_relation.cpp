@@ -1,11 +1,10 @@
-// Where a curve or surface is nearest to a point, and where curves and surfaces meet.
+// Where curves and surfaces meet.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "command.h"
 #include "geometry/queries/curve_intersections.h"
-#include "geometry/queries/projection.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -13,56 +12,9 @@ namespace lekalo::command {
 namespace {
 
 using geometry::CurvePtr;
-using geometry::FootKind;
 using geometry::Interval;
 using geometry::SurfacePtr;
 using geometry::Vec3;
-
-const char* word(FootKind kind) {
-  switch (kind) {
-    case FootKind::minimum:
-      return "minimum";
-    case FootKind::maximum:
-      return "maximum";
-    case FootKind::saddle:
-      return "saddle";
-    case FootKind::degenerate:
-      return "degenerate";
-    case FootKind::border:
-      return "border";
-  }
-  return "";
-}
-
-ordered_json range(const Interval& x) { return ordered_json::array({x.lo, x.hi}); }
-
-template <class Foot>
-ordered_json foot_row(ordered_json row, const Foot& foot) {
-  row["point"] = to_json(foot.point);
-  row["distance"] = foot.distance;
-  row["kind"] = word(foot.kind);
-  return row;
-}
-
-ordered_json feet(const geometry::Curve& curve, const Vec3& point) {
-  ordered_json out;
-  const geometry::CurveFeet found = project(point, curve);
-  out["distance"] = found.feet.front().distance;
-  for (const geometry::CurveFoot& foot : found.feet) out["feet"].push_back(foot_row({{"t", foot.t}}, foot));
-  for (const Interval& arc : found.arcs) out["arcs"].push_back(range(arc));
-  return out;
-}
-
-ordered_json feet(const geometry::Surface& surface, const Vec3& point) {
-  ordered_json out;
-  const geometry::SurfaceFeet found = project(point, surface);
-  out["distance"] = found.feet.front().distance;
-  for (const geometry::SurfaceFoot& foot : found.feet)
-    out["feet"].push_back(foot_row({{"u", foot.u}, {"v", foot.v}}, foot));
-  for (const geometry::Rectangle& region : found.regions)
-    out["regions"].push_back({{"u", range(region.u)}, {"v", range(region.v)}});
-  return out;
-}
 
 template <class Meeting>
 ordered_json meeting_row(ordered_json row, const Meeting& one) {
@@ -91,55 +43,7 @@ ordered_json meetings(const geometry::Curve& curve, const geometry::Surface& sur
   return {{"points", points}, {"common", common}};
 }
 
-std::string parameters(const ordered_json& row) {
-  std::string text;
-  for (const char* key : {"t", "t_other", "u", "v"})
-    if (row.contains(key)) text += fmt::format("{}{} {:<20.17g}", text.empty() ? "" : " ", key, row[key].get<double>());
-  return text;
-}
-
-Vec3 vector_of(const ordered_json& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
-
-ordered_json distance_to_point(const std::string& name, const render::Entity& entity, const std::string& to,
-                               const Vec3& point) {
-  ordered_json out{{"name", name}};
-  try {
-    ordered_json found;
-    if (const auto* curve = std::get_if<CurvePtr>(&entity)) {
-      out["kind"] = "curve";
-      found = feet(**curve, point);
-    } else if (const auto* surface = std::get_if<SurfacePtr>(&entity)) {
-      out["kind"] = "surface";
-      found = feet(**surface, point);
-    } else {
-      throw UsageError(fmt::format("'{}' is neither a curve nor a surface: distances are measured from those", name));
-    }
-    out["to"] = to;
-    out.update(found);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("'{}': {}", name, error.what()));
-  }
-  return out;
-}
-
-void print_distance(const ordered_json& found) {
-  fmt::print("{} '{}' to {}: distance {}\n", found["kind"].get<std::string>(), found["name"].get<std::string>(),
-             found["to"].get<std::string>(), digits(found["distance"].get<double>()));
-  for (const ordered_json& foot : found["feet"])
-    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot["kind"].get<std::string>(), parameters(foot),
-               foot["distance"].get<double>(), digits(vector_of(foot["point"])));
-  if (found.contains("arcs"))
-    for (const ordered_json& arc : found["arcs"])
-      fmt::print("  all points from t {} to {} are as far\n", digits(arc[0].get<double>()),
-                 digits(arc[1].get<double>()));
-  if (found.contains("regions"))
-    for (const ordered_json& region : found["regions"])
-      fmt::print("  feet that cannot be told apart: u {:.9g} to {:.9g}, v {:.9g} to {:.9g}\n",
-                 region["u"][0].get<double>(), region["u"][1].get<double>(), region["v"][0].get<double>(),
-                 region["v"][1].get<double>());
-}
 
 ordered_json intersections(const std::string& name, const render::Entity& entity, const std::string& other_name,
                            const render::Entity& other, double tolerance) {
@@ -171,7 +75,7 @@ void print_intersections(const ordered_json& found) {
              points, points == 1 ? "" : "s",
              parts == 0 ? "" : fmt::format(", {} part{} in common", parts, parts == 1 ? "" : "s"));
   for (const ordered_json& one : found["points"])
-    fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameters(one),
+    fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameter_text(one),
                digits(vector_of(one["point"])));
   for (const ordered_json& part : found["common"]) {
     fmt::print("  common   t {} to {}", digits(part["t"][0].get<double>()), digits(part["t"][1].get<double>()));

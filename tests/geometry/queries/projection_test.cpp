@@ -54,6 +54,28 @@ TEST(PointOnCurve, TheCentreOfACircleIsAsFarFromAllOfIt) {
   EXPECT_NEAR(found.feet[0].distance, std::sqrt(5.0), 1e-15);
 }
 
+TEST(PointOnCurve, AnArcOfACircleHasEnds) {
+  const Circle arc(Frame(), 2, {0, 1});
+  const CurveFeet found = project({0, -3, 0}, arc);
+  ASSERT_EQ(found.feet.size(), 1u);
+  EXPECT_EQ(found.feet[0].kind, FootKind::border);
+  EXPECT_EQ(found.feet[0].t, 0);
+  EXPECT_NEAR(found.feet[0].distance, std::sqrt(13.0), 1e-15);
+}
+
+TEST(PointOnCurve, AKinkFarAlongAPolylineIsAFoot) {
+  // The knots are 0, 1, .., 100: one rounding error of a knot is more than 1e-15.
+  std::vector<Vec3> points;
+  for (int k = 0; k <= 100; ++k) points.emplace_back(0.1 * k, k % 2 ? 0.3 : 0.0, 0);
+  const NurbsCurve zigzag = polyline(points);
+  for (int k = 1; k < 100; k += 2) {
+    const CurveFoot nearest = project(Vec3(0.1 * k, 5, 0), zigzag).feet.at(0);
+    EXPECT_EQ(nearest.kind, FootKind::border);
+    EXPECT_NEAR(nearest.t, k, 1e-12);
+    EXPECT_NEAR(nearest.distance, 4.7, 1e-14);
+  }
+}
+
 TEST(PointOnSurface, ATorusHasFourFeet) {
   const TorusSurface torus(Frame(), 3, 1);
   const SurfaceFeet found = project({1, 2, 2}, torus);
@@ -91,48 +113,12 @@ TEST(PointOnSurface, CornersEdgesAndInsideOfASquare) {
 // Random points against halving of Bernstein forms.
 
 using tests::Bernstein;
+using tests::changes_sign;
+using tests::derivative;
+using tests::dot;
 
 double unit(std::mt19937_64& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-double binomial(int n, int k) {
-  double result = 1;
-  for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-  return result;
-}
-
-// The scalar product of two polynomials of u and v.
-Bernstein<1> dot(const Bernstein<3>& a, const Bernstein<3>& b) {
-  Bernstein<1> r;
-  for (int k = 0; k < 3; ++k) r.degree[k] = a.degree[k] + b.degree[k];
-  r.c.assign(static_cast<size_t>(r.degree[0] + 1) * (r.degree[1] + 1), {0});
-  for (int i = 0; i <= a.degree[0]; ++i)
-    for (int j = 0; j <= a.degree[1]; ++j)
-      for (int k = 0; k <= b.degree[0]; ++k)
-        for (int l = 0; l <= b.degree[1]; ++l) {
-          const auto &x = a.c[a.index(i, j, 0)], &y = b.c[b.index(k, l, 0)];
-          const double factor = binomial(a.degree[0], i) * binomial(b.degree[0], k) / binomial(r.degree[0], i + k) *
-                                binomial(a.degree[1], j) * binomial(b.degree[1], l) / binomial(r.degree[1], j + l);
-          r.c[r.index(i + k, j + l, 0)][0] += factor * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
-        }
-  return r;
-}
-Bernstein<3> derivative(const Bernstein<3>& a, int axis) {
-  Bernstein<3> r;
-  r.degree = a.degree;
-  --r.degree[axis];
-  r.c.resize(static_cast<size_t>(r.degree[0] + 1) * (r.degree[1] + 1));
-  for (int i = 0; i <= r.degree[0]; ++i)
-    for (int j = 0; j <= r.degree[1]; ++j)
-      for (int d = 0; d < 3; ++d)
-        r.c[r.index(i, j, 0)][d] =
-            a.degree[axis] * (a.c[a.index(i + (axis == 0), j + (axis == 1), 0)][d] - a.c[a.index(i, j, 0)][d]);
-  return r;
-}
-bool changes_sign(const Bernstein<1>& f) {
-  bool plus = false, minus = false;
-  for (const auto& c : f.c) plus = plus || c[0] > -1e-14, minus = minus || c[0] < 1e-14;
-  return plus && minus;
-}
 Bernstein<3> way_from(const Vec3& p, const std::vector<Vec3>& points, const std::array<int, 3>& degree) {
   Bernstein<3> way;
   way.degree = degree;

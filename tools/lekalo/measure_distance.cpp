@@ -1,0 +1,211 @@
+// How far curves, surfaces and bodies are from points and from each other.
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "command.h"
+#include "geometry/queries/distance.h"
+#include "geometry/queries/projection.h"
+#include "measure.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::BodyPtr;
+using geometry::CurvePtr;
+using geometry::DistanceMinimum;
+using geometry::DistancePlace;
+using geometry::FootKind;
+using geometry::Interval;
+using geometry::SurfacePtr;
+using geometry::Vec3;
+
+const char* word(FootKind kind) {
+  switch (kind) {
+    case FootKind::minimum:
+      return "minimum";
+    case FootKind::maximum:
+      return "maximum";
+    case FootKind::saddle:
+      return "saddle";
+    case FootKind::degenerate:
+      return "degenerate";
+    case FootKind::border:
+      return "border";
+  }
+  return "";
+}
+
+template <class Foot>
+ordered_json foot_row(ordered_json row, const Foot& foot) {
+  row["point"] = to_json(foot.point);
+  row["distance"] = foot.distance;
+  row["kind"] = word(foot.kind);
+  return row;
+}
+
+ordered_json feet(const geometry::Curve& curve, const Vec3& point) {
+  ordered_json out;
+  const geometry::CurveFeet found = project(point, curve);
+  out["distance"] = found.feet.front().distance;
+  for (const geometry::CurveFoot& foot : found.feet) out["feet"].push_back(foot_row({{"t", foot.t}}, foot));
+  for (const Interval& arc : found.arcs) out["arcs"].push_back(range(arc));
+  return out;
+}
+
+ordered_json feet(const geometry::Surface& surface, const Vec3& point) {
+  ordered_json out;
+  const geometry::SurfaceFeet found = project(point, surface);
+  out["distance"] = found.feet.front().distance;
+  for (const geometry::SurfaceFoot& foot : found.feet)
+    out["feet"].push_back(foot_row({{"u", foot.u}, {"v", foot.v}}, foot));
+  for (const geometry::Rectangle& region : found.regions)
+    out["regions"].push_back({{"u", range(region.u)}, {"v", range(region.v)}});
+  return out;
+}
+
+const char* kind_of(const render::Entity& entity) {
+  return std::holds_alternative<Vec3>(entity)         ? "point"
+         : std::holds_alternative<CurvePtr>(entity)   ? "curve"
+         : std::holds_alternative<SurfacePtr>(entity) ? "surface"
+                                                      : "body";
+}
+
+std::optional<geometry::Distant> distant(const render::Entity& entity) {
+  if (const auto* point = std::get_if<Vec3>(&entity)) return *point;
+  if (const auto* curve = std::get_if<CurvePtr>(&entity)) return curve->get();
+  if (const auto* surface = std::get_if<SurfacePtr>(&entity)) return surface->get();
+  if (const auto* body = std::get_if<BodyPtr>(&entity)) return body->get();
+  return std::nullopt;
+}
+
+ordered_json end_row(const DistancePlace& place, bool isolated, const std::array<Interval, 2>& ranges) {
+  ordered_json row = place_row(place);
+  if (isolated) return row;
+  if (row.contains("t")) row["t_range"] = range(ranges[0]);
+  if (row.contains("u")) row["u_range"] = range(ranges[0]), row["v_range"] = range(ranges[1]);
+  return row;
+}
+
+ordered_json minima(const geometry::Distant& a, const geometry::Distant& b, bool nearest) {
+  const geometry::Distance found =
+      distance(a, b, nearest ? geometry::DistanceMinima::nearest : geometry::DistanceMinima::all);
+  ordered_json out{{"distance", found.distance}, {"bound", found.bound}, {"meet", found.meet}};
+  out["minima"] = ordered_json::array();
+  for (const DistanceMinimum& one : found.minima)
+    out["minima"].push_back({{"distance", one.distance},
+                             {"isolated", one.isolated},
+                             {"at", end_row(one.a, one.isolated, one.range_a)},
+                             {"at_other", end_row(one.b, one.isolated, one.range_b)}});
+  return out;
+}
+
+std::string ranges_text(const ordered_json& place) {
+  std::string text;
+  for (const char* key : {"t", "u", "v"})
+    if (const auto found = place.find(std::string(key) + "_range"); found != place.end())
+      text += fmt::format("{}{} {:.9g} to {:.9g}", text.empty() ? "" : ", ", key, (*found)[0].get<double>(),
+                          (*found)[1].get<double>());
+  return text;
+}
+
+void print_minima(const ordered_json& found) {
+  fmt::print("{} '{}' to {}: ", found["kind"].get<std::string>(), found["name"].get<std::string>(),
+             found["to"].get<std::string>());
+  if (found["meet"].get<bool>())
+    fmt::print("they meet\n");
+  else
+    fmt::print("distance {}, certainly at least {}\n", digits(found["distance"].get<double>()),
+               digits(found["bound"].get<double>()));
+  for (const ordered_json& one : found["minima"]) {
+    fmt::print("  minimum  distance {}\n    from  {}\n    to    {}\n", digits(one["distance"].get<double>()),
+               place_text(one["at"]), place_text(one["at_other"]));
+    if (one["isolated"].get<bool>()) continue;
+    const std::string at = ranges_text(one["at"]), other = ranges_text(one["at_other"]);
+    fmt::print("    places beside are as near{}{}{}{}\n", at.empty() ? "" : ": from ", at,
+               other.empty() ? ""
+               : at.empty()  ? ": to "
+                             : "; to ",
+               other);
+  }
+}
+
+}  // namespace
+
+ordered_json range(const Interval& x) { return ordered_json::array({x.lo, x.hi}); }
+
+Vec3 vector_of(const ordered_json& v) { return {v[0], v[1], v[2]}; }
+
+ordered_json place_row(const DistancePlace& place) {
+  using Kind = DistancePlace::Kind;
+  ordered_json row = ordered_json::object();
+  if (place.kind == Kind::vertex) row["vertex"] = place.index;
+  if (place.kind == Kind::edge) row["edge"] = place.index;
+  if (place.kind == Kind::face) row["face"] = place.index;
+  if (place.kind == Kind::curve || place.kind == Kind::edge) row["t"] = place.t;
+  if (place.kind == Kind::surface || place.kind == Kind::face) row["u"] = place.u, row["v"] = place.v;
+  row["point"] = to_json(place.point);
+  return row;
+}
+
+std::string place_text(const ordered_json& place) {
+  std::string text;
+  for (const char* part : {"vertex", "edge", "face"})
+    if (place.contains(part)) text += fmt::format("{} {}  ", part, place[part].get<int>());
+  for (const char* key : {"t", "u", "v"})
+    if (place.contains(key)) text += fmt::format("{} {:.17g}  ", key, place[key].get<double>());
+  return text + "point " + digits(vector_of(place["point"]));
+}
+
+std::string parameter_text(const ordered_json& row) {
+  std::string text;
+  for (const char* key : {"t", "t_other", "u", "v"})
+    if (row.contains(key)) text += fmt::format("{}{} {:<20.17g}", text.empty() ? "" : " ", key, row[key].get<double>());
+  return text;
+}
+
+ordered_json distance_to(const std::string& name, const render::Entity& entity, const std::string& to,
+                         const render::Entity& other, bool nearest) {
+  ordered_json out{{"name", name}};
+  const auto a = distant(entity), b = distant(other);
+  if (!a || std::holds_alternative<Vec3>(entity))
+    throw UsageError(fmt::format("'{}' is no curve, surface or body: distances are measured from those", name));
+  if (!b) throw UsageError(fmt::format("'{}' is no point, curve, surface or body: give one of those to --to", to));
+  try {
+    out["kind"] = kind_of(entity);
+    out["to"] = to;
+    const auto* point = std::get_if<Vec3>(&other);
+    const bool feet_wanted = point && !nearest && !std::holds_alternative<BodyPtr>(entity);
+    if (feet_wanted && std::holds_alternative<CurvePtr>(entity))
+      out.update(feet(*std::get<CurvePtr>(entity), *point));
+    else if (feet_wanted)
+      out.update(feet(*std::get<SurfacePtr>(entity), *point));
+    else
+      out.update(minima(*a, *b, nearest));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("'{}' to '{}': {}", name, to, error.what()));
+  }
+  return out;
+}
+
+void print_distance(const ordered_json& found) {
+  if (found.contains("minima")) return print_minima(found);
+  fmt::print("{} '{}' to {}: distance {}\n", found["kind"].get<std::string>(), found["name"].get<std::string>(),
+             found["to"].get<std::string>(), digits(found["distance"].get<double>()));
+  for (const ordered_json& foot : found["feet"])
+    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot["kind"].get<std::string>(), parameter_text(foot),
+               foot["distance"].get<double>(), digits(vector_of(foot["point"])));
+  if (found.contains("arcs"))
+    for (const ordered_json& arc : found["arcs"])
+      fmt::print("  all points from t {} to {} are as far\n", digits(arc[0].get<double>()),
+                 digits(arc[1].get<double>()));
+  if (found.contains("regions"))
+    for (const ordered_json& region : found["regions"])
+      fmt::print("  feet that cannot be told apart: u {:.9g} to {:.9g}, v {:.9g} to {:.9g}\n",
+                 region["u"][0].get<double>(), region["u"][1].get<double>(), region["v"][0].get<double>(),
+                 region["v"][1].get<double>());
+}
+
+}  // namespace lekalo::command
