@@ -82,7 +82,8 @@ ViewOf view_of(const Fields& f) {
 
 TypeDeclaration intersection_curve_type() {
   TypeDeclaration type = declare(Category::curve, "intersection_curve", "Where two surfaces meet.");
-  type.field("of", references({Category::surface}).count(2, 2), "both surfaces");
+  type.field("of", references({Category::surface}).count(2, 2), "both surfaces")
+      .example("of: [{ type: sphere_surface, radius: 2 }, { type: plane, origin: [0, 0, 1], size: [6, 6] }]");
   return choose_branch(type).built_by([](const Fields& f) {
     const auto& of = f.references("of");
     const auto a = std::any_cast<SurfacePtr>(of[0]), b = std::any_cast<SurfacePtr>(of[1]);
@@ -94,7 +95,8 @@ TypeDeclaration section_curve_type() {
   TypeDeclaration type = declare(Category::curve, "section_curve", "Where a plane cuts a surface.");
   type.field("of", reference({Category::surface}), "the surface")
       .field("through", point(), "a point of the plane", "[0, 0, 0]")
-      .field("normal", direction(), "normal of the plane");
+      .field("normal", direction(), "normal of the plane")
+      .example("of: { type: sphere_surface, radius: 2 }, normal: [1, 0, 1]");
   return choose_branch(type).built_by([](const Fields& f) {
     const auto found = asked([&] { return plane_section(f.surface("of"), f.vec3("through"), f.vec3("normal")); });
     return std::any(chosen(found, f, "the plane does not meet the surface"));
@@ -104,7 +106,8 @@ TypeDeclaration section_curve_type() {
 TypeDeclaration silhouette_curve_type() {
   TypeDeclaration type =
       declare(Category::curve, "silhouette_curve", "Where the way of sight touches a surface: its outline as seen.");
-  type.field("of", reference({Category::surface}), "the surface");
+  type.field("of", reference({Category::surface}), "the surface")
+      .example("of: { type: sphere_surface, radius: 2 }, along: [1, 1, -1]");
   return choose_branch(seen(type)).built_by([](const Fields& f) {
     const ViewOf view = view_of(f);
     const auto found = asked([&] { return silhouette(f.surface("of"), view); });
@@ -118,7 +121,8 @@ TypeDeclaration isophote_curve_type() {
               "Where the normal of a surface stands at an angle to a direction: equally lit points.");
   type.field("of", reference({Category::surface}), "the surface")
       .field("direction", direction(), "towards the light")
-      .field("angle", angle().between(0, 180), "between the normal and the direction; 90 gives the silhouette");
+      .field("angle", angle().between(0, 180), "between the normal and the direction; 90 gives the silhouette")
+      .example("of: { type: sphere_surface, radius: 2 }, direction: z, angle: 40");
   return choose_branch(type).built_by([](const Fields& f) {
     const auto found = asked([&] { return isophote(f.surface("of"), f.vec3("direction"), f.number("angle")); });
     return std::any(chosen(found, f, "no normal of the surface stands at that angle"));
@@ -129,7 +133,8 @@ TypeDeclaration reflection_line_type() {
   TypeDeclaration type =
       declare(Category::curve, "reflection_line", "Where a straight lamp of any length is seen mirrored in a surface.");
   type.field("of", reference({Category::surface}), "the surface")
-      .field("lamp", axis(), "the line of the lamp: a point and its direction");
+      .field("lamp", axis(), "the line of the lamp: a point and its direction")
+      .example("of: { type: sphere_surface, radius: 2 }, lamp: { through: [0, 0, 8], along: x }, eye: [0, -9, 3], branch: 1");
   return choose_branch(seen(type)).built_by([](const Fields& f) {
     const ViewOf view = view_of(f);
     const Axis lamp = f.axis("lamp");
