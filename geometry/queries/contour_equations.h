@@ -78,7 +78,7 @@ class ContourEquations {
 struct SurfaceFunction {
   template <class T>
   using Of = std::function<T(const Triple<T>& s, const Triple<T>& s_u, const Triple<T>& s_v)>;
-  bool needs_tangents = true;
+  bool needs_tangents;
   Of<Jet<double, 1>> slopes;
   Of<Jet<Interval, 1>> slope_ranges;
   Of<Jet<double, kMaxContourOrder>> series;
@@ -86,9 +86,12 @@ struct SurfaceFunction {
 
   // From one formula for all: a callable with a template parameter list, [](const auto& s, const auto& s_u, ...).
   template <class Formula>
-  static SurfaceFunction from(bool needs_tangents, Formula formula) {
-    return {needs_tangents, formula, formula, formula, formula};
-  }
+  SurfaceFunction(bool needs_tangents, const Formula& formula)
+      : needs_tangents(needs_tangents),
+        slopes(formula),
+        slope_ranges(formula),
+        series(formula),
+        series_ranges(formula) {}
 };
 
 std::unique_ptr<ContourEquations<2>> function_equations(SurfacePtr surface, const Rectangle& piece,

@@ -134,7 +134,9 @@ TypeDeclaration reflection_line_type() {
       declare(Category::curve, "reflection_line", "Where a straight lamp of any length is seen mirrored in a surface.");
   type.field("of", reference({Category::surface}), "the surface")
       .field("lamp", axis(), "the line of the lamp: a point and its direction")
-      .example("of: { type: sphere_surface, radius: 2 }, lamp: { through: [0, 0, 8], along: x }, eye: [0, -9, 3], branch: 1");
+      .example(
+          "of: { type: sphere_surface, radius: 2 }, lamp: { through: [0, 0, 8], along: x }, eye: [0, -9, 3], branch: "
+          "1");
   return choose_branch(seen(type)).built_by([](const Fields& f) {
     const ViewOf view = view_of(f);
     const Axis lamp = f.axis("lamp");

@@ -147,16 +147,15 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
 
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
   const Triple<double> n = triple(unit(normal, "the normal of the plane has no length")), o = triple(origin);
-  return contours_of(
-      surface, SurfaceFunction::from(false, [=](const auto& s, const auto&, const auto&) { return dot(n, s - o); }));
+  return contours_of(surface,
+                     SurfaceFunction(false, [=](const auto& s, const auto&, const auto&) { return dot(n, s - o); }));
 }
 
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   const ViewOf view = checked(given);
-  Contours found =
-      contours_of(surface, SurfaceFunction::from(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
-                    return dot(sight(view, s), cross(s_u, s_v));
-                  }));
+  Contours found = contours_of(surface, SurfaceFunction(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
+                                 return dot(sight(view, s), cross(s_u, s_v));
+                               }));
   for (Contour& contour : found.branches) contour.cusps = cusps(*surface, contour, view);
   return found;
 }
@@ -166,7 +165,7 @@ Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle
     throw std::invalid_argument("the angle of an isophote lies between 0 and 180 degrees");
   const Triple<double> d = triple(unit(direction, "the direction of the light has no length"));
   const double cosine = surface->normal_sign() * std::cos(angle);
-  return contours_of(surface, SurfaceFunction::from(true, [=](const auto&, const auto& s_u, const auto& s_v) {
+  return contours_of(surface, SurfaceFunction(true, [=](const auto&, const auto& s_u, const auto& s_v) {
                        const auto n = cross(s_u, s_v);
                        return dot(d, n) - cosine * length(n);
                      }));
@@ -176,7 +175,7 @@ Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle
 Contours reflection_line(const SurfacePtr& surface, const ViewOf& given, const Line& lamp) {
   const ViewOf view = checked(given);
   const Triple<double> p = triple(lamp.origin), l = triple(unit(lamp.direction, "the lamp has no direction"));
-  return contours_of(surface, SurfaceFunction::from(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
+  return contours_of(surface, SurfaceFunction(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
                        const auto n = cross(s_u, s_v);
                        const auto i = sight(view, s);
                        const auto mirrored = dot(n, n) * i - (2.0 * dot(i, n)) * n;

@@ -222,7 +222,7 @@ class Against(External):
         for words, message in ((["a", "--against", "d"], "two curves can, or two surfaces"),
                                (["a", "--against", "p"], "its domain is not finite"),
                                (["a", "--against", "bb"], "no geometry called 'bb' (did you mean 'b'?)"),
-                               (["a", "--samples", "9"], "--samples and --order belong to --against NAME"),
+                               (["a", "--samples", "9"], "--samples belongs to --against NAME"),
                                (["a", "--tolerance", "9"], "--tolerance belongs to --against")):
             self.assertIn(message, self.run_program("measure", "scene.yaml", *words, code=USAGE)[1])
         self.run_program("measure", "scene.yaml", "a", "--against", "none.csv", code=FILE_ERROR)

@@ -210,9 +210,26 @@ class Numbers(ProgramTest):
                                (("rim", "--continuity", "chord"), "a closed curve has no ends"),
                                (("rim", "--continuity", "tire"), "do not join"),
                                (("rim", "--to", "apexx"), "apex"), (("rim", "--to", "1,2"), "--to"),
-                               (("shell", "--intersect", "tire"), "one must be a curve"),
+                               (("rim", "--section", "0,0,0,0,0,1"), "neither a surface nor a body"),
+                               (("tire", "--section", "0,0,0"), "--section"),
+                               (("tire", "--section", "0,0,0,0,0,0"), "normal of the plane"),
                                (("rim", "--tolerance", 1), "--tolerance belongs to")):
             self.assertIn(message, self.run_program("measure", "scene.yaml", *words, code=USAGE)[1])
+
+    def test_curves_that_surfaces_make(self):
+        """Parallels of a torus, its outline seen from above, and two of its circles in a body."""
+        found = self.measure("tire", "--section", "0,0,0,0,0,1", "--samples", "5")
+        self.assertTrue(found["complete"] and all(one["closed"] for one in found["branches"]))
+        lengths = sorted(one["length"] for one in found["branches"])
+        again = sorted(one["length"] for one in self.measure("tire", "--silhouette", "0,0,1")["branches"])
+        self.assert_near(lengths, again, 1e-12)
+        for one in found["branches"]:
+            self.assertEqual(len(one["samples"]), 5)
+            for row in one["samples"]:
+                self.assert_near(row["point"][2], 0, 1e-14)
+        found = self.measure("block", "--section", "0.1,0,0,1,0,0")
+        self.assertEqual([len(one["parts"]) for one in found["branches"]], [4])
+        self.assertIn("closed", self.run_program("measure", "scene.yaml", "tire", "--section", "0,0,0,0,0,1")[0])
 
     def test_against_a_table(self):
         angles = [0.1 * k for k in range(63)]
