@@ -17,6 +17,7 @@
   X(reflection_line_type)     \
   X(parameter_line_type)      \
   X(surface_curve_type)       \
+  X(projected_curve_type)     \
   X(geodesic_curve_type)      \
   X(curvature_line_type)      \
   X(asymptotic_line_type)

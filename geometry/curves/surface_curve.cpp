@@ -126,21 +126,21 @@ CurveJet SurfaceCurve::evaluate(double t, int order) const {
   return jet;
 }
 
-CurveEnclosure SurfaceCurve::enclose(const Interval& t, int order) const {
-  const CurveEnclosure c = image_->enclose(t, order);
-  const Rectangle domain = surface_->domain();
-  const Periods periods = closed_periods(*surface_);
-  CurveEnclosure result;
-  for (const Interval& u : parts_within(along(c.d[0], 0), domain.u, periods.u))
-    for (const Interval& v : parts_within(along(c.d[0], 1), domain.v, periods.v)) {
-      const CurveEnclosure part = enclose_over(c, {u, v}, order);
-      for (int k = 0; k <= order; ++k) result.d[k].include(part.d[k]);
+SurfaceEnclosure enclose_unwrapped(const Surface& surface, const Rectangle& place, int order) {
+  const Rectangle domain = surface.domain();
+  const Periods periods = closed_periods(surface);
+  SurfaceEnclosure result;
+  for (const Interval& u : parts_within(place.u, domain.u, periods.u))
+    for (const Interval& v : parts_within(place.v, domain.v, periods.v)) {
+      const SurfaceEnclosure part = surface.enclose({u, v}, order);
+      for (int i = 0; i < (order + 1) * (order + 2) / 2; ++i) result.values[i].include(part.values[i]);
     }
   return result;
 }
 
-CurveEnclosure SurfaceCurve::enclose_over(const CurveEnclosure& c, const Rectangle& place, int order) const {
-  const SurfaceEnclosure s = surface_->enclose(place, order);
+CurveEnclosure SurfaceCurve::enclose(const Interval& t, int order) const {
+  const CurveEnclosure c = image_->enclose(t, order);
+  const SurfaceEnclosure s = enclose_unwrapped(*surface_, {along(c.d[0], 0), along(c.d[0], 1)}, order);
   CurveEnclosure result;
   result.d[0] = s.d(0, 0);
   const auto set = [](Box3& box, int k, const Interval& x) {

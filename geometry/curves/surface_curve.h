@@ -27,7 +27,6 @@ class SurfaceCurve final : public Curve {
   double error() const { return error_; }
 
  private:
-  CurveEnclosure enclose_over(const CurveEnclosure& image, const Rectangle& place, int order) const;
   bool jumps(double t) const;
   void add_breaks(const Interval& piece, int axis, std::vector<double> lines, std::vector<double>& ends) const;
 
@@ -39,5 +38,9 @@ class SurfaceCurve final : public Curve {
 
 // The period of a surface that is closed in a direction, whose domain is as wide as that; else 0.
 Periods closed_periods(const Surface& surface);
+
+// The surface's enclosure over a rectangle that may lie beyond the domain where the surface is closed; elsewhere what lies
+// beyond is left out.
+SurfaceEnclosure enclose_unwrapped(const Surface& surface, const Rectangle& place, int order);
 
 }  // namespace lekalo::geometry
