@@ -1,5 +1,5 @@
-// Projections of curves on surfaces (Golovanov 2016, 4.6; capability 4.6d): the solution at the beginning is chosen among
-// all, then followed.
+// Projections of curves on surfaces (Golovanov 2016, 4.6; capability 4.6d): the solution at the beginning is chosen
+// among all, then followed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,26 +68,25 @@ class Tracing {
         place_ = before;
         at = t.middle();
         break;
-      case Outcome::crosses: place_ = before; break;
+      case Outcome::crosses:
+        place_ = before;
+        break;
     }
     trace({t.lo, at});
     trace({at, t.hi});
   }
 
   [[noreturn]] void refuse_jump(double t) const {
-    throw FieldError("of",
-                     fmt::format(equations_.is_along_normals()
-                                     ? "the projection jumps at t = {:.6g}: there the curve meets a centre of curvature of "
-                                       "the surface, or a pole"
-                                     : "the projection jumps at t = {:.6g}: there the direction touches the surface",
-                                 t),
+    const char* why = equations_.is_along_normals() ? "the curve meets a centre of curvature of the surface, or a pole"
+                                                    : "the direction touches the surface";
+    throw FieldError("of", fmt::format("the projection jumps at t = {:.6g}: there {}", t, why),
                      "project a shorter part of the curve: range");
   }
 
   enum class Outcome { good, divide, crosses };
 
-  // The polynomial through the solutions in Chebyshev's points; moves place_ to the end. Where the solution passes over a
-  // line of the surface on which derivatives may jump, `at` is there.
+  // The polynomial through the solutions in Chebyshev's points; moves place_ to the end. Where the solution passes over
+  // a line of the surface on which derivatives may jump, `at` is there.
   Outcome add_part(const Interval& t, Part& part, double& at) {
     std::array<Vec3, kNodes> values;
     double previous = t.lo;
@@ -189,8 +188,8 @@ class Tracing {
           const double room = 1e-12 * range.width();
           if (std::abs(first[axis] - at) <= room) continue;
           const bool above = first[axis] > at;
-          const auto time = first_time(
-              t, part, [&](const Vec2& x) { return above ? x[axis] < at - room : x[axis] > at + room; });
+          const auto time =
+              first_time(t, part, [&](const Vec2& x) { return above ? x[axis] < at - room : x[axis] > at + room; });
           if (time && *time < t.hi - 1e-9 * range_.width() && *time > t.lo + 1e-9 * range_.width() &&
               (!result || *time < *result))
             result = time;
@@ -229,23 +228,23 @@ Vec2 nearest_foot(const Vec3& point, const Surface& surface, double t) {
 Vec2 chosen_hit(const Vec3& point, const Vec3& direction, const SurfacePtr& surface, int number, double t) {
   const std::vector<SurfaceHit> hits = LineIntersector(surface).all_hits({point, direction}, {0, kInfinity});
   if (number >= static_cast<int>(hits.size()))
-    throw FieldError(hits.empty() ? "direction" : "hit",
-                     fmt::format("seen along the direction from the curve's beginning, t = {:.6g}, there {} of the surface",
-                                 t,
-                                 hits.empty()       ? std::string("is nothing")
-                                 : hits.size() == 1 ? std::string("is one point")
-                                                    : fmt::format("are {} points", hits.size())),
-                     hits.empty() ? "turn the direction round, or project a part of the curve: range"
-                                  : "the first is number 0");
+    throw FieldError(
+        hits.empty() ? "direction" : "hit",
+        fmt::format("seen along the direction from the curve's beginning, t = {:.6g}, there {} of the surface", t,
+                    hits.empty()       ? std::string("is nothing")
+                    : hits.size() == 1 ? std::string("is one point")
+                                       : fmt::format("are {} points", hits.size())),
+        hits.empty() ? "turn the direction round, or project a part of the curve: range" : "the first is number 0");
   return {hits[number].u, hits[number].v};
 }
 
 }  // namespace
 
 TypeDeclaration projected_curve_type() {
-  return declare(Category::curve, "projected_curve",
-                 "Projection of a curve on a surface, with the curve's parameter: to the nearest point at its beginning, "
-                 "and to the foot of a normal that goes on from there; or along a direction.")
+  return declare(
+             Category::curve, "projected_curve",
+             "Projection of a curve on a surface, with the curve's parameter: to the nearest point at its beginning, "
+             "and to the foot of a normal that goes on from there; or along a direction.")
       .example("of: { type: segment, from: [0, 0, 2], to: [1, 0, 2] }, on: patch")
       .field("of", reference({Category::curve}), "the curve")
       .field("on", reference({Category::surface}), "the surface")

@@ -159,24 +159,23 @@ std::optional<ProjectionEquations::Ranges> ProjectionEquations::enclose(const Po
     return Interval(c_of[i][0]) * a + Interval(c_of[i][1]) * b;
   };
   const Interval thin(middle);
-  const auto f0 = residual<Interval, 0>(
-      surface_over({Interval(place[0]), Interval(place[1])}, direction_ ? 0 : 1),
-      Triple<Jet<Interval, 0>>{along(curve_->enclose(thin, 0).d[0], 0), along(curve_->enclose(thin, 0).d[0], 1),
-                               along(curve_->enclose(thin, 0).d[0], 2)},
-      std::array<Jet<Interval, 0>, 2>{Interval(place[0]), Interval(place[1])});
+  const Box3 c0 = curve_->enclose(thin, 0).d[0];
+  const auto f0 = residual<Interval, 0>(surface_over({Interval(place[0]), Interval(place[1])}, direction_ ? 0 : 1),
+                                        Triple<Jet<Interval, 0>>{along(c0, 0), along(c0, 1), along(c0, 2)},
+                                        std::array<Jet<Interval, 0>, 2>{Interval(place[0]), Interval(place[1])});
   const CurveEnclosure curve = curve_->enclose(t, std::max(order, 1));
   const Triple<Interval> speed = triple_of(curve.d[1]);
   std::array<Interval, 2> x, rate;
   const Box3 start = about.enclose(0, t);
   const Vec3 speeds[2] = {at.du(), at.dv()};
   for (int i = 0; i < 2; ++i) {
-    const double room = 0.05 * along(start, i).width() + 1e-13 * size_ / glm::length(speeds[i]) +
-                        1e-15 * std::abs(place[i]);
+    const double room =
+        0.05 * along(start, i).width() + 1e-13 * size_ / glm::length(speeds[i]) + 1e-15 * std::abs(place[i]);
     x[i] = {start.lo[i] - room, start.hi[i] + room};
   }
   Matrix<Interval> near{};  // C times the matrix
-  bool holds = false;
-  for (int time = 0; time < kTries && !holds; ++time) {
+  bool certified = false;
+  for (int time = 0; time < kTries; ++time) {
     const SurfaceEnclosure s = surface_over(x, direction_ ? 1 : 2);
     const auto m = matrix<Interval>(s, triple_of(curve.d[0]));
     const std::array<Triple<Interval>, 2> by =
@@ -184,7 +183,7 @@ std::optional<ProjectionEquations::Ranges> ProjectionEquations::enclose(const Po
                    : std::array{derivative_of(s, 1, 0), derivative_of(s, 0, 1)};
     const Interval drift[2] = {dot(speed, by[0]), dot(speed, by[1])};
     std::array<Interval, 2> next;
-    holds = true;
+    bool holds = true;
     for (int i = 0; i < 2; ++i) {
       rate[i] = -preconditioned(i, drift[0], drift[1]);
       next[i] = Interval(place[i]) - preconditioned(i, f0[0].c[0], f0[1].c[0]) + rate[i] * (t - Interval(middle));
@@ -195,16 +194,25 @@ std::optional<ProjectionEquations::Ranges> ProjectionEquations::enclose(const Po
       if (!(next[i].width() < kInfinity)) return std::nullopt;
       holds = holds && x[i].contains(next[i]);
     }
-    for (int i = 0; i < 2; ++i) {
-      if (holds) {
-        x[i] = next[i];
-      } else {
-        const Interval both = hull(x[i], next[i]);
-        x[i] = {both.lo - 0.2 * both.width(), both.hi + 0.2 * both.width()};
+    if (holds || certified) {
+      certified = true;
+      bool narrower = false;
+      for (int i = 0; i < 2; ++i) {
+        const Interval both = intersect(x[i], next[i]);
+        narrower = narrower || both.width() < 0.7 * x[i].width();
+        x[i] = both;
       }
+      if (!narrower) break;
+      continue;
+    }
+    // Only what is too narrow is widened: a wider range of one makes the other's wider too.
+    for (int i = 0; i < 2; ++i) {
+      if (x[i].contains(next[i])) continue;
+      const Interval both = hull(x[i], next[i]);
+      x[i] = {both.lo - 0.1 * both.width(), both.hi + 0.1 * both.width()};
     }
   }
-  if (!holds) return std::nullopt;
+  if (!certified) return std::nullopt;
   Ranges result;
   result.x[0][0] = x[0];
   result.x[1][0] = x[1];
@@ -261,7 +269,7 @@ CurveJet ProjectedImage::evaluate(double t, int order) const {
 
 void ProjectedImage::enclose_part(const PolynomialCurve::Part& part, const Interval& t, int order, int depth,
                                   CurveEnclosure& result) const {
-  constexpr int kMostHalvings = 24;
+  constexpr int kMostHalvings = 16;
   if (const auto ranges = equations_->enclose(part, t, order)) {
     for (int k = 0; k <= order; ++k) {
       const Interval &u = ranges->x[0][k], &v = ranges->x[1][k];

@@ -5,14 +5,15 @@
 //   w . S_u = w . S_v = 0      along normals: S(u, v) is a foot of c(t)
 //   w . a = w . b = 0          along a direction, a and b two vectors across it
 //
-// They are solved by Newton's iteration where the curve is evaluated, from a stored polynomial; the Taylor series of the
-// equations gives the derivatives, Krawczyk's operator about the polynomial the enclosures.
+// They are solved by Newton's iteration where the curve is evaluated, from a stored polynomial; the Taylor series of
+// the equations gives the derivatives, Krawczyk's operator about the polynomial the enclosures.
 #pragma once
 
 #include <optional>
 
 #include "geometry/curves/polynomial_curve.h"
 #include "geometry/numerics/jet.h"
+#include "geometry/numerics/triple.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -33,8 +34,8 @@ class ProjectionEquations {
   std::optional<Vec2> solve(double t, const Vec2& start) const;
 
   static constexpr int kOrder = kMaxSurfaceOrder;
-  // Of u and v as functions of t. Along normals derivatives above the third are not known: the equations contain those of
-  // the surface up to one order more.
+  // Of u and v as functions of t. Along normals derivatives above the third are not known: the equations contain those
+  // of the surface up to one order more.
   int highest_order() const { return is_along_normals() ? kOrder - 1 : kOrder; }
   // Taylor polynomials of u and v about t where the solution is known.
   std::array<Jet<double, kOrder>, 2> series(double t, const Vec2& solution, int order) const;

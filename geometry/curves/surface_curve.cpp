@@ -42,6 +42,12 @@ std::vector<Interval> parts_within(const Interval& range, const Interval& domain
   return {{lo, domain.hi}, {domain.lo, std::min(next_up(hi - period), domain.hi)}};
 }
 
+// An image that ends on the border of the domain is beyond it by rounding, where the surface may go on in another way.
+double moved_inside(double x, const Interval& range) {
+  const double inside = range.clamp(x);
+  return std::abs(x - inside) <= kDomainSlack * range.width() ? inside : x;
+}
+
 // u(t) = at or v(t) = at.
 struct Passage {
   const Curve& image;
@@ -90,7 +96,8 @@ CurveJet SurfaceCurve::evaluate(double t, int order) const {
   if (period_ > 0 && image_->period() == 0) t = wrapped(t, domain());
   if (order > kMaxSurfaceOrder) throw std::invalid_argument("a curve on a surface has derivatives up to order 4");
   const CurveJet c = image_->evaluate(t, order);
-  const SurfaceJet s = surface_->evaluate(c.d[0].x, c.d[0].y, order);
+  const Rectangle range = surface_->domain();
+  const SurfaceJet s = surface_->evaluate(moved_inside(c.d[0].x, range.u), moved_inside(c.d[0].y, range.v), order);
   CurveJet jet;
   jet.order = order;
   jet.d[0] = s.point();

@@ -29,6 +29,7 @@ constexpr double kLongest = 100;
 
 struct DirectionLaw {
   static constexpr int kSize = 2;
+  static constexpr bool kPassesPoles = false;
   using State = std::array<double, kSize>;
 
   Family family;

@@ -72,7 +72,13 @@ void check_place(const Surface& surface, const Vec2& uv, const char* name) {
     throw FieldError(name, fmt::format("({:.6g}, {:.6g}) lies outside of the surface's domain, u in [{:.6g}, {:.6g}], "
                                        "v in [{:.6g}, {:.6g}]",
                                        uv.x, uv.y, domain.u.lo, domain.u.hi, domain.v.lo, domain.v.hi));
-  if (!is_regular(surface.evaluate(uv.x, uv.y, 1)))
+  // At poles r_u or r_v vanishes but for rounding.
+  const SurfaceJet at = surface.evaluate(uv.x, uv.y, 1);
+  const double size = line_size(surface, 0);
+  const auto vanishes = [&](const Vec3& d, const Interval& range) {
+    return range.width() < kInfinity && glm::length(d) * range.width() <= 1e-12 * size;
+  };
+  if (!is_regular(at) || vanishes(at.du(), domain.u) || vanishes(at.dv(), domain.v))
     throw FieldError(name, "this is a pole, an apex or a place where the parameters do not tell directions",
                      "take a point beside it");
 }
@@ -93,6 +99,7 @@ SurfaceLine geodesic(const Surface& surface, const Vec2& start, double angle, do
   options.longest_step *= 0.1;
   options.tolerance *= 0.1;
   SurfaceLine line = finished(surface, std::move(flow.parts), run().parts);
+  line.error = std::max(line.error, flow.beside);
   line.ends = flow.why;
   return line;
 }

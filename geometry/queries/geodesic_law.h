@@ -21,13 +21,14 @@ inline Vec2 tangent_components(const SurfaceJet& at, const Vec3& tangent) {
 // Derivatives on both sides of a line that differ by no more than this are one.
 inline constexpr double kSameDerivative = 1e-9;
 
-// False at poles, where parameters are no coordinates.
+// False where parameter lines touch each other.
 inline bool is_regular(const SurfaceJet& at) {
   return glm::length(glm::cross(at.du(), at.dv())) > 1e-12 * glm::length(at.du()) * glm::length(at.dv());
 }
 
 struct GeodesicLaw {
   static constexpr int kSize = 6;  // u, v, u', v', J, J'
+  static constexpr bool kPassesPoles = true;
   using State = std::array<double, kSize>;
 
   // The state at (u, v) in the direction at the angle (radians) from r_u.
@@ -35,6 +36,12 @@ struct GeodesicLaw {
 
   std::optional<State> rates(const SurfaceJet& at, const State& y, const Vec3& before) const;
   bool is_singular(const SurfaceJet&) const { return false; }
+  // Gives the state a direction in space.
+  void turn(const SurfaceJet& at, const Vec3& direction, State& y) const {
+    const Vec2 rate = tangent_components(at, direction);
+    y[2] = rate.x;
+    y[3] = rate.y;
+  }
   bool cross(const SurfaceJet& from, const SurfaceJet& to, bool along_u, State& y, const Vec3& before) const;
 };
 

@@ -21,7 +21,9 @@ constexpr int kFirstDirections = 48;
 constexpr int kMostDirections = 768;
 constexpr int kPlaces = 48;       // along each
 constexpr double kSpread = 0.08;  // neighbours are no farther from each other, of the length
-constexpr double kReached = 1e-13;
+// A shot that misses by no more has reached the point; the other is for ways next to a pole, where parameters are bad
+// coordinates and steps do not come nearer. The miss is part of the error then.
+constexpr double kReached = 1e-13, kNearlyReached = 1e-7;
 constexpr int kMostShots = 30;
 
 class Shooting {
@@ -52,7 +54,7 @@ class Shooting {
     other.length = best->length;
     const auto again = GeodesicFlow(surface_, law_, other).run(GeodesicLaw::start(surface_, from_, best->angle));
     SurfaceLine line = finished(surface_, std::move(best->flow.parts), again.parts);
-    line.error = std::max(line.error, best->miss);
+    line.error = std::max({line.error, best->miss, best->flow.beside});
     return line;
   }
 
@@ -63,7 +65,6 @@ class Shooting {
   };
   struct Start {
     double angle, length;
-    Vec2 image;  // of the second point
   };
   struct Shot {
     double angle, length, miss;
@@ -142,7 +143,7 @@ class Shooting {
               !holds(a.places[i], b.places[i + 1], a.places[i + 1], image))
             continue;
           const double part = (static_cast<double>(i) + 0.5) / kPlaces;
-          starts.push_back({0.5 * (a.angle + b.angle), 0.5 * (a.length + b.length) * part, image});
+          starts.push_back({0.5 * (a.angle + b.angle), 0.5 * (a.length + b.length) * part});
         }
     }
     // A point on the border may lie beyond the last cells: where rays come nearest to it, nearer than their neighbours.
@@ -160,12 +161,21 @@ class Shooting {
       for (size_t r = 0; r < count; ++r)
         if (nearest[r].first < kSpread * reach_ && nearest[r].first <= nearest[(r + 1) % count].first &&
             nearest[r].first <= nearest[(r + count - 1) % count].first)
-          starts.push_back({rays_[r].angle, rays_[r].length * static_cast<double>(nearest[r].second) / kPlaces, image});
+          starts.push_back({rays_[r].angle, rays_[r].length * static_cast<double>(nearest[r].second) / kPlaces});
     }
     return starts;
   }
 
+  // The way to the next image.
+  Vec2 nearest(Vec2 way) const {
+    if (periods_.u > 0) way.x -= periods_.u * std::round(way.x / periods_.u);
+    if (periods_.v > 0) way.y -= periods_.v * std::round(way.y / periods_.v);
+    return way;
+  }
+
   std::optional<Shot> solve(const Start& start) const {
+    constexpr int kPatience = 6;
+    int shots = 0;  // that were exact
     double angle = start.angle, length = start.length, before = kInfinity;
     for (int time = 0; time < kMostShots; ++time) {
       if (!(length > 0) || length > 1.5 * reach_) return std::nullopt;
@@ -179,14 +189,15 @@ class Shooting {
       const double beyond = length - flow.length;
       const Vec2 inside(y[0], y[1]);
       const SurfaceJet at = surface_.evaluate(y[0], y[1], 1);
-      const Vec2 apart = start.image - inside - beyond * Vec2(y[2], y[3]);
+      const Vec2 apart = nearest(to_ - inside - beyond * Vec2(y[2], y[3]));
       const Vec3 along = y[2] * at.du() + y[3] * at.dv();
       const Vec3 across = glm::cross(glm::normalize(glm::cross(at.du(), at.dv())), along);
       const Vec3 miss = apart.x * at.du() + apart.y * at.dv();
       const double distance = glm::length(miss);
       const bool exact = options.tolerance == options_.tolerance;
-      if (exact &&
-          (distance <= kReached * options_.size || (distance <= 1e-11 * options_.size && distance >= 0.5 * before))) {
+      if (exact) ++shots;
+      const bool stays = shots > kPatience && distance >= 0.5 * before;
+      if (exact && (distance <= kReached * options_.size || (stays && distance <= kNearlyReached * options_.size))) {
         if (beyond > 1e-9 * options_.size) return std::nullopt;  // only beyond the border
         return Shot{angle, length, distance, std::move(flow)};
       }
