@@ -168,9 +168,14 @@ class Tracing {
       const double room = 1e-9 * range.width();
       const auto out =
           first_time(t, part, [&](const Vec2& x) { return x[axis] < range.lo - room || x[axis] > range.hi + room; });
-      if (out)
-        throw FieldError("of", fmt::format("the projection leaves the surface at t = {:.6g}", *out),
-                         "project a shorter part of the curve (range), or widen the surface");
+      if (!out) continue;
+      const DegenerateEdges edges = surface().degenerate_edges();
+      const bool above = solution(t, part, part.local(*out))[axis] > range.middle();
+      if (axis == 0 ? (above ? edges.u_max : edges.u_min) : (above ? edges.v_max : edges.v_min))
+        throw FieldError("of", fmt::format("the projection meets a pole of the surface at t = {:.6g}", *out),
+                         "project a part of the curve (range), or a curve beside it");
+      throw FieldError("of", fmt::format("the projection leaves the surface at t = {:.6g}", *out),
+                       "project a shorter part of the curve (range), or widen the surface");
     }
   }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "geometry/curves/segment.h"
+#include "geometry/curves/surface_curve.h"
 #include "geometry/describe.h"
 #include "geometry/queries/geodesic_law.h"
 #include "geometry/queries/mass_properties.h"

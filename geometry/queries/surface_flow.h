@@ -76,6 +76,11 @@ class SurfaceFlow {
  private:
   using Step = CollocationStep<N>;
   using Pole = FlowDomain::Pole;
+  // How near to a pole steps get shorter, and where a line is taken to be straight, both of the size. There polar
+  // coordinates are bad ones. It leaves the zone where a straight line would, right but for the zone's square; in
+  // between the image runs through the pole, off by how far the line passes beside it.
+  static constexpr double kPoleView = 0.2, kPoleZone = 1e-7;
+
   struct Crossing {
     double x = 1;  // in the step
     int axis = 0;
