@@ -88,13 +88,18 @@ class SurfaceFlow {
   };
 
   // At the border of the piece the derivatives are those inside of it. Beyond, where only steps that are cut afterwards
-  // reach, the surface goes on as it does.
+  // reach, the surface goes on as it does, but not beyond the domain: there it may be without curvature.
   SurfaceJet jet(const Rectangle& piece, const State& y) const {
-    const auto inside = [](const Interval& range, double x) {
+    double x[2] = {y[0], y[1]};
+    for (int axis = 0; axis < 2; ++axis) {
+      const Interval &range = side(piece, axis), &all = side(domain_.whole, axis);
       const double room = 4 * slack(range);
-      return x >= range.lo - room && x <= range.hi + room && range.width() < kInfinity ? within(range, x) : x;
-    };
-    return surface_.evaluate(inside(piece.u, y[0]), inside(piece.v, y[1]), 2);
+      if (x[axis] >= range.lo - room && x[axis] <= range.hi + room && range.width() < kInfinity)
+        x[axis] = within(range, x[axis]);
+      else if (domain_.period[axis] == 0)
+        x[axis] = all.width() < kInfinity ? within(all, x[axis]) : all.clamp(x[axis]);
+    }
+    return surface_.evaluate(x[0], x[1], 2);
   }
   static Vec3 motion(const SurfaceJet& at, const State& rate) { return rate[0] * at.du() + rate[1] * at.dv(); }
   static double value(const Step& step, int i, double x) {  // Clenshaw

@@ -507,5 +507,43 @@ TEST(AsymptoticLines, HaveTheTorsionOfBeltramiAndEnneper) {
             "through: there are no asymptotic directions: the Gaussian curvature is not negative here");
 }
 
+TEST(SurfaceLines, EndWhereTheyShouldOnAnyPatch) {
+  const NurbsSurface patch = hills({0, 0, 0, 0, 0.4, 1, 1, 1, 1});
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> uniform(0.02, 0.98);
+  const double size = bounds(patch).diameter();
+  double worst = 0;
+  int lines = 0;
+  const auto check = [&](const std::function<SurfaceLine()>& make) {
+    SurfaceLine line;
+    const std::string refused = refusal([&] { line = make(); });
+    if (refused != "none") {
+      EXPECT_TRUE(refused.find("not negative") != std::string::npos) << refused;
+      return;
+    }
+    ++lines;
+    worst = std::max(worst, line.error / size);
+    const Vec3 end = line.image->point(line.image->domain().hi);
+    const double room = std::min({end.x, end.y, 1 - end.x, 1 - end.y});
+    if (line.ends == LineEnd::border) {
+      EXPECT_LE(std::abs(room), 1e-14);
+    } else {
+      EXPECT_GE(room, 0);
+    }
+  };
+  for (int sample = 0; sample < tests::tier_count(2000, 20); ++sample) {
+    const Vec2 start(uniform(random), uniform(random));
+    const double angle = kTwoPi * uniform(random);
+    check([&] { return geodesic(patch, start, angle, 30); });
+    check([&] { return curvature_line(patch, start, CurvatureFamily::maximum, 30.0); });
+    check([&] { return curvature_line(patch, start, CurvatureFamily::minimum, 30.0); });
+    check([&] { return asymptotic_line(patch, start, AsymptoticFamily::first, 30.0); });
+    check([&] { return asymptotic_line(patch, start, AsymptoticFamily::second, 30.0); });
+  }
+  EXPECT_LE(worst, 1e-11);
+  tests::report_figure("lines", lines);
+  tests::report_figure("largest_error_of_size", worst);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry
