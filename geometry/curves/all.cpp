@@ -14,7 +14,13 @@
   X(section_curve_type)       \
   X(silhouette_curve_type)    \
   X(isophote_curve_type)      \
-  X(reflection_line_type)
+  X(reflection_line_type)     \
+  X(parameter_line_type)      \
+  X(surface_curve_type)       \
+  X(projected_curve_type)     \
+  X(geodesic_curve_type)      \
+  X(curvature_line_type)      \
+  X(asymptotic_line_type)
 
 namespace lekalo::geometry {
 

@@ -7,11 +7,11 @@ namespace lekalo::geometry {
 
 enum class HeldParameter { u, v };
 
-// A parameter line over the surface's domain, its parameter being the other of u and v.
+// A parameter line over the surface's domain or a part of it, its parameter being the other of u and v.
 class ParameterLine final : public Curve {
  public:
-  // Throws std::invalid_argument for a surface that is unbounded that way, or `at` outside of its domain.
-  ParameterLine(SurfacePtr surface, HeldParameter held, double at);
+  // Throws std::invalid_argument for a surface that is unbounded that way and no range, or `at` outside of its domain.
+  ParameterLine(SurfacePtr surface, HeldParameter held, double at, std::optional<Interval> range = std::nullopt);
 
   Interval domain() const override { return domain_; }
   double period() const override;

@@ -168,15 +168,9 @@ class Builder {
     }
     // The normals of pieces that meet smoothly may still jump.
     for (size_t i = 1; i < parts_.size(); ++i)
-      if (glm::length(value(parts_[i - 1], 1) - value(parts_[i], -1)) > kSameDirection)
-        refuse("the curve's normal jumps", parts_[i].u.lo, "across: rotation_minimizing suits any smooth curve",
+      if (glm::length(parts_[i - 1].value(1) - parts_[i].value(-1)) > kSameDirection)
+        refuse("the curve's normal jumps", parts_[i].t.lo, "across: rotation_minimizing suits any smooth curve",
                "across");
-  }
-
-  static Vec3 value(const Part& part, double x) {
-    Vec3 sum(0);
-    for (int k = kTerms; k-- > 0;) sum = sum * x + part.powers[k];
-    return sum;
   }
 
   // Adds the interpolating polynomial of w(t); false if it is not good enough.
@@ -185,9 +179,9 @@ class Builder {
     const auto at = [&](double x) { return w(t.middle() + 0.5 * t.width() * x); };
     std::array<Vec3, kTerms> values;
     for (int j = 0; j < kTerms; ++j) values[j] = at(chebyshev_point(j, kTerms));
-    const Part part{t, powers_of_chebyshev(chebyshev_coefficients(values))};
+    const Part part{t, 2 / t.width(), powers_of_chebyshev(chebyshev_coefficients(values))};
     for (const double x : {-0.9999, -0.6, -0.2, 0.35, 0.8, 0.9999})
-      if (!(glm::length(value(part, x) - at(x)) <= kModelError)) return false;
+      if (!(glm::length(part.value(x) - at(x)) <= kModelError)) return false;
     parts_.push_back(part);
     return true;
   }
@@ -280,43 +274,6 @@ class Builder {
   double length_ = 0, twist_ = 0;
 };
 
-// The k-th derivative of the part's polynomial by u at x.
-Vec3 derivative(const Part& part, int k, double x) {
-  Vec3 sum(0);
-  for (int i = kTerms; i-- > k;) {
-    double factor = 1;
-    for (int j = 0; j < k; ++j) factor *= i - j;
-    sum = sum * x + factor * part.powers[i];
-  }
-  return sum * std::pow(2 / part.u.width(), k);
-}
-
-// A box of the k-th derivative over x in [middle - h, middle + h]: by Taylor's polynomial about the middle.
-Box3 derivative_over(const Part& part, int k, double middle, double h) {
-  Vec3 reach(0);
-  double scale = 1, power = 1;
-  for (int i = 0; i < k; ++i) scale *= 2 / part.u.width();
-  Vec3 center(0);
-  for (int m = k; m < kTerms; ++m) {  // the m-th derivative, over (m - k)!
-    Vec3 sum(0), size(0);
-    for (int i = kTerms; i-- > m;) {
-      double factor = 1;
-      for (int j = 0; j < m; ++j) factor *= i - j;
-      sum = sum * middle + factor * part.powers[i];
-      size = size + factor * glm::abs(part.powers[i]);
-    }
-    double factorial = 1;
-    for (int j = 2; j <= m - k; ++j) factorial *= j;
-    const Vec3 rounding = 64 * std::numeric_limits<double>::epsilon() * size;
-    if (m == k)
-      center = sum, reach = rounding;
-    else
-      reach += (glm::abs(sum) + rounding) * (power / factorial);
-    power *= h;
-  }
-  return {scale * (center - reach), scale * (center + reach)};
-}
-
 }  // namespace
 
 Ribbon::Ribbon(CurvePtr curve, double width, const RibbonDirection& direction) : curve_(std::move(curve)) {
@@ -328,13 +285,10 @@ Ribbon::Ribbon(CurvePtr curve, double width, const RibbonDirection& direction) :
 }
 
 CurveJet Ribbon::direction(double u, int order) const {
-  // The part that begins at u or before; its polynomial goes on beyond the domain.
-  auto part = std::upper_bound(parts_.begin(), parts_.end(), u, [](double x, const Part& p) { return x < p.u.lo; });
-  if (part != parts_.begin()) --part;
+  const Part& part = part_at(parts_, u);  // its polynomial goes on beyond the domain
   CurveJet jet;
   jet.order = order;
-  const double x = (u - part->u.middle()) * (2 / part->u.width());
-  for (int k = 0; k <= order; ++k) jet.d[k] = derivative(*part, k, x);
+  for (int k = 0; k <= order; ++k) jet.d[k] = part.derivative(k, part.local(u));
   return jet;
 }
 
@@ -350,12 +304,9 @@ SurfaceEnclosure Ribbon::enclose(const Rectangle& box, int order) const {
   const CurveEnclosure c = curve_->enclose(box.u, order);
   std::array<Box3, 3> w;
   for (const Part& part : parts_) {
-    const Interval common = intersect(part.u, box.u);
+    const Interval common = intersect(part.t, box.u);
     if (common.empty() || (common.width() == 0 && box.u.width() > 0)) continue;
-    const double scale = 2 / part.u.width();
-    const double middle = (common.middle() - part.u.middle()) * scale;
-    for (int k = 0; k <= order; ++k)
-      w[k].include(derivative_over(part, k, middle, 0.5 * common.width() * scale * (1 + 1e-12)));
+    for (int k = 0; k <= order; ++k) w[k].include(part.enclose(k, common));
   }
   SurfaceEnclosure result;
   for (Box3& value : result.values) value = {Vec3(0), Vec3(0)};
@@ -368,7 +319,7 @@ SurfaceEnclosure Ribbon::enclose(const Rectangle& box, int order) const {
 std::vector<SurfacePiece> Ribbon::pieces() const {
   // The parts never reach beyond a piece of the curve.
   std::vector<SurfacePiece> pieces;
-  for (const Part& part : parts_) pieces.push_back(plain_piece({part.u, domain_.v}));
+  for (const Part& part : parts_) pieces.push_back(plain_piece({part.t, domain_.v}));
   return pieces;
 }
 

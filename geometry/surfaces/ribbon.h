@@ -14,6 +14,7 @@
 // some parts of the curve that agrees with the direction meant to 1e-13; the points r(u, 0) are those of the curve.
 #pragma once
 
+#include "geometry/numerics/polynomial_part.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -46,11 +47,7 @@ class Ribbon final : public Surface {
   CurveJet direction(double u, int order) const;
 
   static constexpr int kTerms = 14;
-  // w as a polynomial of (u - middle)/half the width.
-  struct Part {
-    Interval u;
-    std::array<Vec3, kTerms> powers;
-  };
+  using Part = PolynomialPart<kTerms>;  // w over a range of u
 
  private:
   CurvePtr curve_;

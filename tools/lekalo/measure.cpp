@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "command.h"
+#include "geometry/curves/surface_curve.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/queries/shape_measures.h"
@@ -213,6 +214,9 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       out["kind"] = "curve";
       put(out, "length", measured.length);
       put_centroid(out, measured.centroid, measured.centroid_error);
+      // A line found by steps says how far it may be from the one that is meant.
+      const auto* line = dynamic_cast<const geometry::SurfaceCurve*>(curve->get());
+      if (line && line->error() > 0) out["deviation"] = line->error();
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));

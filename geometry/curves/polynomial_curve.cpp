@@ -1,0 +1,34 @@
+#include "geometry/curves/polynomial_curve.h"
+
+namespace lekalo::geometry {
+
+CurveJet PolynomialCurve::evaluate(double t, int order) const {
+  const double inside = domain().clamp(t);
+  const Part& part = part_at(parts_, inside);
+  const double x = part.local(inside);
+  CurveJet jet;
+  jet.order = order;
+  for (int k = 0; k <= order; ++k) jet.d[k] = part.derivative(k, x);
+  if (t == inside) return jet;
+  jet.d[0] += (t - inside) * part.derivative(1, x);
+  for (int k = 2; k <= order; ++k) jet.d[k] = Vec3(0);
+  return jet;
+}
+
+CurveEnclosure PolynomialCurve::enclose(const Interval& t, int order) const {
+  CurveEnclosure result;
+  for (const Part& part : parts_) {
+    const Interval common = intersect(part.t, t);
+    if (common.empty() || (common.width() == 0 && t.width() > 0)) continue;
+    for (int k = 0; k <= order; ++k) result.d[k].include(part.enclose(k, common));
+  }
+  return result;
+}
+
+std::vector<CurvePiece> PolynomialCurve::pieces() const {
+  std::vector<CurvePiece> result;
+  for (const Part& part : parts_) result.push_back({part.t, {ParameterMap::Kind::affine, part.t.lo, part.t.hi}, {}});
+  return result;
+}
+
+}  // namespace lekalo::geometry
