@@ -208,8 +208,10 @@ struct LineIntersector::Parts {
     for (int target = 0; target < static_cast<int>(targets.size()); ++target)
       for (int piece = 0; piece < targets[target]->piece_count(); ++piece) {
         pieces.push_back({target, piece});
-        boxes.push_back(targets[target]->piece_bounds(piece));
-        if (boxes.back().bounded()) all.include(boxes.back());
+        const Box3 box = targets[target]->piece_bounds(piece);
+        // A piece accepts roots that far outside of its border.
+        boxes.push_back(box.bounded() ? box.inflated(kBorderSlack * box.diameter()) : box);
+        if (box.bounded()) all.include(box);
       }
     if (!all.empty()) size = all.diameter();
     tree = BoxTree(boxes);
