@@ -42,10 +42,10 @@ template <int kP, int kQ>
 struct PatchCells {
   static constexpr double slack_x = kBorderSlack, slack_y = kBorderSlack;
   const PatchView& patch;
-  const PatchCell& cell;
+  const CellPlace cell;
   Lanes origin;  // the line's, as it sees it
 
-  PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place) {
+  PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place.place()) {
     see(line, line.line.origin, origin);
   }
   // The derivative of a ratio A / w is (w A' - A w') / w^2: without a division, times w^2.
@@ -172,6 +172,15 @@ inline void widen(const PatchCell::Four& floats, Lanes& lanes) {
   Floats four;
   std::memcpy(&four, floats.data(), sizeof four);
   lanes = __builtin_convertvector(four, Lanes);
+}
+
+inline void widen(const PatchCell::FourHalves& halves, Lanes& lanes) {
+  using Halves = uint16_t __attribute__((vector_size(8)));
+  using Words = uint32_t __attribute__((vector_size(16)));
+  using Floats = float __attribute__((vector_size(16)));
+  Halves four;
+  std::memcpy(&four, halves.data(), sizeof four);
+  lanes = __builtin_convertvector((Floats)(__builtin_convertvector(four, Words) << 16), Lanes);
 }
 
 // A vector's parts in the frame of a cell; the fourth lane means nothing.
