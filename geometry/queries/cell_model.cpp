@@ -139,15 +139,22 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
   return m;
 }
 
-PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place)
-    : x(static_cast<float>(place.x)),
-      y(static_cast<float>(place.y)),
-      hx(static_cast<float>(place.hx)),
-      hy(static_cast<float>(place.hy)) {
-  const auto upward = [](double value) {
-    const auto f = static_cast<float>(value);
-    return f >= value ? f : std::nextafter(f, INFINITY);
-  };
+HalfFloat HalfFloat::above(double value) {
+  auto f = static_cast<float>(value);
+  if (f < value) f = std::nextafter(f, INFINITY);
+  const auto word = std::bit_cast<uint32_t>(f);
+  // Towards zero what is negative, away from it what is positive; the carry may go into the exponent, up to infinity.
+  return {static_cast<uint16_t>((f > 0 ? word + 0xffff : word) >> 16)};
+}
+
+HalfFloat HalfFloat::below(double value) {
+  const HalfFloat turned = above(-value);
+  return {static_cast<uint16_t>(turned.bits ^ 0x8000)};
+}
+
+PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place) {
+  const double places[] = {place.x, place.y, place.hx, place.hy};
+  for (int k = 0; k < 4; ++k) at[k] = static_cast<int16_t>(kPlaces * places[k]);
   const CellFrame own(model.dx, model.dy);
   const double size = glm::length(model.dx) + glm::length(model.dy);
   const bool regular = own.regular && model.shift_x < kInfinity;
@@ -175,19 +182,19 @@ PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPl
   // Much more than the doubles' rounding and the slack of borders, much less than matters.
   const Vec3 slack = 1e-9 * (Vec3(1) + glm::max(glm::abs(box.lo), glm::abs(box.hi))) * Vec3(1, 1, size);
   for (int k = 0; k < 3; ++k) {
-    lo[k] = -upward(slack[k] - box.lo[k]);
-    hi[k] = upward(box.hi[k] + slack[k]);
+    lo[k] = HalfFloat::below(box.lo[k] - slack[k]);
+    hi[k] = HalfFloat::above(box.hi[k] + slack[k]);
   }
   // The bounds of the model are about its own middle in its own frame. With the frame's rounding in a vector of that
   // length in the derivatives:
   const double length = model.reach_x() + model.reach_y();
   const Vec3 off = glm::abs(parts(model.point - middle));
   const auto turned = [&](int row) { return glm::length(rounded[row] - rows[row]) * length; };
-  lo[3] = regular ? upward(model.shift_x + off.x + turned(0)) : INFINITY;
-  hi[3] = regular ? upward(model.shift_y + off.y + turned(1)) : INFINITY;
-  bend = upward(model.bend + off.z + turned(2));
-  reach_x = upward(model.reach_x());
-  reach_y = upward(model.reach_y());
+  lo[3] = HalfFloat::above(regular ? model.shift_x + off.x + turned(0) : kInfinity);
+  hi[3] = HalfFloat::above(regular ? model.shift_y + off.y + turned(1) : kInfinity);
+  bend = HalfFloat::above(model.bend + off.z + turned(2));
+  reach_x = HalfFloat::above(model.reach_x());
+  reach_y = HalfFloat::above(model.reach_y());
 }
 
 bool flattens_across_u(const PatchView& patch, double x, double y) {

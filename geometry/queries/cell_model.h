@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "geometry/queries/bezier_patch.h"
 #include "geometry/surface.h"
@@ -38,19 +40,34 @@ struct CellPlace {
   double x = 0, y = 0, hx = 1, hy = 1;
 };
 
-// A cell of a rational Bezier patch for many lines, small because every line that comes near reads it: in floats whose
-// rounding is part of the bounds. Its frame measures a vector in shares of dx and dy and by its part along the normal.
+// The upper half of a float: seven bits behind the leading one, the range of a float.
+struct HalfFloat {
+  uint16_t bits = 0;
+  operator double() const { return std::bit_cast<float>(static_cast<uint32_t>(bits) << 16); }
+  // The least one that is not below the value, and the largest that is not above it.
+  static HalfFloat above(double value);
+  static HalfFloat below(double value);
+};
+
+// A cell of a rational Bezier patch for many lines, small because every line that comes near reads it and because there
+// are many: a frame in floats and bounds in halves of floats, whose rounding is part of the bounds. The frame measures
+// a vector in shares of dx and dy and by its part along the normal.
 struct PatchCell {
   using Four = std::array<float, 4>;
-  std::array<Four, 3> frame;  // columns: the parts of (1, 0, 0), (0, 1, 0), (0, 0, 1); fourth, the middle's x, y, z
-  Four lo, hi;                // box of the cell in its frame, about the middle; fourth, shift_x and shift_y
-  float bend;
-  float reach_x, reach_y;  // bounds on the extent in space along x and y from the middle
-  float x, y, hx, hy;      // its place, exactly
+  using FourHalves = std::array<HalfFloat, 4>;
+  std::array<Four, 3> frame;   // columns: the parts of (1, 0, 0), (0, 1, 0), (0, 0, 1); fourth, the middle's x, y, z
+  FourHalves lo, hi;           // box of the cell in its frame, about the middle; fourth, shift_x and shift_y
+  HalfFloat bend;              //
+  HalfFloat reach_x, reach_y;  // bounds on the extent in space along x and y from the middle
+  std::array<int16_t, 4> at;   // its place x, y, hx, hy in units of 1 / kPlaces, exactly
+  static constexpr int kPlaces = 1 << 9;
 
-  // `part`: the patch restricted to the place; `model`: of the part.
+  // `part`: the patch restricted to the place, which comes from at most nine halvings; `model`: of the part.
   PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place);
-  CellPlace place() const { return {x, y, hx, hy}; }
+  CellPlace place() const {
+    constexpr double unit = 1.0 / kPlaces;
+    return {unit * at[0], unit * at[1], unit * at[2], unit * at[3]};
+  }
 };
 
 // How far from the linear guess a root may lie, as a share of the cell, for a line at 45 degrees to it; lines that do

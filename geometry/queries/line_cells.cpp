@@ -40,11 +40,12 @@ struct SeenPoint {
 
 template <int kP, int kQ>
 struct PatchCells {
+  static constexpr double slack_x = kBorderSlack, slack_y = kBorderSlack;
   const PatchView& patch;
-  const PatchCell& cell;
+  const CellPlace cell;
   Lanes origin;  // the line's, as it sees it
 
-  PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place) {
+  PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place.place()) {
     see(line, line.line.origin, origin);
   }
   // The derivative of a ratio A / w is (w A' - A w') / w^2: without a division, times w^2.
@@ -63,10 +64,12 @@ struct PatchCells {
   }
 };
 
-// Cells of any surface: rectangles of its parameters.
+// Cells of any surface: rectangles of its parameters. The slacks are those of the whole cell that was asked, in shares
+// of this part of it: however small parts get, lines do not slip through between two cells.
 struct SurfaceCells {
   const Surface* surface;
   Rectangle box;
+  double slack_x = kBorderSlack, slack_y = kBorderSlack;
 
   PatchPoint at(double x, double y) const {
     const double hu = 0.5 * box.u.width(), hv = 0.5 * box.v.width();
@@ -80,11 +83,12 @@ struct SurfaceCells {
     see(line, here.dt, p.dy);
   }
   CellModel model() const { return model_of(*surface, box); }
-  bool excluded(const LineBasis& line) const {
+  // `slack`: as a length.
+  bool excluded(const LineBasis& line, double slack) const {
     const Box3 hull = surface->enclose(box, 0).values[0];
     const Vec3 r = hull.center() - line.line.origin;
     const Vec3 half = 0.5 * hull.size();
-    const double e = 1e-15 * glm::length(r);
+    const double e = slack + 1e-15 * glm::length(r);
     return std::abs(glm::dot(line.n1, r)) > glm::dot(glm::abs(line.n1), half) + e ||
            std::abs(glm::dot(line.n2, r)) > glm::dot(glm::abs(line.n2), half) + e;
   }
@@ -98,9 +102,9 @@ struct Guess {
 };
 
 // What the guess tells alone; unsure: Newton's iteration has to say.
-inline Verdict judge(const Guess& guess) {
-  const double reach = 1 + kBorderSlack;
-  return std::abs(guess.x) > reach + guess.ex || std::abs(guess.y) > reach + guess.ey ? Verdict::none : Verdict::unsure;
+inline Verdict judge(const Guess& guess, double slack_x, double slack_y) {
+  return std::abs(guess.x) > 1 + slack_x + guess.ex || std::abs(guess.y) > 1 + slack_y + guess.ey ? Verdict::none
+                                                                                                  : Verdict::unsure;
 }
 
 inline bool is_certain(const Guess& guess) { return guess.ex <= kInjective && guess.ey <= kInjective; }
@@ -122,13 +126,16 @@ inline Verdict iterate(const Cells& cells, const Guess& guess, const LineBasis& 
     const double nx = std::clamp(x + sx, -1.0, 1.0), ny = std::clamp(y + sy, -1.0, 1.0);
     // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
     // end: a step that ends farther outside means none.
-    constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction)) + kBorderSlack;
-    if (std::max(std::abs(x + sx), std::abs(y + sy)) > farthest) return contracts ? Verdict::none : Verdict::unsure;
+    constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
+    if (std::abs(x + sx) > farthest + cells.slack_x || std::abs(y + sy) > farthest + cells.slack_y)
+      return contracts ? Verdict::none : Verdict::unsure;
     const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
     if (moved < 1e-7) {
-      // The remaining error is of the order of the square of the step. What the projection cut off must be rounding.
-      if (std::max(std::abs(x + sx - nx), std::abs(y + sy - ny)) > kBorderSlack) {
-        if (!contracts) return Verdict::unsure;
+      // The remaining error is of the order of the square of the step. What the projection cut off must be rounding,
+      // or, where it is known that the cell itself has no root then, the slack.
+      const double off_x = std::abs(x + sx - nx), off_y = std::abs(y + sy - ny);
+      if (!contracts && std::max(off_x, off_y) > kBorderSlack) return Verdict::unsure;
+      if (off_x > cells.slack_x || off_y > cells.slack_y) {
         if (settled) return Verdict::none;
         settled = true;
       } else {
@@ -156,7 +163,7 @@ Verdict decide(const SurfaceCells& cells, const CellModel& m, const LineBasis& l
   const Guess guess{-(d * f - b * g) * inverse, -(a * g - c * f) * inverse,
                     m.shift_x + std::abs((d * n1 - b * n2) * inverse) * m.bend,
                     m.shift_y + std::abs((a * n2 - c * n1) * inverse) * m.bend};
-  if (judge(guess) == Verdict::none) return Verdict::none;
+  if (judge(guess, cells.slack_x, cells.slack_y) == Verdict::none) return Verdict::none;
   return is_certain(guess) ? iterate(cells, guess, line, hit) : Verdict::unsure;
 }
 
@@ -165,6 +172,15 @@ inline void widen(const PatchCell::Four& floats, Lanes& lanes) {
   Floats four;
   std::memcpy(&four, floats.data(), sizeof four);
   lanes = __builtin_convertvector(four, Lanes);
+}
+
+inline void widen(const PatchCell::FourHalves& halves, Lanes& lanes) {
+  using Halves = uint16_t __attribute__((vector_size(8)));
+  using Words = uint32_t __attribute__((vector_size(16)));
+  using Floats = float __attribute__((vector_size(16)));
+  Halves four;
+  std::memcpy(&four, halves.data(), sizeof four);
+  lanes = __builtin_convertvector((Floats)(__builtin_convertvector(four, Words) << 16), Lanes);
 }
 
 // A vector's parts in the frame of a cell; the fourth lane means nothing.
@@ -196,7 +212,7 @@ LEKALO_WIDE Verdict decide(const PatchView& patch, const PatchCell& cell, const 
   const double shift_x = lo[3], shift_y = hi[3], lean_x = along[0] * per[2], lean_y = along[1] * per[2];
   const Guess guess{from[0] - from[2] * lean_x, from[1] - from[2] * lean_y, shift_x + std::abs(lean_x) * cell.bend,
                     shift_y + std::abs(lean_y) * cell.bend};
-  if (judge(guess) == Verdict::none) return Verdict::none;
+  if (judge(guess, kBorderSlack, kBorderSlack) == Verdict::none) return Verdict::none;
   if (!is_certain(guess)) return Verdict::unsure;
   if (patch.degree_u == 3 && patch.degree_v == 3) return iterate(PatchCells<3, 3>(patch, cell, line), guess, line, hit);
   if (patch.degree_u == 2 && patch.degree_v == 2) return iterate(PatchCells<2, 2>(patch, cell, line), guess, line, hit);
@@ -224,6 +240,9 @@ struct Search {
   CellHits& hits;
   Vec2 whole;  // extent of the whole piece
   int cells = 0;
+
+  // The slack at borders as a length.
+  double slack() const { return whole.x + whole.y < kInfinity ? kBorderSlack * (whole.x + whole.y) : 0; }
 
   // A neighbour in the same piece may have found the same root on the common border.
   void add(const CellHit& hit) {
@@ -268,11 +287,15 @@ class BehindProxy final : public NearSurface {
   struct Cell {
     double x, y, hx, hy;
   };
-  BehindProxy(const SurfaceCells& cells, const ProxyPatch& proxy) : cells_(cells) {
+  // `length_of_slack`: that of the cells as a length.
+  BehindProxy(const SurfaceCells& cells, double length_of_slack, const ProxyPatch& proxy) : cells_(cells) {
     off = proxy.off;
     off_x = proxy.off_x;
     off_y = proxy.off_y;
     rounding = proxy.rounding;
+    slack_x = cells.slack_x;
+    slack_y = cells.slack_y;
+    slack = length_of_slack;
   }
   PatchPoint at(double x, double y) const override { return cells_.at(x, y); }
   void undecided(double x, double y, double hx, double hy) override { open_.push_back({x, y, hx, hy}); }
@@ -287,6 +310,7 @@ class BehindProxy final : public NearSurface {
 struct Part {
   Rectangle box;
   double x0 = 0, y0 = 0, hx = 1, hy = 1;
+  SurfaceCells cells(const Surface& surface) const { return {&surface, box, kBorderSlack / hx, kBorderSlack / hy}; }
   Part cell(double x, double y, double wx, double wy) const {
     const auto cut = [](const Interval& range, double at, double half) {
       const double middle = range.middle(), reach = 0.5 * range.width();
@@ -301,9 +325,9 @@ struct Part {
 constexpr double kWorthwhileProxy = 0.05;
 
 void search(Search& s, const Surface& surface, const Part& part, const CellModel& m, const ProxyPatch* proxy) {
-  if (is_settled(s, SurfaceCells{&surface, part.box}, m, part.x0, part.y0, part.hx, part.hy)) return;
+  if (is_settled(s, part.cells(surface), m, part.x0, part.y0, part.hx, part.hy)) return;
   const auto go_on = [&](const Part& smaller) {
-    if (SurfaceCells{&surface, smaller.box}.excluded(s.line)) return;
+    if (smaller.cells(surface).excluded(s.line, s.slack())) return;
     search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
   };
   // Across a line that runs in the surface parts get thin long before they get short.
@@ -314,7 +338,7 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
     proxy = &own;
   }
   if (!is_thin && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
-    BehindProxy behind(SurfaceCells{&surface, part.box}, *proxy);
+    BehindProxy behind(part.cells(surface), s.slack(), *proxy);
     CellHits found;
     search_net(proxy->view(), behind, s.line, found);
     for (int i = 0; i < found.size(); ++i)

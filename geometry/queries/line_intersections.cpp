@@ -160,8 +160,29 @@ std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, dou
   return targets;
 }
 
+namespace {
+
+// Whether the surface is at two hits in places that it joins itself: two hits as near to each other that it does not
+// are crossings of two sheets, where it goes through itself. Over the border of the domain anything may be joined
+// (seams, poles, a twisted band).
+bool are_joined(const Surface& surface, const SurfaceHit& a, const SurfaceHit& b, double reach) {
+  const Rectangle domain = surface.domain();
+  const SurfaceJet at_a = surface.evaluate(a.u, a.v, 1), at_b = surface.evaluate(b.u, b.v, 1);
+  const auto is_near_border = [&](const SurfaceHit& hit, const SurfaceJet& jet) {
+    const double u = std::min(hit.u - domain.u.lo, domain.u.hi - hit.u) * glm::length(jet.du());
+    const double v = std::min(hit.v - domain.v.lo, domain.v.hi - hit.v) * glm::length(jet.dv());
+    return !(u > 2 * reach && v > 2 * reach);
+  };
+  if (is_near_border(a, at_a) && is_near_border(b, at_b)) return true;
+  const Vec3 between = surface.point(0.5 * (a.u + b.u), 0.5 * (a.v + b.v));
+  return glm::length(between - at_a.point()) <= reach;
+}
+
+}  // namespace
+
 void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
-                const std::function<Vec3(const SurfaceHit&)>& normal, size_t first) {
+                const std::function<Vec3(const SurfaceHit&)>& normal,
+                const std::function<const Surface*(const SurfaceHit&)>& surface, size_t first) {
   if (hits.size() - first < 2) return;
   std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
             [](const SurfaceHit& a, const SurfaceHit& b) {
@@ -185,7 +206,10 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
       if (apart > (kSameHit * size + rounding(hit)) / kLeastSteepness) break;
       const double a = slope(hit), b = slope(hits[k]);
       const double steepness = std::max(std::min(std::abs(a), std::abs(b)), kLeastSteepness);
-      again = apart <= (kSameHit * size + rounding(hit)) / steepness && (a > 0) == (b > 0);
+      const double reach = (kSameHit * size + rounding(hit)) / steepness;
+      const Surface* const one = surface(hit);
+      again = apart <= reach && (a > 0) == (b > 0) &&
+              (!one || one != surface(hits[k]) || are_joined(*one, hits[k], hit, reach));
     }
     if (!again) hits[kept++] = hit;
   }
@@ -208,8 +232,10 @@ struct LineIntersector::Parts {
     for (int target = 0; target < static_cast<int>(targets.size()); ++target)
       for (int piece = 0; piece < targets[target]->piece_count(); ++piece) {
         pieces.push_back({target, piece});
-        boxes.push_back(targets[target]->piece_bounds(piece));
-        if (boxes.back().bounded()) all.include(boxes.back());
+        const Box3 box = targets[target]->piece_bounds(piece);
+        // A piece accepts roots that far outside of its border.
+        boxes.push_back(box.bounded() ? box.inflated(kBorderSlack * box.diameter()) : box);
+        if (box.bounded()) all.include(box);
       }
     if (!all.empty()) size = all.diameter();
     tree = BoxTree(boxes);
@@ -255,7 +281,7 @@ void LineIntersector::add_all_hits(const Line& line, const Interval& t, std::vec
         const Surface& surface = parts_->targets[hit.face]->surface();
         return parts_->signs[hit.face] * surface.normal(hit.u, hit.v);
       },
-      first);
+      [&](const SurfaceHit& hit) { return &parts_->targets[hit.face]->surface(); }, first);
 }
 
 }  // namespace lekalo::geometry

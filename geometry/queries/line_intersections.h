@@ -81,11 +81,13 @@ class LineIntersector {
 };
 
 // Sorts hits of one surface or closed body by t and removes those that are one crossing reported by two neighbours:
-// nearer than kSameHit of the object's size (more where the line is shallow) and crossing in the same direction.
-// `normal` gives the outward normal at a hit.
+// nearer than kSameHit of the object's size (more where the line is shallow) and crossing in the same direction; on one
+// surface, neighbours by their parameters too. `normal` gives the outward normal at a hit, `surface` the surface whose
+// parameters it has; null: it has none.
 // Only the hits from the `first` on are looked at.
 void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
-                const std::function<Vec3(const SurfaceHit&)>& normal, size_t first = 0);
+                const std::function<Vec3(const SurfaceHit&)>& normal,
+                const std::function<const Surface*(const SurfaceHit&)>& surface, size_t first = 0);
 
 // Line targets of a body's faces, trims included, in the order of its faces.
 std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double least_area = 0);

@@ -122,6 +122,8 @@ class NetSearch {
     if (near_) rounding_ += near_->rounding;
     allowance_ = rounding_;
     if (near_) allowance_ += near_->off;
+    excludes_ = allowance_;
+    if (near_) excludes_ += near_->slack;
   }
 
   void run() { visit(room_, 0, 0, 1, 1, 0); }
@@ -148,7 +150,7 @@ class NetSearch {
       lo = smaller(lo, c[k]);
       hi = larger(hi, c[k]);
     }
-    const double e = allowance_;
+    const double e = excludes_;
     return lo[0] > e || hi[0] < -e || lo[1] > e || hi[1] < -e;
   }
 
@@ -242,10 +244,11 @@ class NetSearch {
   }
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
-  // it known that there is no root if none is found.
+  // it is known that there is no root if none is found; then one that `border` allows outside of the cell is taken.
   bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, const Pair& slacks,
-              bool contracts) {
+              const Pair& border, bool contracts) {
     const double slack = largest_of(slacks);
+    const Pair outside = contracts ? larger(pair(slack), border) : pair(slack);
     // The remaining error is of the order of the square of the step, and not below the rounding of points of a surface
     // itself.
     const Pair settles = near_ ? larger(pair(1e-7), 4 * slacks) : pair(1e-7);
@@ -263,10 +266,10 @@ class NetSearch {
       // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
       // end: a step that ends farther outside means none.
       constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
-      if (std::max(std::abs(ex), std::abs(ey)) > farthest + slack) return contracts;
+      if (std::abs(ex) > farthest + outside[0] || std::abs(ey) > farthest + outside[1]) return contracts;
       if (std::abs(nx - x) < settles[0] && std::abs(ny - y) < settles[1]) {
-        // What the projection cut off must be rounding.
-        if (std::max(std::abs(ex - nx), std::abs(ey - ny)) <= slack) {
+        // What the projection cut off must be rounding, or the slack.
+        if (std::abs(ex - nx) <= outside[0] && std::abs(ey - ny) <= outside[1]) {
           add(x0 + hx * nx, y0 + hy * ny, 4 * slack * std::max(hx, hy));
           return true;
         }
@@ -372,7 +375,9 @@ class NetSearch {
         const double inverse = 1 / determinant;
         const Pair a{j.y[1] * inverse, -j.x[1] * inverse}, b{-j.y[0] * inverse, j.x[0] * inverse};
         const Pair root = -(f[0] * a + f[1] * b);
-        const Pair sizes = magnitude(a) + magnitude(b), uncertain = allowance_ * sizes + kBorderSlack;
+        const Pair sizes = magnitude(a) + magnitude(b), unknown = allowance_ * sizes;
+        const Pair border = near_ ? Pair{near_->slack_x / hx, near_->slack_y / hy} : pair(kBorderSlack);
+        const Pair uncertain = unknown + border;
         Pair e = deviation(c, a, b);
         if (near_) e += sizes * (hx * near_->off_x + hy * near_->off_y);
         slack += rounding_ * sizes;
@@ -381,9 +386,9 @@ class NetSearch {
         const double worst = std::fmax(slack[0], slack[1]);
         const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
         if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
-            newton(c, x0, y0, hx, hy, root, slack, contracts))
+            newton(c, x0, y0, hx, hy, root, slack, border, contracts))
           return;
-        if (near_ && largest_of(uncertain) > kTooWide) {
+        if (near_ && largest_of(unknown) > kTooWide) {
           near_->undecided(x0, y0, hx, hy);
           return;
         }
@@ -448,6 +453,7 @@ class NetSearch {
   Pair* room_;
   double rounding_ = 0;   // of the functions
   double allowance_ = 0;  // with the distance of the surface that the patch stands for
+  double excludes_ = 0;   // and the slack at its border
   int cells_ = 0;
 };
 

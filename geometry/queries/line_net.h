@@ -22,6 +22,7 @@
 
 #include "geometry/queries/bezier_patch.h"
 #include "geometry/queries/line_cells.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -30,6 +31,8 @@ class NearSurface {
  public:
   virtual ~NearSurface() = default;
   double off = 0, off_x = 0, off_y = 0, rounding = 0;  // as of ProxyPatch
+  // How far outside of the border a root still counts, in x, in y and as a length.
+  double slack_x = kBorderSlack, slack_y = kBorderSlack, slack = 0;
   // Its own point and derivatives by x and y.
   virtual PatchPoint at(double x, double y) const = 0;
   // Takes a cell, [x - hx, x + hx] times [y - hy, y + hy], in which the bounds are too wide to tell.

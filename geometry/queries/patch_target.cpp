@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lekalo::geometry {
 
@@ -13,11 +12,12 @@ namespace {
 constexpr int kMostCellsPerPiece = 1024;
 constexpr int kDeepestCut = 9;
 
-Vec3 in_doubles(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+static_assert(1 << kDeepestCut <= PatchCell::kPlaces);
 
-float downward(double x) {
-  const float f = static_cast<float>(x);
-  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+// Boxes of cells are numbers of steps from one end of the piece's reach to the other.
+constexpr double kSteps = 65535;
+Vec3 in_space(const std::array<uint16_t, 3>& steps, const Vec3& reach) {
+  return (2 / kSteps * Vec3(steps[0], steps[1], steps[2]) - 1.0) * reach;
 }
 
 }  // namespace
@@ -79,22 +79,24 @@ class PatchTarget::Cutter {
     const TrimRegion::Coverage kept = coverage(place);
     if (kept == TrimRegion::Coverage::outside) return;
     Box3 box;
-    double size = 0;
     for (int k = 0; k < view.count(); ++k) {
       const Vec4& p = view.points[k];
       if (!(p.w > 0)) {
         box = Box3::everything();
         break;
       }
-      const Vec3 q = Vec3(p) / p.w;
-      box.include(q);
-      size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+      box.include(Vec3(p) / p.w);
     }
-    box = box.inflated(1e-15 * size);
-    Cell cell{PatchCell(view, m, place), {}, {}, patch_, kept == TrimRegion::Coverage::inside};
-    for (int k = 0; k < 3; ++k) {
-      cell.lo[k] = downward(box.lo[k]);
-      cell.hi[k] = -downward(-box.hi[k]);
+    Cell cell{
+        PatchCell(view, m, place), {1, 1, 1}, {}, static_cast<uint32_t>(patch_), kept == TrimRegion::Coverage::inside};
+    if (box.bounded()) {
+      // A thousandth of a step is much more than the rounding.
+      const Vec3 steps = 0.5 * kSteps / target_.patches_[patch_].reach;
+      const Vec3 lo = 0.5 * kSteps + steps * box.lo - 1e-3, hi = 0.5 * kSteps + steps * box.hi + 1e-3;
+      for (int k = 0; k < 3; ++k) {
+        cell.lo[k] = static_cast<uint16_t>(std::clamp(std::floor(lo[k]), 0.0, kSteps));
+        cell.hi[k] = static_cast<uint16_t>(std::clamp(std::ceil(hi[k]), 0.0, kSteps));
+      }
     }
     target_.cells_.push_back(cell);
   }
@@ -127,6 +129,10 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
     const Vec3& c = patch.center;
     for (const Vec4& p : piece.points)
       points_.push_back({std::fma(-p.w, c.x, p.x), std::fma(-p.w, c.y, p.y), std::fma(-p.w, c.z, p.z), p.w});
+    for (size_t k = patch.first_point; k < points_.size(); ++k)
+      if (points_[k].w > 0) patch.reach = glm::max(patch.reach, glm::abs(Vec3(points_[k]) / points_[k].w));
+    // The rounding of cutting, and a width for what is flat.
+    patch.reach += 1e-14 * (patch.reach.x + patch.reach.y + patch.reach.z) + 1e-300;
     patches_.push_back(patch);
     cutter.cut(static_cast<int>(patches_.size()) - 1);
   }
@@ -136,9 +142,9 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
 
 Box3 PatchTarget::piece_bounds(int i) const {
   const Cell& cell = cells_[i];
-  const Box3 box{in_doubles(cell.lo), in_doubles(cell.hi)};
-  if (!box.bounded()) return bounds(*surface_);  // weights that are not positive
-  const Vec3& center = patches_[cell.patch].center;
+  if (cell.lo[0] > cell.hi[0]) return bounds(*surface_);  // weights that are not positive
+  const Vec3 &center = patches_[cell.patch].center, &reach = patches_[cell.patch].reach;
+  const Box3 box{in_space(cell.lo, reach), in_space(cell.hi, reach)};
   return Box3{box.lo + center, box.hi + center}.inflated(1e-15 * glm::length(center));
 }
 

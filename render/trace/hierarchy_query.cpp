@@ -283,7 +283,7 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
     std::vector<geometry::SurfaceHit> hits;
     for (size_t i = first; i < last; ++i)
       hits.push_back({found[i].t, found[i].u, found[i].v, static_cast<int>(i), found[i].piece});
-    geometry::merge_hits(hits, line, leaf.size, [&](const geometry::SurfaceHit& h) -> Vec3 {
+    const auto normal = [&](const geometry::SurfaceHit& h) -> Vec3 {
       const Hit& hit = found[h.face];
       if (leaf.mesh) {
         const auto& corner = leaf.mesh->triangles[hit.piece].point;
@@ -292,7 +292,11 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
       }
       if (leaf.shape) return leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, line.at(hit.t)).normal;
       return leaf.signs[hit.face] * leaf.targets[hit.face]->surface().normal(hit.u, hit.v);
-    });
+    };
+    const auto surface = [&](const geometry::SurfaceHit& h) {
+      return leaf.targets.empty() ? nullptr : &leaf.targets[found[h.face].face]->surface();
+    };
+    geometry::merge_hits(hits, line, leaf.size, normal, surface);
     for (const geometry::SurfaceHit& h : hits) result.push_back(found[h.face]);
   }
   std::sort(result.begin(), result.end(), comes_before);

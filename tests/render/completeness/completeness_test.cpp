@@ -304,6 +304,14 @@ TEST(CompletenessOfRays, ThatWereWrongOnce) {
       {"formula_torus", 1e3,
        ray({0x1.21c73f7c725cap+12, -0x1.52160f0843bdep+12, 0x1.82463fd0ef3bcp+11},
            {0x1.736753db8ab45p-4, 0x1.fde40ea4ae905p-1, 0x0p+0})},
+      // In the plane of the seam, past the inner circle: a part of a cell was left out that the slack reached.
+      {"formula_torus", 1e3,
+       ray({0x1.222dc414df092p+12, -0x1.52202b6dbf6bp+12, 0x1.82463fd0ef3bcp+11},
+           {-0x1.ce21dededd5aap-1, 0x1.b8ce9fe2db24ap-2, 0x0p+0})},
+      // Past the double line, nearly in one of its sheets: the two hits were taken for one crossing.
+      {"formula_umbrella", 1e3,
+       ray({-0x1.dc9d7957a72fdp+9, -0x1.f8cfe6cb66f4bp+9, 0x1.d72a0dc0c99e2p+11},
+           {0x1.e61d02495685p-3, 0x1.016fa4e692efp-2, -0x1.e06c5c0d07be6p-1})},
   };
   for (const Entry& entry : all_entries())
     for (const Case& one : cases) {

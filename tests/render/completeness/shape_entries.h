@@ -124,6 +124,9 @@ inline std::vector<Entry> formula_entries() {
                  }),
       polynomial("formula_ruled_cubic", {"u*v", "u", "v^2 + u"}, 1, 2, {{0.2, 1}, {-1, 1}},
                  [](double u, double v) { return Vec3(u * v, u, v * v + u); }),
+      // Whitney's umbrella: through itself along a ray, a pinch point at its end.
+      polynomial("formula_umbrella", {"u*v", "u", "v^2"}, 1, 2, {{-1.2, 1.2}, {-1.2, 1.2}},
+                 [](double u, double v) { return Vec3(u * v, u, v * v); }),
       {"formula_waves",
        [](const Vec3& offset) {
          return formula_subject({"u", "v", "0.4*sin(3*u)*exp(-v^2) + 0.1*cos(5*v)"}, {{-1.5, 1.5}, {-1.5, 1.5}}, {},
