@@ -10,7 +10,7 @@ namespace {
 TypeDeclaration declare_line(const char* name, const char* description, std::vector<std::string> families,
                              const char* of_families) {
   return declare(Category::curve, name, description)
-      .field("on", reference({Category::surface}), "the surface")
+      .field("of", reference({Category::surface}), "the surface")
       .field("through", numbers().count(2, 2), "parameters u and v of a point of the line; t is 0 there")
       .field("family", choice(std::move(families)), of_families)
       .optional("length", length().positive(), "goes no farther than half of it to each side of the point");
@@ -18,7 +18,7 @@ TypeDeclaration declare_line(const char* name, const char* description, std::vec
 
 template <class Family, class Line>
 SurfaceCurve build(const Fields& f, Line line_of, Family family) {
-  const SurfacePtr surface = f.surface("on");
+  const SurfacePtr surface = f.surface("of");
   const std::vector<double>& uv = f.numbers("through");
   std::optional<double> length;
   if (f.has("length")) length = f.number("length");
@@ -33,7 +33,7 @@ TypeDeclaration curvature_line_type() {
                       "Line of curvature through a point of a surface, both ways to the border of the domain, to an "
                       "umbilic, or until it closes. Its parameter is its length from the point.",
                       {"maximum", "minimum"}, "along the largest or the smallest curvature, signed by the normal")
-      .example("on: oval, through: [0.5, 0.3], family: maximum")
+      .example("of: oval, through: [0.5, 0.3], family: maximum")
       .built_by([](const Fields& f) {
         return build(f, curvature_line,
                      f.text("family") == "maximum" ? CurvatureFamily::maximum : CurvatureFamily::minimum);
@@ -49,7 +49,7 @@ TypeDeclaration asymptotic_line_type() {
              {"first", "second"},
              "turned from the direction of the largest curvature to the left (first) or to the right, seen from "
              "the normal")
-      .example("on: saddle, through: [0.2, 0.3], family: first")
+      .example("of: saddle, through: [0.2, 0.3], family: first")
       .built_by([](const Fields& f) {
         return build(f, asymptotic_line,
                      f.text("family") == "first" ? AsymptoticFamily::first : AsymptoticFamily::second);

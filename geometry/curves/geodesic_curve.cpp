@@ -20,8 +20,8 @@ TypeDeclaration geodesic_curve_type() {
              "Geodesic of a surface: from a point in a direction, or the shortest between two points. Its parameter is "
              "its length. It ends at the border of the domain or at a pole; over a crease it goes on at the same "
              "angle.")
-      .example("on: ball, from: [0, 0], direction: 30, length: 4")
-      .field("on", reference({Category::surface}), "the surface")
+      .example("of: ball, from: [0, 0], direction: 30, length: 4")
+      .field("of", reference({Category::surface}), "the surface")
       .field("from", numbers().count(2, 2), "parameters u and v of the beginning")
       .optional(
           "direction", angle(),
@@ -29,7 +29,7 @@ TypeDeclaration geodesic_curve_type() {
       .optional("length", length().positive(), "with a direction: how far it goes, if it does not end before")
       .optional("to", numbers().count(2, 2), "instead of a direction and a length: parameters of the end")
       .built_by([](const Fields& f) {
-        const SurfacePtr surface = f.surface("on");
+        const SurfacePtr surface = f.surface("of");
         if (f.has("to") == f.has("direction"))
           throw FieldError(f.has("to") ? "to" : "from", "a geodesic has either a direction or an end",
                            "give 'direction' and 'length', or 'to'");

@@ -219,7 +219,7 @@ Vec2 nearest_foot(const Vec3& point, const Surface& surface, double t) {
   try {
     feet = project(point, surface);
   } catch (const std::invalid_argument& error) {
-    throw FieldError("on", error.what());
+    throw FieldError("onto", error.what());
   }
   if (!feet.regions.empty())
     throw FieldError("of", fmt::format("at t = {:.6g} many points of the surface are equally near", t),
@@ -250,9 +250,9 @@ TypeDeclaration projected_curve_type() {
              Category::curve, "projected_curve",
              "Projection of a curve on a surface, with the curve's parameter: to the nearest point at its beginning, "
              "and to the foot of a normal that goes on from there; or along a direction.")
-      .example("of: { type: segment, from: [0, 0, 2], to: [1, 0, 2] }, on: patch")
+      .example("of: { type: segment, from: [0, 0, 2], to: [1, 0, 2] }, onto: patch")
       .field("of", reference({Category::curve}), "the curve")
-      .field("on", reference({Category::surface}), "the surface")
+      .field("onto", reference({Category::surface}), "the surface")
       .optional("direction", direction(), "projects along it, not along normals")
       .field("hit", integer().at_least(0),
              "with a direction: which of the surface's points is taken, counted from the curve's beginning along the "
@@ -261,7 +261,7 @@ TypeDeclaration projected_curve_type() {
       .optional("range", range(), "of the curve's parameter: the part that is projected")
       .built_by([](const Fields& f) {
         const CurvePtr curve = f.curve("of");
-        const SurfacePtr surface = f.surface("on");
+        const SurfacePtr surface = f.surface("onto");
         Interval range = curve->domain();
         if (f.has("range")) {
           if (!range.contains(f.range("range")))

@@ -141,7 +141,7 @@ SurfaceLine follow(const Surface& surface, const Vec2& through, Family family, s
   FlowOptions options;
   Both line = run(options);
   if (line.begins == LineEnd::jagged || line.ends == LineEnd::jagged)
-    throw FieldError("on", "the surface is not smooth enough for such a line");
+    throw FieldError("of", "the surface is not smooth enough for such a line");
   if (line.parts.empty()) throw FieldError("through", "the line leaves the surface's domain at once");
   if (!length && (line.begins == LineEnd::length || line.ends == LineEnd::length))
     throw FieldError("through",

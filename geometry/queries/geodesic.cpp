@@ -93,7 +93,7 @@ SurfaceLine geodesic(const Surface& surface, const Vec2& start, double angle, do
   GeodesicFlow::Result flow = run();
   const auto place = [&] { return fmt::format("({:.6g}, {:.6g})", flow.end[0], flow.end[1]); };
   if (flow.why == LineEnd::jagged)
-    throw FieldError("on", "the surface is not smooth enough for a geodesic at (u, v) = " + place());
+    throw FieldError("of", "the surface is not smooth enough for a geodesic at (u, v) = " + place());
   if (flow.parts.empty())
     throw FieldError("from", "the geodesic leaves the surface's domain at once", "turn its direction");
   options.longest_step *= 0.1;

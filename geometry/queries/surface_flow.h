@@ -408,6 +408,9 @@ class SurfaceFlow {
       before = now;
       lo = hi;
     }
+    // On a border of the domain steps end at the beginning itself.
+    if (glm::length(surface_.point(step.end[0], step.end[1]) - begin_point_) <= 1e-12 * options_.size)
+      return LineEnd::closed;
     return std::nullopt;
   }
 

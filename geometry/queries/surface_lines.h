@@ -28,7 +28,7 @@ struct SurfaceLine {
   double error = 0;  // the largest distance in space seen between this line and one integrated by other steps
 };
 
-// All of these throw FieldError (fields on, from, to, through, length, as those of scene files are called).
+// All of these throw FieldError (fields of, from, to, through, length, as those of scene files are called).
 
 // From `start` in the domain; `angle` in radians is that from r_u to its direction, counterclockwise seen from the
 // side to which r_u x r_v points. `length` > 0 is finite; where the line meets the border of the domain it ends before.

@@ -25,7 +25,7 @@ using Values = std::vector<std::pair<std::string, std::any>>;
 CurvePtr projected(const CurvePtr& curve, const SurfacePtr& surface, const Values& more = {}) {
   Fields fields;
   fields.set("of", curve);
-  fields.set("on", surface);
+  fields.set("onto", surface);
   fields.set("hit", 0);
   for (const auto& [name, value] : more) fields.set(name, value);
   return std::any_cast<CurvePtr>(projected_curve_type().build(fields));

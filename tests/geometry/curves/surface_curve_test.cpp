@@ -144,19 +144,19 @@ TEST(ParameterLineType, HoldsOneParameter) {
 TEST(LineTypes, BuildTheLinesTheyDescribe) {
   using List = std::vector<double>;
   const CurvePtr line =
-      built(geodesic_curve_type(), {{"on", kTorus}, {"from", List{0, 0}}, {"direction", 0.5 * kPi}, {"length", 3.0}});
+      built(geodesic_curve_type(), {{"of", kTorus}, {"from", List{0, 0}}, {"direction", 0.5 * kPi}, {"length", 3.0}});
   EXPECT_LE(distance(line->point(3), {3 + std::cos(3.0), 0, std::sin(3.0)}), 1e-13);
-  const CurvePtr shortest = built(geodesic_curve_type(), {{"on", kTorus}, {"from", List{0, 0}}, {"to", List{0, 3}}});
+  const CurvePtr shortest = built(geodesic_curve_type(), {{"of", kTorus}, {"from", List{0, 0}}, {"to", List{0, 3}}});
   EXPECT_NEAR(shortest->domain().hi, 3, 1e-13);
   EXPECT_LE(dynamic_cast<const SurfaceCurve&>(*shortest).error(), 1e-12);
-  EXPECT_EQ(refusal(geodesic_curve_type(), {{"on", kTorus}, {"from", List{0, 0}}}),
+  EXPECT_EQ(refusal(geodesic_curve_type(), {{"of", kTorus}, {"from", List{0, 0}}}),
             "from: a geodesic has either a direction or an end");
-  EXPECT_EQ(refusal(geodesic_curve_type(), {{"on", kTorus}, {"from", List{0, 0}}, {"direction", 1.0}}),
+  EXPECT_EQ(refusal(geodesic_curve_type(), {{"of", kTorus}, {"from", List{0, 0}}, {"direction", 1.0}}),
             "direction: the length of the geodesic is missing");
-  EXPECT_EQ(refusal(geodesic_curve_type(), {{"on", kTorus}, {"from", List{0, 0}}, {"to", List{1, 1}}, {"length", 1.0}}),
+  EXPECT_EQ(refusal(geodesic_curve_type(), {{"of", kTorus}, {"from", List{0, 0}}, {"to", List{1, 1}}, {"length", 1.0}}),
             "length: a geodesic between two points has its own length");
   const CurvePtr round =
-      built(curvature_line_type(), {{"on", kTorus}, {"through", List{0, 1}}, {"family", std::string("maximum")}});
+      built(curvature_line_type(), {{"of", kTorus}, {"through", List{0, 1}}, {"family", std::string("maximum")}});
   EXPECT_TRUE(round->is_closed());
   checks::check_period(*round);
 }

@@ -412,6 +412,10 @@ TEST(CurvatureLines, OfRevolutionsAreMeridiansAndParallels) {
   const auto meridian = curvature_line(torus, {0.3, 0.7}, CurvatureFamily::minimum, {});
   EXPECT_NEAR(meridian.image->domain().hi, kTwoPi, 1e-13);
   along_line(*meridian.image, [&](double t) { EXPECT_NEAR(meridian.image->point(t).x, 0.3, 1e-13); });
+  // From the seam.
+  const auto seam = curvature_line(torus, {0, -1}, CurvatureFamily::maximum, {});
+  EXPECT_TRUE(seam.closed);
+  EXPECT_NEAR(seam.image->domain().hi, kTwoPi * (3 + std::cos(1.0)), 1e-12);
   // The other side sees the other curvature.
   torus.set_reversed(true);
   EXPECT_NEAR(curvature_line(torus, {0.3, 0.7}, CurvatureFamily::maximum, {}).image->domain().hi, kTwoPi, 1e-13);
