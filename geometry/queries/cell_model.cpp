@@ -152,9 +152,11 @@ HalfFloat HalfFloat::below(double value) {
   return {static_cast<uint16_t>(turned.bits ^ 0x8000)};
 }
 
-PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place) {
-  const double places[] = {place.x, place.y, place.hx, place.hy};
-  for (int k = 0; k < 4; ++k) at[k] = static_cast<int16_t>(kPlaces * places[k]);
+PatchCell::PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place)
+    : at_x(static_cast<int16_t>(kPlaces * place.x)),
+      at_y(static_cast<int16_t>(kPlaces * place.y)),
+      halvings_x(static_cast<uint8_t>(-std::ilogb(place.hx))),
+      halvings_y(static_cast<uint8_t>(-std::ilogb(place.hy))) {
   const CellFrame own(model.dx, model.dy);
   const double size = glm::length(model.dx) + glm::length(model.dy);
   const bool regular = own.regular && model.shift_x < kInfinity;

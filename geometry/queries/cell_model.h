@@ -59,14 +59,16 @@ struct PatchCell {
   FourHalves lo, hi;           // box of the cell in its frame, about the middle; fourth, shift_x and shift_y
   HalfFloat bend;              //
   HalfFloat reach_x, reach_y;  // bounds on the extent in space along x and y from the middle
-  std::array<int16_t, 4> at;   // its place x, y, hx, hy in units of 1 / kPlaces, exactly
+  // Its place, exactly: the middle in units of 1 / kPlaces, and how often the piece was halved.
+  int16_t at_x, at_y;
+  uint8_t halvings_x, halvings_y;
   static constexpr int kPlaces = 1 << 9;
 
   // `part`: the patch restricted to the place, which comes from at most nine halvings; `model`: of the part.
   PatchCell(const PatchView& part, const CellModel& model, const CellPlace& place);
   CellPlace place() const {
     constexpr double unit = 1.0 / kPlaces;
-    return {unit * at[0], unit * at[1], unit * at[2], unit * at[3]};
+    return {unit * at_x, unit * at_y, unit * (kPlaces >> halvings_x), unit * (kPlaces >> halvings_y)};
   }
 };
 

@@ -37,7 +37,10 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
 
 void bounds_callback(const RTCBoundsFunctionArguments* args) {
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
-  *args->bounds_o = record.parts->float_bounds(box_of(record, static_cast<int>(args->primID)));
+  Box3 box;
+  for (int i = record.first_piece(args->primID); i < record.end_of_pieces(args->primID); ++i)
+    box.include(box_of(record, i));
+  *args->bounds_o = record.parts->float_bounds(box);
 }
 
 }  // namespace
@@ -164,13 +167,12 @@ void Hierarchy::Parts::build_scene() {
     } else {
       plain_triangles = false;
       geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
-      const int count = record->count;
-      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
+      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(record->primitive_count()));
       rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
       rtcSetGeometryIntersectFunction(geometry, intersect_callback);
       rtcSetGeometryOccludedFunction(geometry, occluded_callback);
       if (record->kind == GeometryRecord::Kind::target) {
-        pieces += static_cast<size_t>(count);
+        pieces += static_cast<size_t>(record->count);
         bytes += record->target->memory();
       }
     }

@@ -3,6 +3,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+
 #include "render/trace/hierarchy.h"
 
 namespace lekalo::render {
@@ -22,7 +24,15 @@ struct GeometryRecord {
   int leaf_number = 0;  // first number of an instance
   int face = 0;         // of a target
   const geometry::LineTarget* target = nullptr;
-  int count = 1;      // pieces of a target
+  int count = 1;  // pieces of a target
+  // Two pieces of a target that follow each other, neighbours mostly, are one primitive to Embree.
+  int primitive_count() const { return kind == Kind::target ? (count + 1) / 2 : count; }
+  int first_piece(unsigned primitive) const {
+    return static_cast<int>(kind == Kind::target ? 2 * primitive : primitive);
+  }
+  int end_of_pieces(unsigned primitive) const {
+    return kind == Kind::target ? std::min(first_piece(primitive) + 2, count) : static_cast<int>(primitive) + 1;
+  }
   bool bare = false;  // the nearest hit needs no parameters
   std::shared_ptr<const Hierarchy> child;
   Affine to_parent, to_child;

@@ -80,6 +80,13 @@ void test(const GeometryRecord& record, int primitive, Query& query) {
     test_shape(record, query);
 }
 
+// The same for all pieces of one of Embree's primitives.
+void test_primitive(const void* of, unsigned primitive, Query& query) {
+  const auto& record = *static_cast<const GeometryRecord*>(of);
+  const int end = record.end_of_pieces(primitive);
+  for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
+}
+
 // True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
 bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
   for (int k = 0; k < 3; ++k) {
@@ -127,7 +134,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   Query& query = *reinterpret_cast<Query*>(args->context);
   const double before = query.t_max;
-  test(*static_cast<const GeometryRecord*>(args->geometryUserPtr), static_cast<int>(args->primID), query);
+  test_primitive(args->geometryUserPtr, args->primID, query);
   if (query.t_max < before) {
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
     ray.tfar = std::min(ray.tfar, ray_end(query.t_max - query.start + query.slack));
@@ -137,7 +144,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   Query& query = *reinterpret_cast<Query*>(args->context);
-  test(*static_cast<const GeometryRecord*>(args->geometryUserPtr), static_cast<int>(args->primID), query);
+  test_primitive(args->geometryUserPtr, args->primID, query);
   if (query.found) reinterpret_cast<RTCRay*>(args->ray)->tfar = -INFINITY;
 }
 

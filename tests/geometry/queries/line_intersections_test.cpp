@@ -10,6 +10,7 @@
 
 #include "geometry/bodies/primitives.h"
 #include "geometry/curves/bezier_curve.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/patches.h"
 #include "geometry/surfaces/revolution.h"
@@ -278,6 +279,50 @@ TEST(LineIntersections, APoleFarOffTheOriginIsOneCrossing) {
     const std::vector<SurfaceHit> hits = spindle.all_hits({through - 2 * unit(random) * d, d});
     EXPECT_EQ(hits.size() % 2, 0u) << k;
     for (size_t i = 1; i < hits.size(); ++i) EXPECT_GT(hits[i].t - hits[i - 1].t, 1e-9) << k;
+  }
+}
+
+// The two sides of a torus by formulas do not quite close where v = pi, which no double is: between them lies a strip
+// of 2e-16. Lines in its plane meet the circle there twice, however near to a tangent, or pass it.
+TEST(LineIntersections, LinesInThePlaneOfASeamStayEven) {
+  const LineIntersector torus(std::make_shared<FormulaSurface>(
+      point_formulas({"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v))*sin(u)", "0.7*sin(v)"}, {"u", "v"}),
+      Rectangle{{0, kTwoPi}, {-kPi, kPi}}, FormulaSurface::Closed{true, true}));
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < tests::tier_count(100000); ++k) {
+    const double a = kTwoPi * unit(random), off = std::pow(10, -1 - 8 * unit(random));
+    const bool inside = unit(random) < 0.5;
+    const Vec3 across(std::cos(a), std::sin(a), 0), d(-std::sin(a), std::cos(a), 0);
+    const Vec3 through = (1.3 + (inside ? -off : off)) * across;
+    EXPECT_EQ(torus.all_hits({through - 5.0 * d, d}).size(), inside ? 4u : 2u) << k << " " << off;
+  }
+}
+
+// Boxes are kept in steps of their piece: they hold their part of the surface, and hardly more.
+TEST(LineIntersections, BoxesHoldTheirPieces) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double away : {0.0, 1e3}) {
+    const Frame frame = frame_from(Vec3(away, 0.2, -away), {0.2, -0.3, 0.9}, {1, 0.1, 0});
+    const auto torus = std::make_shared<NurbsSurface>(*TorusSurface(frame, 3, 1).as_nurbs());
+    const auto target = make_line_target(torus);
+    Box3 all;
+    for (int i = 0; i < target->piece_count(); ++i) all.include(target->piece_bounds(i));
+    const Box3 box = bounds(*torus);
+    const double size = box.diameter();
+    EXPECT_LT(glm::length(glm::max(Vec3(0), glm::max(box.lo - all.lo, all.hi - box.hi))), 1e-4 * size);
+    for (int k = 0; k < tests::tier_count(10000); ++k) {
+      const Rectangle domain = torus->domain();
+      const Vec3 p =
+          torus->point(domain.u.lo + unit(random) * domain.u.width(), domain.v.lo + unit(random) * domain.v.width());
+      bool held = false;
+      for (int i = 0; i < target->piece_count() && !held; ++i) {
+        const Box3 piece = target->piece_bounds(i).inflated(1e-14 * (size + away));
+        held = glm::all(glm::lessThanEqual(piece.lo, p)) && glm::all(glm::lessThanEqual(p, piece.hi));
+      }
+      EXPECT_TRUE(held) << k;
+    }
   }
 }
 
