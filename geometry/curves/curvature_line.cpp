@@ -33,7 +33,7 @@ TypeDeclaration curvature_line_type() {
                       "Line of curvature through a point of a surface, both ways to the border of the domain, to an "
                       "umbilic, or until it closes. Its parameter is its length from the point.",
                       {"maximum", "minimum"}, "along the largest or the smallest curvature, signed by the normal")
-      .example("of: oval, through: [0.5, 0.3], family: maximum")
+      .example("of: { type: ellipsoid, semi_axes: [3, 2, 1] }, through: [0.5, 0.3], family: maximum")
       .built_by([](const Fields& f) {
         return build(f, curvature_line,
                      f.text("family") == "maximum" ? CurvatureFamily::maximum : CurvatureFamily::minimum);
@@ -49,7 +49,9 @@ TypeDeclaration asymptotic_line_type() {
              {"first", "second"},
              "turned from the direction of the largest curvature to the left (first) or to the right, seen from "
              "the normal")
-      .example("of: saddle, through: [0.2, 0.3], family: first")
+      .example(
+          "of: { type: hyperbolic_paraboloid, semi_axes: [1, 1], domain: { u: [-1, 1], v: [-1, 1] } }, through: [0.2, "
+          "0.3], family: first")
       .built_by([](const Fields& f) {
         return build(f, asymptotic_line,
                      f.text("family") == "first" ? AsymptoticFamily::first : AsymptoticFamily::second);

@@ -20,7 +20,7 @@ TypeDeclaration geodesic_curve_type() {
              "Geodesic of a surface: from a point in a direction, or the shortest between two points. Its parameter is "
              "its length. It ends at the border of the domain or at a pole; over a crease it goes on at the same "
              "angle.")
-      .example("of: ball, from: [0, 0], direction: 30, length: 4")
+      .example("of: { type: sphere_surface, radius: 2 }, from: [0, 0], direction: 30, length: 4")
       .field("of", reference({Category::surface}), "the surface")
       .field("from", numbers().count(2, 2), "parameters u and v of the beginning")
       .optional(

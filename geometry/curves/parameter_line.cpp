@@ -66,7 +66,7 @@ std::vector<CurvePiece> ParameterLine::pieces() const {
 TypeDeclaration parameter_line_type() {
   return declare(Category::curve, "parameter_line",
                  "Line of a surface along which u or v is held. Its parameter is the other one.")
-      .example("of: patch, u: 0.5")
+      .example("of: { type: sphere_surface, radius: 2 }, u: 0.5")
       .field("of", reference({Category::surface}), "the surface")
       .optional("u", number(), "where u is held; the line's parameter is v")
       .optional("v", number(), "where v is held; the line's parameter is u")

@@ -250,7 +250,7 @@ TypeDeclaration projected_curve_type() {
              Category::curve, "projected_curve",
              "Projection of a curve on a surface, with the curve's parameter: to the nearest point at its beginning, "
              "and to the foot of a normal that goes on from there; or along a direction.")
-      .example("of: { type: segment, from: [0, 0, 2], to: [1, 0, 2] }, onto: patch")
+      .example("of: { type: segment, from: [1, 0, 2], to: [0, 1, 2] }, onto: { type: sphere_surface, radius: 1 }")
       .field("of", reference({Category::curve}), "the curve")
       .field("onto", reference({Category::surface}), "the surface")
       .optional("direction", direction(), "projects along it, not along normals")

@@ -256,7 +256,7 @@ TypeDeclaration surface_curve_type() {
              Category::curve, "surface_curve",
              "Curve on a surface whose points (u, v) are those of a plane curve. On a closed surface the plane curve "
              "may go on beyond the domain.")
-      .example("of: ball, image: { type: circle, center: [3, 0], radius: 0.5 }")
+      .example("of: { type: sphere_surface, radius: 2 }, image: { type: circle, center: [3, 0], radius: 0.5 }")
       .field("of", reference({Category::surface}), "the surface")
       .field("image", reference({Category::curve}), "the curve in the parameter plane: its x is u, its y is v")
       .built_by([](const Fields& f) {

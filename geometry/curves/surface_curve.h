@@ -39,8 +39,8 @@ class SurfaceCurve final : public Curve {
 // The period of a surface that is closed in a direction, whose domain is as wide as that; else 0.
 Periods closed_periods(const Surface& surface);
 
-// The surface's enclosure over a rectangle that may lie beyond the domain where the surface is closed; elsewhere what lies
-// beyond is left out.
+// The surface's enclosure over a rectangle that may lie beyond the domain where the surface is closed; elsewhere what
+// lies beyond is left out.
 SurfaceEnclosure enclose_unwrapped(const Surface& surface, const Rectangle& place, int order);
 
 }  // namespace lekalo::geometry

@@ -151,11 +151,19 @@ Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3
                      SurfaceFunction(false, [=](const auto& s, const auto&, const auto&) { return dot(n, s - o); }));
 }
 
+namespace {
+
+SurfaceFunction outline(const ViewOf& view) {
+  return {true,
+          [view](const auto& s, const auto& s_u, const auto& s_v) { return dot(sight(view, s), cross(s_u, s_v)); }};
+}
+
+}  // namespace
+
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
+  demand_bounded(*surface);
   const ViewOf view = checked(given);
-  Contours found = contours_of(surface, SurfaceFunction(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
-                                 return dot(sight(view, s), cross(s_u, s_v));
-                               }));
+  Contours found = contours_of(surface, outline(view));
   for (Contour& contour : found.branches) contour.cusps = cusps(*surface, contour, view);
   return found;
 }
