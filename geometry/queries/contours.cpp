@@ -25,7 +25,6 @@ bool meet(const Box3& a, const Box3& b, double by) {
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function) {
-  demand_bounded(*surface);
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
   const Periods periods = surface->periods();
   ContourAssembly<2> assembly(size, kSamePoint * size, {periods.u, periods.v});
@@ -145,20 +144,43 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   return assembly.joined();
 }
 
-Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
-  const Triple<double> n = triple(unit(normal, "the normal of the plane has no length")), o = triple(origin);
-  return contours_of(surface,
-                     SurfaceFunction(false, [=](const auto& s, const auto&, const auto&) { return dot(n, s - o); }));
-}
-
 namespace {
+
+// The functions that vanish on contours; made once what they take has been checked.
+
+SurfaceFunction height_over(const Triple<double>& origin, const Triple<double>& normal) {
+  return {false, [=](const auto& s, const auto&, const auto&) { return dot(normal, s - origin); }};
+}
 
 SurfaceFunction outline(const ViewOf& view) {
   return {true,
           [view](const auto& s, const auto& s_u, const auto& s_v) { return dot(sight(view, s), cross(s_u, s_v)); }};
 }
 
+SurfaceFunction lit_alike(const Triple<double>& direction, double cosine) {
+  return {true, [=](const auto&, const auto& s_u, const auto& s_v) {
+            const auto n = cross(s_u, s_v);
+            return dot(direction, n) - cosine * length(n);
+          }};
+}
+
+// d = i - 2 (i . n) n / n^2 for the way of sight i; it meets the lamp p + x l where (s - p) x l . d = 0.
+SurfaceFunction mirrored(const ViewOf& view, const Triple<double>& p, const Triple<double>& l) {
+  return {true, [=](const auto& s, const auto& s_u, const auto& s_v) {
+            const auto n = cross(s_u, s_v);
+            const auto i = sight(view, s);
+            const auto d = dot(n, n) * i - (2.0 * dot(i, n)) * n;
+            return dot(cross(s - p, l), d);
+          }};
+}
+
 }  // namespace
+
+Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
+  demand_bounded(*surface);
+  const Vec3 n = unit(normal, "the normal of the plane has no length");
+  return contours_of(surface, height_over(triple(origin), triple(n)));
+}
 
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   demand_bounded(*surface);
@@ -169,26 +191,18 @@ Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
 }
 
 Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle) {
+  demand_bounded(*surface);
   if (!(angle > 0 && angle < kPi))
     throw std::invalid_argument("the angle of an isophote lies between 0 and 180 degrees");
-  const Triple<double> d = triple(unit(direction, "the direction of the light has no length"));
-  const double cosine = surface->normal_sign() * std::cos(angle);
-  return contours_of(surface, SurfaceFunction(true, [=](const auto&, const auto& s_u, const auto& s_v) {
-                       const auto n = cross(s_u, s_v);
-                       return dot(d, n) - cosine * length(n);
-                     }));
+  const Vec3 d = unit(direction, "the direction of the light has no length");
+  return contours_of(surface, lit_alike(triple(d), surface->normal_sign() * std::cos(angle)));
 }
 
-// d = i - 2 (i . n) n / n^2 for the way of sight i; it meets the lamp where (s - p) x l . d = 0.
 Contours reflection_line(const SurfacePtr& surface, const ViewOf& given, const Line& lamp) {
+  demand_bounded(*surface);
   const ViewOf view = checked(given);
-  const Triple<double> p = triple(lamp.origin), l = triple(unit(lamp.direction, "the lamp has no direction"));
-  return contours_of(surface, SurfaceFunction(true, [=](const auto& s, const auto& s_u, const auto& s_v) {
-                       const auto n = cross(s_u, s_v);
-                       const auto i = sight(view, s);
-                       const auto mirrored = dot(n, n) * i - (2.0 * dot(i, n)) * n;
-                       return dot(cross(s - p, l), mirrored);
-                     }));
+  const Vec3 l = unit(lamp.direction, "the lamp has no direction");
+  return contours_of(surface, mirrored(view, triple(lamp.origin), triple(l)));
 }
 
 }  // namespace lekalo::geometry

@@ -304,6 +304,11 @@ TEST(Contours, WrongInputIsRefused) {
   EXPECT_THROW(silhouette(torus(3, 1), {false, {0, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(plane_section(torus(3, 1), {0, 0, 0}, {0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(isophote(torus(3, 1), {0, 0, 1}, 0), std::invalid_argument);
+  EXPECT_THROW(isophote(unbounded, {0, 0, 1}, 1), std::invalid_argument);
+  EXPECT_THROW(isophote(torus(3, 1), {0, 0, 0}, 1), std::invalid_argument);
+  EXPECT_THROW(reflection_line(unbounded, {}, {}), std::invalid_argument);
+  EXPECT_THROW(reflection_line(torus(3, 1), {}, {{0, 0, 5}, {0, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(plane_section(unbounded, {0, 0, 0}, {1, 0, 0}), std::invalid_argument);
   EXPECT_NO_THROW(intersect(torus(3, 1), unbounded));
 }
 
