@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 40;
 constexpr int kContractions = 4;
+constexpr int kPowers = 8;
 
 // The square system of a segment: the equations, and the plane across the chord.
 template <int N>
@@ -203,10 +204,7 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
                    Interval(system.along.z) * series.point.z.c[m]);
     }
     const auto range = segment.equations->enclose(box);
-    double q = 0;
     std::array<Interval, N> y;
-    std::array<double, N> scale;
-    for (int i = 0; i < N; ++i) scale[i] = std::max(all[i].width(), 1e-300);
     std::array<std::array<Interval, N>, N> a;
     for (int i = 0; i < N; ++i) {
       for (int k = 0; k < N - 1; ++k) a[k][i] = range.derivative[k][i];
@@ -217,17 +215,34 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
       a[N - 1][i] = Interval(system.along.x) * moved.x.c[1] + Interval(system.along.y) * moved.y.c[1] +
                     Interval(system.along.z) * moved.z.c[1];
     }
-    double most = 0;
+    root_search::Matrix<N> error{};
     for (int i = 0; i < N; ++i) {
       y[i] = Interval(0);
-      double row = 0;
       for (int k = 0; k < N; ++k) y[i] += Interval(inverse[i][k]) * b[k];
       for (int j = 0; j < N; ++j) {
         Interval e = i == j ? Interval(1) : Interval(0);
         for (int k = 0; k < N; ++k) e -= Interval(inverse[i][k]) * a[k][j];
-        row += magnitude(e) * scale[j] / scale[i];
+        error[i][j] = magnitude(e);
       }
-      q = std::max(q, row);
+    }
+    // The norm with the best weights, those of the largest eigenvalue of the errors: powers of the matrix find them.
+    std::array<double, N> scale;
+    for (int i = 0; i < N; ++i) scale[i] = std::max(all[i].width(), 1e-300);
+    for (int time = 0; time < kPowers; ++time) {
+      std::array<double, N> next{};
+      double largest = 0;
+      for (int i = 0; i < N; ++i) {
+        for (int j = 0; j < N; ++j) next[i] += error[i][j] * scale[j];
+        largest = std::max(largest, next[i] / all[i].width());
+      }
+      if (!(largest > 0) || !std::isfinite(largest)) break;
+      for (int i = 0; i < N; ++i) scale[i] = next[i] / largest + 1e-6 * all[i].width();
+    }
+    double q = 0, most = 0;
+    for (int i = 0; i < N; ++i) {
+      double row = 0;
+      for (int j = 0; j < N; ++j) row += error[i][j] * scale[j] / scale[i];
+      q = std::max(q, row * (1 + 1e-14));
       most = std::max(most, magnitude(y[i]) / scale[i]);
     }
     if (!(q < 0.95)) return false;
