@@ -7,9 +7,9 @@
 
 namespace lekalo::geometry {
 
-class CurveFunction final : public ExternalFunction {
+class CurveStub final : public ExternalFunction {
  public:
-  explicit CurveFunction(CurvePtr curve) : curve_(std::move(curve)) {}
+  explicit CurveStub(CurvePtr curve) : curve_(std::move(curve)) {}
   void evaluate(std::span<const double> places, int order, std::span<double> values) const override {
     ++calls;
     size_t at = 0;
@@ -25,10 +25,10 @@ class CurveFunction final : public ExternalFunction {
   CurvePtr curve_;
 };
 
-class SurfaceFunction final : public ExternalFunction {
+class SurfaceStub final : public ExternalFunction {
  public:
   using Change = std::function<void(double u, double v, SurfaceJet& jet)>;
-  explicit SurfaceFunction(SurfacePtr surface, Change change = {})
+  explicit SurfaceStub(SurfacePtr surface, Change change = {})
       : surface_(std::move(surface)), change_(std::move(change)) {}
   void evaluate(std::span<const double> places, int order, std::span<double> values) const override {
     ++calls;

@@ -18,7 +18,7 @@ CurvePtr formulas(const std::array<std::string, 3>& point, const Interval& domai
 }
 
 ExternalCurve external(const CurvePtr& curve, bool closed = false, int order = 2, double tolerance = 1e-9) {
-  return ExternalCurve(std::make_shared<CurveFunction>(curve), curve->domain(), closed, order, tolerance);
+  return ExternalCurve(std::make_shared<CurveStub>(curve), curve->domain(), closed, order, tolerance);
 }
 
 std::string refused_field(const CurvePtr& curve, bool closed) {

@@ -29,7 +29,7 @@ SurfacePtr torus() { return formulas({"(2 + 0.7*cos(v))*cos(u)", "(2 + 0.7*cos(v
 
 ExternalSurface external(const SurfacePtr& surface, ExternalSurface::Closed closed = {}, int order = 2,
                          double tolerance = 1e-9) {
-  return ExternalSurface(std::make_shared<SurfaceFunction>(surface), surface->domain(), closed, order, tolerance);
+  return ExternalSurface(std::make_shared<SurfaceStub>(surface), surface->domain(), closed, order, tolerance);
 }
 
 // Which field a constructor complains about, and the words.
@@ -85,7 +85,7 @@ TEST(ExternalSurface, AsksTheFunctionForWhatItKnows) {
 }
 
 TEST(ExternalSurface, ManyPlacesAreOneCall) {
-  const auto function = std::make_shared<SurfaceFunction>(torus());
+  const auto function = std::make_shared<SurfaceStub>(torus());
   const ExternalSurface one(function, kTurns, {true, true}, 2, 1e-9);
   EXPECT_LE(function->calls, 40);
   const int before = function->calls;
@@ -160,7 +160,7 @@ TEST(ExternalSurface, WrongDerivativesAreDoubted) {
   };
   for (const Fault& fault :
        {Fault{"du", 1, 0, 1e-4}, {"dv", 0, 1, 1e-4}, {"duu", 2, 0, 1e-2}, {"duv", 1, 1, 1e-2}, {"dvv", 0, 2, 1e-2}}) {
-    const auto function = std::make_shared<SurfaceFunction>(truth, [&](double u, double, SurfaceJet& jet) {
+    const auto function = std::make_shared<SurfaceStub>(truth, [&](double u, double, SurfaceJet& jet) {
       if (fault.i + fault.j <= jet.order) jet.d(fault.i, fault.j).z += fault.by * u;
     });
     const ExternalSurface one(function, truth->domain(), {}, 2, 1e-9);
@@ -177,9 +177,9 @@ TEST(ExternalSurface, RefusesWhatNoSplineComesNear) {
     jet.values[0].z += 1e-7 * (static_cast<double>(random()) / 1.8446744073709552e19);
   };
   const auto kinked = [](double u, double, SurfaceJet& jet) { jet.values[0].z += std::abs(u - 0.4); };
-  const auto made = [&](SurfaceFunction::Change change, double tolerance) {
+  const auto made = [&](SurfaceStub::Change change, double tolerance) {
     return complaint([&] {
-      ExternalSurface(std::make_shared<SurfaceFunction>(smooth, change), smooth->domain(), {}, 0, tolerance);
+      ExternalSurface(std::make_shared<SurfaceStub>(smooth, change), smooth->domain(), {}, 0, tolerance);
     });
   };
   EXPECT_EQ(made(noisy, 1e-9).first, "tolerance");
@@ -193,12 +193,12 @@ TEST(ExternalSurface, RefusesWhatIsNoSurface) {
   const SurfacePtr bent = formulas({"cos(u)", "sin(u)", "v"}, {{0, 6}, {0, 1}});
   EXPECT_EQ(complaint([&] { external(bent, {true, false}); }).first, "closed");
   EXPECT_EQ(complaint([&] { external(bent, {false, true}); }).first, "closed");
-  const auto function = std::make_shared<SurfaceFunction>(bent);
+  const auto function = std::make_shared<SurfaceStub>(bent);
   EXPECT_EQ(complaint([&] { ExternalSurface(function, {{0, 0}, {0, 1}}, {}, 2, 1e-9); }).first, "domain");
   EXPECT_EQ(complaint([&] { ExternalSurface(function, {{0, 1}, {0, kInfinity}}, {}, 2, 1e-9); }).first, "domain");
   const SurfacePtr point = formulas({"1", "2", "3"}, {{0, 1}, {0, 1}});
   EXPECT_EQ(complaint([&] { external(point); }).first, "domain");
-  const auto broken = std::make_shared<SurfaceFunction>(bent, [](double u, double, SurfaceJet& jet) {
+  const auto broken = std::make_shared<SurfaceStub>(bent, [](double u, double, SurfaceJet& jet) {
     if (u > 5) jet.values[0].y = std::nan("");
   });
   EXPECT_THROW(ExternalSurface(broken, bent->domain(), {}, 2, 1e-9), ExternalError);
