@@ -1,8 +1,9 @@
 #include "geometry/queries/contour_assembly.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "geometry/queries/contour_singularity.h"
 
 namespace lekalo::geometry {
 
@@ -107,84 +108,12 @@ void ContourAssembly<N>::drop_doubles() {
   parts_ = std::move(kept);
 }
 
-// A singular solution: F = 0 and F' loses its rank, l^T F'(x) v = 0 for the left null vector l and both right ones v.
-// Gauss and Newton, of the second order as all vanish there.
-template <int N>
-typename ContourAssembly<N>::SingularPlace ContourAssembly<N>::refined(const EquationsPtr& equations,
-                                                                       const ParameterBox<N>& box) const {
-  constexpr int M = N - 1;
-  const ParameterBox<N> domain = equations->domain();
-  ParameterPlace<N> scale, start;
-  for (int i = 0; i < N; ++i) scale[i] = domain[i].width(), start[i] = box[i].middle();
-  const auto second = [&](const ParameterPlace<N>& x, const ParameterPlace<N>& w) {
-    std::array<Jet<double, kMaxContourOrder>, N> way;
-    for (int i = 0; i < N; ++i) way[i].c[0] = domain[i].clamp(x[i]), way[i].c[1] = w[i];
-    const auto series = equations->series(way);
-    Eigen::Matrix<double, M, 1> f;
-    for (int k = 0; k < M; ++k) f[k] = 2 * series.equations[k].c[2];
-    return f;
-  };
-  const auto combined = [&](const ParameterPlace<N>& x, const ParameterPlace<N>& v, const ParameterPlace<N>& w) {
-    ParameterPlace<N> sum, difference;
-    for (int i = 0; i < N; ++i) sum[i] = v[i] + w[i], difference[i] = v[i] - w[i];
-    return Eigen::Matrix<double, M, 1>(0.25 * (second(x, sum) - second(x, difference)));
-  };
-  ParameterPlace<N> x = start;
-  bool converged = false;
-  for (int step = 0; step < 15 && !converged; ++step) {
-    const auto there = equations->evaluate(x);
-    Eigen::Matrix<double, M, N> j;
-    for (int k = 0; k < M; ++k)
-      for (int i = 0; i < N; ++i) j(k, i) = there.derivative[k][i] * scale[i];
-    const Eigen::JacobiSVD<Eigen::Matrix<double, M, N>> svd(j, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Matrix<double, M, 1> left = svd.matrixU().col(M - 1);
-    Eigen::Matrix<double, N + 1, 1> f;
-    Eigen::Matrix<double, N + 1, N> a;
-    for (int k = 0; k < M; ++k) f[k] = there.value[k];
-    a.template topRows<M>() = j;
-    for (int c = 0; c < 2; ++c) {
-      const Eigen::Matrix<double, N, 1> v = svd.matrixV().col(N - 2 + c);
-      f[M + c] = left.dot(j * v);
-      ParameterPlace<N> way;
-      for (int i = 0; i < N; ++i) way[i] = v[i] * scale[i];
-      for (int i = 0; i < N; ++i) {
-        ParameterPlace<N> unit{};
-        unit[i] = scale[i];
-        a(M + c, i) = left.dot(combined(x, way, unit));
-      }
-    }
-    const Eigen::Matrix<double, N, 1> by = a.completeOrthogonalDecomposition().solve(-f);
-    double most = 0;
-    for (int i = 0; i < N; ++i) {
-      x[i] += by[i] * scale[i];
-      most = std::max(most, std::abs(by[i]));
-    }
-    if (!std::isfinite(most)) break;
-    converged = most < 1e-13;
-  }
-  bool stays = true;
-  for (int i = 0; i < N; ++i) {
-    const double reach = 2 * box[i].width() + 1e-5 * scale[i];
-    stays = stays && std::abs(x[i] - start[i]) <= reach;
-    x[i] = domain[i].clamp(x[i]);
-  }
-  if (!stays) x = start;
-  // At a pole the equations say little: onto it, if neither surface's point goes far by that.
-  const double near = kNearSingular * kLeastImage * size_;
-  for (int i = 0; i < N; ++i)
-    for (const bool upper : {false, true}) {
-      ParameterPlace<N> at = x;
-      at[i] = upper ? domain[i].hi : domain[i].lo;
-      if (equations->is_pole(i, upper) && glm::length(equations->point(at) - equations->point(x)) <= near &&
-          equations->distance(at) <= equations->distance(x) + near)
-        x = at;
-    }
-  return {equations, x, equations->point(x), equations->distance(x), -1};
-}
-
 template <int N>
 void ContourAssembly<N>::find_singular_points() {
-  for (const auto& [equations, box] : open_) places_.push_back(refined(equations, box));
+  for (const auto& [equations, box] : open_) {
+    const ParameterPlace<N> place = singular_solution<N>(*equations, box, kNearSingular * kLeastImage * size_);
+    places_.push_back({equations, place, equations->point(place), equations->distance(place), -1});
+  }
   for (SingularPlace& place : places_) {
     for (size_t k = 0; k < points_.size() && place.group < 0; ++k)
       if (glm::length(points_[k].point - place.point) <= 10 * kLeastImage * size_) place.group = static_cast<int>(k);

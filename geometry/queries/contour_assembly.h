@@ -52,7 +52,6 @@ class ContourAssembly {
 
   void drop_doubles();
   bool runs_along_border(const Part& part) const;
-  SingularPlace refined(const EquationsPtr& equations, const ParameterBox<N>& box) const;
   void find_singular_points();
   void collect_ends();
   void attach_singular(End& end);
