@@ -15,6 +15,10 @@
 //
 // Boxes that stay undecided until their image is small hold singular solutions, where F' loses its rank: contacts,
 // crossings of the curves of solutions, cusps, poles. The curves end near these.
+//
+// With more equations than N - 1 that have a curve of common solutions all the same (M > N - 1) C is the
+// pseudo-inverse: what is followed solves the equations in the sense of least squares, and counts where each holds to
+// its tolerance.
 #pragma once
 
 #include <optional>
@@ -42,14 +46,18 @@ struct SolutionCurves {
   bool complete = true;               // false where there were more than most_boxes: the solutions are no curves
 };
 
-template <int N>
+template <int N, int M = N - 1>
 struct SolutionCurveOptions {
   // Boxes with smaller images are not halved; a length in space.
   double least = 0;
   // So far outside of the domain a solution still counts (it is moved to the border).
   std::array<double, N> slack{};
   // The error of each equation's value.
-  std::array<double, N - 1> rounding{};
+  std::array<double, M> rounding{};
+  // An equation holds where it is no larger than this; of account with more than N - 1 equations.
+  std::array<double, M> tolerance{};
+  // Boxes inside of these are left out: what they contain is known.
+  std::vector<ParameterBox<N>> settled;
   // Direction of the curve in space and in the parameters (of the domain's sides) changes by no more in one step;
   // radians.
   double most_turn = 0.3;
@@ -76,47 +84,83 @@ double determinant(root_search::Matrix<M> a) {
   return result;
 }
 
-template <int N>
-using Derivatives = std::array<std::array<double, N>, N - 1>;
+template <int N, int M = N - 1>
+using Derivatives = std::array<std::array<double, N>, M>;
 
-// The direction in which all equations stay, of unit length in units of `scale`; zero where the rank is lost. Its sign
-// is that of the minors, so that it does not jump along a curve.
-template <int N>
-ParameterPlace<N> direction_of(const Derivatives<N>& j, const std::array<double, N>& scale) {
-  ParameterPlace<N> result{};
-  double square = 0;
-  for (int left_out = 0; left_out < N; ++left_out) {
-    root_search::Matrix<N - 1> minor;
-    for (int k = 0; k < N - 1; ++k)
-      for (int i = 0, to = 0; i < N; ++i)
-        if (i != left_out) minor[k][to++] = j[k][i] * scale[i];
-    result[left_out] = (left_out % 2 ? -1 : 1) * determinant<N - 1>(minor);
-    square += result[left_out] * result[left_out];
+// The vector that a symmetric positive matrix shortens most, largest component 1, by inverse iteration; false if the
+// matrix has no finite inverse even with a little added.
+template <int K>
+bool weakest_direction(root_search::Matrix<K> gram, std::array<double, K>& vector) {
+  double trace = 0;
+  for (int a = 0; a < K; ++a) trace += gram[a][a];
+  for (int a = 0; a < K; ++a) gram[a][a] += 1e-14 * trace;
+  root_search::Matrix<K> inverse;
+  if (!root_search::invert<K>(gram, inverse)) return false;
+  for (int time = 0; time < 4; ++time) {
+    std::array<double, K> next{};
+    double most = 0;
+    for (int a = 0; a < K; ++a) {
+      for (int b = 0; b < K; ++b) next[a] += inverse[a][b] * vector[b];
+      most = std::max(most, std::abs(next[a]));
+    }
+    if (!(most > 0) || !std::isfinite(most)) return false;
+    for (int a = 0; a < K; ++a) vector[a] = next[a] / most;
   }
-  const double length = std::sqrt(square);
-  if (!(length > 0) || !std::isfinite(length)) return {};
-  for (double& x : result) x /= length;
-  return result;
+  return true;
 }
 
-// One unknown as the parameter and the inverse of the derivatives by the others.
-template <int N>
+// The direction in which all equations stay, of unit length in units of `scale`; zero where the rank is lost. With
+// N - 1 equations its sign is that of the minors, so that it does not jump along a curve.
+template <int N, int M = N - 1>
+ParameterPlace<N> direction_of(const Derivatives<N, M>& j, const std::array<double, N>& scale) {
+  if constexpr (M > N - 1) {
+    root_search::Matrix<N> gram{};
+    for (int a = 0; a < N; ++a)
+      for (int b = 0; b < N; ++b)
+        for (int k = 0; k < M; ++k) gram[a][b] += j[k][a] * scale[a] * j[k][b] * scale[b];
+    ParameterPlace<N> direction;
+    for (int i = 0; i < N; ++i) direction[i] = 1 + 0.1 * i;
+    if (!weakest_direction<N>(gram, direction)) return {};
+    double square = 0;
+    for (const double x : direction) square += x * x;
+    for (double& x : direction) x /= std::sqrt(square);
+    return direction;
+  } else {
+    ParameterPlace<N> result{};
+    double square = 0;
+    for (int left_out = 0; left_out < N; ++left_out) {
+      root_search::Matrix<N - 1> minor;
+      for (int k = 0; k < N - 1; ++k)
+        for (int i = 0, to = 0; i < N; ++i)
+          if (i != left_out) minor[k][to++] = j[k][i] * scale[i];
+      result[left_out] = (left_out % 2 ? -1 : 1) * determinant<N - 1>(minor);
+      square += result[left_out] * result[left_out];
+    }
+    const double length = std::sqrt(square);
+    if (!(length > 0) || !std::isfinite(length)) return {};
+    for (double& x : result) x /= length;
+    return result;
+  }
+}
+
+// One unknown as the parameter and the (pseudo-)inverse of the derivatives by the others.
+template <int N, int M>
 struct Chart {
   int along = 0;
   std::array<int, N - 1> others{};
-  std::array<std::array<double, N - 1>, N - 1> inverse{};  // [of others][equation]
+  std::array<std::array<double, M>, N - 1> inverse{};  // [of others][equation]
 };
 
-template <int N>
-std::optional<Chart<N>> chart_of(const Derivatives<N>& j, int along) {
-  Chart<N> chart;
+template <int N, int M>
+std::optional<Chart<N, M>> chart_of(const Derivatives<N, M>& j, int along) {
+  Chart<N, M> chart;
   chart.along = along;
   for (int i = 0, to = 0; i < N; ++i)
     if (i != along) chart.others[to++] = i;
-  root_search::Matrix<N - 1> square;
-  for (int k = 0; k < N - 1; ++k)
-    for (int i = 0; i < N - 1; ++i) square[k][i] = j[k][chart.others[i]];
-  if (!root_search::invert<N - 1>(square, chart.inverse)) return std::nullopt;
+  std::array<std::array<double, N - 1>, M> by_others;
+  for (int k = 0; k < M; ++k)
+    for (int i = 0; i < N - 1; ++i) by_others[k][i] = j[k][chart.others[i]];
+  if (!root_search::solve_for<N - 1, M>(by_others, chart.inverse)) return std::nullopt;
   return chart;
 }
 
@@ -129,20 +173,20 @@ int largest(const ParameterPlace<N>& direction) {
 }
 
 // A chart over a box: what its derivatives allow.
-template <int N>
+template <int N, int M>
 struct ChartBox {
-  static constexpr int M = N - 1;
-  Chart<N> chart;
+  static constexpr int kOthers = N - 1;
+  Chart<N, M> chart;
   ParameterBox<N> box;
-  std::array<std::array<double, M>, M> error{};  // |I - C F_y(X)|
-  std::array<Interval, M> slope;                 // C F_a(X)
-  double shrinks = 0;                            // the largest weighed sum of a row of `error`
+  std::array<std::array<double, kOthers>, kOthers> error{};  // |I - C F_y(X)|
+  std::array<Interval, kOthers> slope;                       // C F_a(X)
+  double shrinks = 0;                                        // the largest weighed sum of a row of `error`
 
-  ChartBox(const Chart<N>& chart, const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range)
+  ChartBox(const Chart<N, M>& chart, const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range)
       : chart(chart), box(box) {
-    for (int i = 0; i < M; ++i) {
+    for (int i = 0; i < kOthers; ++i) {
       double reach = 0;
-      for (int j = 0; j < M; ++j) {
+      for (int j = 0; j < kOthers; ++j) {
         Interval e = i == j ? Interval(1) : Interval(0);
         for (int k = 0; k < M; ++k) e -= Interval(chart.inverse[i][k]) * range.derivative[k][chart.others[j]];
         error[i][j] = magnitude(e);
@@ -162,17 +206,17 @@ struct ChartBox {
                             const ParameterBox<N>& within, int times) const {
     ParameterBox<N> y = within;
     y[chart.along] = slice;
-    std::array<Interval, M> base;
-    for (int i = 0; i < M; ++i) {
+    std::array<Interval, kOthers> base;
+    for (int i = 0; i < kOthers; ++i) {
       base[i] = Interval(x[chart.others[i]]) - slope[i] * (slice - Interval(x[chart.along]));
       for (int k = 0; k < M; ++k) base[i] -= Interval(chart.inverse[i][k]) * f[k];
     }
     for (int time = 0; time < times; ++time) {
       ParameterBox<N> next = y;
       bool shrinks_on = false;
-      for (int i = 0; i < M; ++i) {
+      for (int i = 0; i < kOthers; ++i) {
         double reach = 0;
-        for (int j = 0; j < M; ++j) {
+        for (int j = 0; j < kOthers; ++j) {
           const Interval& of = y[chart.others[j]];
           const double from = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
           reach = next_up(reach + next_up(error[i][j] * next_up(from)));
@@ -202,14 +246,13 @@ bool contains(const ParameterBox<N>& outer, const ParameterBox<N>& inner) {
   return true;
 }
 
-template <int N, class System>
+template <int N, int M, class System>
 class Search {
  public:
-  static constexpr int M = N - 1;
   using Place = ParameterPlace<N>;
   using Box = ParameterBox<N>;
 
-  Search(const System& system, const Box& domain, const SolutionCurveOptions<N>& options)
+  Search(const System& system, const Box& domain, const SolutionCurveOptions<N, M>& options)
       : system_(system), domain_(domain), options_(options) {
     for (int i = 0; i < N; ++i) scale_[i] = domain[i].width();
   }
@@ -231,6 +274,14 @@ class Search {
   }
 
  private:
+  // Of least squares: whether each equation holds.
+  bool holds(const SystemValue<double, N, M>& there) const {
+    if constexpr (M > N - 1)
+      for (int k = 0; k < M; ++k)
+        if (!(std::abs(there.value[k]) <= options_.tolerance[k])) return false;
+    return true;
+  }
+
   std::array<double, N> slack_box() const {
     std::array<double, N> by;
     for (int i = 0; i < N; ++i) by[i] = std::max(options_.slack[i], 1e-9 * scale_[i]);
@@ -244,6 +295,8 @@ class Search {
   }
 
   void visit(const Box& box) {
+    for (const Box& known : options_.settled)
+      if (contains<N>(known, box)) return;
     const SystemValue<Interval, N, M> range = system_.enclose(box);
     for (int k = 0; k < M; ++k)
       if (range.value[k].lo > options_.rounding[k] || range.value[k].hi < -options_.rounding[k]) return;
@@ -252,11 +305,11 @@ class Search {
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
     const SystemValue<double, N, M> there = system_.evaluate(middle);
     if (is_excluded(box, range, middle, there, sides)) return;
-    const Place direction = direction_of<N>(there.derivative, sides);
+    const Place direction = direction_of<N, M>(there.derivative, sides);
     // The unknown that changes most, seen in units of the box.
-    const std::optional<Chart<N>> chart = chart_of<N>(there.derivative, largest<N>(direction));
+    const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, largest<N>(direction));
     if (chart) {
-      const ChartBox<N> over(*chart, box, range);
+      const ChartBox<N, M> over(*chart, box, range);
       if (over.is_one_to_one()) return cover(over, middle);
     }
     divide(box);
@@ -266,30 +319,15 @@ class Search {
   // parallel are told apart across them.
   bool is_excluded(const Box& box, const SystemValue<Interval, N, M>& range, const Place& middle,
                    const SystemValue<double, N, M>& there, const std::array<double, N>& sides) const {
-    std::array<double, M> weights{};
-    weights[0] = 1;
+    std::array<double, M> weights;
+    weights.fill(1);
     if constexpr (M > 1) {
-      root_search::Matrix<M> gram{}, inverse;
-      double trace = 0;
+      root_search::Matrix<M> gram{};
       for (int a = 0; a < M; ++a)
         for (int b = 0; b < M; ++b)
           for (int i = 0; i < N; ++i)
             gram[a][b] += there.derivative[a][i] * there.derivative[b][i] * sides[i] * sides[i];
-      for (int a = 0; a < M; ++a) trace += gram[a][a];
-      for (int a = 0; a < M; ++a) gram[a][a] += 1e-14 * trace;
-      if (!root_search::invert<M>(gram, inverse)) return false;
-      // Inverse iteration for the eigenvector of the smallest eigenvalue.
-      weights.fill(1);
-      for (int time = 0; time < 4; ++time) {
-        std::array<double, M> next{};
-        double most = 0;
-        for (int a = 0; a < M; ++a) {
-          for (int b = 0; b < M; ++b) next[a] += inverse[a][b] * weights[b];
-          most = std::max(most, std::abs(next[a]));
-        }
-        if (!(most > 0) || !std::isfinite(most)) return false;
-        for (int a = 0; a < M; ++a) weights[a] = next[a] / most;
-      }
+      if (!weakest_direction<M>(gram, weights)) return false;
     }
     Interval sum(0);
     for (int k = 0; k < M; ++k)
@@ -321,7 +359,7 @@ class Search {
   }
 
   // Finds the curves in a chart that are not known yet.
-  void cover(const ChartBox<N>& over, const Place& middle) {
+  void cover(const ChartBox<N, M>& over, const Place& middle) {
     const int along = over.chart.along;
     Box wide = over.box;  // with the slack of the domain's border
     for (int i = 0; i < N; ++i)
@@ -343,7 +381,9 @@ class Search {
       const Box reached = over.reachable(slice, x, values_of(there, !found), wide, kTimes);
       if (is_empty<N>(reached)) continue;
       if (is_known(reached)) continue;
-      if (found && !is_known_place(x)) {
+      const bool holds_here = found && holds(there);
+      if (found && !holds_here && lies_off(reached)) continue;
+      if (holds_here && !is_known_place(x)) {
         if (!trace(inside(x))) {
           // It cannot be followed from here: next to a singular solution.
           result_.open.push_back(over.box);
@@ -360,24 +400,37 @@ class Search {
     }
   }
 
+  // Whether the equations of least squares cannot all vanish there.
+  bool lies_off(const Box& reached) const {
+    Box box;
+    Place middle;
+    std::array<double, N> sides;
+    for (int i = 0; i < N; ++i) {
+      box[i] = intersect(reached[i], domain_[i]);
+      if (box[i].empty()) box[i] = Interval(domain_[i].clamp(reached[i].lo));
+      middle[i] = box[i].middle(), sides[i] = std::max(box[i].width(), 1e-12 * scale_[i]);
+    }
+    return is_excluded(box, system_.enclose(box), middle, system_.evaluate(middle), sides);
+  }
+
   Place inside(Place x) const {
     for (int i = 0; i < N; ++i) x[i] = domain_[i].clamp(x[i]);
     return x;
   }
 
   // The solution with x[along] as it is, if it has one in the box; else a place of the box near which it would be.
-  bool solve_in(const ChartBox<N>& over, const Box& wide, Place& x, SystemValue<double, N, M>& there) const {
-    const Chart<N>& chart = over.chart;
+  bool solve_in(const ChartBox<N, M>& over, const Box& wide, Place& x, SystemValue<double, N, M>& there) const {
+    const Chart<N, M>& chart = over.chart;
     double length = 0;
     bool leads_out = false;
     for (int step = 0; step < kMostSteps; ++step) {
       there = system_.evaluate(x);
       // Newton's steps first; the fixed inverse always contracts.
-      std::optional<Chart<N>> own;
-      if (step < kNewtonSteps) own = chart_of<N>(there.derivative, chart.along);
+      std::optional<Chart<N, M>> own;
+      if (step < kNewtonSteps) own = chart_of<N, M>(there.derivative, chart.along);
       const auto& c = own ? own->inverse : chart.inverse;
       length = 0, leads_out = false;
-      for (int i = 0; i < M; ++i) {
+      for (int i = 0; i < N - 1; ++i) {
         const int unknown = chart.others[i];
         double free = x[unknown];
         for (int k = 0; k < M; ++k) free -= c[i][k] * there.value[k];
@@ -425,7 +478,7 @@ class Search {
     SolutionArc<N> arc;
     meets_known_ = false;
     arc.nodes.push_back(start);
-    const Place first = direction_of<N>(system_.evaluate(start).derivative, scale_);
+    const Place first = direction_of<N, M>(system_.evaluate(start).derivative, scale_);
     arc.ends_singular = follow(arc, first, start);
     if (!arc.closed) {
       std::reverse(arc.nodes.begin(), arc.nodes.end());
@@ -471,7 +524,7 @@ class Search {
       arc.tubes.push_back(ahead.tube);
       meets_known_ = meets_known_ || is_known_place(ahead.to);
       if (ahead.at_border || meets_known_) return false;
-      const Place next = direction_of<N>(system_.evaluate(ahead.to).derivative, scale_);
+      const Place next = direction_of<N, M>(system_.evaluate(ahead.to).derivative, scale_);
       double with = 0;
       for (int i = 0; i < N; ++i) with += next[i] * direction[i];
       direction = next;
@@ -558,7 +611,7 @@ class Search {
       to = at;
       ahead.at_border = true;
     }
-    if (turns_too_much(x, to, direction)) return false;
+    if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to))) return false;
     ahead.to = to;
     return certify(x, to, along, step, ahead.tube);
   }
@@ -575,10 +628,10 @@ class Search {
     double before = kInfinity;
     for (int time = 0; time < kMostHeldSteps; ++time) {
       const SystemValue<double, N, M> there = system_.evaluate(x);
-      const std::optional<Chart<N>> chart = chart_of<N>(there.derivative, held);
+      const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, held);
       if (!chart) return false;
       double length = 0;
-      for (int i = 0; i < M; ++i) {
+      for (int i = 0; i < N - 1; ++i) {
         const int unknown = chart->others[i];
         double by = 0;
         for (int k = 0; k < M; ++k) by += chart->inverse[i][k] * there.value[k];
@@ -592,7 +645,7 @@ class Search {
     return false;
   }
   bool turns_too_much(const Place& x, const Place& to, const Place& direction) const {
-    Place next = direction_of<N>(system_.evaluate(to).derivative, scale_);
+    Place next = direction_of<N, M>(system_.evaluate(to).derivative, scale_);
     double with = 0;
     for (int i = 0; i < N; ++i) with += next[i] * direction[i];
     const double cosine = std::cos(options_.most_turn);
@@ -617,9 +670,9 @@ class Search {
       tube[i] = {std::max(domain_[i].lo, low - beside), std::min(domain_[i].hi, high + beside)};
       middle[i] = domain_[i].clamp(0.5 * (x[i] + to[i]));
     }
-    const std::optional<Chart<N>> chart = chart_of<N>(system_.evaluate(middle).derivative, along);
+    const std::optional<Chart<N, M>> chart = chart_of<N, M>(system_.evaluate(middle).derivative, along);
     if (!chart) return false;
-    const ChartBox<N> over(*chart, tube, system_.enclose(tube));
+    const ChartBox<N, M> over(*chart, tube, system_.enclose(tube));
     if (!over.is_one_to_one()) return false;
     const Box reached = over.reachable(tube[along], x, {}, tube, 1);
     if (is_empty<N>(reached)) return false;
@@ -640,7 +693,7 @@ class Search {
 
   const System& system_;
   const Box domain_;
-  const SolutionCurveOptions<N>& options_;
+  const SolutionCurveOptions<N, M>& options_;
   std::array<double, N> scale_{};
   std::vector<Box> boxes_;
   std::vector<Box> loose_tubes_;
@@ -651,17 +704,18 @@ class Search {
 }  // namespace solution_curves
 
 // `system` has these members:
-//   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>&) const      certified ranges over a box in the
-//   domain SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding;
-//   a
-//                                                                              little outside of the domain too
-//   std::array<double, N> extents(const ParameterBox<N>&) const                bounds of how far each parameter moves
-//                                                                              the image in space, over a box
-//   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const      velocity in space: at a place, moving so
-template <int N, class System>
+//   SystemValue<Interval, N, M> enclose(const ParameterBox<N>&) const
+//     certified ranges over a box in the domain
+//   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const
+//     the same at a place, to rounding; a little outside of the domain too
+//   std::array<double, N> extents(const ParameterBox<N>&) const
+//     bounds of how far each parameter moves the image in space, over a box
+//   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const
+//     velocity in space: at a place, moving so
+template <int N, int M = N - 1, class System>
 SolutionCurves<N> search_solution_curves(const System& system, const ParameterBox<N>& domain,
-                                         const SolutionCurveOptions<N>& options) {
-  return solution_curves::Search<N, System>(system, domain, options).run();
+                                         const SolutionCurveOptions<N, M>& options) {
+  return solution_curves::Search<N, M, System>(system, domain, options).run();
 }
 
 }  // namespace lekalo::geometry

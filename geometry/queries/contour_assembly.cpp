@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/queries/contour_singularity.h"
+#include "geometry/queries/contour_touching.h"
 
 namespace lekalo::geometry {
 
@@ -34,6 +35,27 @@ struct Searched {
   Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const { return equations.motion(place, by); }
 };
 
+// The equations of contact likewise.
+template <int N>
+struct SearchedTouching {
+  const TouchingEquations<N>& equations;
+  std::array<KnownEnclosures, 2>& known;
+
+  SystemValue<Interval, N, N + 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box); }
+  SystemValue<double, N, N + 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.contour().extents(box, known); }
+  Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const {
+    return equations.contour().motion(place, by);
+  }
+};
+
+template <int N>
+ParameterPlace<N> middle_of(const ParameterPlace<N>& a, const ParameterPlace<N>& b) {
+  ParameterPlace<N> middle;
+  for (int i = 0; i < N; ++i) middle[i] = 0.5 * (a[i] + b[i]);
+  return middle;
+}
+
 }  // namespace
 
 template <int N>
@@ -46,16 +68,49 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
   options.rounding.fill(equations->rounding());
   // Once surfaces coincide somewhere they do so on many pieces.
   if (!complete_) options.most_boxes = kBoxesOfNoCurve;
-  SolutionCurves<N> found = search_solution_curves<N>(Searched<N>{*equations, known_}, domain, options);
-  complete_ = complete_ && found.complete;
-  for (SolutionArc<N>& arc : found.arcs) {
-    Part part{equations, std::move(arc), 0};
-    for (size_t k = 1; k < part.arc.nodes.size(); ++k)
-      part.length += glm::length(equations->point(part.arc.nodes[k]) - equations->point(part.arc.nodes[k - 1]));
-    if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
+  const Searched<N> searched{*equations, known_};
+  SolutionCurves<N> found = search_solution_curves<N, N - 1>(searched, domain, options);
+  if (!found.complete) {
+    options.settled = add_touching(equations, options);
+    if (!options.settled.empty()) found = search_solution_curves<N, N - 1>(searched, domain, options);
   }
+  complete_ = complete_ && found.complete;
+  for (SolutionArc<N>& arc : found.arcs) add_part({equations, {}, std::move(arc), 0});
   if (found.complete)
     for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
+}
+
+template <int N>
+void ContourAssembly<N>::add_part(Part part) {
+  for (size_t k = 1; k < part.arc.nodes.size(); ++k)
+    part.length += glm::length(part.equations->point(part.arc.nodes[k]) - part.equations->point(part.arc.nodes[k - 1]));
+  if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
+}
+
+// Where the solutions are too many for curves they may touch along some: these parts, and boxes that hold nothing else.
+template <int N>
+std::vector<ParameterBox<N>> ContourAssembly<N>::add_touching(const EquationsPtr& equations,
+                                                              const SolutionCurveOptions<N>& as) {
+  const std::shared_ptr<const TouchingEquations<N>> touching = equations->touching(equations);
+  if (!touching) return {};
+  SolutionCurveOptions<N, N + 1> options;
+  options.least = as.least, options.slack = as.slack, options.most_boxes = as.most_boxes;
+  options.rounding.fill(as.rounding[0]);
+  // Of the derivatives at a place of the tolerance across the curve nothing is known: only the distance counts.
+  options.tolerance.fill(size_);
+  for (int k = 0; k < N - 1; ++k) options.tolerance[k] = tolerance_;
+  SolutionCurves<N> found =
+      search_solution_curves<N, N + 1>(SearchedTouching<N>{*touching, known_}, equations->domain(), options);
+  std::vector<ParameterBox<N>> settled;
+  if (!found.complete) return settled;
+  for (SolutionArc<N>& arc : found.arcs) {
+    settled.insert(settled.end(), arc.tubes.begin(), arc.tubes.end());
+    Part part{equations, {}, std::move(arc), 0};
+    for (size_t k = 0; k + 1 < part.arc.nodes.size(); ++k)
+      part.touching.push_back(strongest_at<N>(touching, middle_of<N>(part.arc.nodes[k], part.arc.nodes[k + 1])));
+    add_part(std::move(part));
+  }
+  return settled;
 }
 
 // An arc along the border of a piece is found by the neighbour too.
@@ -148,7 +203,8 @@ void ContourAssembly<N>::collect_ends() {
       const Vec3 chord = end.point - part.equations->point(before);
       ParameterPlace<N> scale;
       for (int i = 0; i < N; ++i) scale[i] = part.equations->domain()[i].width();
-      ParameterPlace<N> direction = solution_curves::direction_of<N>(part.equations->evaluate(x).derivative, scale);
+      ParameterPlace<N> direction =
+          solution_curves::direction_of<N, N - 1>(part.equations_of(at_end ? last - 1 : 0)->evaluate(x).derivative, scale);
       for (int i = 0; i < N; ++i) direction[i] *= scale[i];
       const Vec3 tangent = part.equations->motion(x, direction);
       const double side = glm::dot(tangent, chord), lengths = glm::length(tangent) * glm::length(chord);
@@ -184,6 +240,7 @@ void ContourAssembly<N>::pair(std::vector<int> group, bool all) {
     double best = 2;
     for (size_t a = 0; a < group.size(); ++a)
       for (size_t b = a + 1; b < group.size(); ++b) {
+        if (parts_[ends_[group[a]].part].touching.empty() != parts_[ends_[group[b]].part].touching.empty()) continue;
         const double with = glm::dot(ends_[group[a]].outward, ends_[group[b]].outward);
         if (with < best) best = with, best_a = static_cast<int>(a), best_b = static_cast<int>(b);
       }
@@ -229,8 +286,14 @@ void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPlace
   const size_t count = nodes.size();
   for (size_t k = 0; k + 1 < count; ++k) {
     const size_t from = backwards ? count - 1 - k : k, to = backwards ? from - 1 : from + 1;
-    ContourSegment<N> segment{
-        part.equations, nodes[from], nodes[to], part.arc.tubes[std::min(from, to)], {}, {}, {}, {}};
+    ContourSegment<N> segment{part.equations_of(std::min(from, to)),
+                              nodes[from],
+                              nodes[to],
+                              part.arc.tubes[std::min(from, to)],
+                              {},
+                              {},
+                              {},
+                              {}};
     if (k == 0 && !segments.empty())
       for (int i = 0; i < N; ++i)
         if (periods_[i] > 0) {
@@ -296,6 +359,7 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   if (closed && segments.size() > 1) segments.back().to = segments.front().from;
   Contour contour;
   contour.closed = closed;
+  contour.touching = !parts_[ends_[first].part].touching.empty();
   for (const ContourSegment<N>& segment : segments)
     contour.error = std::max(contour.error, segment.equations->distance(segment.begin));
   const auto solution = std::make_shared<const ContourSolution<N>>(std::move(segments), closed);

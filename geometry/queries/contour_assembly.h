@@ -25,8 +25,10 @@ class ContourAssembly {
   using EquationsPtr = std::shared_ptr<const ContourEquations<N>>;
   struct Part {
     EquationsPtr equations;
+    std::vector<EquationsPtr> touching;  // of each segment, where the surfaces touch along the arc
     SolutionArc<N> arc;
     double length = 0;
+    const EquationsPtr& equations_of(size_t segment) const { return touching.empty() ? equations : touching[segment]; }
   };
   // An end of a part: `outward` is where the curve would go on.
   struct End {
@@ -50,6 +52,8 @@ class ContourAssembly {
     bool passed = false;  // by one smooth branch
   };
 
+  void add_part(Part part);
+  std::vector<ParameterBox<N>> add_touching(const EquationsPtr& equations, const SolutionCurveOptions<N>& as);
   void drop_doubles();
   bool runs_along_border(const Part& part) const;
   void find_singular_points();

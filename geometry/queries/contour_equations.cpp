@@ -5,27 +5,37 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/queries/contour_touching.h"
 #include "geometry/queries/smooth_pieces.h"
 
 namespace lekalo::geometry {
 
 template <int N>
 SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPlace<N>& place) const {
-  const ParameterBox<N> all = domain();
-  ParameterPlace<N> inside;
-  bool is_inside = true;
-  for (int i = 0; i < N; ++i) {
-    inside[i] = all[i].clamp(place[i]);
-    is_inside = is_inside && inside[i] == place[i];
-  }
-  SystemValue<double, N, N - 1> there = evaluate_inside(inside);
-  if (!is_inside)
-    for (int k = 0; k < N - 1; ++k)
-      for (int i = 0; i < N; ++i) there.value[k] += there.derivative[k][i] * (place[i] - inside[i]);
-  return there;
+  return continued<N, N - 1>(domain(), place,
+                             [this](const ParameterPlace<N>& inside) { return evaluate_inside(inside); });
+}
+template <int N>
+std::unique_ptr<TouchingEquations<N>> ContourEquations<N>::touching(std::shared_ptr<const ContourEquations<N>>) const {
+  return nullptr;
 }
 template class ContourEquations<2>;
 template class ContourEquations<4>;
+
+SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& piece, const Rectangle& box) {
+  if (surface.enclosure_order() >= 3) return surface.enclose(box, 3);
+  SurfaceEnclosure boxes = surface.enclose(box, 2);
+  for (int k = 0; k <= 3; ++k) {
+    Box3 seen;
+    for (int i = 0; i <= 2; ++i)
+      for (int j = 0; j <= 2; ++j)
+        seen.include(
+            evaluate_within(surface, piece, box.u.lo + 0.5 * i * box.u.width(), box.v.lo + 0.5 * j * box.v.width(), 3)
+                .d(3 - k, k));
+    boxes.values[SurfaceJet::index(3 - k, k)] = seen.inflated(0.5 * seen.diameter());
+  }
+  return boxes;
+}
 
 size_t KnownEnclosures::Hash::operator()(const std::array<double, 4>& key) const {
   std::uint64_t sum = 0;
@@ -144,12 +154,15 @@ class FunctionEquations final : public ContourEquations<2> {
     return {{apply(function_.series, jet, x[0], x[1])}, along_surface(jet, x[0], x[1])};
   }
   ContourSeries<Interval, 2, 2> series(const std::array<Jet<Interval, 2>, 2>& x) const override {
-    const int order = std::min(2 + tangents(), surface_->enclosure_order());
-    SurfaceEnclosure boxes = surface_->enclose({x[0].c[0], x[1].c[0]}, order);
-    if (order < 2 + tangents()) estimate_third(x, boxes);
+    const Rectangle box{x[0].c[0], x[1].c[0]};
+    const SurfaceEnclosure boxes =
+        function_.needs_tangents ? enclosure_to_third(*surface_, piece_, box) : surface_->enclose(box, 2);
     return {{apply(function_.series_ranges, boxes, x[0], x[1])}, along_surface(boxes, x[0], x[1])};
   }
   int highest_order() const override { return kMaxContourOrder - tangents(); }
+  std::unique_ptr<TouchingEquations<2>> touching(std::shared_ptr<const ContourEquations<2>> self) const override {
+    return function_.plane ? plane_touching(std::move(self), surface_, piece_, *function_.plane) : nullptr;
+  }
 
  protected:
   SystemValue<double, 2, 1> evaluate_inside(const ParameterPlace<2>& at) const override {
@@ -267,20 +280,6 @@ class FunctionEquations final : public ContourEquations<2> {
     return along_surface(q, u, v);
   }
 
-  // Surfaces that enclose two derivatives only: the third is taken from places of the box, with as much again around
-  // it. This is the one range here that is not certified; it reaches the second derivative of the contour alone.
-  void estimate_third(const std::array<Jet<Interval, 2>, 2>& x, SurfaceEnclosure& boxes) const {
-    for (int k = 0; k <= 3; ++k) {
-      Box3 seen;
-      for (int i = 0; i <= 2; ++i)
-        for (int j = 0; j <= 2; ++j)
-          seen.include(evaluate_within(*surface_, piece_, x[0].c[0].lo + 0.5 * i * x[0].c[0].width(),
-                                       x[1].c[0].lo + 0.5 * j * x[1].c[0].width(), 3)
-                           .d(3 - k, k));
-      boxes.values[SurfaceJet::index(3 - k, k)] = seen.inflated(0.5 * seen.diameter());
-    }
-  }
-
   const SurfacePtr surface_;
   const Rectangle piece_;
   const SurfaceFunction function_;
@@ -344,6 +343,9 @@ class MeetingEquations final : public ContourEquations<4> {
     return difference<Interval, 2>(r_->enclose({x[0].c[0], x[1].c[0]}, 2), s_->enclose({x[2].c[0], x[3].c[0]}, 2), x);
   }
   int highest_order() const override { return kMaxContourOrder; }
+  std::unique_ptr<TouchingEquations<4>> touching(std::shared_ptr<const ContourEquations<4>> self) const override {
+    return surfaces_touching(std::move(self), r_, piece_r_, s_, piece_s_);
+  }
 
  protected:
   SystemValue<double, 4, 3> evaluate_inside(const ParameterPlace<4>& at) const override {

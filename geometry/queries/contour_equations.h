@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "geometry/numerics/root_search.h"
@@ -16,9 +17,9 @@ namespace lekalo::geometry {
 inline constexpr int kMaxContourOrder = 4;
 
 // Along the way x(t): the equations and the point in space.
-template <class S, int K, int N>
+template <class S, int K, int N, int M = N - 1>
 struct ContourSeries {
-  std::array<Jet<S, K>, N - 1> equations;
+  std::array<Jet<S, K>, M> equations;
   Triple<Jet<S, K>> point;
 };
 
@@ -37,6 +38,27 @@ class KnownEnclosures {
   };
   std::unordered_map<std::array<double, 4>, First, Hash> known_;
 };
+
+// A system at a place beyond its domain: as at the border, continued linearly.
+template <int N, int M, class Evaluate>
+SystemValue<double, N, M> continued(const ParameterBox<N>& domain, const ParameterPlace<N>& place,
+                                    const Evaluate& evaluate) {
+  ParameterPlace<N> inside;
+  for (int i = 0; i < N; ++i) inside[i] = domain[i].clamp(place[i]);
+  SystemValue<double, N, M> there = evaluate(inside);
+  for (int i = 0; i < N; ++i)
+    if (inside[i] != place[i])
+      for (int k = 0; k < M; ++k) there.value[k] += there.derivative[k][i] * (place[i] - inside[i]);
+  return there;
+}
+
+// Derivatives of a surface to the third order over a box of a piece. Surfaces that enclose only two have the third
+// taken from places of the box, with as much again around it: that is not certified. It reaches the second derivative
+// of contours alone.
+SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& piece, const Rectangle& box);
+
+template <int N>
+class TouchingEquations;
 
 // Over one smooth piece of the surface, or of each of both. Immutable; safe to use from many threads.
 template <int N>
@@ -69,6 +91,10 @@ class ContourEquations {
   // The highest derivative of the contour that series() gives.
   virtual int highest_order() const = 0;
 
+  // The equations of contact (geometry/queries/contour_touching.h) of what `self` points to; none where they are not
+  // known.
+  virtual std::unique_ptr<TouchingEquations<N>> touching(std::shared_ptr<const ContourEquations<N>> self) const;
+
  protected:
   virtual SystemValue<double, N, N - 1> evaluate_inside(const ParameterPlace<N>& place) const = 0;
 };
@@ -79,6 +105,7 @@ struct SurfaceFunction {
   template <class T>
   using Of = std::function<T(const Triple<T>& s, const Triple<T>& s_u, const Triple<T>& s_v)>;
   bool needs_tangents;
+  std::optional<Vec3> plane;  // of a height over a plane: its unit normal
   Of<Jet<double, 1>> slopes;
   Of<Jet<Interval, 1>> slope_ranges;
   Of<Jet<double, kMaxContourOrder>> series;

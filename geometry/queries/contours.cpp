@@ -149,7 +149,9 @@ namespace {
 // The functions that vanish on contours; made once what they take has been checked.
 
 SurfaceFunction height_over(const Triple<double>& origin, const Triple<double>& normal) {
-  return {false, [=](const auto& s, const auto&, const auto&) { return dot(normal, s - origin); }};
+  SurfaceFunction height = {false, [=](const auto& s, const auto&, const auto&) { return dot(normal, s - origin); }};
+  height.plane = Vec3(normal.x, normal.y, normal.z);
+  return height;
 }
 
 SurfaceFunction outline(const ViewOf& view) {

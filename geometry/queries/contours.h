@@ -19,6 +19,7 @@ struct Contour {
   CurvePtr curve;                 // in space
   std::vector<Curve2Ptr> images;  // on the surface, or on both, with the same parameter
   bool closed = false;
+  bool touching = false;  // the surfaces, or the surface and the plane, touch along it
   // Of silhouettes: where the curve runs along the way of sight, so that its picture has a cusp; by t.
   std::vector<double> cusps;
   double error = 0;  // the largest distance from the surfaces or from the true contour seen along it
