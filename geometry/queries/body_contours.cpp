@@ -112,6 +112,7 @@ class Joining {
     result.branches = std::move(whole_);
     result.points = std::move(points);
     result.complete = complete;
+    result.coincident = coincident;
     drop_doubles();
     std::vector<bool> used(parts_.size(), false);
     // Open branches from an end that no other part has, then loops.
@@ -127,7 +128,7 @@ class Joining {
   }
 
   std::vector<ContourPoint> points;
-  bool complete = true;
+  bool complete = true, coincident = false;
 
  private:
   bool same(const Vec3& a, const Vec3& b) const { return glm::length(a - b) <= kSameJoint * size_; }
@@ -184,6 +185,7 @@ class Joining {
 // Singular points inside of the faces; where contours of whole surfaces end those of bodies may go on.
 void keep_points(Joining& joining, const Contours& found, const FaceOf& face, const FaceOf* other) {
   joining.complete = joining.complete && found.complete;
+  joining.coincident = joining.coincident || found.coincident;
   for (const ContourPoint& point : found.points) {
     if (point.kind == ContourPointKind::end) continue;
     if (point.parameters.size() < 2 || !face.holds({point.parameters[0], point.parameters[1], 0})) continue;

@@ -25,7 +25,8 @@ struct BodyContour {
 struct BodyContours {
   std::vector<BodyContour> branches;
   std::vector<ContourPoint> points;
-  bool complete = true;  // false where a face lies in the plane or on the other body
+  bool complete = true;     // false where a face lies in the plane or on the other body
+  bool coincident = false;  // faces coincide in part, as Contours::coincident
 };
 
 // Throw std::invalid_argument as the queries of surfaces do.

@@ -14,7 +14,9 @@ namespace {
 constexpr double kLeastImage = 1e-6;      // boxes with smaller images are not divided
 constexpr double kShortestBranch = 1e-9;  // shorter arcs are corners that the curve touches
 constexpr double kSameEnd = 1e-8;         // ends of arcs on borders that are one place
-constexpr int kBoxesOfNoCurve = 500;
+constexpr int kBoxesOfFirstTry = 2000;    // more than that: the surfaces may coincide or touch along a curve
+constexpr double kBeside = 1e-3;          // so far off a border it is seen whether surfaces coincide there
+constexpr double kSag = 0.1;              // of a chord of an arc, at most
 // A solution so far outside of a piece, of its sides, is moved onto the border.
 constexpr double kBorder = 1e-13;
 constexpr double kNearSingular = 60;  // of the least image: an arc that ends so near to a singular point ends there
@@ -66,16 +68,23 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
   options.least = kLeastImage * size_;
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
-  // Once surfaces coincide somewhere they do so on many pieces.
-  if (!complete_) options.most_boxes = kBoxesOfNoCurve;
+  const int most_boxes = options.most_boxes;
+  options.most_boxes = kBoxesOfFirstTry;
   const Searched<N> searched{*equations, known_};
   SolutionCurves<N> found = search_solution_curves<N, N - 1>(searched, domain, options);
   if (!found.complete) {
-    options.settled = add_touching(equations, options);
-    if (!options.settled.empty()) found = search_solution_curves<N, N - 1>(searched, domain, options);
+    const TouchingPtr touching = equations->touching(equations);
+    // Surfaces that coincide have no other contours of the pair: what seems to cross is their border.
+    if (touching && add_borders(touching, options, options.settled)) {
+      coincident_ = true;
+      return;
+    }
+    if (touching) add_touching(touching, options, options.settled);
+    options.most_boxes = most_boxes;
+    found = search_solution_curves<N, N - 1>(searched, domain, options);
   }
   complete_ = complete_ && found.complete;
-  for (SolutionArc<N>& arc : found.arcs) add_part({equations, {}, std::move(arc), 0});
+  for (SolutionArc<N>& arc : found.arcs) add_part({equations, std::move(arc), ContourKind::crossing, {}, 0});
   if (found.complete)
     for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
 }
@@ -87,30 +96,84 @@ void ContourAssembly<N>::add_part(Part part) {
   if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
 }
 
-// Where the solutions are too many for curves they may touch along some: these parts, and boxes that hold nothing else.
 template <int N>
-std::vector<ParameterBox<N>> ContourAssembly<N>::add_touching(const EquationsPtr& equations,
-                                                              const SolutionCurveOptions<N>& as) {
-  const std::shared_ptr<const TouchingEquations<N>> touching = equations->touching(equations);
-  if (!touching) return {};
+void ContourAssembly<N>::add_part(const TouchingPtr& touching, SolutionArc<N> arc, ContourKind kind) {
+  Part part{touching->shared_contour(), std::move(arc), kind, {}, 0};
+  for (size_t k = 0; k + 1 < part.arc.nodes.size(); ++k)
+    part.own.push_back(strongest_at<N>(touching, middle_of<N>(part.arc.nodes[k], part.arc.nodes[k + 1])));
+  add_part(std::move(part));
+}
+
+// Curves of solutions by least squares where the first `exact` equations hold to the tolerance.
+template <int N>
+SolutionCurves<N> ContourAssembly<N>::follow(const TouchingPtr& touching, int exact,
+                                             const SolutionCurveOptions<N>& as) {
   SolutionCurveOptions<N, N + 1> options;
   options.least = as.least, options.slack = as.slack, options.most_boxes = as.most_boxes;
   options.rounding.fill(as.rounding[0]);
-  // Of the derivatives at a place of the tolerance across the curve nothing is known: only the distance counts.
-  options.tolerance.fill(size_);
-  for (int k = 0; k < N - 1; ++k) options.tolerance[k] = tolerance_;
-  SolutionCurves<N> found =
-      search_solution_curves<N, N + 1>(SearchedTouching<N>{*touching, known_}, equations->domain(), options);
-  std::vector<ParameterBox<N>> settled;
-  if (!found.complete) return settled;
+  // Slopes differ by up to the root of the distance.
+  options.tolerance.fill(std::sqrt(tolerance_ * size_));
+  for (int k = 0; k < exact; ++k) options.tolerance[k] = tolerance_;
+  return search_solution_curves<N, N + 1>(SearchedTouching<N>{*touching, known_}, touching->contour().domain(),
+                                          options);
+}
+
+// Where the solutions are too many for curves the surfaces may touch along some: these parts, and boxes that hold
+// nothing else.
+template <int N>
+void ContourAssembly<N>::add_touching(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
+                                      std::vector<ParameterBox<N>>& settled) {
+  SolutionCurves<N> found = follow(touching, N - 1, as);
+  if (!found.complete) return;
   for (SolutionArc<N>& arc : found.arcs) {
     settled.insert(settled.end(), arc.tubes.begin(), arc.tubes.end());
-    Part part{equations, {}, std::move(arc), 0};
-    for (size_t k = 0; k + 1 < part.arc.nodes.size(); ++k)
-      part.touching.push_back(strongest_at<N>(touching, middle_of<N>(part.arc.nodes[k], part.arc.nodes[k + 1])));
-    add_part(std::move(part));
+    add_part(touching, std::move(arc), ContourKind::touching);
   }
-  return settled;
+}
+
+// On how many sides of an arc the surfaces coincide: seen a short way off its middle. None for what is shorter than
+// that.
+template <int N>
+std::optional<int> ContourAssembly<N>::coincident_sides(const TouchingEquations<N>& touching,
+                                                        const SolutionArc<N>& arc) const {
+  const auto point = [&](size_t k) { return touching.contour().point(arc.nodes[k]); };
+  double length = 0;
+  for (size_t k = 1; k < arc.nodes.size(); ++k) length += glm::length(point(k) - point(k - 1));
+  if (!(length > kBeside * size_)) return std::nullopt;
+  const size_t middle = arc.nodes.size() / 2;
+  const ParameterPlace<N>& at = arc.nodes[middle];
+  ParameterPlace<N> u{}, v{};
+  u[0] = v[1] = 1;
+  const Vec3 normal = glm::cross(touching.contour().motion(at, u), touching.contour().motion(at, v));
+  const Vec3 across = glm::cross(normal, point(middle) - point(middle - 1));
+  if (!(glm::length(across) > 0)) return std::nullopt;
+  const Vec3 step = kBeside * size_ * glm::normalize(across);
+  return int{touching.coincide_at(point(middle) + step, tolerance_)} +
+         int{touching.coincide_at(point(middle) - step, tolerance_)};
+}
+
+// Where the surfaces coincide: the borders of the pieces, as far as they lie on the other and the surfaces do not
+// coincide on both sides of them; where they do on neither they touch along the border. False where they do not
+// coincide.
+template <int N>
+bool ContourAssembly<N>::add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
+                                     std::vector<ParameterBox<N>>& settled) {
+  const ParameterBox<N> domain = touching->contour().domain();
+  bool coincident = false;
+  for (int i = 0; i < N; ++i)
+    for (const bool upper : {false, true}) {
+      if (touching->contour().is_pole(i, upper)) continue;
+      const TouchingPtr border = border_of<N>(touching, i, upper);
+      SolutionCurves<N> found = follow(border, N, as);
+      for (SolutionArc<N>& arc : found.arcs) {
+        const std::optional<int> sides = coincident_sides(*touching, arc);
+        if (!sides) continue;
+        coincident = coincident || *sides > 0;
+        if (*sides == 0) settled.insert(settled.end(), arc.tubes.begin(), arc.tubes.end());
+        if (*sides < 2) add_part(border, std::move(arc), *sides == 1 ? ContourKind::border : ContourKind::touching);
+      }
+    }
+  return coincident;
 }
 
 // An arc along the border of a piece is found by the neighbour too.
@@ -127,35 +190,55 @@ bool ContourAssembly<N>::runs_along_border(const Part& part) const {
   return false;
 }
 
+// Whether a node lies on another arc, within the sag of its chords.
+template <int N>
+bool ContourAssembly<N>::lies_on(const Part& part, size_t node, const Part& other) {
+  const Vec3 at = part.equations->point(part.arc.nodes[node]);
+  double nearest = kInfinity;
+  for (size_t i = 0; i + 1 < other.arc.nodes.size(); ++i) {
+    const Vec3 from = other.equations->point(other.arc.nodes[i]);
+    const Vec3 chord = other.equations->point(other.arc.nodes[i + 1]) - from;
+    const double share = std::clamp(glm::dot(at - from, chord) / glm::dot(chord, chord), 0.0, 1.0);
+    nearest = std::min(nearest, glm::length(from + share * chord - at) / glm::length(chord));
+  }
+  return nearest < kSag;
+}
+
+template <int N>
+bool ContourAssembly<N>::is_same(const Part& part, const Part& known) const {
+  if (part.kind != known.kind) return false;
+  const size_t last = part.arc.nodes.size() - 1;
+  if (part.kind != ContourKind::crossing) {
+    // Where surfaces touch along a border the neighbours' arcs may end at other places.
+    for (size_t k = 0; k <= last; ++k)
+      if (!lies_on(part, k, known)) return false;
+    return true;
+  }
+  if (std::abs(known.length - part.length) > 0.05 * part.length) return false;
+  const auto end = [](const Part& p, bool at_end) {
+    return p.equations->point(at_end ? p.arc.nodes.back() : p.arc.nodes.front());
+  };
+  // Where they end next to a singular point they do so anywhere near.
+  const bool singular = part.arc.begins_singular || part.arc.ends_singular;
+  const double near = (singular ? kNearSingular * kLeastImage : kSameEnd) * size_;
+  const auto meet = [&](bool a, bool b) { return glm::length(end(part, a) - end(known, b)) < near; };
+  if (!(meet(false, false) && meet(true, true)) && !(meet(false, true) && meet(true, false))) return false;
+  return last < 2 || lies_on(part, last / 2, known);
+}
+
 template <int N>
 void ContourAssembly<N>::drop_doubles() {
+  // The longest of those that touch along one border stays.
+  std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+    const bool a_crosses = a.kind == ContourKind::crossing, b_crosses = b.kind == ContourKind::crossing;
+    return a_crosses != b_crosses ? a_crosses : !a_crosses && a.length > b.length;
+  });
   std::vector<Part> kept;
   std::vector<bool> on_border;
   for (Part& part : parts_) {
     const bool along = runs_along_border(part);
     bool known = false;
-    const auto point = [](const Part& p, size_t k) { return p.equations->point(p.arc.nodes[k]); };
-    const auto last = [](const Part& p) { return p.arc.nodes.size() - 1; };
-    for (size_t k = 0; along && !known && k < kept.size(); ++k) {
-      if (!on_border[k] || std::abs(kept[k].length - part.length) > 0.05 * part.length) continue;
-      const Vec3 a0 = point(part, 0), a1 = point(part, last(part)), b0 = point(kept[k], 0),
-                 b1 = point(kept[k], last(kept[k]));
-      // Where they end next to a singular point they do so anywhere near.
-      const bool singular = part.arc.begins_singular || part.arc.ends_singular;
-      const double near = (singular ? kNearSingular * kLeastImage : kSameEnd) * size_;
-      const bool same = (glm::length(a0 - b0) < near && glm::length(a1 - b1) < near) ||
-                        (glm::length(a0 - b1) < near && glm::length(a1 - b0) < near);
-      if (!same) continue;
-      // The other's middle node must lie within the sag of this one's chords.
-      const Vec3 middle = point(part, last(part) / 2);
-      double nearest = kInfinity;
-      for (size_t i = 0; i < last(kept[k]); ++i) {
-        const Vec3 from = point(kept[k], i), chord = point(kept[k], i + 1) - from;
-        const double share = std::clamp(glm::dot(middle - from, chord) / glm::dot(chord, chord), 0.0, 1.0);
-        nearest = std::min(nearest, glm::length(from + share * chord - middle) / glm::length(chord));
-      }
-      known = last(part) < 2 || nearest < 0.1;
-    }
+    for (size_t k = 0; along && !known && k < kept.size(); ++k) known = on_border[k] && is_same(part, kept[k]);
     if (known) continue;
     kept.push_back(std::move(part));
     on_border.push_back(along);
@@ -203,8 +286,8 @@ void ContourAssembly<N>::collect_ends() {
       const Vec3 chord = end.point - part.equations->point(before);
       ParameterPlace<N> scale;
       for (int i = 0; i < N; ++i) scale[i] = part.equations->domain()[i].width();
-      ParameterPlace<N> direction =
-          solution_curves::direction_of<N, N - 1>(part.equations_of(at_end ? last - 1 : 0)->evaluate(x).derivative, scale);
+      ParameterPlace<N> direction = solution_curves::direction_of<N, N - 1>(
+          part.equations_of(at_end ? last - 1 : 0)->evaluate(x).derivative, scale);
       for (int i = 0; i < N; ++i) direction[i] *= scale[i];
       const Vec3 tangent = part.equations->motion(x, direction);
       const double side = glm::dot(tangent, chord), lengths = glm::length(tangent) * glm::length(chord);
@@ -240,7 +323,7 @@ void ContourAssembly<N>::pair(std::vector<int> group, bool all) {
     double best = 2;
     for (size_t a = 0; a < group.size(); ++a)
       for (size_t b = a + 1; b < group.size(); ++b) {
-        if (parts_[ends_[group[a]].part].touching.empty() != parts_[ends_[group[b]].part].touching.empty()) continue;
+        if (parts_[ends_[group[a]].part].kind != parts_[ends_[group[b]].part].kind) continue;
         const double with = glm::dot(ends_[group[a]].outward, ends_[group[b]].outward);
         if (with < best) best = with, best_a = static_cast<int>(a), best_b = static_cast<int>(b);
       }
@@ -359,7 +442,7 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   if (closed && segments.size() > 1) segments.back().to = segments.front().from;
   Contour contour;
   contour.closed = closed;
-  contour.touching = !parts_[ends_[first].part].touching.empty();
+  contour.kind = parts_[ends_[first].part].kind;
   for (const ContourSegment<N>& segment : segments)
     contour.error = std::max(contour.error, segment.equations->distance(segment.begin));
   const auto solution = std::make_shared<const ContourSolution<N>>(std::move(segments), closed);
@@ -375,6 +458,21 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   return contour;
 }
 
+// Pieces that meet at a corner only touch there, though their neighbours coincide.
+template <int N>
+bool ContourAssembly<N>::lies_where_surfaces_coincide(int point) const {
+  if (!coincident_) return false;
+  for (const SingularPlace& place : places_) {
+    if (place.group != point) continue;
+    const TouchingPtr touching = place.equations->touching(place.equations);
+    if (!touching) continue;
+    for (const Vec3& way : {Vec3(1, 0.3, 0.2), Vec3(-1, -0.3, -0.2), Vec3(0.2, 1, 0.3), Vec3(-0.2, -1, -0.3),
+                            Vec3(0.3, 0.2, 1), Vec3(-0.3, -0.2, -1)})
+      if (touching->coincide_at(place.point + kBeside * size_ * way, tolerance_)) return true;
+  }
+  return false;
+}
+
 template <int N>
 Contours ContourAssembly<N>::joined() {
   drop_doubles();
@@ -383,6 +481,7 @@ Contours ContourAssembly<N>::joined() {
   pair_ends();
   Contours result;
   result.complete = complete_;
+  result.coincident = coincident_;
   std::vector<bool> used(parts_.size(), false);
   // Open branches begin at an end that is joined with none; what is left then is closed.
   for (const bool open : {true, false})
@@ -390,9 +489,13 @@ Contours ContourAssembly<N>::joined() {
       if (!used[ends_[e].part] && ends_[e].singular_point != kDropped &&
           (!open || (ends_[e].mate_part < 0 && !parts_[ends_[e].part].arc.closed)))
         result.branches.push_back(branch_from(static_cast<int>(e), used));
-  for (const SingularPoint& point : points_)
-    if (!point.passed && (point.kind != ContourPointKind::contact || point.distance <= tolerance_))
+  for (size_t k = 0; k < points_.size(); ++k) {
+    const SingularPoint& point = points_[k];
+    const bool contact = point.kind == ContourPointKind::contact;
+    if (!point.passed &&
+        !(contact && (point.distance > tolerance_ || lies_where_surfaces_coincide(static_cast<int>(k)))))
       result.points.push_back(point);
+  }
   return result;
 }
 

@@ -25,10 +25,11 @@ class ContourAssembly {
   using EquationsPtr = std::shared_ptr<const ContourEquations<N>>;
   struct Part {
     EquationsPtr equations;
-    std::vector<EquationsPtr> touching;  // of each segment, where the surfaces touch along the arc
     SolutionArc<N> arc;
+    ContourKind kind = ContourKind::crossing;
+    std::vector<EquationsPtr> own;  // of each segment; where the kind is another than crossing
     double length = 0;
-    const EquationsPtr& equations_of(size_t segment) const { return touching.empty() ? equations : touching[segment]; }
+    const EquationsPtr& equations_of(size_t segment) const { return own.empty() ? equations : own[segment]; }
   };
   // An end of a part: `outward` is where the curve would go on.
   struct End {
@@ -53,7 +54,17 @@ class ContourAssembly {
   };
 
   void add_part(Part part);
-  std::vector<ParameterBox<N>> add_touching(const EquationsPtr& equations, const SolutionCurveOptions<N>& as);
+  using TouchingPtr = std::shared_ptr<const TouchingEquations<N>>;
+  SolutionCurves<N> follow(const TouchingPtr& touching, int exact, const SolutionCurveOptions<N>& as);
+  void add_part(const TouchingPtr& touching, SolutionArc<N> arc, ContourKind kind);
+  void add_touching(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
+                    std::vector<ParameterBox<N>>& settled);
+  std::optional<int> coincident_sides(const TouchingEquations<N>& touching, const SolutionArc<N>& arc) const;
+  bool add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
+                   std::vector<ParameterBox<N>>& settled);
+  bool lies_where_surfaces_coincide(int point) const;
+  static bool lies_on(const Part& part, size_t node, const Part& other);
+  bool is_same(const Part& part, const Part& known) const;
   void drop_doubles();
   bool runs_along_border(const Part& part) const;
   void find_singular_points();
@@ -76,7 +87,7 @@ class ContourAssembly {
   std::vector<SingularPlace> places_;
   std::vector<SingularPoint> points_;  // groups of places
   std::vector<End> ends_;
-  bool complete_ = true;
+  bool complete_ = true, coincident_ = false;
 };
 
 }  // namespace lekalo::geometry

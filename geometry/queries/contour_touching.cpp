@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "geometry/queries/projection.h"
 #include "geometry/queries/smooth_pieces.h"
 
 namespace lekalo::geometry {
@@ -30,6 +32,13 @@ SystemValue<S, N, M> by_each_parameter(const std::array<S, N>& place, const Alon
     for (int k = 0; k < M; ++k) result.value[k] = f[k].c[0], result.derivative[k][i] = f[k].c[1];
   }
   return result;
+}
+
+// The point of a surface next to the target; none if the target lies beyond its edges.
+std::optional<Vec3> foot_inside(const Surface& surface, const Vec3& target) {
+  const SurfaceFeet found = project(target, surface);
+  if (found.feet.empty() || found.feet.front().kind == FootKind::border) return std::nullopt;
+  return found.feet.front().point;
 }
 
 class SurfacesTouching final : public TouchingEquations<4> {
@@ -66,6 +75,12 @@ class SurfacesTouching final : public TouchingEquations<4> {
   ContourSeries<Interval, 2, 4, 5> series(const std::array<Jet<Interval, 2>, 4>& x) const override {
     return equations<Interval, 2>(enclosure_to_third(*r_, piece_r_, {x[0].c[0], x[1].c[0]}),
                                   enclosure_to_third(*s_, piece_s_, {x[2].c[0], x[3].c[0]}), x);
+  }
+  bool coincide_at(const Vec3& target, double tolerance) const override {
+    const std::optional<Vec3> on_r = foot_inside(*r_, target);
+    if (!on_r) return false;
+    const SurfaceFeet on_s = project(*on_r, *s_);
+    return !on_s.feet.empty() && on_s.feet.front().distance <= tolerance;
   }
 
  protected:
@@ -120,6 +135,13 @@ class PlaneTouching final : public TouchingEquations<2> {
         with_slopes<Interval, 2>(height.equations[0], enclosure_to_third(*surface_, piece_, {x[0].c[0], x[1].c[0]}), x),
         height.point};
   }
+  bool coincide_at(const Vec3& target, double tolerance) const override {
+    const std::optional<Vec3> foot = foot_inside(*surface_, target);
+    if (!foot) return false;
+    const ParameterPlace<2> middle{piece_.u.middle(), piece_.v.middle()};
+    const double height = contour().evaluate(middle).value[0] + glm::dot(normal_, *foot - contour().point(middle));
+    return std::abs(height) <= tolerance;
+  }
 
  protected:
   SystemValue<double, 2, 3> evaluate_inside(const ParameterPlace<2>& at) const override {
@@ -143,6 +165,59 @@ class PlaneTouching final : public TouchingEquations<2> {
   const SurfacePtr surface_;
   const Rectangle piece_;
   const Vec3 normal_;
+};
+
+// The first N - 1 equations, the border's, and the sum of both slopes, for one equation's place: it vanishes with them.
+template <int N>
+class BorderEquations final : public TouchingEquations<N> {
+ public:
+  BorderEquations(std::shared_ptr<const TouchingEquations<N>> touching, int parameter, bool at_upper_end)
+      : TouchingEquations<N>(touching->shared_contour()), touching_(std::move(touching)), parameter_(parameter) {
+    const ParameterBox<N> domain = this->contour().domain();
+    at_ = at_upper_end ? domain[parameter].hi : domain[parameter].lo;
+    std::array<KnownEnclosures, 2> known;
+    length_ = this->contour().extents(domain, known)[parameter] / domain[parameter].width();
+  }
+
+  SystemValue<Interval, N, N + 1> enclose(const ParameterBox<N>& box) const override {
+    return with_border(touching_->enclose(box), box[parameter_]);
+  }
+  ContourSeries<double, kMaxContourOrder, N, N + 1> series(
+      const std::array<Jet<double, kMaxContourOrder>, N>& x) const override {
+    return with_border(touching_->series(x), x[parameter_]);
+  }
+  ContourSeries<Interval, 2, N, N + 1> series(const std::array<Jet<Interval, 2>, N>& x) const override {
+    return with_border(touching_->series(x), x[parameter_]);
+  }
+  bool coincide_at(const Vec3& target, double tolerance) const override {
+    return touching_->coincide_at(target, tolerance);
+  }
+
+ protected:
+  SystemValue<double, N, N + 1> evaluate_inside(const ParameterPlace<N>& at) const override {
+    return with_border(touching_->evaluate(at), at[parameter_]);
+  }
+
+ private:
+  template <class S>
+  SystemValue<S, N, N + 1> with_border(SystemValue<S, N, N + 1> f, const S& x) const {
+    f.value[N] += f.value[N - 1];
+    for (int i = 0; i < N; ++i) f.derivative[N][i] += f.derivative[N - 1][i];
+    f.value[N - 1] = S(length_) * (x - S(at_));
+    f.derivative[N - 1].fill(S(0));
+    f.derivative[N - 1][parameter_] = S(length_);
+    return f;
+  }
+  template <class S, int K>
+  ContourSeries<S, K, N, N + 1> with_border(ContourSeries<S, K, N, N + 1> f, const Jet<S, K>& x) const {
+    f.equations[N] = f.equations[N] + f.equations[N - 1];
+    f.equations[N - 1] = S(length_) * (x - S(at_));
+    return f;
+  }
+
+  const std::shared_ptr<const TouchingEquations<N>> touching_;
+  const int parameter_;
+  double at_ = 0, length_ = 1;
 };
 
 template <int N>
@@ -223,6 +298,14 @@ std::unique_ptr<TouchingEquations<2>> plane_touching(std::shared_ptr<const Conto
                                                      SurfacePtr surface, const Rectangle& piece, const Vec3& normal) {
   return std::make_unique<PlaneTouching>(std::move(section), std::move(surface), piece, normal);
 }
+
+template <int N>
+std::unique_ptr<TouchingEquations<N>> border_of(std::shared_ptr<const TouchingEquations<N>> touching, int parameter,
+                                                bool at_upper_end) {
+  return std::make_unique<BorderEquations<N>>(std::move(touching), parameter, at_upper_end);
+}
+template std::unique_ptr<TouchingEquations<2>> border_of<2>(std::shared_ptr<const TouchingEquations<2>>, int, bool);
+template std::unique_ptr<TouchingEquations<4>> border_of<4>(std::shared_ptr<const TouchingEquations<4>>, int, bool);
 
 // Combinations by the eigenvectors of J J^T with the largest eigenvalues.
 template <int N>

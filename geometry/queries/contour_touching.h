@@ -28,6 +28,10 @@ class TouchingEquations {
       const std::array<Jet<double, kMaxContourOrder>, N>& x) const = 0;
   virtual ContourSeries<Interval, 2, N, N + 1> series(const std::array<Jet<Interval, 2>, N>& x) const = 0;
   const ContourEquations<N>& contour() const { return *contour_; }
+  std::shared_ptr<const ContourEquations<N>> shared_contour() const { return contour_; }
+  // Whether the surfaces coincide at the point of the first that is next to `target`, beyond the borders of the pieces
+  // too; to the tolerance, a length.
+  virtual bool coincide_at(const Vec3& target, double tolerance) const = 0;
 
  protected:
   explicit TouchingEquations(std::shared_ptr<const ContourEquations<N>> contour) : contour_(std::move(contour)) {}
@@ -44,6 +48,12 @@ std::unique_ptr<TouchingEquations<4>> surfaces_touching(std::shared_ptr<const Co
 // Of a surface and a plane with the unit normal.
 std::unique_ptr<TouchingEquations<2>> plane_touching(std::shared_ptr<const ContourEquations<2>> section,
                                                      SurfacePtr surface, const Rectangle& piece, const Vec3& normal);
+
+// Where surfaces coincide: the border of a piece, one of the parameters at its end, as far as it lies on the other
+// surface.
+template <int N>
+std::unique_ptr<TouchingEquations<N>> border_of(std::shared_ptr<const TouchingEquations<N>> touching, int parameter,
+                                                bool at_upper_end);
 
 // The N - 1 combinations of the equations that change most at a place. Derivatives of the contour are known to the
 // third order.

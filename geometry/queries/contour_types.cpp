@@ -30,8 +30,10 @@ std::string list_of(const std::vector<Contour>& branches) {
 CurvePtr chosen(const Contours& found, const Fields& f, const std::string& none) {
   const size_t count = found.branches.size();
   if (!found.complete)
-    throw FieldError("of", "the solutions are no curves here: surfaces coincide or touch all along a curve",
+    throw FieldError("of", "not all is known here: surfaces nearly touch along a curve or nearly coincide",
                      "move one of them a little");
+  if (count == 0 && found.coincident)
+    throw FieldError("of", "the surfaces coincide, and where they do so has no border", "move one of them a little");
   if (count == 0) throw FieldError("of", found.points.empty() ? none : none + " but for single points of contact");
   if (f.has("branch")) {
     const int branch = f.integer("branch");

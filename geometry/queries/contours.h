@@ -15,11 +15,17 @@
 
 namespace lekalo::geometry {
 
+enum class ContourKind {
+  crossing,  // the surfaces cross, the function changes its sign
+  touching,  // the surfaces, or the surface and the plane, touch along it
+  border     // of a region where they coincide
+};
+
 struct Contour {
   CurvePtr curve;                 // in space
   std::vector<Curve2Ptr> images;  // on the surface, or on both, with the same parameter
   bool closed = false;
-  bool touching = false;  // the surfaces, or the surface and the plane, touch along it
+  ContourKind kind = ContourKind::crossing;
   // Of silhouettes: where the curve runs along the way of sight, so that its picture has a cusp; by t.
   std::vector<double> cusps;
   double error = 0;  // the largest distance from the surfaces or from the true contour seen along it
@@ -40,7 +46,11 @@ struct ContourPoint {
 struct Contours {
   std::vector<Contour> branches;
   std::vector<ContourPoint> points;  // singular ones
-  // False where the solutions are no curves: surfaces that coincide or touch along a curve, a plane seen edge-on.
+  // There are regions where the surfaces coincide. Their borders are among the branches; a surface that coincides as a
+  // whole, and is closed, has none.
+  bool coincident = false;
+  // False where something is left out: surfaces that nearly touch along a curve or nearly coincide, that touch in a way
+  // that is not followed (through poles, to a higher order), a plane seen edge-on.
   bool complete = true;
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 using geometry::BodyPtr;
 using geometry::Contour;
+using geometry::ContourKind;
 using geometry::ContourPoint;
 using geometry::ContourPointKind;
 using geometry::Contours;
@@ -28,6 +29,18 @@ const char* word(ContourPointKind kind) {
       return "crossing";
     case ContourPointKind::end:
       return "end";
+  }
+  return "";
+}
+
+const char* word(ContourKind kind) {
+  switch (kind) {
+    case ContourKind::crossing:
+      return "crossing";
+    case ContourKind::touching:
+      return "touching";
+    case ContourKind::border:
+      return "border";
   }
   return "";
 }
@@ -50,15 +63,17 @@ ordered_json sample(const Contour& contour, double t) {
   return row;
 }
 
-void put_points(ordered_json& out, const std::vector<ContourPoint>& points, bool complete) {
+template <class Found>
+void put_points(ordered_json& out, const Found& found) {
   out["points"] = ordered_json::array();
-  for (const ContourPoint& point : points) {
+  for (const ContourPoint& point : found.points) {
     ordered_json row{{"kind", word(point.kind)}, {"point", to_json(point.point)}};
     for (size_t i = 0; i < point.parameters.size(); ++i) row[kParameters[i]] = point.parameters[i];
     row["distance"] = point.distance;
     out["points"].push_back(row);
   }
-  out["complete"] = complete;
+  out["coincident"] = found.coincident;
+  out["complete"] = found.complete;
 }
 
 ordered_json rows(const Contours& found, int samples) {
@@ -67,11 +82,8 @@ ordered_json rows(const Contours& found, int samples) {
   for (const Contour& contour : found.branches) {
     const geometry::Interval t = contour.curve->domain();
     const geometry::Measured length = contour_length(contour);
-    ordered_json row{{"closed", contour.closed},
-                     {"length", length.value},
-                     {"length_error", length.error},
-                     {"error", contour.error},
-                     {"t", {t.lo, t.hi}}};
+    ordered_json row{{"kind", word(contour.kind)},   {"closed", contour.closed}, {"length", length.value},
+                     {"length_error", length.error}, {"error", contour.error},   {"t", {t.lo, t.hi}}};
     row["begin"] = sample(contour, t.lo);
     row["end"] = sample(contour, t.hi);
     if (!contour.cusps.empty())
@@ -79,7 +91,7 @@ ordered_json rows(const Contours& found, int samples) {
     for (int k = 0; k < samples; ++k) row["samples"].push_back(sample(contour, t.lo + t.width() * k / (samples - 1)));
     out["branches"].push_back(row);
   }
-  put_points(out, found.points, found.complete);
+  put_points(out, found);
   return out;
 }
 
@@ -89,7 +101,7 @@ ordered_json rows(const geometry::BodyContours& found, const geometry::Body& bod
   ordered_json out;
   out["branches"] = ordered_json::array();
   for (const geometry::BodyContour& branch : found.branches) {
-    ordered_json row{{"closed", branch.closed}};
+    ordered_json row{{"kind", word(branch.parts.front().contour.kind)}, {"closed", branch.closed}};
     double length = 0, length_error = 0, error = 0;
     ordered_json parts = ordered_json::array();
     for (const geometry::BodyContourPart& part : branch.parts) {
@@ -118,7 +130,7 @@ ordered_json rows(const geometry::BodyContours& found, const geometry::Body& bod
     row["parts"] = parts;
     out["branches"].push_back(row);
   }
-  put_points(out, found.points, found.complete);
+  put_points(out, found);
   return out;
 }
 
@@ -192,14 +204,17 @@ void print_contours(const ordered_json& found) {
   const size_t branches = found["branches"].size(), points = found["points"].size();
   for (const char* key : {"with", "section", "silhouette"})
     if (found.contains(key))
-      fmt::print("'{}' {} '{}': {} branch{}, {} singular point{}{}\n", found["name"].get<std::string>(), key,
+      fmt::print("'{}' {} '{}': {} branch{}, {} singular point{}{}{}\n", found["name"].get<std::string>(), key,
                  found[key].get<std::string>(), branches, branches == 1 ? "" : "es", points, points == 1 ? "" : "s",
-                 found["complete"].get<bool>() ? "" : "; surfaces that coincide or touch along a curve are left out");
+                 found["coincident"].get<bool>() ? "; they coincide in part" : "",
+                 found["complete"].get<bool>() ? "" : "; incomplete: what nearly touches or coincides is left out");
   int number = 0;
   for (const ordered_json& branch : found["branches"]) {
-    fmt::print("  {} {:<7} length {}   error {:.2g}   off by {:.2g}\n", ++number,
-               branch["closed"].get<bool>() ? "closed" : "open", digits(branch["length"].get<double>()),
-               branch["length_error"].get<double>(), branch["error"].get<double>());
+    const std::string kind = branch["kind"];
+    fmt::print("  {} {:<7}{} length {}   error {:.2g}   off by {:.2g}\n", ++number,
+               branch["closed"].get<bool>() ? "closed" : "open", kind == "crossing" ? "" : kind + "  ",
+               digits(branch["length"].get<double>()), branch["length_error"].get<double>(),
+               branch["error"].get<double>());
     if (branch.contains("parts")) {
       for (const ordered_json& part : branch["parts"])
         fmt::print("    {}{}: {} to {}\n", part["face"].get<std::string>(),

@@ -288,13 +288,85 @@ TEST(Contours, TangentPlanesOfATorus) {
   EXPECT_LT(glm::length(point.points[0].point - Vec3(4, 0, 0)), 1e-8);
 }
 
-TEST(Contours, WhatIsNoCurveIsSaidSo) {
-  // A sphere in a tube of its radius touches along a circle; a plane on the top of a torus likewise; coincident
-  // spheres.
-  EXPECT_FALSE(intersect(sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 1)).complete);
-  const auto plane = std::make_shared<Plane>(Frame(), Rectangle{{-1, 1}, {-1, 1}});
-  EXPECT_FALSE(plane_section(plane, {0, 0, 0}, {0, 0, 1}).complete);
-  EXPECT_TRUE(plane_section(plane, {0, 0, 1}, {0, 0, 1}).complete);
+// One closed curve along which the surfaces touch.
+void check_touching(const Contours& found, const std::vector<SurfacePtr>& surfaces, double length, double size) {
+  EXPECT_TRUE(found.complete);
+  EXPECT_FALSE(found.coincident);
+  EXPECT_TRUE(found.points.empty());
+  ASSERT_EQ(found.branches.size(), 1u);
+  EXPECT_EQ(found.branches[0].kind, ContourKind::touching);
+  EXPECT_NEAR(length_of(found), length, 1e-12 * length);
+  check_promises(found, surfaces, size);
+  // The normals agree.
+  const Contour& contour = found.branches[0];
+  for (int k = 0; surfaces.size() == 2 && k < 10; ++k) {
+    const double t = contour.curve->domain().hi * (k + 0.4) / 10;
+    const Vec3 a = contour.images[0]->point(t), b = contour.images[1]->point(t);
+    EXPECT_LT(glm::length(glm::cross(surfaces[0]->normal(a.x, a.y), surfaces[1]->normal(b.x, b.y))), 1e-10);
+  }
+}
+
+TEST(Contours, SurfacesTouchAlongCurves) {
+  // A ball in a tube of its radius, wherever it stands; a ball that fills the ring of a torus and the hole of another;
+  // a ball in a cone.
+  const SurfacePtr tube = cylinder(at({0, 0, -2}), 1, 4);
+  for (const double z : {0.0, 0.1234}) {
+    check_touching(intersect(sphere({0, 0, z}, 1), tube), {sphere({0, 0, z}, 1), tube}, kTwoPi, 4);
+    check_touching(intersect(tube, sphere({0, 0, z}, 1)), {tube, sphere({0, 0, z}, 1)}, kTwoPi, 4);
+  }
+  const SurfacePtr ring = torus(2, 1.5), around = sphere({0, 0, 0}, 3.5);
+  check_touching(intersect(ring, around), {ring, around}, 7 * kPi, 8);
+  const SurfacePtr cone = std::make_shared<ConeSurface>(Frame(), 2.0, 0.0, 2.0), ball = sphere({0, 0, 0}, std::sqrt(2));
+  check_touching(intersect(cone, ball), {cone, ball}, kTwoPi, 4);
+  // A plane on the top of a torus, as a section and as a surface.
+  check_touching(plane_section(torus(3, 1), {0, 0, 1}, {0, 0, 1}), {torus(3, 1)}, 6 * kPi, 8);
+  const auto plane = std::make_shared<Plane>(at({0, 0, 1}), Rectangle{{-5, 5}, {-4, 4}});
+  check_touching(intersect(torus(3, 1), plane), {torus(3, 1), plane}, 6 * kPi, 8);
+  // Parallel cylinders, beside and inside of each other: a common generator of the shorter one's height.
+  for (const double apart : {3.0, 1.0}) {
+    const Contours found = intersect(cylinder(Frame(), 1, 4), cylinder(at({apart, 0, 0.5}), 2, 3));
+    ASSERT_EQ(found.branches.size(), 1u);
+    EXPECT_EQ(found.branches[0].kind, ContourKind::touching);
+    EXPECT_NEAR(length_of(found), 3, 1e-13);
+    EXPECT_TRUE(found.complete);
+  }
+  // A smaller ball in the tube is told apart.
+  EXPECT_TRUE(intersect(sphere({0, 0, 0}, 0.9999), tube).branches.empty());
+  EXPECT_EQ(intersect(sphere({0, 0, 0}, 1.0001), tube).branches.size(), 2u);
+}
+
+TEST(Contours, SurfacesCoincide) {
+  const auto square = [](const Rectangle& domain, double z = 0) {
+    return std::make_shared<Plane>(at({0, 0, z}), domain);
+  };
+  const auto check_border = [](const Contours& found, int loops, double length) {
+    EXPECT_TRUE(found.coincident);
+    EXPECT_TRUE(found.complete);
+    EXPECT_TRUE(found.points.empty());
+    EXPECT_EQ(found.branches.size(), static_cast<size_t>(loops));
+    for (const Contour& border : found.branches) {
+      EXPECT_EQ(border.kind, ContourKind::border);
+      EXPECT_TRUE(border.closed);
+    }
+    EXPECT_NEAR(length_of(found), length, 1e-12 * length);
+  };
+  check_border(intersect(square({{-1, 1}, {-1, 1}}), square({{0.2, 3}, {-0.5, 0.7}})), 1, 4);
+  check_border(intersect(square({{-1, 1}, {-1, 1}}), square({{-1, 1}, {-1, 1}})), 1, 8);
+  check_border(plane_section(square({{-1, 1}, {-1, 1}}), {0, 0, 0}, {0, 0, 1}), 1, 8);
+  check_border(intersect(cylinder(Frame(), 1, 4), cylinder(at({0, 0, 2}), 1, 3)), 2, 4 * kPi);
+  // A part of a sphere on the whole: two meridians and two parallels.
+  const auto part = std::make_shared<SphereSurface>(Frame(), 1, Rectangle{{0.3, 1.2}, {-0.4, 0.5}});
+  check_border(intersect(sphere({0, 0, 0}, 1), part), 1, 1.8 + 0.9 * (std::cos(0.4) + std::cos(0.5)));
+  // The whole has no border.
+  check_border(intersect(sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 1)), 0, 0);
+  // Squares that share a part of an edge only touch there; above each other they do not meet.
+  const Contours edge = intersect(square({{-1, 1}, {-1, 1}}), square({{1, 3}, {-0.5, 0.7}}));
+  EXPECT_FALSE(edge.coincident);
+  ASSERT_EQ(edge.branches.size(), 1u);
+  EXPECT_EQ(edge.branches[0].kind, ContourKind::touching);
+  EXPECT_NEAR(length_of(edge), 1.2, 1e-13);
+  EXPECT_TRUE(intersect(square({{-1, 1}, {-1, 1}}), square({{0.2, 3}, {-0.5, 0.7}}, 1e-6)).branches.empty());
+  EXPECT_TRUE(plane_section(square({{-1, 1}, {-1, 1}}), {0, 0, 1}, {0, 0, 1}).complete);
 }
 
 TEST(Contours, WrongInputIsRefused) {
