@@ -9,6 +9,11 @@
 
 namespace lekalo::geometry {
 
+// Boxes with smaller images are not divided; a part of the surfaces' size.
+inline constexpr double kLeastContourImage = 1e-6;
+
+// The search, with what is special where surfaces touch or coincide, is in contour_search.cpp; the joining in
+// contour_assembly.cpp.
 template <int N>
 class ContourAssembly {
  public:
