@@ -162,7 +162,9 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   }
   const auto text = read_reference(value);
   if (!text) {
-    report(diagnostics_, value, text.slip());
+    Slip slip = text.slip();
+    if (const std::string meant = maps_with_word(value.text, wanted); !meant.empty()) slip.hint = "write " + meant;
+    report(diagnostics_, value, slip);
     return std::nullopt;
   }
   auto* things = things_of(wanted.front());

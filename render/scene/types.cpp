@@ -78,12 +78,15 @@ std::string maps_with_word(std::string_view word, std::span<const Category> want
   for (const TypeDeclaration& type : all_types()) {
     if (std::find(wanted.begin(), wanted.end(), type.category) == wanted.end()) continue;
     for (const geometry::Field& field : type.fields) {
+      if (field.type.kind != geometry::Kind::choice) continue;
       const std::vector<std::string>& choices = field.type.choices;
-      if (field.type.kind != geometry::Kind::choice || std::find(choices.begin(), choices.end(), word) == choices.end())
-        continue;
+      const auto meant = std::find_if(choices.begin(), choices.end(), [&](const std::string& choice) {
+        return choice == word || choice == "N-" + std::string(word);  // glasses of catalogues: N-BK7
+      });
+      if (meant == choices.end()) continue;
       maps += maps.empty() ? "" : " or ";
-      maps += is_implicit(type.category) ? fmt::format("{{ {}: {} }}", field.name, word)
-                                         : fmt::format("{{ type: {}, {}: {} }}", type.name, field.name, word);
+      maps += is_implicit(type.category) ? fmt::format("{{ {}: {} }}", field.name, *meant)
+                                         : fmt::format("{{ type: {}, {}: {} }}", type.name, field.name, *meant);
     }
   }
   return maps;

@@ -172,6 +172,7 @@ TEST(Render, ResumedPictureIsTheSameBits) {
 
 // The tile in work is given up, and nothing of it stays in the picture.
 TEST(Render, StopsWithinATile) {
+  constexpr int kLast = 500;  // ray
   class Stopping final : public Integrator {
    public:
     explicit Stopping(IntegratorPtr inner) : inner_(std::move(inner)) {}
@@ -179,7 +180,6 @@ TEST(Render, StopsWithinATile) {
       if (++rays == kLast) stop = true;
       return inner_->trace(world, ray, first, random);
     }
-    static constexpr int kLast = 500;
     mutable std::atomic<bool> stop = false;
     mutable std::atomic<int> rays = 0;
 
@@ -199,7 +199,7 @@ TEST(Render, StopsWithinATile) {
       const RenderResult part = render(world, {.threads = 1, .stop = &stopping->stop});
       EXPECT_FALSE(part.complete);
       EXPECT_EQ(part.camera_rays, 0u);
-      EXPECT_LT(stopping->rays, Stopping::kLast + 32);
+      EXPECT_LT(stopping->rays, kLast + 32);
       for (const Channel& channel : part.image.channels) {
         EXPECT_TRUE(std::all_of(channel.values.begin(), channel.values.end(), [](float x) { return x == 0; }))
             << channel.name;

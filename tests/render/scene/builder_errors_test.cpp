@@ -177,9 +177,12 @@ TEST(BuilderErrors, NumbersWhereThingsAreWanted) {
 TEST(BuilderErrors, WordsOfFields) {
   const std::string ball = "objects: [{ shape: { type: ball, radius: 1 }, material: ";
   EXPECT_EQ(said(ball + "BK7 }]"), "2:57 there is no material called 'BK7'\n");
-  EXPECT_EQ(hints(ball + "BK7 }]"), "write { type: dielectric, glass: BK7 }\n");
-  EXPECT_EQ(hints("materials: { lens: BK7 }"), "write { type: dielectric, glass: BK7 }\n");
+  EXPECT_EQ(hints(ball + "BK7 }]"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints(ball + "N-BK7 }]"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints("materials: { lens: BK7 }"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints("materials: { mirror: Cu }"), "write { type: conductor, metal: Cu }\n");
   EXPECT_EQ(hints("materials: { lens: BK77 }"), "write { type: classic, ... }\n");
+  EXPECT_EQ(said(ball + "{ type: dielectric, glass: BK7 } }]"), "2:84 unknown word 'BK7' (did you mean 'N-BK7'?)\n");
   EXPECT_EQ(said(ball + "{ glass: BK7 } }]"), "2:57 missing 'type' of a material\n");
   EXPECT_EQ(hints(ball + "{ glass: BK7 } }]"), "one of dielectric\n");
   EXPECT_EQ(hints(ball + "{ glass: BK7, metal: Cu } }]"), hints(ball + "{} }]"));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/scene/builder.h"
+#include "render/scene/data_path.h"
 
 namespace lekalo::render {
 namespace {
