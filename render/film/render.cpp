@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
@@ -68,22 +69,29 @@ bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.i
 // Traces the pixels of one tile.
 class TileTracer {
  public:
-  TileTracer(const World& world, TiledFilm& film)
+  // `stop`: set when tiles in work are to be given up; null: never.
+  TileTracer(const World& world, TiledFilm& film, const std::atomic<bool>* stop)
       : world_(world),
         camera_(*world.model().camera),
         integrator_(*world.model().integrator),
         film_(film),
         lines_(world),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
-        materials_(world.model().objects) {}
+        materials_(world.model().objects),
+        stop_(stop) {}
 
-  Tally trace(int number) const {
+  // The tile's cost; nothing if it was given up and left no trace.
+  std::optional<Tally> trace(int number) const {
     Exposure exposure(film_, number);
     const double contrast = world_.model().film.contrast;
     if (contrast > 0 && sampler_->samples_per_pixel() > kFewSamples)
       trace_adaptively(film_.tile(number), static_cast<float>(contrast), exposure);
     else
       trace_evenly(film_.tile(number), exposure);
+    if (exposure.given_up) {
+      film_.clear(number);
+      return std::nullopt;
+    }
     film_.finish(number, exposure.sums);
     return exposure.tally;
   }
@@ -144,6 +152,7 @@ class TileTracer {
     std::vector<Ray> rays;  // that are met together, and what they meet
     std::vector<Hit> hits;
     Tally tally;
+    bool given_up = false;
   };
 
   // A camera ray on its way: the place in its pixel and the number of its sample.
@@ -153,12 +162,15 @@ class TileTracer {
     int number;
   };
 
-  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample.
+  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample. Once the
+  // tile is given up no more of them.
   template <class Use>
   void take(std::span<const Shot> shots, Exposure& exposure, const Use& use) const {
     std::vector<Ray>& rays = exposure.rays;
     Tally& tally = exposure.tally;
     for (size_t begin = 0; begin < shots.size(); begin += kTogether) {
+      exposure.given_up = exposure.given_up || (stop_ && stop_->load(std::memory_order_relaxed));
+      if (exposure.given_up) return;
       const std::span<const Shot> some = shots.subspan(begin, std::min(kTogether, shots.size() - begin));
       rays.clear();
       for (const Shot& shot : some) rays.push_back(camera_.ray(shot.x + shot.place.x, shot.y + shot.place.y));
@@ -204,6 +216,7 @@ class TileTracer {
         nearest = geometry::kInfinity;
         counted = 0;
       });
+      if (exposure.given_up) return;
     }
   }
 
@@ -218,6 +231,7 @@ class TileTracer {
     for (int y = around.y0; y < around.y1; ++y)
       for (int x = around.x0; x < around.x1; ++x) shots.push_back({x, y, Vec2(0.5), all});
     take(shots, exposure, [&](const Shot&, RaySample&& sample) { centers.push_back(std::move(sample)); });
+    if (exposure.given_up) return;
     const auto index = [&](int x, int y) {
       return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
     };
@@ -262,6 +276,7 @@ class TileTracer {
             alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
             taken.push_back({shot.place, std::move(sample)});
           });
+          if (exposure.given_up) return;
         }
         int counted = 0;
         for (const Taken& one : taken) counted += is_finite(one.sample);
@@ -327,6 +342,7 @@ class TileTracer {
   PictureLines lines_;
   SamplerPtr sampler_;
   MaterialNumbers materials_;
+  const std::atomic<bool>* stop_;
 };
 
 // What is done so far, kept by all threads together.
@@ -413,7 +429,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
   std::vector<char> is_done(film.tile_count(), 0);
   for (const int tile : ledger.done()) is_done[tile] = 1;
 
-  const TileTracer tracer(world, film);
+  const TileTracer tracer(world, film, options.stop);
   const int threads = options.threads > 0 ? options.threads : tbb::task_arena::automatic;
   std::unique_ptr<tbb::global_control> more_threads;  // than there are cores, if asked for
   if (options.threads > 0)
@@ -425,7 +441,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
         [&](const tbb::blocked_range<int>& range) {
           for (int tile = range.begin(); tile < range.end(); ++tile) {
             if (is_done[tile] || ledger.stopped()) continue;
-            ledger.finished(tile, tracer.trace(tile));
+            if (const std::optional<Tally> tally = tracer.trace(tile)) ledger.finished(tile, *tally);
           }
         },
         tbb::simple_partitioner());

@@ -19,7 +19,7 @@ struct RenderOptions {
   int threads = 0;  // 0: all
   // Called now and then, never from two threads at once, with the share done (0..1) and all rays traced so far.
   std::function<void(double done, uint64_t rays)> progress;
-  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: tiles not yet begun are left out
+  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: tiles not yet done are left out
   std::string resume_file;                  // OUTPUT.partial to continue from, empty: none
   std::string partial_file;  // where to keep the work done when stopped, and once a minute; empty: nowhere
   uint64_t identity = 0;     // of scene and build: a partial file is continued only with the same identity and film

@@ -153,6 +153,19 @@ void TiledFilm::clear_data(size_t pixel) {
     }
 }
 
+void TiledFilm::clear(int tile) {
+  const Window some = intersection(tiles_[tile], crop_);
+  if (some.width() <= 0) return;  // it only reaches into the crop
+  for (Channel& channel : image_.channels)
+    for (int y = some.y0; y < some.y1; ++y) {
+      const size_t begin = static_cast<size_t>(y - crop_.y0) * crop_.width() + (some.x0 - crop_.x0);
+      if (channel.type == PixelType::uint32)
+        std::fill_n(channel.ids.data() + begin, some.width(), 0u);
+      else
+        std::fill_n(channel.values.data() + begin, some.width(), 0.0f);
+    }
+}
+
 void TiledFilm::set_pixel(size_t pixel, const double* sums) {
   const int n = static_cast<int>(filtered_.size());
   const double weight = sums[n];

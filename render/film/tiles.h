@@ -106,6 +106,8 @@ class TiledFilm {
   void set_pixel(int x, int y, std::span<const double> sums) {
     set_pixel(static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0), sums.data());
   }
+  // Takes back what has been written of a tile that was given up: its pixels are 0 again.
+  void clear(int tile);
   // Takes the sums of a tile. Where the filter does not reach beyond a pixel there are none, and its pixels are set.
   void finish(int tile, std::span<const double> sums);
   // Writes the filtered layers of the image from the sums of the tiles that are done, where there are any.

@@ -153,9 +153,18 @@ std::optional<Built> Builder::part_of(const Built& whole, std::string_view part,
 
 // The things that a name stands for: one, or all members of a family.
 std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<const Category> wanted) {
+  if (value.is_scalar() && read_number(value)) {
+    diagnostics_.error(value.place, fmt::format("expected {}, found the number {}", describe(wanted), value.text),
+                       contains(wanted, Category::point)
+                           ? "write [x, y, z], the name of a point, or a place such as { of: curve, t: 0.5 }"
+                           : "write the name of one, or a map with its fields");
+    return std::nullopt;
+  }
   const auto text = read_reference(value);
   if (!text) {
-    report(diagnostics_, value, text.slip());
+    Slip slip = text.slip();
+    if (const std::string meant = maps_with_word(value.text, wanted); !meant.empty()) slip.hint = "write " + meant;
+    report(diagnostics_, value, slip);
     return std::nullopt;
   }
   auto* things = things_of(wanted.front());
@@ -170,12 +179,13 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
     const char* elsewhere = nullptr;
     for (const auto& [other, known] : sections_)
       if (known.contains(*text)) elsewhere = other.c_str();
-    const std::string nearest = elsewhere ? "" : suggestion(*text, names);
+    const std::string nearest = elsewhere ? "" : suggestion(*text, names), meant = maps_with_word(*text, wanted);
     diagnostics_.error(
         value.place,
         fmt::format("there is no {} called '{}'{}",
                     is_geometry(wanted.front()) ? "geometry" : geometry::name(wanted.front()), *text, nearest),
         elsewhere                           ? fmt::format("'{}' stands under '{}'", *text, elsewhere)
+        : !meant.empty()                    ? "write " + meant
         : !nearest.empty() || names.empty() ? ""
                                             : "there are " + listed(names, 20));
     return std::nullopt;

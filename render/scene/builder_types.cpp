@@ -86,7 +86,10 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
   }
   const std::vector<std::string> known = type_names(wanted);
   if (name.empty()) {
-    diagnostics_.error(map.place, fmt::format("missing 'type' of {}", describe(wanted)), "one of " + listed(known, 40));
+    const std::vector<std::string> fitting =
+        map.entries.empty() ? std::vector<std::string>() : types_with_fields_of(map, wanted);
+    diagnostics_.error(map.place, fmt::format("missing 'type' of {}", describe(wanted)),
+                       "one of " + listed(fitting.empty() ? known : fitting, 40));
     return nullptr;
   }
   const TypeDeclaration* type = find_type(name, wanted);
@@ -164,11 +167,13 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   if (given.invalid) return std::nullopt;
   if (!given.is_map()) {
     const bool implicit = is_implicit(wanted.front()) || !default_type(wanted.front(), given).empty();
+    const std::string meant = given.is_scalar() ? maps_with_word(given.text, wanted) : "";
     diagnostics_.error(given.place,
                        fmt::format("expected {} as a map{}, found {}", describe(wanted),
                                    implicit ? " of fields" : " with a type", kind_name(given)),
-                       implicit ? "write { field: value, ... }"
-                                : fmt::format("write {{ type: {}, ... }}", type_names(wanted).front()));
+                       !meant.empty() ? "write " + meant
+                       : implicit     ? "write { field: value, ... }"
+                                      : fmt::format("write {{ type: {}, ... }}", type_names(wanted).front()));
     return std::nullopt;
   }
   if (depth_ >= kDeepestNesting) {

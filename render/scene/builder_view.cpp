@@ -65,7 +65,14 @@ void Builder::build_lights(Model& model) {
     defaults_.push_back("studio light (studio/softbox.yaml)");
     return;
   }
-  defaults_.push_back("no light: the shipped studio is not found");
+  std::string looked;
+  for (const auto& folder : options_.search_path) looked += (looked.empty() ? "" : ", ") + folder.string();
+  diagnostics_.unreadable(
+      {scene_.files.front(), 0, 0, 1},
+      "the shipped studio, which lights scenes without lights of their own, is not found: "
+      "studio/softbox.yaml in " +
+          (looked.empty() ? "no folder of shipped scenes" : looked),
+      "the installation is not whole; until it is, write lights in the scene (lights: {} for none)");
 }
 
 void Builder::build_camera(Model& model) {

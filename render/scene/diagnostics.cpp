@@ -69,7 +69,8 @@ std::string show_line(const Place& place) {
 
 std::string position(const Place& place) {
   if (!place.file) return {};
-  if (place.line == 0) return place.file->name + ": ";
+  // The text of an option of the command is one line, which needs no number.
+  if (place.line == 0 || place.file->name.starts_with("--")) return place.file->name + ": ";
   return fmt::format("{}:{}:{}: ", place.file->name, place.line, place.column);
 }
 

@@ -347,9 +347,11 @@ void SceneReader::apply_set(Value& root, const Inclusion& inclusion) {
   }
 }
 
-// --set NAME=VALUE as if it stood in a file of its own.
-void set_parameter(Value& root, const std::string& name, const std::string& text, Diagnostics& diagnostics) {
-  const auto source = make_source("--set", name + "=" + text);
+// A value from outside as if it stood in a file of its own, which messages call by the option.
+void set_parameter(Value& root, const ParameterSetting& setting, Diagnostics& diagnostics) {
+  const auto& [name, text, option] = setting;
+  const std::string written = name + "=" + text;
+  const auto source = make_source(option.empty() ? "--set " + written : option, written);
   PlaceFinder places(source);
   const Place name_place = places.at(0, name.size());
   const Place value_place = places.at(name.size() + 1, text.size());
@@ -365,7 +367,7 @@ void set_parameter(Value& root, const std::string& name, const std::string& text
     return;
   }
   if (text.find_first_not_of(" \t\n") == std::string::npos) {
-    diagnostics.error(name_place, fmt::format("'{}' is set to nothing", name), fmt::format("--set {}=VALUE", name));
+    diagnostics.error(name_place, fmt::format("'{}' is set to nothing", name), fmt::format("write {}=VALUE", name));
     return;
   }
   Value value;
@@ -380,7 +382,7 @@ SceneDescription read_scene(const std::shared_ptr<const SourceFile>& file, const
                             Diagnostics& diagnostics) {
   SceneDescription scene = SceneReader(options, diagnostics).read(file);
   if (scene.root.invalid) return scene;
-  for (const auto& [name, value] : options.set_parameters) set_parameter(scene.root, name, value, diagnostics);
+  for (const ParameterSetting& setting : options.set_parameters) set_parameter(scene.root, setting, diagnostics);
   return scene;
 }
 

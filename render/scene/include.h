@@ -28,7 +28,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "render/scene/diagnostics.h"
@@ -48,10 +47,16 @@ struct SceneDescription {
   std::vector<std::shared_ptr<const SourceFile>> files;
 };
 
+/// A value given to a parameter from outside the scene.
+struct ParameterSetting {
+  std::string name, value;
+  std::string option = {};  ///< as messages show it, beginning with `--`; empty: --set NAME=VALUE
+};
+
 struct ReadOptions {
-  std::vector<std::filesystem::path> search_path;                   ///< folders of shipped scene files
-  std::vector<std::pair<std::string, std::string>> set_parameters;  ///< --set NAME=VALUE, in order
-  std::vector<std::filesystem::path> includes;                      ///< included after those of the main file
+  std::vector<std::filesystem::path> search_path;  ///< folders of shipped scene files
+  std::vector<ParameterSetting> set_parameters;    ///< in order
+  std::vector<std::filesystem::path> includes;     ///< included after those of the main file
   ReadLimits limits;
 };
 

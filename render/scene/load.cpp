@@ -34,9 +34,9 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     if (options.files_read && !file->path.empty()) options.files_read->push_back(file->path);
     mix(result.hash, file->text);
   }
-  for (const auto& [name, value] : options.set_parameters) {
-    mix(result.hash, name);
-    mix(result.hash, value);
+  for (const ParameterSetting& setting : options.set_parameters) {
+    mix(result.hash, setting.name);
+    mix(result.hash, setting.value);
   }
   if (scene.root.invalid) throw SceneError(diagnostics);
   if (scene.kind != FileKind::scene) {

@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "render/scene/diagnostics.h"
 #include "render/scene/external_note.h"
+#include "render/scene/include.h"
 #include "render/scene/model.h"
 
 namespace lekalo::render {
 
 struct LoadOptions {
-  std::vector<std::pair<std::string, std::string>> set_parameters;  // --set NAME=VALUE
+  std::vector<ParameterSetting> set_parameters;
   std::vector<std::filesystem::path> includes;
   bool allow_external = false;  // the scene may run code from outside the program
   // Filled with every file that was read, also if the scene has errors: what to watch for changes.

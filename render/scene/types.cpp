@@ -1,5 +1,7 @@
 #include "render/scene/types.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -67,6 +69,43 @@ std::vector<std::string> types_meant_by(std::string_view word, std::span<const C
     (fits ? fitting : others).push_back(type.name);
   }
   std::vector<std::string>& names = fitting.empty() ? others : fitting;
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string maps_with_word(std::string_view word, std::span<const Category> wanted) {
+  std::string maps;
+  for (const TypeDeclaration& type : all_types()) {
+    if (std::find(wanted.begin(), wanted.end(), type.category) == wanted.end()) continue;
+    for (const geometry::Field& field : type.fields) {
+      if (field.type.kind != geometry::Kind::choice) continue;
+      const std::vector<std::string>& choices = field.type.choices;
+      const auto meant = std::find_if(choices.begin(), choices.end(), [&](const std::string& choice) {
+        return choice == word || choice == "N-" + std::string(word);  // glasses of catalogues: N-BK7
+      });
+      if (meant == choices.end()) continue;
+      maps += maps.empty() ? "" : " or ";
+      maps += is_implicit(type.category) ? fmt::format("{{ {}: {} }}", field.name, *meant)
+                                         : fmt::format("{{ type: {}, {}: {} }}", type.name, field.name, *meant);
+    }
+  }
+  return maps;
+}
+
+std::vector<std::string> types_with_fields_of(const Value& map, std::span<const Category> wanted) {
+  std::vector<std::string> names;
+  for (const TypeDeclaration& type : all_types()) {
+    if (std::find(wanted.begin(), wanted.end(), type.category) == wanted.end()) continue;
+    const auto has = [](const std::vector<geometry::Field>& fields, const std::string& name) {
+      return std::any_of(fields.begin(), fields.end(),
+                         [&](const geometry::Field& field) { return field.name == name; });
+    };
+    const std::vector<geometry::Field> common = common_fields(type.category);
+    if (std::all_of(map.entries.begin(), map.entries.end(), [&](const Entry& entry) {
+          return has(type.fields, entry.key.name) || has(common, entry.key.name) || entry.key.name == "repeat";
+        }))
+      names.push_back(type.name);
+  }
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -27,6 +27,13 @@ std::vector<std::string> type_names(std::span<const Category> categories);
 // of the wanted categories if there are any.
 std::vector<std::string> types_meant_by(std::string_view word, std::span<const Category> wanted);
 
+// For a word where a thing is wanted: what is written with it, "{ type: dielectric, glass: BK7 }", "... or ..."; empty
+// if it is a choice of no type of these categories.
+std::string maps_with_word(std::string_view word, std::span<const Category> wanted);
+
+// The types of these categories that have all fields of a map.
+std::vector<std::string> types_with_fields_of(const Value& map, std::span<const Category> wanted);
+
 // "a curve", "a surface or a body": for messages.
 std::string describe(std::span<const Category> categories);
 

@@ -14,6 +14,12 @@ std::string listed(const std::vector<std::string>& words, size_t most) {
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  // A name of a catalogue without its prefix: the glass N-BK7 is called BK7.
+  for (const std::string& candidate : known) {
+    const size_t dash = candidate.rfind('-');
+    if (dash != std::string::npos && geometry::edit_distance(std::string_view(candidate).substr(dash + 1), word) == 0)
+      return fmt::format(" (did you mean '{}'?)", candidate);
+  }
   const auto nearest = geometry::nearest_name(word, known);
   return nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : std::string();
 }

@@ -25,14 +25,11 @@ struct GeometryRecord {
   int face = 0;         // of a target
   const geometry::LineTarget* target = nullptr;
   int count = 1;  // pieces of a target
-  // Two pieces of a target that follow each other, neighbours mostly, are one primitive to Embree.
-  int primitive_count() const { return kind == Kind::target ? (count + 1) / 2 : count; }
-  int first_piece(unsigned primitive) const {
-    return static_cast<int>(kind == Kind::target ? 2 * primitive : primitive);
-  }
-  int end_of_pieces(unsigned primitive) const {
-    return kind == Kind::target ? std::min(first_piece(primitive) + 2, count) : static_cast<int>(primitive) + 1;
-  }
+  // Pieces that follow each other, neighbours mostly, and are one primitive to Embree: two where there are many.
+  int together = 1;
+  int primitive_count() const { return (count + together - 1) / together; }
+  int first_piece(unsigned primitive) const { return together * static_cast<int>(primitive); }
+  int end_of_pieces(unsigned primitive) const { return std::min(first_piece(primitive) + together, count); }
   bool bare = false;  // the nearest hit needs no parameters
   std::shared_ptr<const Hierarchy> child;
   Affine to_parent, to_child;

@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from program import DONE, FILE_ERROR, LEKALO, ProgramTest, SCENE_ERROR, USAGE
+from program import DONE, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest, SCENE_ERROR, USAGE
 
 SCENE = """lekalo: 1
 parameters: { tube: 0.4, lean: 0 }
@@ -41,6 +41,9 @@ class Sequences(ProgramTest):
     def test_wrong_frames(self):
         for frames in "tube", "tube=1:3", "tube=0.1..0.5", "tube=0.1..0.5:0", "tube=0.1..0.5:x", "=0.1..0.5:3", "tube=..1:3", "tube=(..1:3":
             self.assertIn("--frames", self.render("--frames", frames, code=USAGE)[1])
+        self.assertIn("the number of frames, '2.5', is no whole number between 1 and 1000000",
+                      self.render("--frames", "tube=1..2:2.5", code=USAGE)[1])
+        self.assertIn("found '2.5'", self.render("--frames", "2.5", code=USAGE)[1])
         self.assertIn("did you mean 'tube'?", self.render("--frames", "tub=0.1..0.5:3", code=SCENE_ERROR)[1])
         self.assertIn("--resume", self.render("--frames", "tube=0.1..0.5:3", "--resume", "x", code=USAGE)[1])
         self.assertEqual(self.names(), [])
@@ -121,6 +124,27 @@ class Sequences(ProgramTest):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(20), DONE)
         self.assertEqual(self.names(), ["out.exr", "ring.png"])  # nothing of the one that was given up
+
+    def test_changes_and_interrupts_do_not_wait_for_a_tile(self):
+        """A picture of one tile that takes minutes."""
+        slow = SCENE.replace("size: [32, 24], samples: 1", "size: [32, 32], samples: 1048576")
+        self.write("ring.yaml", slow)
+        process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--watch", "--quiet"], cwd=self.folder)
+        self.addCleanup(process.kill)
+        time.sleep(1)
+        self.write("ring.yaml", SCENE)
+        end = time.monotonic() + 20
+        while "out.exr" not in self.names() and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(self.names(), ["out.exr", "ring.png"])
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), DONE)
+        self.write("ring.yaml", slow)
+        process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--quiet"], cwd=self.folder, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(20), INTERRUPTED)
 
 
 if __name__ == "__main__":

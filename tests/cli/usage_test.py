@@ -1,6 +1,8 @@
 """Exit codes, messages, help and the time that --version takes."""
 
+import os
 import re
+import shutil
 import subprocess
 import time
 import unittest
@@ -121,6 +123,33 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         self.run_program("check", "ball.yaml", "--set", "width=2")
         self.assertIn("did you mean 'width'?",
                       self.run_program("check", "ball.yaml", "--set", "widht=2", code=SCENE_ERROR)[1])
+
+    def test_errors_name_the_option(self):
+        """What is wrong in a value given on the command line has no file: the option says where."""
+        self.write("ball.yaml", "lekalo: 1\nparameters: { width: 1 }\ngeometry: { ball: { type: ball, radius: width } }\n")
+        for option, value, said in [("--set", "widht=2", "--set widht=2: the scene has no parameter 'widht' (did you mean 'width'?)\n    widht=2\n    ^~~~~\n"),
+                                    ("--set", "width=foo(1)", "--set width=foo(1): unknown function 'foo'\n    width=foo(1)\n          ^\n"),
+                                    ("--set", "width=", "--set width=: 'width' is set to nothing"),
+                                    ("--frames", "widht=1..2:3", "--frames widht=1..2:3: the scene has no parameter 'widht'"),
+                                    ("--frames", "width=x..2:3", "--frames width=x..2:3: unknown name 'x'\n    width=x\n          ^\n")]:
+            errors = self.run_program("render", "ball.yaml", option, value, code=SCENE_ERROR)[1]
+            self.assertIn(said, errors)
+            self.assertNotIn(":1:", errors)
+
+    def test_missing_studio(self):
+        """A picture without the light that the scene counts on would be black: the command says what is missing."""
+        (self.folder / "bin").mkdir()
+        shutil.copy(LEKALO, self.folder / "bin/lekalo")
+        self.write("ball.yaml", BALL)
+        command = [self.folder / "bin/lekalo", "render", "ball.yaml", "--quiet", "--size", "8x8"]
+        settings = {**os.environ, "XDG_DATA_DIRS": str(self.folder)}
+        done = subprocess.run(command, cwd=self.folder, env=settings, capture_output=True, text=True)
+        self.assertEqual(done.returncode, FILE_ERROR)
+        self.assertIn("ball.yaml: the shipped studio", done.stderr)
+        self.assertIn("studio/softbox.yaml", done.stderr)
+        self.assertFalse((self.folder / "ball.png").exists())
+        self.write("ball.yaml", BALL + "lights: {}\n")
+        self.assertEqual(subprocess.run(command, cwd=self.folder, env=settings).returncode, 0)
 
     def test_compare(self):
         pair = [ROOT / "tests/data/flip/ldr1_reference.png", ROOT / "tests/data/flip/ldr1_test.png"]

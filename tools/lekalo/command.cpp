@@ -21,7 +21,7 @@ render::LoadOptions SceneOptions::load_options() const {
     const size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError(fmt::format("--set takes NAME=VALUE, found '{}'", one));
-    options.set_parameters.emplace_back(one.substr(0, equals), one.substr(equals + 1));
+    options.set_parameters.push_back({one.substr(0, equals), one.substr(equals + 1)});
   }
   return options;
 }

@@ -36,7 +36,8 @@ std::vector<Frame> parse_frames(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, count);
   if (error != std::errc() || rest != end || count < 1 || count > kMostFrames)
-    throw UsageError(fmt::format("--frames {}: the number of frames is between 1 and {}", text, kMostFrames));
+    throw UsageError(fmt::format("--frames {}: the number of frames, '{}', is no whole number between 1 and {}", text,
+                                 text.substr(colon + 1), kMostFrames));
   check_formula(first, text);
   check_formula(last, text);
   const int digits = std::max(4, static_cast<int>(std::to_string(count).size()));
@@ -45,7 +46,8 @@ std::vector<Frame> parse_frames(const std::string& text) {
     std::string value = i == 0           ? first
                         : i == count - 1 ? last
                                          : fmt::format("({0}) + (({1}) - ({0}))*{2}/{3}", first, last, i, count - 1);
-    frames.push_back({name, std::move(value), fmt::format("_{:0{}}", i + 1, digits)});
+    frames.push_back(
+        {render::ParameterSetting{name, std::move(value), "--frames " + text}, fmt::format("_{:0{}}", i + 1, digits)});
   }
   return frames;
 }

@@ -1,14 +1,17 @@
 // `--frames tube=0.1..0.5:12`: a sequence of pictures over a parameter.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "render/scene/include.h"
 
 namespace lekalo::command {
 
 struct Frame {
-  std::string parameter, value;  // as --set takes them; no parameter: the scene as it is
-  std::string suffix;            // of the file's name: _0001, _0002, ...; empty without a sequence
+  std::optional<render::ParameterSetting> setting;  // none: the scene as it is
+  std::string suffix;                               // of the file's name: _0001, _0002, ...; empty without a sequence
 };
 
 // The frames of NAME=A..B:N, N values from A to B, both included; A and B are formulas and may be angles. Without a

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
+#include <stop_token>
+#include <thread>
 
 #include "command.h"
 #include "engine.h"
@@ -126,7 +130,7 @@ void set_crop(const std::string& text, Model& model) {
 render::LoadedScene load(Run& run, const Frame& frame) {
   std::vector<std::filesystem::path> files;
   render::LoadOptions load = run.options.scene.load_options();
-  if (!frame.parameter.empty()) load.set_parameters.emplace_back(frame.parameter, frame.value);
+  if (frame.setting) load.set_parameters.push_back(*frame.setting);
   load.files_read = &files;
   const auto watch = [&] {
     if (run.watch) run.watch->include(files);
@@ -139,6 +143,26 @@ render::LoadedScene load(Run& run, const Frame& frame) {
     watch();
     throw;
   }
+}
+
+// Stops the picture in work when a file changes.
+void stop_at_change(Run& run, const std::stop_token& ended) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any wake;
+  while (!ended.stop_requested()) {
+    if (run.watch->changed()) {
+      run.restart = stop_tracing = true;
+      return;
+    }
+    wake.wait_for(lock, ended, std::chrono::milliseconds(100), [] { return false; });
+  }
+}
+
+render::RenderResult render_watched(Run& run, const render::World& world, const render::RenderOptions& settings) {
+  std::jthread watching;
+  if (run.watch) watching = std::jthread([&](const std::stop_token& ended) { stop_at_change(run, ended); });
+  return render::render(world, settings);
 }
 
 int render_frame(Run& run, const Frame& frame, bool first) {
@@ -175,15 +199,11 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   render::RenderOptions settings;
   settings.threads = options.engine.threads;
   settings.stop = &stop_tracing;
-  settings.progress = [&](double done, uint64_t rays) {
-    run.restart = run.watch && run.watch->changed();
-    if (run.restart) stop_tracing = true;
-    progress(done, rays);
-  };
+  settings.progress = [&](double done, uint64_t rays) { progress(done, rays); };
   settings.identity = scene.hash;
   settings.partial_file = outputs.front().path + ".partial";
   settings.resume_file = options.resume;
-  render::RenderResult result = render::render(world, settings);
+  render::RenderResult result = render_watched(run, world, settings);
   progress.end();
   if (run.restart && !result.complete && !interrupted) {
     std::error_code ignored;

@@ -27,7 +27,7 @@ namespace {
 render::LoadedScene load(const SuiteTest& test, bool allow_external) {
   render::LoadOptions options;
   options.allow_external = allow_external;
-  options.set_parameters = test.set;
+  for (const auto& [name, value] : test.set) options.set_parameters.push_back({name, value});
   for (const fs::path& file : test.includes) options.includes.push_back(file);
   return render::load_scene(test.scene, options);
 }

@@ -131,24 +131,25 @@ TEST(Render, ResumedPictureIsTheSameBits) {
   const auto world = ball_on_ground("gaussian").world();
   const RenderResult whole = render(*world, {.threads = 2});
 
-  // Stopped from inside after the first tiles, again and again, until the picture is complete.
+  // Stopped from inside a tile, every 5000 rays, again and again, until the picture is complete.
   class Stopping final : public Integrator {
    public:
     Stopping(IntegratorPtr inner, std::atomic<bool>& stop) : inner_(std::move(inner)), stop_(stop) {}
     RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
-      stop_ = true;
+      if (++rays_ % 5000 == 0) stop_ = true;
       return inner_->trace(world, ray, first, random);
     }
 
    private:
     IntegratorPtr inner_;
     std::atomic<bool>& stop_;
+    mutable std::atomic<int> rays_ = 0;
   };
   std::atomic<bool> stop = false;
   auto model = std::make_shared<Model>(world->model());
   model->integrator = std::make_shared<Stopping>(model->integrator, stop);
   const World stopping(model);
-  RenderOptions options{.threads = 2, .stop = &stop, .partial_file = file, .identity = 42};
+  RenderOptions options{.threads = 1, .stop = &stop, .partial_file = file, .identity = 42};
   RenderResult part = render(stopping, options);
   EXPECT_FALSE(part.complete);
   options.resume_file = file;
@@ -167,6 +168,44 @@ TEST(Render, ResumedPictureIsTheSameBits) {
   options.resume_file = file + ".missing";
   EXPECT_THROW(render(*world, options), ImageError);
   std::filesystem::remove(file);
+}
+
+// The tile in work is given up, and nothing of it stays in the picture.
+TEST(Render, StopsWithinATile) {
+  constexpr int kLast = 500;  // ray
+  class Stopping final : public Integrator {
+   public:
+    explicit Stopping(IntegratorPtr inner) : inner_(std::move(inner)) {}
+    RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
+      if (++rays == kLast) stop = true;
+      return inner_->trace(world, ray, first, random);
+    }
+    mutable std::atomic<bool> stop = false;
+    mutable std::atomic<int> rays = 0;
+
+   private:
+    IntegratorPtr inner_;
+  };
+  for (const char* filter : {"box", "mitchell"})
+    for (const double contrast : {0.0, 0.05}) {
+      SmallScene scene = ball_on_ground(filter);
+      scene.model.film.samples = 16;
+      scene.model.film.contrast = contrast;
+      scene.model.film.crop = {20, 0, 70, 50};
+      auto model = std::make_shared<Model>(scene.world()->model());
+      const auto stopping = std::make_shared<Stopping>(model->integrator);
+      model->integrator = stopping;
+      const World world(model);
+      const RenderResult part = render(world, {.threads = 1, .stop = &stopping->stop});
+      EXPECT_FALSE(part.complete);
+      EXPECT_EQ(part.camera_rays, 0u);
+      EXPECT_LT(stopping->rays, kLast + 32);
+      for (const Channel& channel : part.image.channels) {
+        EXPECT_TRUE(std::all_of(channel.values.begin(), channel.values.end(), [](float x) { return x == 0; }))
+            << channel.name;
+        EXPECT_TRUE(std::all_of(channel.ids.begin(), channel.ids.end(), [](uint32_t id) { return id == 0; }));
+      }
+    }
 }
 
 TEST(Render, DataLayersAgreeWithTheCamera) {

@@ -165,6 +165,29 @@ TEST(BuilderErrors, DanglingReferences) {
   EXPECT_EQ(about("{ type: mesh, file: none.obj }"), "3:26 there is no file 'none.obj'\n");
 }
 
+TEST(BuilderErrors, NumbersWhereThingsAreWanted) {
+  EXPECT_EQ(said("camera: { from: 2.5, at: [0, 0, 0] }"), "2:17 expected a point, found the number 2.5\n");
+  EXPECT_EQ(hints("camera: { from: 2.5, at: [0, 0, 0] }"),
+            "write [x, y, z], the name of a point, or a place such as { of: curve, t: 0.5 }\n");
+  EXPECT_EQ(said("objects: [{ shape: { type: ball, radius: 1 }, material: 3 }]"),
+            "2:57 expected a material, found the number 3\n");
+}
+
+// A word that is a choice of some type's field, where the thing itself is wanted.
+TEST(BuilderErrors, WordsOfFields) {
+  const std::string ball = "objects: [{ shape: { type: ball, radius: 1 }, material: ";
+  EXPECT_EQ(said(ball + "BK7 }]"), "2:57 there is no material called 'BK7'\n");
+  EXPECT_EQ(hints(ball + "BK7 }]"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints(ball + "N-BK7 }]"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints("materials: { lens: BK7 }"), "write { type: dielectric, glass: N-BK7 }\n");
+  EXPECT_EQ(hints("materials: { mirror: Cu }"), "write { type: conductor, metal: Cu }\n");
+  EXPECT_EQ(hints("materials: { lens: BK77 }"), "write { type: classic, ... }\n");
+  EXPECT_EQ(said(ball + "{ type: dielectric, glass: BK7 } }]"), "2:84 unknown word 'BK7' (did you mean 'N-BK7'?)\n");
+  EXPECT_EQ(said(ball + "{ glass: BK7 } }]"), "2:57 missing 'type' of a material\n");
+  EXPECT_EQ(hints(ball + "{ glass: BK7 } }]"), "one of dielectric\n");
+  EXPECT_EQ(hints(ball + "{ glass: BK7, metal: Cu } }]"), hints(ball + "{} }]"));
+}
+
 TEST(BuilderErrors, ThingsOfTheWrongCategory) {
   EXPECT_EQ(about("{ type: revolution_surface, of: { type: ball, radius: 1 }, axis: z }"),
             "3:46 'ball' makes a body, but a curve is wanted here\n");

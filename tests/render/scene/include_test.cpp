@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/scene/builder.h"
+#include "render/scene/data_path.h"
 
 namespace lekalo::render {
 namespace {
@@ -128,7 +129,7 @@ TEST_F(Include, ParametersAreDefaults) {
   EXPECT_EQ(parameters.find("R")->text, "10") << "the including file over the included";
   EXPECT_EQ(parameters.find("h")->text, "20") << "set over the included";
   EXPECT_EQ(parameters.find("d")->text, "2*R") << "--set over all";
-  EXPECT_EQ(parameters.find("d")->place.file->name, "--set");
+  EXPECT_EQ(parameters.find("d")->place.file->name, "--set d=2*R");
   EXPECT_EQ(parameters.find("d")->place.column, 3);
 }
 
@@ -146,9 +147,10 @@ TEST_F(Include, UnknownParametersAreNamed) {
   write("a.yaml", "lekalo: 1\nparameters: { radius: 1 }\n");
   options_.set_parameters = {{"hight", "2"}};
   read("lekalo: 1\ninclude: { file: a.yaml, set: { raduis: 2 } }\n");
-  EXPECT_EQ(said_,
-            "main.yaml:2:33 'a.yaml' has no parameter 'raduis' (did you mean 'radius'?)\n--set:1:1 the scene has no "
-            "parameter 'hight'\n");
+  EXPECT_EQ(
+      said_,
+      "main.yaml:2:33 'a.yaml' has no parameter 'raduis' (did you mean 'radius'?)\n--set hight=2:1:1 the scene has "
+      "no parameter 'hight'\n");
 }
 
 TEST_F(Include, PrefixesKeepFilesApart) {
@@ -281,7 +283,7 @@ TEST_F(Include, ChangedBuiltInStylesOfPrefixedFiles) {
       read("lekalo: 1\ninclude: { file: part.yaml, as: left }\nstyles: { axis: { color: red } }\n");
   ASSERT_EQ(said_, "");
   Diagnostics diagnostics;
-  Builder builder(scene, {}, diagnostics);
+  Builder builder(scene, {.search_path = data_folders()}, diagnostics);
   const Model model = builder.build();
   EXPECT_EQ(diagnostics.text(), "");
   const Style &axis = model.styles.at("axis"), &left = model.styles.at("left.axis"),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/scene/builder.h"
+#include "render/scene/data_path.h"
 
 namespace lekalo::render {
 
@@ -19,7 +20,7 @@ inline BuiltText build_text(const std::string& text) {
   Diagnostics diagnostics;
   const SceneDescription scene = read_scene(make_source("test.yaml", "lekalo: 1\n" + text), {}, diagnostics);
   BuiltText result;
-  Builder builder(scene, {}, diagnostics);
+  Builder builder(scene, {.search_path = data_folders()}, diagnostics);
   result.model = builder.build();
   result.defaults = builder.defaults_taken();
   for (const Diagnostic& d : diagnostics.sorted()) {

@@ -239,6 +239,40 @@ TEST_F(WorldRays, HornTorus) {
 }
 
 // The surface stays near the origin; its object is stretched, turned, mirrored and moved.
+// So many pieces that two of them are one primitive to Embree, and one of an odd number alone: a net of degree 1 in a
+// plane, met once by every line through it, at its knots and between them.
+TEST_F(WorldRays, ManyPieces) {
+  constexpr int kSide = 513;  // 513^2 = 263,169 pieces
+  std::vector<double> knots = {0};
+  for (int i = 0; i <= kSide; ++i) knots.push_back(i);
+  knots.push_back(kSide);
+  std::vector<Vec3> points;
+  for (int i = 0; i <= kSide; ++i)
+    for (int k = 0; k <= kSide; ++k) points.emplace_back(i, k, 0.25 * i + 0.5 * k);
+  const SplineAxis axis(1, knots, Extension::tangent);
+  const World world(model_of(SurfacePtr(std::make_shared<NurbsSurface>(axis, axis, points))));
+  ASSERT_EQ(world.statistics().pieces, static_cast<size_t>(kSide) * kSide);
+  int wrong = 0;
+  for (int k = 0; k < tests::tier_count(1000000); ++k) {
+    double x = kSide * unit_(random_), y = kSide * unit_(random_);
+    if (k % 4 == 1) x = std::floor(x) + 1;
+    if (k % 4 >= 2) x = y = kSide - 0.5 * unit_(random_);  // the last piece
+    Ray ray;
+    ray.direction = any_direction();
+    if (std::abs(glm::dot(ray.direction, Vec3(0.25, 0.5, -1))) < 0.1) continue;
+    const double t = 1000 * unit_(random_);
+    ray.origin = Vec3(x, y, 0.25 * x + 0.5 * y) - t * ray.direction;
+    const std::vector<Hit> hits = world.all_hits(ray);
+    Hit nearest;
+    Ray shadow = ray;
+    shadow.kind = RayKind::shadow;
+    const bool good = hits.size() == 1 && std::abs(hits[0].t - t) < 1e-9 && world.nearest(ray, nearest) &&
+                      nearest.t == hits[0].t && nearest.piece == hits[0].piece && world.occluded(shadow);
+    wrong += !good;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST_F(WorldRays, TransformedTorus) {
   Subject subject{{as_spline(TorusSurface(frame_at(Vec3(0)), 3, 1), Vec3(0))}};
   subject.transform = Affine::translation({50, -20, 10}) * Affine::rotation(0.7, glm::normalize(Vec3(1, 2, 0.5))) *
