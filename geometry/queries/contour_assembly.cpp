@@ -36,7 +36,8 @@ struct Searched {
 }  // namespace
 
 template <int N>
-void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
+void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given,
+                             const std::array<bool, N>& left_to_neighbour) {
   const EquationsPtr equations = std::move(given);
   const ParameterBox<N> domain = equations->domain();
   SolutionCurveOptions<N> options;
@@ -51,10 +52,25 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
     Part part{equations, std::move(arc), 0};
     for (size_t k = 1; k < part.arc.nodes.size(); ++k)
       part.length += glm::length(equations->point(part.arc.nodes[k]) - equations->point(part.arc.nodes[k - 1]));
-    if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
+    bool left = false;
+    for (int i = 0; i < N; ++i) left = left || (left_to_neighbour[i] && runs_along(part, i, domain[i].hi));
+    if (!left && part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
   }
   if (found.complete)
     for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
+}
+
+template <int N>
+void ContourAssembly<N>::add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place) {
+  const Vec3 point = equations->point(place);
+  places_.push_back({std::move(equations), place, point, next_up(tolerance_), -1});
+}
+
+template <int N>
+bool ContourAssembly<N>::runs_along(const Part& part, int parameter, double border) const {
+  const double near = 1e-10 * part.equations->domain()[parameter].width();
+  return std::all_of(part.arc.nodes.begin(), part.arc.nodes.end(),
+                     [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; });
 }
 
 // An arc along the border of a piece is found by the neighbour too.
@@ -62,12 +78,7 @@ template <int N>
 bool ContourAssembly<N>::runs_along_border(const Part& part) const {
   const ParameterBox<N> domain = part.equations->domain();
   for (int i = 0; i < N; ++i)
-    for (const double border : {domain[i].lo, domain[i].hi}) {
-      bool along = true;
-      for (const ParameterPlace<N>& x : part.arc.nodes)
-        along = along && std::abs(x[i] - border) <= 1e-10 * domain[i].width();
-      if (along) return true;
-    }
+    if (runs_along(part, i, domain[i].lo) || runs_along(part, i, domain[i].hi)) return true;
   return false;
 }
 

@@ -16,8 +16,10 @@ class ContourAssembly {
   ContourAssembly(double size, double tolerance, const std::array<double, N>& periods)
       : size_(size), tolerance_(tolerance), periods_(periods) {}
 
-  // Searches a piece.
-  void add(std::unique_ptr<const ContourEquations<N>> equations);
+  // Searches a piece. What runs along the upper border of a parameter in `left_to_neighbour` is another piece's.
+  void add(std::unique_ptr<const ContourEquations<N>> equations, const std::array<bool, N>& left_to_neighbour = {});
+  // A singular solution that no search finds: curves end there, but where none does it is no point of contact.
+  void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place);
   Contours joined();
 
  private:
@@ -51,6 +53,7 @@ class ContourAssembly {
   };
 
   void drop_doubles();
+  bool runs_along(const Part& part, int parameter, double border) const;
   bool runs_along_border(const Part& part) const;
   SingularPlace refined(const EquationsPtr& equations, const ParameterBox<N>& box) const;
   void find_singular_points();
