@@ -19,9 +19,10 @@ namespace {
 
 // Cells are not halved in the middle: surfaces are symmetric, and double curves would run along the borders of cells.
 constexpr double kCut = 0.4871;
+constexpr double kOwnChange = 0.25;
 // Parts of the surface's size.
 constexpr double kLeastImage = 1e-6;
-constexpr double kNearPole = 1e-5;
+constexpr double kNearPole = 1e-5, kNearPinch = 1e-4;
 constexpr double kJoined = 1e-10;
 // Of the domain's sides: cells that are nearer touch; places that are nearer are one at a pinch point.
 constexpr double kTouch = 1e-12;
@@ -32,9 +33,8 @@ constexpr int kMostPairs = 4000, kPairsOfPiece = 40;
 struct Cell {
   Rectangle box;
   Box3 image;
-  double extent_u = 0, extent_v = 0;
-
-  double extent() const { return std::max(extent_u, extent_v); }
+  double extent = 0;                  // of the image, at most
+  double weight_u = 0, weight_v = 0;  // the side with the larger one is halved
 };
 using CellPair = std::pair<Cell, Cell>;
 
@@ -47,6 +47,8 @@ bool are_near(const Box3& a, const Box3& b, double by) {
 }
 
 bool touch(const Interval& a, const Interval& b, double by) { return a.lo - by <= b.hi && b.lo - by <= a.hi; }
+
+double weight(const Cell& cell) { return std::max(cell.weight_u, cell.weight_v); }
 
 ParameterPlace<4> swapped(const ParameterPlace<4>& x) { return {x[2], x[3], x[0], x[1]}; }
 
@@ -78,7 +80,12 @@ class SelfIntersection {
     }
     Contours found = assembly_.joined();
     found.complete = found.complete && complete;
-    for (Contour& branch : found.branches) branch = with_steady_images(branch);
+    for (Contour& branch : found.branches) branch = with_steady_images(branch, found.points);
+    for (ContourPoint& point : found.points)
+      if (const Pinch* pinch = pinch_at(point)) {
+        point.point = pinch->point;
+        point.parameters = {pinch->place.begin(), pinch->place.end()};
+      }
     std::erase_if(found.points, [&](const ContourPoint& point) { return is_trivial(point); });
     for (ContourPoint& point : found.points) {
       const std::vector<double>& x = point.parameters;
@@ -88,9 +95,21 @@ class SelfIntersection {
   }
 
  private:
-  Cell cell(const Rectangle& box) {
-    const KnownEnclosures::First& s = known_.of(*surface_, box);
-    return {box, s.point, largest_length(s.du) * box.u.width(), largest_length(s.dv) * box.v.width()};
+  struct Pinch {
+    Vec3 point;
+    ParameterPlace<4> place;
+  };
+
+  // Beside how far a parameter moves the image it counts how much it changes its own tangent: where that vanishes at a
+  // pinch point, r_v = 0 and r_vv != 0, cells that are no larger in v than in u are needed to tell places apart. Where
+  // it vanishes all along a line, as at a pole, r_vv does too.
+  Cell cell(const Rectangle& box) const {
+    const SurfaceEnclosure s = surface_->enclose(box, 2);
+    const double extent_u = largest_length(s.d(1, 0)) * box.u.width(),
+                 extent_v = largest_length(s.d(0, 1)) * box.v.width();
+    const double change_u = kOwnChange * largest_length(s.d(2, 0)) * box.u.width() * domain_.u.width(),
+                 change_v = kOwnChange * largest_length(s.d(0, 2)) * box.v.width() * domain_.v.width();
+    return {box, s.d(0, 0), std::max(extent_u, extent_v), std::max(extent_u, change_u), std::max(extent_v, change_v)};
   }
 
   void visit(const CellPair& pair, std::vector<CellPair>& undecided) {
@@ -108,7 +127,7 @@ class SelfIntersection {
     if (!touching)
       assembly_.add(equations(a.box, b.box),
                     {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box), is_continued_v(b.box)});
-    else if (std::max(a.extent(), b.extent()) <= kLeastImage * size_)
+    else if (std::max(a.extent, b.extent) <= kLeastImage * size_)
       add_pinch(a, b);
     else
       undecided.push_back(pair);
@@ -122,7 +141,7 @@ class SelfIntersection {
       visit({lower, lower}, undecided);
       visit({upper, upper}, undecided);
       visit({lower, upper}, undecided);
-    } else if (a.extent() >= b.extent()) {
+    } else if (weight(a) >= weight(b)) {
       const auto [lower, upper] = halves(a);
       visit({lower, b}, undecided);
       visit({upper, b}, undecided);
@@ -135,7 +154,7 @@ class SelfIntersection {
 
   std::pair<Cell, Cell> halves(const Cell& whole) {
     Rectangle lower = whole.box, upper = whole.box;
-    const bool of_u = whole.extent_u >= whole.extent_v;
+    const bool of_u = whole.weight_u >= whole.weight_v;
     const Interval& side = of_u ? whole.box.u : whole.box.v;
     const double at = side.lo + kCut * side.width();
     (of_u ? lower.u : lower.v).hi = at;
@@ -148,6 +167,10 @@ class SelfIntersection {
 
   std::unique_ptr<ContourEquations<4>> equations(const Rectangle& a, const Rectangle& b) const {
     return meeting_equations(surface_, a, surface_, b);
+  }
+
+  static Rectangle with(const Rectangle& box, const Vec2& place) {
+    return {hull(box.u, Interval(place.x)), hull(box.v, Interval(place.y))};
   }
 
   // Curves may end here, where r_u x r_v = 0 (Whitney 1944): by Gauss's and Newton's iteration.
@@ -169,10 +192,36 @@ class SelfIntersection {
     const bool stays = std::abs(x.x - start.x) <= kSamePlace * domain_.u.width() &&
                        std::abs(x.y - start.y) <= kSamePlace * domain_.v.width() && domain_.contains(x.x, x.y);
     if (!stays) x = start;
-    ParameterPlace<4> place{x.x, x.y, b.box.u.clamp(x.x), b.box.v.clamp(x.y)};
-    // The piece of the equations reaches as far as the place.
-    const Rectangle around{hull(a.box.u, Interval(x.x)), hull(a.box.v, Interval(x.y))};
-    assembly_.add_end(equations(around, b.box), place);
+    // Across a joined border the second place is that of its cell.
+    Vec2 y{b.box.u.clamp(x.x), b.box.v.clamp(x.y)};
+    if (std::abs(y.x - x.x) <= kSamePlace * domain_.u.width() && std::abs(y.y - x.y) <= kSamePlace * domain_.v.width())
+      y = x;
+    const ParameterPlace<4> place{x.x, x.y, y.x, y.y};
+    assembly_.add_end(equations(with(a.box, x), with(b.box, y)), place);
+    pinches_.push_back({surface_->point(x.x, x.y), place});
+  }
+
+  // Of a point where curves end: it is the pinch point near it.
+  const Pinch* pinch_at(const ContourPoint& point) const {
+    const Pinch* best = nullptr;
+    double nearest = kNearPinch * size_;
+    for (const Pinch& pinch : pinches_)
+      if (const double apart = glm::length(pinch.point - point.point); apart <= nearest) nearest = apart, best = &pinch;
+    return point.kind == ContourPointKind::end ? best : nullptr;
+  }
+
+  // The last bit to a pinch point, where the pairs of cells touch, reaches from the end of the arc to the point.
+  void lead_to_pinch(ContourSegment<4>& segment, const std::vector<ContourPoint>& points) const {
+    for (const ContourPoint& point : points) {
+      const Pinch* pinch = pinch_at(point);
+      if (!pinch || (segment.from != point.point && segment.to != point.point)) continue;
+      const bool ends = segment.to == point.point;
+      (ends ? segment.to : segment.from) = pinch->point;
+      (ends ? segment.end : segment.begin) = pinch->place;
+      const ParameterBox<4> box = segment.equations->domain();
+      segment.equations = equations(with({box[0], box[1]}, {pinch->place[0], pinch->place[1]}),
+                                    with({box[2], box[3]}, {pinch->place[2], pinch->place[3]}));
+    }
   }
 
   // Not a place where two of the surface meet: a pole, or one place across a border.
@@ -195,7 +244,7 @@ class SelfIntersection {
   }
 
   // The pairs of cells say which place is the first by chance: it stays the first along the branch.
-  Contour with_steady_images(const Contour& contour) {
+  Contour with_steady_images(const Contour& contour, const std::vector<ContourPoint>& points) {
     const auto* curve = dynamic_cast<const ContourCurve<4>*>(contour.curve.get());
     std::vector<ContourSegment<4>> segments = curve->solution().segments();
     const std::array<double, 2> periods{surface_->periods().u, surface_->periods().v};
@@ -206,6 +255,7 @@ class SelfIntersection {
     for (size_t k = 0; k < segments.size(); ++k) {
       ContourSegment<4>& segment = segments[k];
       segment.shift = {};
+      if (!segment.is_certified()) lead_to_pinch(segment, points);
       if (k == 0) continue;
       const ContourSegment<4>& before = segments[k - 1];
       if (steps(before.end, swapped(segment.begin)) < steps(before.end, segment.begin)) {
@@ -234,6 +284,7 @@ class SelfIntersection {
   const SurfaceJoints joints_;
   ContourAssembly<4> assembly_;
   KnownEnclosures known_;
+  std::vector<Pinch> pinches_;
 };
 
 }  // namespace
