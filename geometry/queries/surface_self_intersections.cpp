@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "geometry/queries/contour_assembly.h"
+#include "geometry/queries/curve_pair.h"
 #include "geometry/queries/self_intersections.h"
-#include "geometry/queries/smooth_pieces.h"
 #include "geometry/queries/surface_joints.h"
 
 namespace lekalo::geometry {
@@ -39,12 +39,6 @@ struct Cell {
 using CellPair = std::pair<Cell, Cell>;
 
 double largest_length(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
-
-bool are_near(const Box3& a, const Box3& b, double by) {
-  for (int k = 0; k < 3; ++k)
-    if (a.lo[k] - by > b.hi[k] || b.lo[k] - by > a.hi[k]) return false;
-  return true;
-}
 
 bool touch(const Interval& a, const Interval& b, double by) { return a.lo - by <= b.hi && b.lo - by <= a.hi; }
 
