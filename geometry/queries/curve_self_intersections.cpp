@@ -40,18 +40,18 @@ struct QuotientSystem {
     const Interval s = box[0], t = box[1], apart = t + Interval(turn) - s;
     const bool is_apart = !apart.contains(0);
     const CurveEnclosure at_s = curve.enclose(s, 1), at_t = curve.enclose(t, 1);
-    Box3 mean, change;
+    Box3 slope, slope_behind, change;
     if (is_one()) {
       const CurveEnclosure between = curve.enclose(hull(s, t), 2);
-      mean = between.d[1], change = between.d[2];
+      slope = slope_behind = between.d[1], change = between.d[2];
     } else {
-      mean = curve.enclose({s.lo, first.hi}, 1).d[1];
-      mean.include(curve.enclose({second.lo, t.hi}, 1).d[1]);
+      slope = curve.enclose({s.lo, first.hi}, 1).d[1];
+      slope_behind = curve.enclose({second.lo, t.hi}, 1).d[1];
     }
     SystemValue<Interval, 2, 3> q;
     for (int k = 0; k < 3; ++k) {
       const Vec3& axis = axes[k];
-      q.value[k] = component(mean, axis);
+      q.value[k] = hull(component(slope, axis), component(slope_behind, axis));
       q.derivative[k] = {Interval::entire(), Interval::entire()};
       if (is_one()) q.derivative[k].fill(Interval(0.5) * component(change, axis));
       if (!is_apart) continue;
@@ -94,6 +94,25 @@ struct QuotientSystem {
   }
 };
 
+// r' = 0, three equations for one unknown.
+struct StopSystem {
+  const Curve& curve;
+  Interval piece;
+
+  SystemValue<Interval, 1, 3> enclose(const ParameterBox<1>& t) const {
+    const CurveEnclosure r = curve.enclose(t[0], 2);
+    SystemValue<Interval, 1, 3> f;
+    for (int k = 0; k < 3; ++k) f.value[k] = along(r.d[1], k), f.derivative[k] = {along(r.d[2], k)};
+    return f;
+  }
+  SystemValue<double, 1, 3> evaluate(const ParameterPlace<1>& t) const {
+    const CurveJet r = evaluate_within(curve, piece, t[0], 2);
+    SystemValue<double, 1, 3> f;
+    for (int k = 0; k < 3; ++k) f.value[k] = r.d[1][k], f.derivative[k] = {r.d[2][k]};
+    return f;
+  }
+};
+
 class SelfMeetings {
  public:
   SelfMeetings(const Curve& curve, double tolerance) : curve_(curve), domain_(curve.domain()) {
@@ -102,7 +121,9 @@ class SelfMeetings {
   }
 
   CurveSelfMeetings run() {
+    find_stops();
     find_common();
+    for (const double t : stops_) add_cusp(t);
     cut();
     for (size_t a = 0; a < parts_.size(); ++a)
       for (size_t b = a; b < parts_.size(); ++b)
@@ -116,19 +137,35 @@ class SelfMeetings {
   double near() const { return 4 * least_; }
   bool is_closed() const { return curve_.is_closed() || (curve_.period() > 0 && domain_.width() >= curve_.period()); }
 
+  // Where r' vanishes, inside of smooth pieces or at their ends.
+  void find_stops() {
+    for (const CurvePiece& piece : curve_.pieces()) {
+      RootSearchOptions<1, 3> options;
+      options.least = {least_};
+      options.slack = {kBorderSlack * domain_.width()};
+      options.tolerance.fill(tolerance_ / domain_.width());
+      const auto found = search_roots<1, 3>(StopSystem{curve_, piece.domain}, ParameterBox<1>{piece.domain}, options);
+      for (const auto& t : found.isolated) stops_.push_back(t[0]);
+      for (const auto& t : found.open)
+        if (t[0].width() <= near()) stops_.push_back(t[0].middle());
+    }
+  }
+
   // Where else the curve goes through its point at s, to the tolerance.
   std::vector<double> others_at(double s) const {
     std::vector<double> places;
     for (const CurveFoot& foot : project(curve_.point(s), curve_).feet)
-      if (foot.distance <= tolerance_ && !is_one_place(curve_, foot.t, s, near())) places.push_back(foot.t);
+      if (foot.distance <= tolerance_ && !is_one(foot.t, s)) places.push_back(foot.t);
     return places;
   }
 
-  // Parts can begin and end only at the ends of smooth pieces, or where the curve goes through one of these again.
+  // Parts can begin and end only at the ends of smooth pieces, where the curve stops and turns back, or where it goes
+  // through one of these again.
   void find_common() {
     std::vector<double> places;
     for (const CurvePiece& piece : curve_.pieces()) places.push_back(piece.domain.lo);
     places.push_back(domain_.hi);
+    places.insert(places.end(), stops_.begin(), stops_.end());
     const size_t ends = places.size();
     for (size_t k = 0; k < ends; ++k)
       for (const double t : others_at(places[k])) places.push_back(t);
@@ -150,10 +187,16 @@ class SelfMeetings {
         const double share = static_cast<double>(i) / kPlacesOfCommonPart;
         const double s = part.middle() + (forwards ? share : -share) * part.width();
         double next = kInfinity;
-        for (const CurveFoot& foot : project(curve_.point(s), curve_).feet)
-          if (foot.distance <= tolerance_ && std::abs(foot.t - at) < std::abs(next - at) &&
-              (2 * i == kPlacesOfCommonPart || !is_one_place(curve_, foot.t, s, near())))
-            next = foot.t;
+        for (const CurveFoot& foot : project(curve_.point(s), curve_).feet) {
+          if (foot.distance > tolerance_) continue;
+          if (2 * i < kPlacesOfCommonPart && is_one(foot.t, s)) continue;
+          if (std::abs(foot.t - at) < std::abs(next - at)) next = foot.t;
+          // A foot on the seam of a closed curve is at both ends.
+          const double other_end = foot.t + (foot.t < domain_.middle() ? domain_.width() : -domain_.width());
+          if (is_closed() && std::abs(domain_.clamp(other_end) - other_end) <= near() &&
+              std::abs(other_end - at) < std::abs(next - at))
+            next = domain_.clamp(other_end);
+        }
         if (next == kInfinity) return;
         at = next;
       }
@@ -231,7 +274,9 @@ class SelfMeetings {
     for (const auto& at : found.isolated) add(at[0], at[1], false);
     for (const auto& box : found.open) {
       if (may_be_cusp(box)) {
-        add_cusp(box);
+        // Where r' does not vanish the curve turns back at a corner, or stops but for less than the least box.
+        const Interval both = intersect(box[0], box[1]);
+        add_cusp(both.width() > 0 ? both.middle() : box[0].hi);
         continue;
       }
       ParameterPlace<2> middle, reach;
@@ -251,46 +296,36 @@ class SelfMeetings {
            (is_closed() && box[0].hi >= domain_.hi - by && box[1].lo <= domain_.lo + by);
   }
 
-  // r' = 0: the least of its square, by Newton's iteration. At an end of a smooth piece the curve turns back.
-  void add_cusp(const ParameterBox<2>& box) {
-    const Interval common = intersect(box[0], box[1]);
-    const double start = common.width() > 0 ? common.middle() : box[0].hi;
-    double t = start;
-    for (int step = 0; step < kMostSteps; ++step) {
-      const CurveJet r = curve_.evaluate(t, 3);
-      const double by = glm::dot(r.d[1], r.d[2]) / (glm::dot(r.d[2], r.d[2]) + glm::dot(r.d[1], r.d[3]));
-      if (!std::isfinite(by)) break;
-      t -= by;
-      if (!(std::abs(t - start) <= 10 * least_ + box[0].width() + box[1].width())) {
-        t = start;
-        break;
-      }
-    }
-    t = domain_.clamp(t);
+  void add_cusp(double at) {
+    const double t = on_one_side(domain_.clamp(at));
     const CurveSelfMeeting cusp{SelfMeetingKind::cusp, t, t, curve_.point(t), 0};
     if (!is_known(cusp)) result_.points.push_back(cusp);
   }
 
+  // The seam of a closed curve is its begin.
+  double on_one_side(double t) const { return is_closed() && t >= domain_.hi - near() ? domain_.lo : t; }
+
   bool is_known(const CurveSelfMeeting& one) const {
     for (const CommonPart& common : result_.common) {
       const Interval of_t = image(common);
-      if (one.s >= common.s.lo - near() && one.s <= common.s.hi + near() && one.t >= of_t.lo - near() &&
-          one.t <= of_t.hi + near())
-        return true;
+      if (is_within({common.s}, one.s, near()) && is_within({of_t}, one.t, near())) return true;
+      for (const auto& [s, t] : {std::pair(common.s.lo, common.begin), std::pair(common.s.hi, common.end)})
+        if ((is_one(s, one.s) && is_one(t, one.t)) || (is_one(s, one.t) && is_one(t, one.s))) return true;
     }
     return std::any_of(result_.points.begin(), result_.points.end(), [&](const CurveSelfMeeting& other) {
-      return glm::length(other.point - one.point) <= 4 * tolerance_ && is_one_place(curve_, other.s, one.s, near()) &&
-             is_one_place(curve_, other.t, one.t, near());
+      return glm::length(other.point - one.point) <= 4 * tolerance_ && is_one(other.s, one.s) && is_one(other.t, one.t);
     });
   }
+  bool is_one(double a, double b) const { return is_one_place(curve_, a, b, near()); }
 
   // False if the places are farther from each other than the tolerance.
   bool add(double s, double t, bool open) {
+    s = on_one_side(s), t = on_one_side(t);
     if (s > t) std::swap(s, t);
     const CurveJet at_s = curve_.evaluate(s, 1), at_t = curve_.evaluate(t, 1);
     CurveSelfMeeting meeting{SelfMeetingKind::crossing, s, t, 0.5 * (at_s.d[0] + at_t.d[0]),
                              glm::length(at_s.d[0] - at_t.d[0])};
-    if (!(meeting.distance <= tolerance_) || is_one_place(curve_, s, t, near())) return false;
+    if (!(meeting.distance <= tolerance_) || is_one(s, t)) return false;
     if (open && sine_between(at_s.d[1], at_t.d[1]) < kParallel) meeting.kind = SelfMeetingKind::contact;
     if (!is_known(meeting)) result_.points.push_back(meeting);
     return true;
@@ -300,6 +335,7 @@ class SelfMeetings {
   const Interval domain_;
   double tolerance_ = 0;  // a length
   double least_ = 0;      // of the parameter
+  std::vector<double> stops_;
   std::vector<Interval> parts_;
   CurveSelfMeetings result_;
 };
