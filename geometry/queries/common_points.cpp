@@ -19,6 +19,7 @@ namespace {
 constexpr double kOnBorder = 1e-9;
 // Of the tolerance: points so near to an end of a common curve are that end.
 constexpr double kNearEnd = 10;
+constexpr double kContact = 10;
 
 // A surface, or a face of a body.
 struct Sheet {
@@ -63,7 +64,6 @@ class ThreeSheets {
  public:
   ThreeSheets(const std::array<SurfaceOrBody, 3>& of, double tolerance) : relative_(tolerance) {
     Box3 all;
-    double size = 0;
     for (int i = 0; i < 3; ++i) {
       sheets_[i] = sheets_of(of[i]);
       for (const Sheet& sheet : sheets_[i])
@@ -71,8 +71,9 @@ class ThreeSheets {
     }
     // Three planes have no size but that of their distances from the origin.
     for (int i = 0; all.empty() && i < 3; ++i)
-      size = std::max(size, glm::length(dynamic_cast<const Plane&>(*sheets_[i][0].surface).frame().origin));
-    tolerance_ = tolerance * std::max({all.diameter(), size, 1e-300});
+      size_ = std::max(size_, glm::length(dynamic_cast<const Plane&>(*sheets_[i][0].surface).frame().origin));
+    size_ = std::max({all.diameter(), size_, 1e-300});
+    tolerance_ = tolerance * size_;
   }
 
   CommonPoints run() {
@@ -171,7 +172,11 @@ class ThreeSheets {
         std::array<Vec2, 3> places = places_at(contour, part.middle());
         places[order[2]] =
             place_on(*third.surface, contour.curve->point(part.middle()), kInfinity).value_or(places[order[0]]);
-        if (holds(of, places)) result_.curves.push_back({contour.curve, part});
+        // What touches does so over about the square root of the tolerance.
+        if (part.width() <= kContact * std::sqrt(relative_) * size_)
+          add(of, contour.curve->point(part.middle()), places);
+        else if (holds(of, places))
+          result_.curves.push_back({contour.curve, part});
       }
     }
     // Contours shrink to a point, or are no more than their chords near it.
@@ -210,7 +215,7 @@ class ThreeSheets {
     result_.points.push_back(one);
   }
 
-  double relative_, tolerance_ = 0;  // a part of the size; a length
+  double relative_, size_ = 0, tolerance_ = 0;  // a part of the size; lengths
   std::array<std::vector<Sheet>, 3> sheets_;
   CommonPoints result_;
 };

@@ -5,11 +5,8 @@
 
 #include <random>
 
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
-#include "support/root_oracle.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry {

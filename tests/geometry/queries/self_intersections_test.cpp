@@ -181,9 +181,14 @@ void check_promises(const SurfacePtr& of, const Contours& found) {
     const Interval t = branch.curve->domain();
     for (int k = 0; k <= 60; ++k) {
       const double at = t.lo + t.width() * k / 60;
+      const Vec3 p = branch.curve->point(at);
+      // Next to a pinch point the branch is its chord.
+      const bool at_chord = std::any_of(found.points.begin(), found.points.end(), [&](const ContourPoint& point) {
+        return glm::length(point.point - p) < 6e-5 * size;
+      });
       for (const Curve2Ptr& image : branch.images) {
         const Vec3 place = image->point(at);
-        EXPECT_LT(glm::length(of->point(place.x, place.y) - branch.curve->point(at)), 1e-12 * size) << at;
+        EXPECT_LT(glm::length(of->point(place.x, place.y) - p), (at_chord ? 1e-6 : 1e-12) * size) << at;
       }
     }
   }
@@ -348,13 +353,13 @@ TEST(SurfaceWithItself, RandomBentPatchesAgainstTriangles) {
   int branches = 0, pinches = 0;
   for (int k = 0; k < patches; ++k) {
     // A loop of a cubic that opens along v or not.
-    Grid<Vec3> points(4, 4);
+    Grid<Vec3> points{4, 4, std::vector<Vec3>(16)};
     const double unrest = 0.15 + 0.5 * std::abs(d(random)), opens = 1.3 * d(random);
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const std::array<double, 4> x{-1, 2, -2, 1}, y{0, 1.4, 1.4, 0};
         const double loop = 1 - std::max(0.0, opens) * j / 3;
-        points(i, j) =
+        points.at(i, j) =
             Vec3((i == 1 || i == 2 ? loop : 1) * x[i], y[i], 0.8 * j) + unrest * Vec3(d(random), d(random), d(random));
       }
     const SurfacePtr patch = std::make_shared<NurbsSurface>(bezier_surface(points));
