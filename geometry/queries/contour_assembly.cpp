@@ -37,11 +37,11 @@ struct Searched {
 
 template <int N>
 void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given,
-                             const std::array<bool, N>& left_to_neighbour) {
+                             const std::array<bool, N>& left_to_neighbour, double least) {
   const EquationsPtr equations = std::move(given);
   const ParameterBox<N> domain = equations->domain();
   SolutionCurveOptions<N> options;
-  options.least = kLeastImage * size_;
+  options.least = std::min(kLeastImage * size_, least);
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
   // Once surfaces coincide somewhere they do so on many pieces.

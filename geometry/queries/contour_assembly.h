@@ -16,8 +16,10 @@ class ContourAssembly {
   ContourAssembly(double size, double tolerance, const std::array<double, N>& periods)
       : size_(size), tolerance_(tolerance), periods_(periods) {}
 
-  // Searches a piece. What runs along the upper border of a parameter in `left_to_neighbour` is another piece's.
-  void add(std::unique_ptr<const ContourEquations<N>> equations, const std::array<bool, N>& left_to_neighbour = {});
+  // Searches a piece. What runs along the upper border of a parameter in `left_to_neighbour` is another piece's. Boxes
+  // with images below `least` (a length) are not divided; no more than 1e-6 of the size.
+  void add(std::unique_ptr<const ContourEquations<N>> equations, const std::array<bool, N>& left_to_neighbour = {},
+           double least = kInfinity);
   // A singular solution that no search finds: curves end there, but where none does it is no point of contact.
   void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place);
   Contours joined();

@@ -1,7 +1,7 @@
 // The parameter domain is halved into pairs of cells. A pair whose images are apart is done; one on whose hull the
 // surface is one-to-one holds only trivial solutions; one that does not touch, across joined borders either, has two
 // different places, and its solutions are the meetings of two surfaces (geometry/queries/contour_equations.h). What is
-// left are pairs that touch, down to cells of the least image: there the surface is pinched (Whitney's umbrella), or
+// left are pairs that touch, down to the least cells: there the surface is pinched (Whitney's umbrella), or
 // has a pole.
 #include <algorithm>
 #include <cmath>
@@ -21,9 +21,11 @@ namespace {
 constexpr double kCut = 0.4871;
 constexpr double kOwnChange = 0.25;
 // Parts of the surface's size.
-constexpr double kLeastImage = 1e-6;
+constexpr double kLeastCell = 2e-5;
 constexpr double kNearPole = 1e-5, kNearPinch = 1e-4;
 constexpr double kJoined = 1e-10;
+// Near a pinch point the image of a cell is as narrow in one direction as the square of its length.
+constexpr double kLeastOfSquare = 1e-3;
 // Of the domain's sides: cells that are nearer touch; places that are nearer are one at a pinch point.
 constexpr double kTouch = 1e-12;
 constexpr double kSamePlace = 1e-4;
@@ -120,8 +122,9 @@ class SelfIntersection {
     }
     if (!touching)
       assembly_.add(equations(a.box, b.box),
-                    {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box), is_continued_v(b.box)});
-    else if (std::max(a.extent, b.extent) <= kLeastImage * size_)
+                    {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box), is_continued_v(b.box)},
+                    kLeastOfSquare * std::pow(std::min(a.extent, b.extent), 2) / size_);
+    else if (std::max(a.extent, b.extent) <= kLeastCell * size_)
       add_pinch(a, b);
     else
       undecided.push_back(pair);
