@@ -36,12 +36,12 @@ struct Searched {
 }  // namespace
 
 template <int N>
-void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given,
-                             const std::array<bool, N>& left_to_neighbour, double least) {
+void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, const PieceSearch<N>& search) {
   const EquationsPtr equations = std::move(given);
   const ParameterBox<N> domain = equations->domain();
   SolutionCurveOptions<N> options;
-  options.least = std::min(kLeastImage * size_, least);
+  options.least = std::min(kLeastImage * size_, search.least);
+  options.rounding_of_places = search.rounding_of_places;
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
   // Once surfaces coincide somewhere they do so on many pieces.
@@ -53,7 +53,7 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given,
     for (size_t k = 1; k < part.arc.nodes.size(); ++k)
       part.length += glm::length(equations->point(part.arc.nodes[k]) - equations->point(part.arc.nodes[k - 1]));
     bool left = false;
-    for (int i = 0; i < N; ++i) left = left || (left_to_neighbour[i] && runs_along(part, i, domain[i].hi));
+    for (int i = 0; i < N; ++i) left = left || (search.left_to_neighbour[i] && runs_along(part, i, domain[i].hi));
     if (!left && part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
   }
   if (found.complete)
@@ -63,7 +63,7 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given,
 template <int N>
 void ContourAssembly<N>::add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place) {
   const Vec3 point = equations->point(place);
-  places_.push_back({std::move(equations), place, point, next_up(tolerance_), -1});
+  places_.push_back({std::move(equations), place, point, next_up(tolerance_), -1, true});
 }
 
 template <int N>
@@ -190,7 +190,7 @@ typename ContourAssembly<N>::SingularPlace ContourAssembly<N>::refined(const Equ
           equations->distance(at) <= equations->distance(x) + near)
         x = at;
     }
-  return {equations, x, equations->point(x), equations->distance(x), -1};
+  return {equations, x, equations->point(x), equations->distance(x), -1, false};
 }
 
 template <int N>
@@ -255,7 +255,21 @@ void ContourAssembly<N>::attach_singular(End& end) {
   double nearest = (end.singular ? kNearSingular : 1.0) * kLeastImage * size_;
   for (const SingularPlace& place : places_) {
     const double apart = glm::length(place.point - end.point);
-    if (apart <= nearest) nearest = apart, end.singular_point = place.group;
+    if (!place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
+  }
+}
+
+// What goes on nowhere ends at the added place near it.
+template <int N>
+void ContourAssembly<N>::attach_rest() {
+  for (End& end : ends_) {
+    if (end.singular_point != kRegular || end.mate_part >= 0 || parts_[end.part].arc.closed) continue;
+    double nearest = kNearSingular * kLeastImage * size_;
+    for (const SingularPlace& place : places_) {
+      const double apart = glm::length(place.point - end.point);
+      if (place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
+    }
+    if (end.singular_point >= 0) points_[end.singular_point].kind = ContourPointKind::end;
   }
 }
 
@@ -399,6 +413,7 @@ Contours ContourAssembly<N>::joined() {
   find_singular_points();
   collect_ends();
   pair_ends();
+  attach_rest();
   Contours result;
   result.complete = complete_;
   std::vector<bool> used(parts_.size(), false);

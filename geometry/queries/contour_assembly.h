@@ -9,6 +9,17 @@
 
 namespace lekalo::geometry {
 
+// What a search of a piece is told beside its equations.
+template <int N>
+struct PieceSearch {
+  // What runs along the upper border of these parameters is another piece's.
+  std::array<bool, N> left_to_neighbour{};
+  // Boxes with smaller images are not divided, a length; no more than 1e-6 of the size.
+  double least = kInfinity;
+  // How well places are known, of the piece's sides.
+  double rounding_of_places = 1e-12;
+};
+
 template <int N>
 class ContourAssembly {
  public:
@@ -16,11 +27,10 @@ class ContourAssembly {
   ContourAssembly(double size, double tolerance, const std::array<double, N>& periods)
       : size_(size), tolerance_(tolerance), periods_(periods) {}
 
-  // Searches a piece. What runs along the upper border of a parameter in `left_to_neighbour` is another piece's. Boxes
-  // with images below `least` (a length) are not divided; no more than 1e-6 of the size.
-  void add(std::unique_ptr<const ContourEquations<N>> equations, const std::array<bool, N>& left_to_neighbour = {},
-           double least = kInfinity);
-  // A singular solution that no search finds: curves end there, but where none does it is no point of contact.
+  // Searches a piece.
+  void add(std::unique_ptr<const ContourEquations<N>> equations, const PieceSearch<N>& search = {});
+  // A singular solution that no search finds: a curve that goes on nowhere else ends there; where none does it is no
+  // point of contact.
   void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place);
   Contours joined();
 
@@ -48,6 +58,7 @@ class ContourAssembly {
     Vec3 point{0};
     double distance = 0;
     int group = -1;
+    bool is_added = false;  // by add_end()
   };
 
   struct SingularPoint : ContourPoint {
@@ -61,6 +72,7 @@ class ContourAssembly {
   void find_singular_points();
   void collect_ends();
   void attach_singular(End& end);
+  void attach_rest();
   void pair_ends();
   void pair(std::vector<int> group, bool all);
   int end_index(int part, bool at_end) const { return 2 * part + (at_end ? 1 : 0); }

@@ -21,14 +21,15 @@ namespace {
 constexpr double kCut = 0.4871;
 constexpr double kOwnChange = 0.25;
 // Parts of the surface's size.
-constexpr double kLeastCell = 2e-5;
+constexpr double kLeastCell = 3e-4;
+constexpr double kRounding = 1e-15;
 constexpr double kNearPole = 1e-5, kNearPinch = 1e-4;
 constexpr double kJoined = 1e-10;
-// Near a pinch point the image of a cell is as narrow in one direction as the square of its length.
+// Of the square of a cell's part of the size.
 constexpr double kLeastOfSquare = 1e-3;
 // Of the domain's sides: cells that are nearer touch; places that are nearer are one at a pinch point.
 constexpr double kTouch = 1e-12;
-constexpr double kSamePlace = 1e-4;
+constexpr double kSamePlace = 1e-4, kNearPlace = 5e-3;
 // Pairs of one size that touch and are not known to be one-to-one; more for each piece.
 constexpr int kMostPairs = 4000, kPairsOfPiece = 40;
 
@@ -121,13 +122,23 @@ class SelfIntersection {
       if (joints_.is_one_to_one({hull(a.box.u, moved.u), hull(a.box.v, moved.v)}, known_)) return;
     }
     if (!touching)
-      assembly_.add(equations(a.box, b.box),
-                    {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box), is_continued_v(b.box)},
-                    kLeastOfSquare * std::pow(std::min(a.extent, b.extent), 2) / size_);
+      search(a, b);
     else if (std::max(a.extent, b.extent) <= kLeastCell * size_)
       add_pinch(a, b);
     else
       undecided.push_back(pair);
+  }
+
+  void search(const Cell& a, const Cell& b) {
+    // Near a pinch point, where the image of a cell is as narrow in one direction as the square of its length, and the
+    // sheets stand at an angle like its length.
+    const double part = std::min(a.extent, b.extent) / size_;
+    PieceSearch<4> search;
+    search.left_to_neighbour = {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box),
+                                is_continued_v(b.box)};
+    search.least = kLeastOfSquare * part * part * size_;
+    search.rounding_of_places = std::max(search.rounding_of_places, kRounding / (part * part * part));
+    assembly_.add(equations(a.box, b.box), search);
   }
 
   void divide(const CellPair& pair, std::vector<CellPair>& undecided) {
@@ -170,11 +181,17 @@ class SelfIntersection {
     return {hull(box.u, Interval(place.x)), hull(box.v, Interval(place.y))};
   }
 
+  bool are_near_places(const Vec2& a, const Vec2& b) const {
+    return std::abs(a.x - b.x) <= kNearPlace * domain_.u.width() &&
+           std::abs(a.y - b.y) <= kNearPlace * domain_.v.width();
+  }
+
   // Curves may end here, where r_u x r_v = 0 (Whitney 1944): by Gauss's and Newton's iteration.
   void add_pinch(const Cell& a, const Cell& b) {
     const Vec2 start{a.box.u.middle(), a.box.v.middle()};
     Vec2 x = start;
-    for (int step = 0; step < 20; ++step) {
+    bool converged = false;
+    for (int step = 0; step < 20 && !converged; ++step) {
       const SurfaceJet s = evaluate_within(*surface_, domain_, x.x, x.y, 2);
       const Vec3 f = glm::cross(s.du(), s.dv());
       const Vec3 f_u = glm::cross(s.duu(), s.dv()) + glm::cross(s.du(), s.duv());
@@ -184,15 +201,13 @@ class SelfIntersection {
       Vec2 by{0};
       for (int k = 0; k < 3; ++k) by -= f[k] * Vec2(inverse[0][k], inverse[1][k]);
       x += by;
-      if (!std::isfinite(x.x) || !std::isfinite(x.y)) break;
+      if (!domain_.contains(x.x, x.y) || !are_near_places(x, start)) break;
+      converged = std::abs(by.x) <= 1e-14 * domain_.u.width() && std::abs(by.y) <= 1e-14 * domain_.v.width();
     }
-    const bool stays = std::abs(x.x - start.x) <= kSamePlace * domain_.u.width() &&
-                       std::abs(x.y - start.y) <= kSamePlace * domain_.v.width() && domain_.contains(x.x, x.y);
-    if (!stays) x = start;
+    if (!converged) x = start;
     // Across a joined border the second place is that of its cell.
     Vec2 y{b.box.u.clamp(x.x), b.box.v.clamp(x.y)};
-    if (std::abs(y.x - x.x) <= kSamePlace * domain_.u.width() && std::abs(y.y - x.y) <= kSamePlace * domain_.v.width())
-      y = x;
+    if (are_near_places(x, y)) y = x;
     const ParameterPlace<4> place{x.x, x.y, y.x, y.y};
     assembly_.add_end(equations(with(a.box, x), with(b.box, y)), place);
     pinches_.push_back({surface_->point(x.x, x.y), place});
