@@ -210,8 +210,12 @@ class ThreeSheets {
     one.contact = !(std::abs(glm::dot(normals[0], glm::cross(normals[1], normals[2]))) > kParallel);
     // Curves that coincide nearly, and neighbouring faces, find the same point.
     if (!(one.distance <= 2 * tolerance_) || !holds(of, places)) return;
-    for (const CommonPoint& other : result_.points)
-      if (glm::length(other.point - p) <= 4 * tolerance_) return;
+    for (CommonPoint& other : result_.points) {
+      const bool touch = one.contact && other.contact;
+      if (glm::length(other.point - p) > (touch ? std::sqrt(relative_) * size_ : 4 * tolerance_)) continue;
+      if (one.distance < other.distance) other = one;
+      return;
+    }
     result_.points.push_back(one);
   }
 

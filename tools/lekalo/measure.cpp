@@ -144,11 +144,6 @@ int run(const Options& options) {
         "--continuity");
   if (options.intersect.size() > 2)
     throw UsageError("--intersect stands once, or twice for the common points of three surfaces");
-  if (std::find(options.intersect.begin(), options.intersect.end(), options.name) != options.intersect.end())
-    throw UsageError(
-        fmt::format("'{}' meets itself everywhere: --self-intersection finds where it does so at different "
-                    "parameters",
-                    options.name));
   if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
