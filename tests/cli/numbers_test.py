@@ -168,9 +168,9 @@ class Numbers(ProgramTest):
         scene = """
 lekalo: 1
 geometry:
-  eight: { type: formula_curve, point: [sin(t), sin(2*t), 0], domain: { t: [0, 2*pi] }, closed: true }
-  cubic: { type: formula_curve, point: [t^2, t^3, 0], domain: { t: [-1, 2] } }
-  twice: { type: formula_curve, point: [cos(t), sin(t), 0], domain: { t: [0, 4*pi] } }
+  eight: { type: formula_curve, point: [sin(t), sin(2*t), 0], domain: [0, 2*pi], closed: true }
+  cubic: { type: formula_curve, point: [t^2, t^3, 0], domain: [-1, 2] }
+  twice: { type: formula_curve, point: [cos(t), sin(t), 0], domain: [0, 4*pi] }
   umbrella: { type: formula_surface, point: [u*v, u, v^2], domain: { u: [-1.2, 1.2], v: [-1.2, 1.2] } }
   ball: { type: sphere_surface, radius: 2 }
   block: { type: box, size: [2, 2, 2] }
