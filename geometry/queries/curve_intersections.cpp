@@ -201,12 +201,11 @@ class CurveAndSurface {
 
   SurfaceMeetings run() {
     const std::vector<CurvePiece> pieces = curve_.pieces();
-    find_parts_on_surface(pieces);
-    for (const Rectangle& patch : patches_) {
-      const Box3 box = surface_.enclose(patch, 0).d(0, 0);
-      for (const CurvePiece& piece : pieces)
-        for (const Interval& part : without(piece.domain, result_.on_surface))
-          if (are_near(curve_.enclose(part, 0).d[0], box, tolerance_)) search({curve_, surface_, part, patch});
+    // Along a common part no solution is isolated: such parts, which take long to find, are looked for only then.
+    if (!search_all(pieces, true)) {
+      result_ = {};
+      find_parts_on_surface(pieces);
+      search_all(pieces, false);
     }
     std::sort(result_.points.begin(), result_.points.end(),
               [](const SurfaceMeeting& a, const SurfaceMeeting& b) { return a.t < b.t; });
@@ -278,13 +277,40 @@ class CurveAndSurface {
     result_.on_surface = common_parts(places, least_ * curve_.domain().width(), lies_on);
   }
 
-  void search(const PierceSystem& system) {
+  // False where all solutions are to be isolated and are not.
+  bool search_all(const std::vector<CurvePiece>& pieces, bool isolated) {
+    for (const Rectangle& patch : patches_) {
+      const Box3 box = surface_.enclose(patch, 0).d(0, 0);
+      for (const CurvePiece& piece : pieces)
+        for (const Interval& part : without(piece.domain, result_.on_surface))
+          if (are_near(curve_.enclose(part, 0).d[0], box, tolerance_) &&
+              !search({curve_, surface_, part, patch}, isolated))
+            return false;
+    }
+    return true;
+  }
+
+  // Whether curve and surface are within the tolerance somewhere in a box so small that both are straight.
+  bool comes_near(const PierceSystem& system, const ParameterBox<3>& box) const {
+    const SystemValue<double, 3, 3> there = system.evaluate({box[0].middle(), box[1].middle(), box[2].middle()});
+    double apart = 0, reach = 0;
+    for (int k = 0; k < 3; ++k) {
+      apart = std::max(apart, std::abs(there.value[k]));
+      for (int i = 0; i < 3; ++i) reach += std::abs(there.derivative[k][i]) * box[i].width();
+    }
+    return apart <= tolerance_ + reach;
+  }
+
+  bool search(const PierceSystem& system, bool isolated) {
     RootSearchOptions<3, 3> options;
     options.least = {least_ * curve_.domain().width(), least_ * width_u(), least_ * width_v()};
     options.slack = {slack_of(curve_, system.piece, tolerance_), kBorderSlack * width_u(), kBorderSlack * width_v()};
     options.tolerance = {tolerance_, tolerance_, tolerance_};
     const auto found =
         search_roots<3, 3>(system, ParameterBox<3>{system.piece, system.patch.u, system.patch.v}, options);
+    if (isolated && std::any_of(found.open.begin(), found.open.end(),
+                                [&](const ParameterBox<3>& box) { return comes_near(system, box); }))
+      return false;
     for (const auto& at : found.isolated) add(at, false);
     for (const auto& box : found.open) {
       ParameterPlace<3> middle, reach;
@@ -295,6 +321,7 @@ class CurveAndSurface {
       if (!add(within(system.contact_near(middle, reach)), true))
         add(within(refined<3, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); })), true);
     }
+    return true;
   }
 
   // False if the curve is farther from the surface there than the tolerance.

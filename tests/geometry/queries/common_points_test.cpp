@@ -77,7 +77,7 @@ TEST(CommonPoints, CommonCurves) {
 TEST(CommonPoints, RandomSpheres) {
   std::mt19937 random(81);
   std::uniform_real_distribution<double> d(-1, 1);
-  const int cases = tests::tier_count(300, 10);
+  const int cases = tests::tier_count(50, 10);
   int points = 0;
   for (int k = 0; k < cases; ++k) {
     std::array<Vec3, 3> c;
