@@ -1,25 +1,26 @@
 // The list of curve types that scene files can name: one line each; the declaration stands in the type's own file.
 #include "geometry/describe.h"
 
-#define LEKALO_CURVE_TYPES(X) \
-  X(segment_type)             \
-  X(polyline_type)            \
-  X(circle_type)              \
-  X(ellipse_type)             \
-  X(arc_through_points_type)  \
-  X(bezier_curve_type)        \
-  X(nurbs_curve_type)         \
-  X(formula_curve_type)       \
-  X(intersection_curve_type)  \
-  X(section_curve_type)       \
-  X(silhouette_curve_type)    \
-  X(isophote_curve_type)      \
-  X(reflection_line_type)     \
-  X(parameter_line_type)      \
-  X(surface_curve_type)       \
-  X(projected_curve_type)     \
-  X(geodesic_curve_type)      \
-  X(curvature_line_type)      \
+#define LEKALO_CURVE_TYPES(X)     \
+  X(segment_type)                 \
+  X(polyline_type)                \
+  X(circle_type)                  \
+  X(ellipse_type)                 \
+  X(arc_through_points_type)      \
+  X(bezier_curve_type)            \
+  X(nurbs_curve_type)             \
+  X(formula_curve_type)           \
+  X(intersection_curve_type)      \
+  X(self_intersection_curve_type) \
+  X(section_curve_type)           \
+  X(silhouette_curve_type)        \
+  X(isophote_curve_type)          \
+  X(reflection_line_type)         \
+  X(parameter_line_type)          \
+  X(surface_curve_type)           \
+  X(projected_curve_type)         \
+  X(geodesic_curve_type)          \
+  X(curvature_line_type)          \
   X(asymptotic_line_type)
 
 namespace lekalo::geometry {

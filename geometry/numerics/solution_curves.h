@@ -58,6 +58,8 @@ struct SolutionCurveOptions {
   std::array<double, M> tolerance{};
   // Boxes inside of these are left out: what they contain is known.
   std::vector<ParameterBox<N>> settled;
+  // Of the domain's sides: Newton's steps that no longer get shorter are rounding below it.
+  double rounding_of_places = 1e-12;
   // Direction of the curve in space and in the parameters (of the domain's sides) changes by no more in one step;
   // radians.
   double most_turn = 0.3;
@@ -443,7 +445,7 @@ class Search {
       if (step > 4 && step < kNewtonSteps && length < kNearlySettled) break;
     }
     there = system_.evaluate(x);
-    return !leads_out && length <= kNearlySettled;
+    return !leads_out && length <= std::max(kNearlySettled, options_.rounding_of_places);
   }
 
   bool is_known(const Box& box) const {
@@ -639,7 +641,7 @@ class Search {
         length = std::max(length, std::abs(by) / scale_[unknown]);
         if (!(std::abs(x[unknown] - start[unknown]) <= 0.7 * step * scale_[unknown])) return false;
       }
-      if (length <= kSettled || (length < kRounding && length >= 0.5 * before)) return true;
+      if (length <= kSettled || (length < options_.rounding_of_places && length >= 0.5 * before)) return true;
       before = length;
     }
     return false;
@@ -685,7 +687,7 @@ class Search {
   }
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr double kSettled = 4e-16, kRounding = 1e-12, kNearlySettled = 1e-9;
+  static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
   static constexpr double kLeastSlice = 1e-12;
   static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000,

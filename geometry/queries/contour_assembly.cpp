@@ -20,17 +20,19 @@ constexpr double kSmooth = -0.9999;
 
 }  // namespace
 
+template <int N>
+bool ContourAssembly<N>::runs_along(const Part& part, int parameter, double border) const {
+  const double near = 1e-10 * part.equations->domain()[parameter].width();
+  return std::all_of(part.arc.nodes.begin(), part.arc.nodes.end(),
+                     [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; });
+}
+
 // An arc along the border of a piece is found by the neighbour too.
 template <int N>
 bool ContourAssembly<N>::runs_along_border(const Part& part) const {
   const ParameterBox<N> domain = part.equations->domain();
   for (int i = 0; i < N; ++i)
-    for (const double border : {domain[i].lo, domain[i].hi}) {
-      bool along = true;
-      for (const ParameterPlace<N>& x : part.arc.nodes)
-        along = along && std::abs(x[i] - border) <= 1e-10 * domain[i].width();
-      if (along) return true;
-    }
+    if (runs_along(part, i, domain[i].lo) || runs_along(part, i, domain[i].hi)) return true;
   return false;
 }
 
@@ -94,7 +96,7 @@ template <int N>
 void ContourAssembly<N>::find_singular_points() {
   for (const auto& [equations, box] : open_) {
     const ParameterPlace<N> place = singular_solution<N>(*equations, box, kNearSingular * kLeastContourImage * size_);
-    places_.push_back({equations, place, equations->point(place), equations->distance(place), -1});
+    places_.push_back({equations, place, equations->point(place), equations->distance(place), -1, false});
   }
   for (SingularPlace& place : places_) {
     for (size_t k = 0; k < points_.size() && place.group < 0; ++k)
@@ -157,7 +159,21 @@ void ContourAssembly<N>::attach_singular(End& end) {
   double nearest = (end.singular ? kNearSingular : 1.0) * kLeastContourImage * size_;
   for (const SingularPlace& place : places_) {
     const double apart = glm::length(place.point - end.point);
-    if (apart <= nearest) nearest = apart, end.singular_point = place.group;
+    if (!place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
+  }
+}
+
+// What goes on nowhere ends at the added place near it.
+template <int N>
+void ContourAssembly<N>::attach_rest() {
+  for (End& end : ends_) {
+    if (end.singular_point != kRegular || end.mate_part >= 0 || parts_[end.part].arc.closed) continue;
+    double nearest = kNearSingular * kLeastContourImage * size_;
+    for (const SingularPlace& place : places_) {
+      const double apart = glm::length(place.point - end.point);
+      if (place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
+    }
+    if (end.singular_point >= 0) points_[end.singular_point].kind = ContourPointKind::end;
   }
 }
 
@@ -309,6 +325,7 @@ Contours ContourAssembly<N>::joined() {
   find_singular_points();
   collect_ends();
   pair_ends();
+  attach_rest();
   Contours result;
   result.complete = complete_;
   result.coincident = coincident_;

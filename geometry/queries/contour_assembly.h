@@ -12,6 +12,17 @@ namespace lekalo::geometry {
 // Boxes with smaller images are not divided; a part of the surfaces' size.
 inline constexpr double kLeastContourImage = 1e-6;
 
+// What a search of a piece is told beside its equations.
+template <int N>
+struct PieceSearch {
+  // What runs along the upper border of these parameters is another piece's.
+  std::array<bool, N> left_to_neighbour{};
+  // Boxes with smaller images are not divided, a length; no more than 1e-6 of the size.
+  double least = kInfinity;
+  // How well places are known, of the piece's sides.
+  double rounding_of_places = 1e-12;
+};
+
 // The search, with what is special where surfaces touch or coincide, is in contour_search.cpp; the joining in
 // contour_assembly.cpp.
 template <int N>
@@ -22,7 +33,10 @@ class ContourAssembly {
       : size_(size), tolerance_(tolerance), periods_(periods) {}
 
   // Searches a piece.
-  void add(std::unique_ptr<const ContourEquations<N>> equations);
+  void add(std::unique_ptr<const ContourEquations<N>> equations, const PieceSearch<N>& search = {});
+  // A singular solution that no search finds: a curve that goes on nowhere else ends there; where none does it is no
+  // point of contact.
+  void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place);
   Contours joined();
 
  private:
@@ -52,6 +66,7 @@ class ContourAssembly {
     Vec3 point{0};
     double distance = 0;
     int group = -1;
+    bool is_added = false;  // by add_end()
   };
 
   struct SingularPoint : ContourPoint {
@@ -71,10 +86,12 @@ class ContourAssembly {
   static bool lies_on(const Part& part, size_t node, const Part& other);
   bool is_same(const Part& part, const Part& known) const;
   void drop_doubles();
+  bool runs_along(const Part& part, int parameter, double border) const;
   bool runs_along_border(const Part& part) const;
   void find_singular_points();
   void collect_ends();
   void attach_singular(End& end);
+  void attach_rest();
   void pair_ends();
   void pair(std::vector<int> group, bool all);
   int end_index(int part, bool at_end) const { return 2 * part + (at_end ? 1 : 0); }

@@ -160,6 +160,14 @@ typename ContourSolution<N>::Series ContourSolution<N>::at(double t, int order) 
       }
     }
     result.point = segment.equations->series(result.x).point;
+    // Next to a singular solution it runs along its chord: the parameters' rates say little there.
+    if (!segment.is_certified()) {
+      const Vec3 chord = (segment.to - segment.from) / segment.t.width();
+      for (int m = 1; m <= order; ++m) {
+        const Vec3 d = m == 1 ? chord : Vec3(0);
+        result.point.x.c[m] = d.x, result.point.y.c[m] = d.y, result.point.z.c[m] = d.z;
+      }
+    }
   }
   for (int i = 0; i < N; ++i) result.x[i].c[0] += segment.shift[i];
   return result;

@@ -344,7 +344,8 @@ class MeetingEquations final : public ContourEquations<4> {
   }
   int highest_order() const override { return kMaxContourOrder; }
   std::unique_ptr<TouchingEquations<4>> touching(std::shared_ptr<const ContourEquations<4>> self) const override {
-    return surfaces_touching(std::move(self), r_, piece_r_, s_, piece_s_);
+    // A surface coincides with itself everywhere.
+    return r_ == s_ ? nullptr : surfaces_touching(std::move(self), r_, piece_r_, s_, piece_s_);
   }
 
  protected:

@@ -52,11 +52,12 @@ ParameterPlace<N> middle_of(const ParameterPlace<N>& a, const ParameterPlace<N>&
 }  // namespace
 
 template <int N>
-void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
+void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, const PieceSearch<N>& search) {
   const EquationsPtr equations = std::move(given);
   const ParameterBox<N> domain = equations->domain();
   SolutionCurveOptions<N> options;
-  options.least = kLeastContourImage * size_;
+  options.least = std::min(kLeastContourImage * size_, search.least);
+  options.rounding_of_places = search.rounding_of_places;
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
   const int most_boxes = options.most_boxes;
@@ -75,9 +76,20 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given) {
     found = search_solution_curves<N, N - 1>(searched, domain, options);
   }
   complete_ = complete_ && found.complete;
-  for (SolutionArc<N>& arc : found.arcs) add_part({equations, std::move(arc), ContourKind::crossing, {}, 0});
+  for (SolutionArc<N>& arc : found.arcs) {
+    Part part{equations, std::move(arc), ContourKind::crossing, {}, 0};
+    bool left = false;
+    for (int i = 0; i < N; ++i) left = left || (search.left_to_neighbour[i] && runs_along(part, i, domain[i].hi));
+    if (!left) add_part(std::move(part));
+  }
   if (found.complete)
     for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
+}
+
+template <int N>
+void ContourAssembly<N>::add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place) {
+  const Vec3 point = equations->point(place);
+  places_.push_back({std::move(equations), place, point, next_up(tolerance_), -1, true});
 }
 
 template <int N>

@@ -4,6 +4,7 @@
 #include "geometry/describe.h"
 #include "geometry/queries/contours.h"
 #include "geometry/queries/projection.h"
+#include "geometry/queries/self_intersections.h"
 
 namespace lekalo::geometry {
 
@@ -90,6 +91,16 @@ TypeDeclaration intersection_curve_type() {
     const auto& of = f.references("of");
     const auto a = std::any_cast<SurfacePtr>(of[0]), b = std::any_cast<SurfacePtr>(of[1]);
     return std::any(chosen(asked([&] { return intersect(a, b); }), f, "the surfaces do not meet"));
+  });
+}
+
+TypeDeclaration self_intersection_curve_type() {
+  TypeDeclaration type = declare(Category::curve, "self_intersection_curve", "Where a surface meets itself.");
+  type.field("of", reference({Category::surface}), "the surface")
+      .example("of: { type: formula_surface, point: [u*v, u, v^2], domain: { u: [-1, 1], v: [-1, 1] } }");
+  return choose_branch(type).built_by([](const Fields& f) {
+    const auto found = asked([&] { return self_intersection(f.surface("of")); });
+    return std::any(chosen(found, f, "the surface does not meet itself"));
   });
 }
 

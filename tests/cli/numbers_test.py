@@ -3,7 +3,7 @@
 import math
 import unittest
 
-from program import DIFFERS, ProgramTest, USAGE
+from program import DIFFERS, ProgramTest, SCENE_ERROR, USAGE
 
 SCENE = """
 lekalo: 1
@@ -163,6 +163,59 @@ class Numbers(ProgramTest):
         self.assert_near(found["common"][0]["t"], [0, 2 * math.pi], 1e-12)
         text = self.run_program("measure", "scene.yaml", "rim", "--intersect", "tangent")[0]
         self.assertIn("contact", text)
+
+    def test_self_intersections(self):
+        scene = """
+lekalo: 1
+geometry:
+  eight: { type: formula_curve, point: [sin(t), sin(2*t), 0], domain: [0, 2*pi], closed: true }
+  cubic: { type: formula_curve, point: [t^2, t^3, 0], domain: [-1, 2] }
+  twice: { type: formula_curve, point: [cos(t), sin(t), 0], domain: [0, 4*pi] }
+  umbrella: { type: formula_surface, point: [u*v, u, v^2], domain: { u: [-1.2, 1.2], v: [-1.2, 1.2] } }
+  ball: { type: sphere_surface, radius: 2 }
+  block: { type: box, size: [2, 2, 2] }
+  double: { type: self_intersection_curve, of: umbrella }
+"""
+        self.write("self.yaml", scene)
+        self.assert_near(self.json_of("measure", "self.yaml", "double")["length"], 1.44, 1e-12)
+        self.write("none.yaml", scene + "  none: { type: self_intersection_curve, of: ball }\n")
+        self.assertIn("the surface does not meet itself", self.run_program("measure", "none.yaml", "ball", code=SCENE_ERROR)[1])
+
+        def found(name):
+            return self.json_of("measure", "self.yaml", name, "--self-intersection")
+
+        self.assertEqual([one["kind"] for one in found("eight")["points"]], ["crossing"])
+        self.assert_near(found("eight")["points"][0]["t_other"], math.pi, 1e-14)
+        self.assertEqual([one["kind"] for one in found("cubic")["points"]], ["cusp"])
+        self.assert_near(found("twice")["common"][0]["t_other"], [2 * math.pi, 4 * math.pi], 1e-12)
+        umbrella = found("umbrella")
+        self.assert_near(umbrella["branches"][0]["length"], 1.44, 1e-12)
+        self.assertEqual([one["kind"] for one in umbrella["points"]], ["end"])
+        self.assertEqual(found("ball")["branches"], [])
+        self.assertIn("'umbrella' with itself: 1 branch", self.run_program("measure", "self.yaml", "umbrella", "--self-intersection")[0])
+        self.assertIn("cusp", self.run_program("measure", "self.yaml", "cubic", "--self-intersection")[0])
+
+    def test_common_points(self):
+        self.write("three.yaml", """
+lekalo: 1
+geometry:
+  a: { type: sphere_surface, center: [1, 0, 0], radius: 2 }
+  b: { type: sphere_surface, center: [-1, 0, 0], radius: 2 }
+  level: { type: plane, origin: [0, 0, 1] }
+  slab: { type: box, corner: [-4, -4, 1], size: [8, 8, 4] }
+  rim: { type: circle, radius: 2 }
+""")
+        for third in "level", "slab":
+            found = self.json_of("measure", "three.yaml", "a", "--intersect", "b", "--intersect", third)
+            self.assertTrue(found["complete"])
+            self.assert_near(sorted([one["point"] for one in found["points"]], key=lambda p: p[1]),
+                             [[0, -math.sqrt(2), 1], [0, math.sqrt(2), 1]], 1e-14)
+        text = self.run_program("measure", "three.yaml", "level", "--intersect", "b", "--intersect", "a")[0]
+        self.assertIn("'level', 'b' and 'a': 2 common points", text)
+        for words, message in ((("rim", "--intersect", "a", "--intersect", "b"), "'rim' is neither a surface nor a body"),
+                               (("a", "--intersect", "b", "--intersect", "level", "--intersect", "slab"), "--intersect stands once, or twice")):
+            self.assertIn(message, self.run_program("measure", "three.yaml", *words, code=USAGE)[1])
+        self.assertIn("'block' is a body", self.run_program("measure", "scene.yaml", "block", "--self-intersection", code=USAGE)[1])
 
     def test_position(self):
         for words, where, distance in ((("shell", "0,0,3"), "above", 2), (("shell", "0,0,0.5"), "below", 0.5),

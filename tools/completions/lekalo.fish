@@ -48,6 +48,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from measure' -l nearest -d 'of --
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l position -x -d 'where a point lies: name, x,y,z or u,v'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l continuity -x -d 'how smoothly it joins a curve or surface'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l intersect -x -d 'a curve, surface or body'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l self-intersection -d 'where it meets itself'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l section -x -d 'a point of a plane and its normal'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l silhouette -x -d 'camera, a direction or eye:X,Y,Z'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l against -r -d 'table of samples, or a name'

@@ -89,11 +89,12 @@ constexpr double kSmooth = 1e-6;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, intersect, section, silhouette, position;
+  std::string name, against, to, section, silhouette, position;
+  std::vector<std::string> intersect;     // one, or two: common points of three
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, nearest = false, json = false;
+  bool topology = false, self_intersection = false, nearest = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -136,22 +137,28 @@ std::vector<double> place_named(const render::LoadedScene& scene, const std::str
 }
 
 int run(const Options& options) {
-  if (options.tolerance && options.against.empty() && options.intersect.empty() && !options.continuity)
-    throw UsageError("--tolerance belongs to --against SAMPLES.csv, --against NAME, --intersect NAME or --continuity");
+  if (options.tolerance && options.against.empty() && options.intersect.empty() && !options.self_intersection &&
+      !options.continuity)
+    throw UsageError(
+        "--tolerance belongs to --against SAMPLES.csv, --against NAME, --intersect NAME, --self-intersection or "
+        "--continuity");
+  if (options.intersect.size() > 2)
+    throw UsageError("--intersect stands once, or twice for the common points of three surfaces");
   if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
   const render::Entity& entity = find_geometry(scene, options.name);
   print_external_notes(scene, !options.json);
   const bool of_pair = !options.against.empty() && is_in_scene(scene, options.against);
   const bool of_contours =
-      has_faces(entity) && (!options.section.empty() || !options.silhouette.empty() ||
-                            (!options.intersect.empty() && has_faces(find_geometry(scene, options.intersect))));
+      has_faces(entity) && (!options.section.empty() || !options.silhouette.empty() || options.self_intersection ||
+                            (options.intersect.size() == 1 && has_faces(find_geometry(scene, options.intersect[0]))));
   if (options.order && !of_pair)
     throw UsageError("--order belongs to --against NAME, another curve or surface of the scene");
   if (options.samples && !of_pair && !of_contours)
     throw UsageError(
         "--samples belongs to --against NAME, another curve or surface of the scene, and to intersections, sections "
         "and silhouettes of surfaces");
+  const double same_point = options.tolerance.value_or(geometry::kSamePoint);
   ordered_json out;
   void (*print)(const ordered_json&) = print_measures;
   if (of_pair) {
@@ -178,16 +185,29 @@ int run(const Options& options) {
       out = section(options.name, entity, options.section, samples);
     else if (!options.silhouette.empty())
       out = silhouette_seen(options.name, entity, options.silhouette, scene.model->camera.get(), samples);
+    else if (options.self_intersection)
+      out = surface_self_meetings(options.name, entity, same_point, samples);
     else
-      out = surface_meetings(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
-                             options.tolerance.value_or(geometry::kSamePoint), samples);
+      out = surface_meetings(options.name, entity, options.intersect[0], find_geometry(scene, options.intersect[0]),
+                             same_point, samples);
     print = print_contours;
   } else if (!options.section.empty() || !options.silhouette.empty()) {
     throw UsageError(
         fmt::format("'{}' is neither a surface nor a body: sections and silhouettes are taken of those", options.name));
+  } else if (options.self_intersection) {
+    const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
+    if (!curve) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
+    out = self_meetings(options.name, *curve, same_point);
+    print = print_self_meetings;
+  } else if (options.intersect.size() == 2) {
+    out = common_points_of(
+        {options.name, options.intersect[0], options.intersect[1]},
+        {&entity, &find_geometry(scene, options.intersect[0]), &find_geometry(scene, options.intersect[1])},
+        same_point);
+    print = print_common_points;
   } else if (!options.intersect.empty()) {
-    out = intersections(options.name, entity, options.intersect, find_geometry(scene, options.intersect),
-                        options.tolerance.value_or(geometry::kSamePoint));
+    out = intersections(options.name, entity, options.intersect[0], find_geometry(scene, options.intersect[0]),
+                        same_point);
     print = print_intersections;
   } else if (options.topology) {
     out = topology(options.name, entity);
@@ -274,6 +294,8 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
       "  lekalo measure curves.yaml chord --to dome\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
+      "  lekalo measure bottle.yaml bottle --self-intersection\n"
+      "  lekalo measure room.yaml floor --intersect wall --intersect roof\n"
       "  lekalo measure ring.yaml ring --section 0,0,0.2,0,0,1 --samples 100 --json\n"
       "  lekalo measure ring.yaml ring --silhouette camera\n"
       "  lekalo measure curves.yaml dome --position 0,0,3\n"
@@ -295,16 +317,25 @@ void add_measure(CLI::App& app, Action& action) {
   sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
-                      "where the curve, surface or body meets another: crossings, contacts, common parts, curves")
+                      "where the curve, surface or body meets another: crossings, contacts, common parts, curves; "
+                      "given twice, the common points of three surfaces or bodies")
           ->type_name("NAME")
+          ->allow_extra_args(false)
           ->excludes(topology)
           ->excludes(to);
+  auto* self_intersection =
+      sub->add_flag("--self-intersection", options->self_intersection,
+                    "where the curve or surface meets itself: crossings, contacts, cusps, parts run twice, curves")
+          ->excludes(topology)
+          ->excludes(to)
+          ->excludes(intersect);
   auto* section = sub->add_option("--section", options->section,
                                   "where a plane cuts the surface or body: a point of the plane and its normal")
                       ->type_name("X,Y,Z,NX,NY,NZ")
                       ->excludes(topology)
                       ->excludes(to)
-                      ->excludes(intersect);
+                      ->excludes(intersect)
+                      ->excludes(self_intersection);
   auto* silhouette =
       sub->add_option(
              "--silhouette", options->silhouette,
@@ -313,6 +344,7 @@ void add_measure(CLI::App& app, Action& action) {
           ->excludes(topology)
           ->excludes(to)
           ->excludes(intersect)
+          ->excludes(self_intersection)
           ->excludes(section);
   auto* position = sub->add_option("--position", options->position,
                                    "where a point lies: above or below a surface, inside or outside of a body; or U,V "
@@ -321,6 +353,7 @@ void add_measure(CLI::App& app, Action& action) {
                        ->excludes(topology)
                        ->excludes(to)
                        ->excludes(intersect)
+                       ->excludes(self_intersection)
                        ->excludes(section)
                        ->excludes(silhouette);
   auto* continuity =
@@ -331,6 +364,7 @@ void add_measure(CLI::App& app, Action& action) {
           ->excludes(topology)
           ->excludes(to)
           ->excludes(intersect)
+          ->excludes(self_intersection)
           ->excludes(section)
           ->excludes(silhouette)
           ->excludes(position);
@@ -341,12 +375,14 @@ void add_measure(CLI::App& app, Action& action) {
       ->excludes(topology)
       ->excludes(to)
       ->excludes(intersect)
+      ->excludes(self_intersection)
       ->excludes(section)
       ->excludes(silhouette)
       ->excludes(position)
       ->excludes(continuity);
   sub->add_option("--tolerance", options->tolerance,
-                  fmt::format("largest difference that passes; of --intersect the part of the size below which points "
+                  fmt::format("largest difference that passes; of --intersect and --self-intersection the part of the "
+                              "size below which points "
                               "are one [{:g}]; of --continuity the relative jump that passes [{:g}]",
                               geometry::kSamePoint, kSmooth))
       ->type_name("X")

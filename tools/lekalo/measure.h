@@ -1,6 +1,7 @@
 // The parts of `lekalo measure`.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -44,10 +45,22 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
                            const render::Entity& other, double tolerance);
 void print_intersections(const ordered_json& found);
 
+// Where a curve meets itself. Throws UsageError for anything else.
+ordered_json self_meetings(const std::string& name, const geometry::CurvePtr& curve, double tolerance);
+void print_self_meetings(const ordered_json& found);
+
+// All common points of three surfaces or bodies. Throws UsageError for anything else.
+ordered_json common_points_of(const std::array<std::string, 3>& names,
+                              const std::array<const render::Entity*, 3>& entities, double tolerance);
+void print_common_points(const ordered_json& found);
+
 // Where two surfaces or bodies meet, with `samples` points along each branch (0 or at least 2). Throws UsageError for
 // anything else.
 ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
                               const render::Entity& other, double tolerance, int samples);
+// The curves along which a surface meets itself. Throws UsageError for anything but a surface.
+ordered_json surface_self_meetings(const std::string& name, const render::Entity& entity, double tolerance,
+                                   int samples);
 // Where the plane "X,Y,Z,NX,NY,NZ" cuts a surface or body.
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples);
 // The silhouette of a surface or body: `view` is "camera", a direction of sight "DX,DY,DZ", or "eye:X,Y,Z".

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/queries/self_intersections.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -170,6 +171,14 @@ ordered_json surface_meetings(const std::string& name, const render::Entity& ent
   });
 }
 
+ordered_json surface_self_meetings(const std::string& name, const render::Entity& entity, double tolerance,
+                                   int samples) {
+  if (!std::holds_alternative<SurfacePtr>(entity))
+    throw UsageError(fmt::format("'{}' is a body: self-intersections are found of curves and surfaces", name));
+  return asked(name, "with", name,
+               [&] { return rows(self_intersection(surface_of(name, entity), tolerance), samples); });
+}
+
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples) {
   const std::vector<double> p = parse_numbers(plane, 6, "--section");
   const Vec3 origin{p[0], p[1], p[2]}, normal{p[3], p[4], p[5]};
@@ -204,8 +213,9 @@ void print_contours(const ordered_json& found) {
   const size_t branches = found["branches"].size(), points = found["points"].size();
   for (const char* key : {"with", "section", "silhouette"})
     if (found.contains(key))
-      fmt::print("'{}' {} '{}': {} branch{}, {} singular point{}{}{}\n", found["name"].get<std::string>(), key,
-                 found[key].get<std::string>(), branches, branches == 1 ? "" : "es", points, points == 1 ? "" : "s",
+      fmt::print("'{}' {} {}: {} branch{}, {} singular point{}{}{}\n", found["name"].get<std::string>(), key,
+                 found[key] == found["name"] ? "itself" : fmt::format("'{}'", found[key].get<std::string>()), branches,
+                 branches == 1 ? "" : "es", points, points == 1 ? "" : "s",
                  found["coincident"].get<bool>() ? "; they coincide in part" : "",
                  found["complete"].get<bool>() ? "" : "; incomplete: what nearly touches or coincides is left out");
   int number = 0;

@@ -1,10 +1,11 @@
-// Where curves and surfaces meet.
+// Where curves and surfaces meet, a curve itself, and three surfaces in points.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/common_points.h"
+#include "geometry/queries/self_intersections.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -69,6 +70,113 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
   return out;
 }
 
+namespace {
+
+const char* word(geometry::SelfMeetingKind kind) {
+  switch (kind) {
+    case geometry::SelfMeetingKind::crossing:
+      return "crossing";
+    case geometry::SelfMeetingKind::contact:
+      return "contact";
+    case geometry::SelfMeetingKind::cusp:
+      return "cusp";
+  }
+  return "";
+}
+
+void print_common(const ordered_json& part) {
+  fmt::print("  common   t {} to {}", digits(part["t"][0].get<double>()), digits(part["t"][1].get<double>()));
+  if (part.contains("t_other"))
+    fmt::print("  t_other {} to {}", digits(part["t_other"][0].get<double>()),
+               digits(part["t_other"][1].get<double>()));
+  fmt::print("\n");
+}
+
+std::string count_text(size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ordered_json self_meetings(const std::string& name, const CurvePtr& curve, double tolerance) {
+  ordered_json points = ordered_json::array(), common = ordered_json::array();
+  const geometry::CurveSelfMeetings found = geometry::self_intersections(*curve, tolerance);
+  for (const geometry::CurveSelfMeeting& one : found.points)
+    points.push_back({{"kind", word(one.kind)},
+                      {"t", one.s},
+                      {"t_other", one.t},
+                      {"point", to_json(one.point)},
+                      {"distance", one.distance}});
+  for (const geometry::CommonPart& part : found.common)
+    common.push_back({{"t", range(part.s)}, {"t_other", {part.begin, part.end}}});
+  return {{"name", name}, {"with", name}, {"points", points}, {"common", common}};
+}
+
+void print_self_meetings(const ordered_json& found) {
+  const size_t parts = found["common"].size();
+  fmt::print("'{}' with itself: {}{}\n", found["name"].get<std::string>(), count_text(found["points"].size(), "point"),
+             parts == 0 ? "" : ", " + count_text(parts, "part") + " run twice");
+  for (const ordered_json& one : found["points"])
+    fmt::print("  {:<9}{}  point {}\n", one["kind"].get<std::string>(), parameter_text(one),
+               digits(vector_of(one["point"])));
+  for (const ordered_json& part : found["common"]) print_common(part);
+}
+
+ordered_json common_points_of(const std::array<std::string, 3>& names,
+                              const std::array<const render::Entity*, 3>& entities, double tolerance) {
+  std::array<geometry::SurfaceOrBody, 3> of;
+  for (int i = 0; i < 3; ++i) {
+    if (const auto* surface = std::get_if<SurfacePtr>(entities[i]))
+      of[i] = *surface;
+    else if (const auto* body = std::get_if<geometry::BodyPtr>(entities[i]))
+      of[i] = *body;
+    else
+      throw UsageError(
+          fmt::format("'{}' is neither a surface nor a body: common points are found of three of these", names[i]));
+  }
+  ordered_json out{{"names", names}, {"points", ordered_json::array()}, {"curves", ordered_json::array()}};
+  try {
+    const geometry::CommonPoints found = common_points(of, tolerance);
+    for (const geometry::CommonPoint& one : found.points) {
+      ordered_json row{{"point", to_json(one.point)}, {"contact", one.contact}, {"distance", one.distance}};
+      row["places"] = ordered_json::array();
+      for (int i = 0; i < 3; ++i) {
+        ordered_json place{{"u", one.places[i].x}, {"v", one.places[i].y}};
+        if (one.faces[i] >= 0) place["face"] = std::get<geometry::BodyPtr>(of[i])->faces[one.faces[i]].origin.text();
+        row["places"].push_back(place);
+      }
+      out["points"].push_back(row);
+    }
+    for (const geometry::CommonCurve& one : found.curves)
+      out["curves"].push_back(
+          {{"begin", to_json(one.curve->point(one.t.lo))}, {"end", to_json(one.curve->point(one.t.hi))}});
+    out["complete"] = found.complete;
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("'{}', '{}' and '{}': {}", names[0], names[1], names[2], error.what()));
+  }
+  return out;
+}
+
+void print_common_points(const ordered_json& found) {
+  const ordered_json& names = found["names"];
+  const size_t curves = found["curves"].size();
+  fmt::print("'{}', '{}' and '{}': {}{}{}\n", names[0].get<std::string>(), names[1].get<std::string>(),
+             names[2].get<std::string>(), count_text(found["points"].size(), "common point"),
+             curves == 0 ? "" : ", " + count_text(curves, "common curve"),
+             found["complete"].get<bool>() ? "" : "; what coincides or touches along a curve is left out");
+  for (const ordered_json& one : found["points"]) {
+    fmt::print("  {:<9}{}\n", one["contact"].get<bool>() ? "contact" : "crossing", digits(vector_of(one["point"])));
+    for (int i = 0; i < 3; ++i) {
+      const ordered_json& place = one["places"][i];
+      fmt::print("    {}{}  u {:<.17g}  v {:<.17g}\n", names[i].get<std::string>(),
+                 place.contains("face") ? " " + place["face"].get<std::string>() : "", place["u"].get<double>(),
+                 place["v"].get<double>());
+    }
+  }
+  for (const ordered_json& one : found["curves"])
+    fmt::print("  curve    {} to {}\n", digits(vector_of(one["begin"])), digits(vector_of(one["end"])));
+}
+
 void print_intersections(const ordered_json& found) {
   const size_t points = found["points"].size(), parts = found["common"].size();
   fmt::print("'{}' with '{}': {} point{}{}\n", found["name"].get<std::string>(), found["with"].get<std::string>(),
@@ -77,13 +185,7 @@ void print_intersections(const ordered_json& found) {
   for (const ordered_json& one : found["points"])
     fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameter_text(one),
                digits(vector_of(one["point"])));
-  for (const ordered_json& part : found["common"]) {
-    fmt::print("  common   t {} to {}", digits(part["t"][0].get<double>()), digits(part["t"][1].get<double>()));
-    if (part.contains("t_other"))
-      fmt::print("  t_other {} to {}", digits(part["t_other"][0].get<double>()),
-                 digits(part["t_other"][1].get<double>()));
-    fmt::print("\n");
-  }
+  for (const ordered_json& part : found["common"]) print_common(part);
 }
 
 }  // namespace lekalo::command
