@@ -110,7 +110,7 @@ class ThreeSheets {
       const bool is_known = order[2] == 2;
       if (is_known && !of_first_pair) of_first_pair = intersect(first.surface, second.surface, relative_);
       const Contours found = is_known ? *of_first_pair : intersect(first.surface, second.surface, relative_);
-      if (!found.complete) continue;
+      if (!found.complete || found.coincident) continue;
       complete = true;
       pierce(of, order, found);
       break;

@@ -156,6 +156,8 @@ void ContourAssembly<N>::collect_ends() {
 
 template <int N>
 void ContourAssembly<N>::attach_singular(End& end) {
+  // Where surfaces touch the neighbours' boxes stay open beside the curve's ends: these are no ends of it.
+  if (!end.singular && parts_[end.part].kind != ContourKind::crossing) return;
   double nearest = (end.singular ? kNearSingular : 1.0) * kLeastContourImage * size_;
   for (const SingularPlace& place : places_) {
     const double apart = glm::length(place.point - end.point);
@@ -319,6 +321,15 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   return contour;
 }
 
+// A contact at the end of an arc of contact is no isolated one.
+template <int N>
+bool ContourAssembly<N>::lies_on_touching(const Vec3& point) const {
+  return std::any_of(ends_.begin(), ends_.end(), [&](const End& end) {
+    return parts_[end.part].kind != ContourKind::crossing &&
+           glm::length(end.point - point) <= kNearSingular * kLeastContourImage * size_;
+  });
+}
+
 template <int N>
 Contours ContourAssembly<N>::joined() {
   drop_doubles();
@@ -339,8 +350,8 @@ Contours ContourAssembly<N>::joined() {
   for (size_t k = 0; k < points_.size(); ++k) {
     const SingularPoint& point = points_[k];
     const bool contact = point.kind == ContourPointKind::contact;
-    if (!point.passed &&
-        !(contact && (point.distance > tolerance_ || lies_where_surfaces_coincide(static_cast<int>(k)))))
+    if (!point.passed && !(contact && (point.distance > tolerance_ || lies_on_touching(point.point) ||
+                                       lies_where_surfaces_coincide(static_cast<int>(k)))))
       result.points.push_back(point);
   }
   return result;

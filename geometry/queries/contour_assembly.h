@@ -82,6 +82,7 @@ class ContourAssembly {
   std::optional<int> coincident_sides(const TouchingEquations<N>& touching, const SolutionArc<N>& arc) const;
   bool add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
                    std::vector<ParameterBox<N>>& settled);
+  bool lies_on_touching(const Vec3& point) const;
   bool lies_where_surfaces_coincide(int point) const;
   static bool lies_on(const Part& part, size_t node, const Part& other);
   bool is_same(const Part& part, const Part& known) const;
