@@ -9,7 +9,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kBoxesOfFirstTry = 2000;  // more than that: the surfaces may coincide or touch along a curve
+// More boxes than that: the surfaces may coincide or touch along a curve. Once they do somewhere they do in many
+// pieces.
+constexpr int kBoxesOfFirstTry = 2000, kBoxesOfLaterTries = 500;
 // Parts of the size of the surfaces.
 constexpr double kShortestBranch = 1e-9;  // shorter arcs are corners that the curve touches
 constexpr double kBeside = 1e-3;          // so far off a border it is seen whether surfaces coincide there
@@ -61,7 +63,7 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, c
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
   const int most_boxes = options.most_boxes;
-  options.most_boxes = kBoxesOfFirstTry;
+  options.most_boxes = coincident_ ? kBoxesOfLaterTries : kBoxesOfFirstTry;
   const Searched<N> searched{*equations, known_};
   SolutionCurves<N> found = search_solution_curves<N, N - 1>(searched, domain, options);
   if (!found.complete) {
@@ -161,12 +163,13 @@ std::optional<int> ContourAssembly<N>::coincident_sides(const TouchingEquations<
 template <int N>
 bool ContourAssembly<N>::add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
                                      std::vector<ParameterBox<N>>& settled) {
-  bool coincident = false;
+  bool coincident = false, complete = true;
   for (int i = 0; i < N; ++i)
     for (const bool upper : {false, true}) {
       if (touching->contour().is_pole(i, upper)) continue;
       const TouchingPtr border = border_of<N>(touching, i, upper);
       SolutionCurves<N> found = follow(border, N, as);
+      complete = complete && found.complete;
       for (SolutionArc<N>& arc : found.arcs) {
         const std::optional<int> sides = coincident_sides(*touching, arc);
         if (!sides) continue;
@@ -175,6 +178,7 @@ bool ContourAssembly<N>::add_borders(const TouchingPtr& touching, const Solution
         if (*sides < 2) add_part(border, std::move(arc), *sides == 1 ? ContourKind::border : ContourKind::touching);
       }
     }
+  if (coincident) complete_ = complete_ && complete;
   return coincident;
 }
 

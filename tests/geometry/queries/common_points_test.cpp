@@ -69,7 +69,8 @@ TEST(CommonPoints, CommonCurves) {
       common_points({sphere({1, 0, 0}, 2), sphere({-1, 0, 0}, 2), sphere({0, 0, 0}, std::sqrt(3.0))});
   EXPECT_TRUE(pencil.complete && pencil.points.empty());
   EXPECT_EQ(pencil.curves.size(), 1u);
-  const CommonPoints same = common_points({sphere({1, 0, 0}, 2), sphere({1, 0, 0}, 2), sphere({1, 0, 0}, 2)});
+  const auto square = [] { return std::make_shared<Plane>(Frame(), Rectangle{{-1, 1}, {-1, 1}}); };
+  const CommonPoints same = common_points({square(), square(), square()});
   EXPECT_FALSE(same.complete);
 }
 
