@@ -178,9 +178,8 @@ TEST(ExternalSurface, RefusesWhatNoSplineComesNear) {
   };
   const auto kinked = [](double u, double, SurfaceJet& jet) { jet.values[0].z += std::abs(u - 0.4); };
   const auto made = [&](SurfaceStub::Change change, double tolerance) {
-    return complaint([&] {
-      ExternalSurface(std::make_shared<SurfaceStub>(smooth, change), smooth->domain(), {}, 0, tolerance);
-    });
+    return complaint(
+        [&] { ExternalSurface(std::make_shared<SurfaceStub>(smooth, change), smooth->domain(), {}, 0, tolerance); });
   };
   EXPECT_EQ(made(noisy, 1e-9).first, "tolerance");
   EXPECT_EQ(made(noisy, 1e-6).first, "");
