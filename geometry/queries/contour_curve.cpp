@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 40;
 constexpr int kContractions = 4;
-constexpr int kPowers = 8;
+constexpr int kPowers = 8, kNarrowings = 50;
 
 // The square system of a segment: the equations, and the plane across the chord.
 template <int N>
@@ -254,8 +254,22 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
       most = std::max(most, magnitude(y[i]) / scale[i]);
     }
     if (!(q < 0.95)) return false;
-    const double by = q / (1 - q) * most * (1 + 1e-14);
-    for (int i = 0; i < N; ++i) x[i].c[m] = y[i] + Interval(-by * scale[i], by * scale[i]);
+    std::array<double, N> reach;
+    for (int i = 0; i < N; ++i) reach[i] = q / (1 - q) * most * (1 + 1e-14) * scale[i];
+    // Where a weight is small that is far too much for the others: the solution stays within C b + (I - C A) times what
+    // it is known to be.
+    for (int time = 0; time < kNarrowings; ++time) {
+      std::array<double, N> next{};
+      for (int i = 0; i < N; ++i) {
+        for (int j = 0; j < N; ++j) next[i] += error[i][j] * (magnitude(y[j]) + reach[j]);
+        next[i] = std::min(reach[i], next[i] * (1 + 1e-14));
+      }
+      bool narrows = false;
+      for (int i = 0; i < N; ++i) narrows = narrows || next[i] < 0.9 * reach[i];
+      reach = next;
+      if (!narrows) break;
+    }
+    for (int i = 0; i < N; ++i) x[i].c[m] = y[i] + Interval(-reach[i], reach[i]);
     return true;
   };
   for (int time = 0; regular && time < kContractions; ++time) {
