@@ -217,6 +217,27 @@ geometry:
             self.assertIn(message, self.run_program("measure", "three.yaml", *words, code=USAGE)[1])
         self.assertIn("'block' is a body", self.run_program("measure", "scene.yaml", "block", "--self-intersection", code=USAGE)[1])
 
+    def test_surfaces_that_touch_and_coincide(self):
+        self.write("touch.yaml", """lekalo: 1
+geometry:
+  near: { type: plane, domain: { u: [-1, 1], v: [-1, 1] } }
+  far: { type: plane, domain: { u: [0.2, 3], v: [-0.5, 0.7] } }
+  tube: { type: cylinder_surface, center: [0, 0, -2], radius: 1, height: 4 }
+  ball: { type: sphere_surface, radius: 1 }
+objects: [{ shape: ball }]
+outputs: [touch.png]
+""")
+        common = self.json_of("measure", "touch.yaml", "near", "--intersect", "far")
+        self.assertTrue(common["coincident"] and common["complete"])
+        self.assertEqual([(b["kind"], b["closed"]) for b in common["branches"]], [("border", True)])
+        self.assertAlmostEqual(common["branches"][0]["length"], 4, 12)
+        contact = self.json_of("measure", "touch.yaml", "tube", "--intersect", "ball")
+        self.assertFalse(contact["coincident"])
+        self.assertEqual([b["kind"] for b in contact["branches"]], ["touching"])
+        self.assertAlmostEqual(contact["branches"][0]["length"], 2 * math.pi, 12)
+        self.assertIn("closed touching", self.run_program("measure", "touch.yaml", "tube", "--intersect", "ball")[0])
+        self.assertIn("they coincide in part", self.run_program("measure", "touch.yaml", "near", "--intersect", "far")[0])
+
     def test_position(self):
         for words, where, distance in ((("shell", "0,0,3"), "above", 2), (("shell", "0,0,0.5"), "below", 0.5),
                                        (("floor", "3,4,-2"), "below", 2), (("block", "0.5,1,0.25"), "inside", 0.25),
