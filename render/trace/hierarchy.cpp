@@ -21,9 +21,10 @@ float round_up(double x) { return -round_down(-x); }
 // Pieces that are tested one after the other; an Embree scene of as many takes longer.
 constexpr size_t kFew = 6;
 
-// Pieces of surfaces from which on memory counts more than time: fewer take at most 13 MB more as single primitives in
-// nodes of eight boxes, and rays take 0.6 to 0.9 times the time.
-constexpr size_t kManyPieces = 1 << 18;
+// Pieces of surfaces from which on memory counts: fewer are single primitives in nodes of eight boxes, at most half a
+// megabyte more, and rays take 0.6 to 0.9 times the time. More would make a body heavier than a twentieth of the mesh
+// that is as exact (docs/internals/rays.md).
+constexpr size_t kManyPieces = 1 << 13;
 
 Box3 box_of(const GeometryRecord& record, int primitive) {
   switch (record.kind) {
