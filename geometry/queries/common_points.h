@@ -1,9 +1,9 @@
 // Where three surfaces or bodies meet: all common points (Golovanov 2016, 4.5; capability 4.5b).
 //
 // The curves of two of them (geometry/queries/contours.h), none of which is lost, meet the third
-// (geometry/queries/curve_intersections.h). Where enclosures of such a curve are too wide, next to poles, that search goes
-// on from the middle of a stretch: a second crossing of it could be lost there. Three planes have one point in closed
-// form (4.5.2).
+// (geometry/queries/curve_intersections.h). Where enclosures of such a curve are too wide, next to poles, that search
+// goes on from the middle of a stretch: a second crossing of it could be lost there. Three planes have one point in
+// closed form (4.5.2).
 #pragma once
 
 #include <array>
