@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "geometry/mesh.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/shape.h"
 #include "render/trace/obstacles.h"
+#include "render/trace/packed_mesh.h"
 #include "render/trace/ray.h"
 
 namespace lekalo::render {
@@ -28,8 +28,8 @@ struct HalfSpace {
 struct Leaf {
   std::vector<std::unique_ptr<geometry::LineTarget>> targets;
   std::vector<double> signs;  // of the outward normal of each target, or of each surface behind a mesh
-  geometry::MeshPtr mesh;
-  std::vector<geometry::SurfacePtr> mesh_surfaces;  // by Triangle::face, of a mesh that stands for surfaces
+  PackedMeshPtr mesh;
+  std::vector<geometry::SurfacePtr> mesh_surfaces;  // by PackedTriangle::face, of a mesh that stands for surfaces
   bool flat = false;
   bool parameters = true;  // something shows them
   geometry::ShapePtr shape;

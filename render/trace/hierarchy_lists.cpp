@@ -78,13 +78,8 @@ void meet_triangles(const Hierarchy::Parts& p, std::span<const Ray> rays, Met* m
     }
 }
 
-void fetch_corners(const geometry::Mesh& mesh, int triangle) {
-  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
-  for (int k = 0; k < 3; ++k) {
-    __builtin_prefetch(&mesh.points[at.point[k]]);
-    if (!mesh.normals.empty() && at.normal[k] >= 0) __builtin_prefetch(&mesh.normals[at.normal[k]]);
-    if (!mesh.parameters.empty() && at.parameter[k] >= 0) __builtin_prefetch(&mesh.parameters[at.parameter[k]]);
-  }
+void fetch_corners(const PackedMesh& mesh, int triangle) {
+  for (const uint32_t vertex : mesh.triangles[triangle].vertex) __builtin_prefetch(&mesh.vertices[vertex]);
 }
 
 // The nearest triangles of at most kBatch rays.

@@ -293,9 +293,10 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
     const auto normal = [&](const geometry::SurfaceHit& h) -> Vec3 {
       const Hit& hit = found[h.face];
       if (leaf.mesh) {
-        const auto& corner = leaf.mesh->triangles[hit.piece].point;
-        const Vec3 a = leaf.mesh->points[corner[0]];
-        return glm::normalize(glm::cross(leaf.mesh->points[corner[1]] - a, leaf.mesh->points[corner[2]] - a));
+        const auto& vertex = leaf.mesh->triangles[hit.piece].vertex;
+        const Vec3 a = leaf.mesh->vertices[vertex[0]].point;
+        return glm::normalize(
+            glm::cross(leaf.mesh->vertices[vertex[1]].point - a, leaf.mesh->vertices[vertex[2]].point - a));
       }
       if (leaf.shape) return leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, line.at(hit.t)).normal;
       return leaf.signs[hit.face] * leaf.targets[hit.face]->surface().normal(hit.u, hit.v);

@@ -22,9 +22,11 @@ inline void begin(Hierarchy::Query& query, const Ray& ray) {
 }
 
 // The point where the line meets the triangle's plane, in double, with the weights clamped to the triangle.
-inline bool triangle_hit(const geometry::Mesh& mesh, int triangle, const geometry::Line& line, Hit& hit) {
-  const geometry::Mesh::Triangle& at = mesh.triangles[triangle];
-  const Vec3 &a = mesh.points[at.point[0]], ab = mesh.points[at.point[1]] - a, ac = mesh.points[at.point[2]] - a;
+inline bool triangle_hit(const PackedMesh& mesh, int triangle, const geometry::Line& line, Hit& hit) {
+  const PackedTriangle& at = mesh.triangles[triangle];
+  const PackedVertex &v0 = mesh.vertices[at.vertex[0]], &v1 = mesh.vertices[at.vertex[1]],
+                     &v2 = mesh.vertices[at.vertex[2]];
+  const Vec3 &a = v0.point, ab = v1.point - a, ac = v2.point - a;
   const Vec3 n = glm::cross(ab, ac);
   const double slope = glm::dot(n, line.direction), area2 = glm::dot(n, n);
   if (slope == 0 || area2 == 0) return false;
@@ -35,12 +37,9 @@ inline bool triangle_hit(const geometry::Mesh& mesh, int triangle, const geometr
   hit.c = std::clamp(glm::dot(glm::cross(ab, p), n) * per_area2, 0.0, 1.0 - hit.b);
   hit.piece = triangle;
   hit.face = at.face;
-  if (!mesh.parameters.empty() && at.parameter[0] >= 0) {
-    const geometry::Vec2 q = (1 - hit.b - hit.c) * mesh.parameters[at.parameter[0]] +
-                             hit.b * mesh.parameters[at.parameter[1]] + hit.c * mesh.parameters[at.parameter[2]];
-    hit.u = q.x;
-    hit.v = q.y;
-  }
+  const geometry::Vec2 q = (1 - hit.b - hit.c) * v0.parameter + hit.b * v1.parameter + hit.c * v2.parameter;
+  hit.u = q.x;
+  hit.v = q.y;
   return std::isfinite(hit.t);
 }
 

@@ -121,19 +121,18 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
 }
 
 SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
-  const geometry::Mesh& mesh = *leaf.mesh;
-  const geometry::Mesh::Triangle& triangle = mesh.triangles[hit.piece];
-  const Vec3& p0 = mesh.points[triangle.point[0]];
-  const Vec3 ab = mesh.points[triangle.point[1]] - p0, ac = mesh.points[triangle.point[2]] - p0;
+  const auto& number = leaf.mesh->triangles[hit.piece].vertex;
+  const PackedVertex &v0 = leaf.mesh->vertices[number[0]], &v1 = leaf.mesh->vertices[number[1]],
+                     &v2 = leaf.mesh->vertices[number[2]];
+  const Vec3& p0 = v0.point;
+  const Vec3 ab = v1.point - p0, ac = v2.point - p0;
   const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
   const Vec3 from_a = w[1] * ab + w[2] * ac, position = p0 + from_a;
   Vec3 geometric = glm::normalize(glm::cross(ab, ac)), shading = geometric, smooth_position = position;
   Vec3 du(0), dv(0);
   Vec2 at(hit.u, hit.v);
-  const bool has_parameters = !mesh.parameters.empty() && triangle.parameter[0] >= 0;
-  Vec2 q[3];
-  for (int k = 0; has_parameters && k < 3; ++k) q[k] = mesh.parameters[triangle.parameter[k]];
-  if (has_parameters && !leaf.mesh_surfaces.empty() && !leaf.flat) {
+  const Vec2 q[3] = {v0.parameter, v1.parameter, v2.parameter};
+  if (!leaf.mesh_surfaces.empty() && !leaf.flat) {
     // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
     const Surface& surface = *leaf.mesh_surfaces[hit.face];
     at = foot_on(surface, position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
@@ -146,11 +145,10 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
     const double above = glm::dot(jet.point() - position, geometric);
     if (above > 0) smooth_position = jet.point();
   } else {
-    if (!mesh.normals.empty() && triangle.normal[0] >= 0 && !leaf.flat) {
-      const Vec3 &n0 = mesh.normals[triangle.normal[0]], &n1 = mesh.normals[triangle.normal[1]],
-                 &n2 = mesh.normals[triangle.normal[2]];
-      const Vec3 sum = w[0] * n0 + w[1] * n1 + w[2] * n2;
-      if (glm::dot(sum, sum) > 1e-20) shading = glm::normalize(sum);
+    const Vec3 &n0 = v0.normal, &n1 = v1.normal, &n2 = v2.normal, sum = w[0] * n0 + w[1] * n1 + w[2] * n2;
+    const double length2 = glm::dot(sum, sum);
+    if (!leaf.flat && length2 > 1e-20) {
+      shading = sum / std::sqrt(length2);
       if (glm::dot(shading, geometric) < 0) geometric = -geometric;
       // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
       // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
@@ -161,7 +159,7 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
     }
     // Texture directions of the facet.
     const Vec2 a = q[1] - q[0], b = q[2] - q[0];
-    const double det = has_parameters ? a.x * b.y - a.y * b.x : 0;
+    const double det = a.x * b.y - a.y * b.x;
     if (det != 0) {
       const double per_det = 1 / det;
       du = (per_det * b.y) * ab - (per_det * a.y) * ac;
@@ -287,7 +285,7 @@ struct World::Compiled {
   }
 
   static void use_mesh_of(const geometry::Body& body, const geometry::TessellationTolerance& tolerance, Leaf& leaf) {
-    leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(body, tolerance));
+    leaf.mesh = std::make_shared<PackedMesh>(tessellate(body, tolerance));
     for (const geometry::Face& face : body.faces) {
       leaf.mesh_surfaces.push_back(face.surface);
       leaf.signs.push_back(face.forward ? 1 : -1);
@@ -318,7 +316,7 @@ struct World::Compiled {
                 use_mesh_of(geometry::sew(set), tolerance, leaf);
                 return;
               }
-              leaf.mesh = std::make_shared<geometry::Mesh>(tessellate(*set.front(), tolerance));
+              leaf.mesh = std::make_shared<PackedMesh>(tessellate(*set.front(), tolerance));
               leaf.mesh_surfaces = {set.front()};
               leaf.signs = {1};
               return;
@@ -340,7 +338,7 @@ struct World::Compiled {
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
             }
           } else if constexpr (std::is_same_v<T, MeshPtr>) {
-            leaf.mesh = shape;
+            leaf.mesh = std::make_shared<PackedMesh>(*shape);
           } else if constexpr (std::is_same_v<T, geometry::ShapePtr>) {
             leaf.shape = shape;
           } else {
