@@ -34,9 +34,7 @@ inline PatchPoint evaluate_as(const PatchView& patch, double s, double t) {
 }  // namespace
 
 LEKALO_WIDE PatchPoint evaluate(const PatchView& patch, double s, double t) {
-  if (patch.degree_u == 3 && patch.degree_v == 3) return evaluate_as<3, 3>(patch, s, t);
-  if (patch.degree_u == 2 && patch.degree_v == 2) return evaluate_as<2, 2>(patch, s, t);
-  return evaluate_as<0, 0>(patch, s, t);
+  return for_degrees(patch, [&]<int kP, int kQ>() { return evaluate_as<kP, kQ>(patch, s, t); });
 }
 
 void halve_u(const PatchView& patch, Vec4* first, Vec4* second) {

@@ -29,26 +29,26 @@ inline void bernstein(int n, double s, double* b, double* d) {
     default:
       break;
   }
-  double lower[kMaxDegree + 1] = {1};
   b[0] = 1;
-  for (int k = 1; k <= n; ++k) {
-    if (k == n)
-      for (int i = 0; i < n; ++i) lower[i] = b[i];
+  const auto raise_to = [&](int k) {
     double carry = 0;
     for (int i = 0; i < k; ++i) {
       const double value = b[i];
-      b[i] = carry + (1 - s) * value;
+      b[i] = carry + r * value;
       carry = s * value;
     }
     b[k] = carry;
-  }
+  };
+  for (int k = 1; k < n; ++k) raise_to(k);
+  // The derivatives are n times differences of the functions of degree n - 1.
   if (n == 0) {
     d[0] = 0;
     return;
   }
-  d[0] = -n * lower[0];
-  for (int i = 1; i < n; ++i) d[i] = n * (lower[i - 1] - lower[i]);
-  d[n] = n * lower[n - 1];
+  d[0] = -n * b[0];
+  for (int i = 1; i < n; ++i) d[i] = n * (b[i - 1] - b[i]);
+  d[n] = n * b[n - 1];
+  raise_to(n);
 }
 
 // A homogeneous point and its derivatives by s and t.
@@ -56,7 +56,7 @@ struct PatchSums {
   Lanes point{}, ds{}, dt{};
 };
 
-// The degrees that most models have get loops of known length; 0: the patch's own.
+// 0: the patch's own degree.
 template <int kP, int kQ>
 inline PatchSums sums(const PatchView& patch, double s, double t) {
   const int p = kP > 0 ? kP : patch.degree_u, q = kQ > 0 ? kQ : patch.degree_v;
@@ -78,6 +78,23 @@ inline PatchSums sums(const PatchView& patch, double s, double t) {
     result.dt += bu[i] * row_t;
   }
   return result;
+}
+
+// Calls f<p, q>() for the patch's degrees where most models have them, so that its loops have known lengths, else f<0,
+// 0>().
+template <class F>
+inline auto for_degrees(const PatchView& patch, const F& f) {
+  if (patch.degree_u == patch.degree_v) switch (patch.degree_u) {
+      case 2:
+        return f.template operator()<2, 2>();
+      case 3:
+        return f.template operator()<3, 3>();
+      case 5:
+        return f.template operator()<5, 5>();
+      default:
+        break;
+    }
+  return f.template operator()<0, 0>();
 }
 
 }  // namespace lekalo::geometry

@@ -42,6 +42,10 @@ class PreparedLine {
   // there, in coordinates relative to `center`: all rounds at the size of things there, however far the line begins, so
   // that neighbouring pieces see the same line. Holds until the next call.
   const LineBasis& near(const Vec3& center, double& foot) const {
+    if (basis_ && center == center_) {
+      foot = foot_;
+      return *basis_;
+    }
     if (!basis_) {
       basis_.emplace(line_);
       for (int k = 0; k < 3; ++k) upper_[k] = static_cast<float>(line_.direction[k]);
@@ -51,8 +55,9 @@ class PreparedLine {
     // and with what is left of the direction are exact; the first nearly takes the difference away.
     const Vec3 &o = line_.origin, from = o - center, taken = o - from;
     const Vec3 error = (o - (from + taken)) + (taken - center);
-    foot = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
+    foot = foot_ = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
     basis_->line.origin = (from + foot * upper_) + (foot * lower_ + error);
+    center_ = center;
     return *basis_;
   }
 
@@ -60,6 +65,8 @@ class PreparedLine {
   const Line& line_;
   mutable std::optional<LineBasis> basis_;
   mutable Vec3 upper_{0}, lower_{0};  // the direction in floats, and the rest
+  mutable Vec3 center_{0};            // of the last call, often the next one's too: neighbours are asked together
+  mutable double foot_ = 0;
 };
 
 }  // namespace lekalo::geometry

@@ -214,9 +214,8 @@ LEKALO_WIDE Verdict decide(const PatchView& patch, const PatchCell& cell, const 
                     shift_y + std::abs(lean_y) * cell.bend};
   if (judge(guess, kBorderSlack, kBorderSlack) == Verdict::none) return Verdict::none;
   if (!is_certain(guess)) return Verdict::unsure;
-  if (patch.degree_u == 3 && patch.degree_v == 3) return iterate(PatchCells<3, 3>(patch, cell, line), guess, line, hit);
-  if (patch.degree_u == 2 && patch.degree_v == 2) return iterate(PatchCells<2, 2>(patch, cell, line), guess, line, hit);
-  return iterate(PatchCells<0, 0>(patch, cell, line), guess, line, hit);
+  return for_degrees(
+      patch, [&]<int kP, int kQ>() { return iterate(PatchCells<kP, kQ>(patch, cell, line), guess, line, hit); });
 }
 
 // At a pole one derivative, or the cross product, vanishes faster than the cell.

@@ -35,7 +35,7 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
     case GeometryRecord::Kind::instance:
       return transformed(record.child->bounds(), record.to_parent);
     case GeometryRecord::Kind::mesh:
-      return bounds(*record.leaf->mesh);
+      return record.leaf->mesh->bounds();
   }
   return {};
 }
@@ -66,7 +66,7 @@ Hierarchy::~Hierarchy() = default;
 void Hierarchy::add(Leaf given) {
   Parts& p = *parts_;
   Box3 box;
-  if (given.mesh) box = geometry::bounds(*given.mesh);
+  if (given.mesh) box = given.mesh->bounds();
   if (given.shape) box = given.shape->bounds();
   for (const auto& target : given.targets)
     for (int piece = 0; piece < target->piece_count(); ++piece) box.include(target->piece_bounds(piece));
@@ -157,18 +157,16 @@ void Hierarchy::Parts::build_scene() {
   for (auto& record : records) {
     RTCGeometry geometry;
     if (record->kind == GeometryRecord::Kind::mesh) {
-      const geometry::Mesh& mesh = *record->leaf->mesh;
+      const PackedMesh& mesh = *record->leaf->mesh;
       geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
       auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), mesh.points.size()));
-      for (const Vec3& point : mesh.points) {
-        const Vec3 q = point - center;
+                                                                 3 * sizeof(float), mesh.vertices.size()));
+      for (const PackedVertex& vertex : mesh.vertices) {
+        const Vec3 q = vertex.point - center;
         for (int k = 0; k < 3; ++k) *points++ = static_cast<float>(q[k]);
       }
-      auto* corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-          geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), mesh.triangles.size()));
-      for (const auto& triangle : mesh.triangles)
-        for (int k = 0; k < 3; ++k) *corners++ = static_cast<uint32_t>(triangle.point[k]);
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                                 sizeof(PackedTriangle), mesh.triangles.size());
       // Triangles that some rays do not see, or that are clipped, are looked at one by one.
       if (record->leaf->visible_to != kVisibleToAll || !record->leaf->clips.empty()) {
         rtcSetGeometryIntersectFilterFunction(geometry, triangle_filter);
@@ -176,7 +174,7 @@ void Hierarchy::Parts::build_scene() {
         plain_triangles = false;
       }
       triangles += mesh.triangles.size();
-      bytes += mesh.points.size() * 12 + mesh.triangles.size() * 12;
+      bytes += mesh.memory();
     } else {
       plain_triangles = false;
       geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
