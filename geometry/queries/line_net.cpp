@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/curves/bspline_basis.h"
+#include "geometry/queries/bezier_sums.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -462,12 +463,9 @@ class NetSearch {
 void search_net(const PatchView& patch, const CellPlace& place, double reach_x, double reach_y, const LineBasis& line,
                 CellHits& hits) {
   const Vec2 reach(reach_x, reach_y);
-  if (patch.degree_u == 3 && patch.degree_v == 3)
-    NetSearch<3, 3>(patch, place, reach, nullptr, line, hits).run();
-  else if (patch.degree_u == 2 && patch.degree_v == 2)
-    NetSearch<2, 2>(patch, place, reach, nullptr, line, hits).run();
-  else
-    NetSearch<kAnyDegree, kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
+  for_degrees(patch, [&]<int kP, int kQ>() {
+    NetSearch<kP ? kP : kAnyDegree, kQ ? kQ : kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
+  });
 }
 
 void search_net(const PatchView& patch, NearSurface& near, const LineBasis& line, CellHits& hits) {
