@@ -112,6 +112,7 @@ class TileTracer {
           sums(film.reach() == 0 ? film.planes()
                                  : film.planes() * static_cast<size_t>(window.width()) * window.height()),
           weights(2 * film.reach() + 1),
+          rays(kTogether),
           hits(kTogether) {}
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
@@ -162,6 +163,14 @@ class TileTracer {
     int number;
   };
 
+  static void add_shot(std::vector<Shot>& shots, int x, int y, const Vec2& place, int number) {
+    Shot& shot = shots.emplace_back();
+    shot.x = x;
+    shot.y = y;
+    shot.place = place;
+    shot.number = number;
+  }
+
   // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample. Once the
   // tile is given up no more of them.
   template <class Use>
@@ -172,10 +181,11 @@ class TileTracer {
       exposure.given_up = exposure.given_up || (stop_ && stop_->load(std::memory_order_relaxed));
       if (exposure.given_up) return;
       const std::span<const Shot> some = shots.subspan(begin, std::min(kTogether, shots.size() - begin));
-      rays.clear();
-      for (const Shot& shot : some) rays.push_back(camera_.ray(shot.x + shot.place.x, shot.y + shot.place.y));
+      // Made where they stay: a copy of what was just written waits for the writing.
+      for (size_t i = 0; i < some.size(); ++i)
+        ::new (&rays[i]) Ray(camera_.ray(some[i].x + some[i].place.x, some[i].y + some[i].place.y));
       const std::span<Hit> hits(exposure.hits.data(), some.size());
-      world_.nearest(rays, hits);
+      world_.nearest(std::span(rays.data(), some.size()), hits);
       for (size_t i = 0; i < some.size(); ++i) {
         const Shot& shot = some[i];
         SampleStream random = sampler_->stream(shot.x, shot.y, shot.number);
@@ -197,7 +207,7 @@ class TileTracer {
     for (int y = tile.y0; y < tile.y1; ++y) {
       shots.clear();
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = 0; s < samples; ++s) shots.push_back({x, y, sampler_->pixel_position(x, y, s), s});
+        for (int s = 0; s < samples; ++s) add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
       double nearest = geometry::kInfinity;
       int counted = 0;
       take(shots, exposure, [&](const Shot& shot, const RaySample& sample) {
@@ -229,7 +239,7 @@ class TileTracer {
     centers.reserve(static_cast<size_t>(around.width()) * around.height());
     std::vector<Shot> shots;
     for (int y = around.y0; y < around.y1; ++y)
-      for (int x = around.x0; x < around.x1; ++x) shots.push_back({x, y, Vec2(0.5), all});
+      for (int x = around.x0; x < around.x1; ++x) add_shot(shots, x, y, Vec2(0.5), all);
     take(shots, exposure, [&](const Shot&, RaySample&& sample) { centers.push_back(std::move(sample)); });
     if (exposure.given_up) return;
     const auto index = [&](int x, int y) {
@@ -271,7 +281,7 @@ class TileTracer {
         for (int s = 0; s < all && (s < kFewSamples || !alike);) {
           shots.clear();
           for (const int end = alike && s < kFewSamples ? kFewSamples : all; s < end; ++s)
-            shots.push_back({x, y, sampler_->pixel_position(x, y, s), s});
+            add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
           take(shots, exposure, [&](const Shot& shot, RaySample&& sample) {
             alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
             taken.push_back({shot.place, std::move(sample)});

@@ -242,12 +242,16 @@ Hierarchy::Place Hierarchy::place(int instance) const {
              : *std::prev(std::upper_bound(numbers.begin(), numbers.end(), instance,
                                            [](int n, const Parts::Numbered& entry) { return n < entry.first; }))
                     ->record;
+  Place result;
   if (record.kind != GeometryRecord::Kind::instance) {
     // Vertices and rays of meshes are rounded to float about the centre.
     const double error = record.leaf->mesh ? kBoxInflation * parts_->radius : 0;
-    return {record.leaf, std::nullopt, std::max(record.object, 0), error};
+    result.leaf = record.leaf;
+    result.object = std::max(record.object, 0);
+    result.error = error;
+    return result;
   }
-  Place result = record.child->place(instance - record.leaf_number);
+  result = record.child->place(instance - record.leaf_number);
   result.to_world = result.to_world ? record.to_parent * *result.to_world : record.to_parent;
   result.error *= geometry::largest_stretch(record.to_parent);
   if (record.object >= 0) result.object = record.object;

@@ -74,6 +74,9 @@ class Hierarchy {
   // The leaf that a hit belongs to, the map from its space to this hierarchy's, and the number of the object that the
   // outermost instance or leaf was added for.
   struct Place {
+    // Not a constant: compilers would clear all of it, for every hit.
+    Place() {}
+
     const Leaf* leaf = nullptr;
     std::optional<Affine> to_world;  // the identity where there is none
     int object = 0;
