@@ -6,6 +6,7 @@
 
 #include "geometry/numerics/quadrature.h"
 #include "geometry/queries/contour_assembly.h"
+#include "geometry/queries/picture_cusps.h"
 #include "geometry/surfaces/plane.h"
 
 namespace lekalo::geometry {
@@ -44,51 +45,6 @@ Vec3 unit(const Vec3& v, const char* what) {
   const double length = glm::length(v);
   if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument(what);
   return v / length;
-}
-
-// Zeros of m . (r' x i): changes of sign between neighbours among so many places of each segment, and where its size
-// has a small least value between two of one sign both beside it.
-std::vector<double> cusps(const Surface& surface, const Contour& contour, const ViewOf& view) {
-  constexpr int kPlaces = 6;
-  const auto across = [&](double t) {
-    const CurveJet r = contour.curve->evaluate(t, 1);
-    const Vec3 place = contour.images[0]->point(t);
-    const Vec3 i = view.central ? r.d[0] - view.direction_or_eye : view.direction_or_eye;
-    return glm::dot(surface.normal(place.x, place.y), glm::cross(r.d[1], i));
-  };
-  std::vector<double> result;
-  const auto bisect = [&](double lo, double hi, double at_lo) {
-    for (int step = 0; step < 60 && lo < hi; ++step) {
-      const double middle = 0.5 * (lo + hi), f = across(middle);
-      ((f > 0) == (at_lo > 0) ? lo : hi) = middle;
-    }
-    result.push_back(0.5 * (lo + hi));
-  };
-  std::vector<double> places;
-  for (const CurvePiece& piece : contour.curve->pieces())
-    for (int k = 0; k < kPlaces; ++k) places.push_back(piece.domain.lo + piece.domain.width() * k / kPlaces);
-  places.push_back(contour.curve->domain().hi);
-  std::vector<double> values;
-  for (const double t : places) values.push_back(across(t));
-  for (size_t k = 0; k + 1 < places.size(); ++k) {
-    if ((values[k] > 0) != (values[k + 1] > 0)) bisect(places[k], places[k + 1], values[k]);
-    if (k == 0 || (values[k] > 0) != (values[k - 1] > 0) || (values[k] > 0) != (values[k + 1] > 0)) continue;
-    if (!(std::abs(values[k]) < std::abs(values[k - 1]) && std::abs(values[k]) < std::abs(values[k + 1]))) continue;
-    // Two cusps may lie between: thirds towards the least size until the sign turns.
-    double lo = places[k - 1], hi = places[k + 1];
-    for (int step = 0; step < 60; ++step) {
-      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3, at_a = across(a), at_b = across(b);
-      const double turned = (at_a > 0) != (values[k] > 0) ? a : (at_b > 0) != (values[k] > 0) ? b : kInfinity;
-      if (turned < kInfinity) {
-        bisect(places[k - 1], turned, values[k]);
-        bisect(turned, places[k + 1], -values[k]);
-        break;
-      }
-      (std::abs(at_a) < std::abs(at_b) ? hi : lo) = std::abs(at_a) < std::abs(at_b) ? b : a;
-    }
-  }
-  std::sort(result.begin(), result.end());
-  return result;
 }
 
 ViewOf checked(ViewOf view) {
@@ -188,7 +144,7 @@ Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   demand_bounded(*surface);
   const ViewOf view = checked(given);
   Contours found = contours_of(surface, outline(view));
-  for (Contour& contour : found.branches) contour.cusps = cusps(*surface, contour, view);
+  for (Contour& contour : found.branches) contour.cusps = picture_cusps(*surface, contour, view);
   return found;
 }
 

@@ -1,0 +1,123 @@
+// The curve's own enclosures bound r' and the place on the surface over a part of it, hence m . (r' x i). Parts where
+// that may be zero are halved; what stays is joined, and holds a cusp if the sign differs at its ends.
+#include "geometry/queries/picture_cusps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries/contour_curve.h"
+#include "geometry/surface_series.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Of the branch's length.
+constexpr double kLeastPart = 1e-7;
+// Parts that stay undecided, for each segment: where there are more the curve keeps to the way of sight.
+constexpr size_t kMostParts = 16;
+constexpr int kBisections = 60;
+
+Triple<Interval> ranges(const Box3& box) { return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}, {box.lo.z, box.hi.z}}; }
+
+class CuspSearch {
+ public:
+  CuspSearch(const Surface& surface, const ContourSolution<2>& solution, const ViewOf& view)
+      : surface_(surface), solution_(solution), view_(view) {}
+
+  std::vector<double> run() const {
+    const double length = solution_.domain().width();
+    std::vector<Interval> cusps_in;
+    std::vector<Part> level;
+    for (const ContourSegment<2>& segment : solution_.segments()) level.push_back({&segment, segment.t});
+    const size_t most = kMostParts * level.size();
+    for (bool first = true; !level.empty(); first = false) {
+      std::vector<Part> next;
+      for (const Part& part : level) {
+        if (part.segment->is_certified() && !may_vanish(part)) continue;
+        if (!part.segment->is_certified() || part.t.width() <= kLeastPart * length || (!first && level.size() > most)) {
+          cusps_in.push_back(part.t);
+          continue;
+        }
+        const double middle = part.t.middle();
+        next.push_back({part.segment, {part.t.lo, middle}});
+        next.push_back({part.segment, {middle, part.t.hi}});
+      }
+      level.swap(next);
+    }
+    std::vector<double> found;
+    for (const Interval& part : joined(std::move(cusps_in)))
+      if (is_positive(part.lo) != is_positive(part.hi)) found.push_back(solution_.wrap(bisect(part)));
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  struct Part {
+    const ContourSegment<2>* segment;
+    Interval t;
+  };
+
+  bool may_vanish(const Part& part) const {
+    const ContourSolution<2>::Ranges over = solution_.over(part.t, 1);
+    const ParameterBox<2> domain = part.segment->equations->domain();
+    Rectangle box;
+    box.u = intersect(over.x[0][0] - Interval(part.segment->shift[0]), domain[0]);
+    box.v = intersect(over.x[1][0] - Interval(part.segment->shift[1]), domain[1]);
+    if (box.u.empty() || box.v.empty()) return true;
+    const SurfaceEnclosure s = surface_.enclose(box, 1);
+    const Triple<Interval> normal = cross(derivative_of(s, 1, 0), derivative_of(s, 0, 1));
+    const Vec3& from = view_.direction_or_eye;
+    Triple<Interval> sight{Interval(from.x), Interval(from.y), Interval(from.z)};
+    if (view_.central) sight = ranges(over.point[0]) - sight;
+    return dot(normal, cross(ranges(over.point[1]), sight)).contains(0);
+  }
+
+  bool is_positive(double t) const {
+    const auto there = solution_.at(solution_.wrap(t), 1);
+    const auto vector = [&](int k) { return Vec3(there.point.x.c[k], there.point.y.c[k], there.point.z.c[k]); };
+    const Vec3 sight = view_.central ? vector(0) - view_.direction_or_eye : view_.direction_or_eye;
+    return glm::dot(surface_.normal(there.x[0].c[0], there.x[1].c[0]), glm::cross(vector(1), sight)) > 0;
+  }
+
+  double bisect(const Interval& part) const {
+    double lo = part.lo, hi = part.hi;
+    const bool at_lo = is_positive(lo);
+    for (int step = 0; step < kBisections && lo < hi; ++step) {
+      const double middle = 0.5 * (lo + hi);
+      (is_positive(middle) == at_lo ? lo : hi) = middle;
+    }
+    return 0.5 * (lo + hi);
+  }
+
+  // Parts that follow each other are one, also over the joint of a closed curve.
+  std::vector<Interval> joined(std::vector<Interval> parts) const {
+    std::sort(parts.begin(), parts.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+    std::vector<Interval> result;
+    for (const Interval& part : parts) {
+      if (!result.empty() && result.back().hi >= part.lo)
+        result.back().hi = std::max(result.back().hi, part.hi);
+      else
+        result.push_back(part);
+    }
+    const Interval all = solution_.domain();
+    if (solution_.is_closed() && result.size() > 1 && result.front().lo <= all.lo && result.back().hi >= all.hi) {
+      result.back().hi = all.hi + (result.front().hi - all.lo);
+      result.erase(result.begin());
+    }
+    return result;
+  }
+
+  const Surface& surface_;
+  const ContourSolution<2>& solution_;
+  const ViewOf& view_;
+};
+
+}  // namespace
+
+std::vector<double> picture_cusps(const Surface& surface, const Contour& branch, const ViewOf& view) {
+  const auto& curve = dynamic_cast<const ContourCurve<2>&>(*branch.curve);
+  return CuspSearch(surface, curve.solution(), view).run();
+}
+
+}  // namespace lekalo::geometry
