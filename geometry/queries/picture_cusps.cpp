@@ -1,5 +1,6 @@
-// The curve's own enclosures bound r' and the place on the surface over a part of it, hence m . (r' x i). Parts where
-// that may be zero are halved; what stays is joined, and holds a cusp if the sign differs at its ends.
+// The curve's own enclosures bound r', r'' and the place on the surface over a part of it, hence m . (r' x i) and its
+// derivative. Parts where the one may be zero and the other too are halved; what stays is joined. It holds a cusp if
+// the sign differs at its ends, as a part does where the function is monotone.
 #include "geometry/queries/picture_cusps.h"
 
 #include <algorithm>
@@ -27,16 +28,19 @@ class CuspSearch {
 
   std::vector<double> run() const {
     const double length = solution_.domain().width();
-    std::vector<Interval> cusps_in;
+    std::vector<Interval> monotone, open;
     std::vector<Part> level;
     for (const ContourSegment<2>& segment : solution_.segments()) level.push_back({&segment, segment.t});
     const size_t most = kMostParts * level.size();
     for (bool first = true; !level.empty(); first = false) {
       std::vector<Part> next;
       for (const Part& part : level) {
-        if (part.segment->is_certified() && !may_vanish(part)) continue;
-        if (!part.segment->is_certified() || part.t.width() <= kLeastPart * length || (!first && level.size() > most)) {
-          cusps_in.push_back(part.t);
+        const bool certified = part.segment->is_certified();
+        const Verdict verdict = certified ? decide(part) : Verdict::unsure;
+        if (verdict == Verdict::none) continue;
+        const bool is_small = part.t.width() <= kLeastPart * length || (!first && level.size() > most);
+        if (verdict == Verdict::monotone || !certified || is_small) {
+          (verdict == Verdict::monotone ? monotone : open).push_back(part.t);
           continue;
         }
         const double middle = part.t.middle();
@@ -45,8 +49,10 @@ class CuspSearch {
       }
       level.swap(next);
     }
+    std::vector<Interval> parts = joined(std::move(open));
+    parts.insert(parts.end(), monotone.begin(), monotone.end());
     std::vector<double> found;
-    for (const Interval& part : joined(std::move(cusps_in)))
+    for (const Interval& part : parts)
       if (is_positive(part.lo) != is_positive(part.hi)) found.push_back(solution_.wrap(bisect(part)));
     std::sort(found.begin(), found.end());
     return found;
@@ -58,27 +64,46 @@ class CuspSearch {
     Interval t;
   };
 
-  bool may_vanish(const Part& part) const {
-    const ContourSolution<2>::Ranges over = solution_.over(part.t, 1);
-    const ParameterBox<2> domain = part.segment->equations->domain();
+  // What intervals tell of m . (r' x i) over a part.
+  enum class Verdict { none, monotone, unsure };
+
+  Verdict decide(const Part& part) const {
+    const ContourSolution<2>::Ranges over = solution_.over(part.t, 2);
+    const ContourSegment<2>& segment = *part.segment;
+    const ParameterBox<2> domain = segment.equations->domain();
     Rectangle box;
-    box.u = intersect(over.x[0][0] - Interval(part.segment->shift[0]), domain[0]);
-    box.v = intersect(over.x[1][0] - Interval(part.segment->shift[1]), domain[1]);
-    if (box.u.empty() || box.v.empty()) return true;
-    const SurfaceEnclosure s = surface_.enclose(box, 1);
-    const Triple<Interval> normal = cross(derivative_of(s, 1, 0), derivative_of(s, 0, 1));
+    box.u = intersect(over.x[0][0] - Interval(segment.shift[0]), domain[0]);
+    box.v = intersect(over.x[1][0] - Interval(segment.shift[1]), domain[1]);
+    if (box.u.empty() || box.v.empty()) return Verdict::unsure;
+    const SurfaceEnclosure s = surface_.enclose(box, 2);
+    const Triple<Interval> s_u = derivative_of(s, 1, 0), s_v = derivative_of(s, 0, 1), normal = cross(s_u, s_v);
     const Vec3& from = view_.direction_or_eye;
     Triple<Interval> sight{Interval(from.x), Interval(from.y), Interval(from.z)};
     if (view_.central) sight = ranges(over.point[0]) - sight;
-    return dot(normal, cross(ranges(over.point[1]), sight)).contains(0);
+    const Triple<Interval> across = cross(ranges(over.point[1]), sight);
+    if (!dot(normal, across).contains(0)) return Verdict::none;
+    // The derivative; that of the sight is r' or nothing, and adds nothing.
+    const auto along = [&](int i, int j) {
+      return over.x[0][1] * derivative_of(s, i + 1, j) + over.x[1][1] * derivative_of(s, i, j + 1);
+    };
+    const Interval slope = dot(cross(along(1, 0), s_v) + cross(s_u, along(0, 1)), across) +
+                           dot(normal, cross(ranges(over.point[2]), sight));
+    if (!slope.contains(0)) return Verdict::monotone;
+    const double middle = part.t.middle();
+    const Interval rounding = Interval(-1e-14, 1e-14) * Interval(magnitude(dot(normal, across)));
+    return (Interval(value(middle)) + rounding + slope * (part.t - Interval(middle))).contains(0) ? Verdict::unsure
+                                                                                                  : Verdict::none;
   }
 
-  bool is_positive(double t) const {
+  // m . (r' x i) with m = s_u x s_v.
+  double value(double t) const {
     const auto there = solution_.at(solution_.wrap(t), 1);
     const auto vector = [&](int k) { return Vec3(there.point.x.c[k], there.point.y.c[k], there.point.z.c[k]); };
     const Vec3 sight = view_.central ? vector(0) - view_.direction_or_eye : view_.direction_or_eye;
-    return glm::dot(surface_.normal(there.x[0].c[0], there.x[1].c[0]), glm::cross(vector(1), sight)) > 0;
+    const SurfaceJet s = surface_.evaluate(there.x[0].c[0], there.x[1].c[0], 1);
+    return glm::dot(glm::cross(s.du(), s.dv()), glm::cross(vector(1), sight));
   }
+  bool is_positive(double t) const { return value(t) > 0; }
 
   double bisect(const Interval& part) const {
     double lo = part.lo, hi = part.hi;

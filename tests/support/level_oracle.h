@@ -1,8 +1,11 @@
 // The curves f = 0 of a polynomial over the unit square, counted on a grid: squares are dropped where all Bernstein
 // coefficients have one sign; the others must be monotone in one parameter, so that what the corners' signs say of them
-// is the truth. No Newton, no interval arithmetic, no code of the library's queries.
+// is the truth. And the common zeros of several polynomials, by halving. No Newton, no interval arithmetic, no code of
+// the library's queries.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -13,12 +16,12 @@ namespace lekalo::tests {
 // Degrees n by m; coefficient (i, j) at c[i * (m + 1) + j].
 struct BernsteinSquare {
   int n = 0, m = 0;
-  std::vector<double> c;
+  std::vector<long double> c;
 
-  double& at(int i, int j) { return c[i * (m + 1) + j]; }
-  double at(int i, int j) const { return c[i * (m + 1) + j]; }
-  static double binomial(int n, int k) {
-    double result = 1;
+  long double& at(int i, int j) { return c[i * (m + 1) + j]; }
+  long double at(int i, int j) const { return c[i * (m + 1) + j]; }
+  static long double binomial(int n, int k) {
+    long double result = 1;
     for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
     return result;
   }
@@ -33,8 +36,8 @@ struct BernsteinSquare {
                                   binomial(b.m, l) / (binomial(r.n, i + k) * binomial(r.m, j + l));
     return r;
   }
-  friend BernsteinSquare operator*(double s, BernsteinSquare a) {
-    for (double& x : a.c) x *= s;
+  friend BernsteinSquare operator*(long double s, BernsteinSquare a) {
+    for (long double& x : a.c) x *= s;
     return a;
   }
   // Of equal degrees.
@@ -60,18 +63,18 @@ struct BernsteinSquare {
     BernsteinSquare r = *this;
     const int degree = of_u ? n : m, lines = of_u ? m : n;
     for (int line = 0; line <= lines; ++line) {
-      const auto x = [&](int k) -> double& { return of_u ? r.at(k, line) : r.at(line, k); };
+      const auto x = [&](int k) -> long double& { return of_u ? r.at(k, line) : r.at(line, k); };
       for (int level = 1; level <= degree; ++level)
         if (upper)
-          for (int k = 0; k <= degree - level; ++k) x(k) = 0.5 * (x(k) + x(k + 1));
+          for (int k = 0; k <= degree - level; ++k) x(k) = 0.5L * (x(k) + x(k + 1));
         else
-          for (int k = degree; k >= level; --k) x(k) = 0.5 * (x(k - 1) + x(k));
+          for (int k = degree; k >= level; --k) x(k) = 0.5L * (x(k - 1) + x(k));
     }
     return r;
   }
   bool has_one_sign() const {
     bool positive = true, negative = true;
-    for (const double x : c) positive = positive && x > 0, negative = negative && x < 0;
+    for (const long double x : c) positive = positive && x > 0, negative = negative && x < 0;
     return positive || negative;
   }
 };
@@ -103,7 +106,7 @@ class LevelGrid {
   }
 
   void leaf(const BernsteinSquare& f, int i, int j) {
-    const double a = f.at(0, 0), b = f.at(f.n, 0), c = f.at(0, f.m), d = f.at(f.n, f.m);
+    const long double a = f.at(0, 0), b = f.at(f.n, 0), c = f.at(0, f.m), d = f.at(f.n, f.m);
     std::vector<int> crossed;
     if ((a > 0) != (b > 0)) crossed.push_back(edge(true, i, j));
     if ((c > 0) != (d > 0)) crossed.push_back(edge(true, i, j + 1));
@@ -148,5 +151,48 @@ class LevelGrid {
   std::map<int, int> parent_;
   std::vector<int> border_;
 };
+
+// Where all polynomials are zero: middles of what halving leaves of the square, 2^-depth wide, one for all that are no
+// farther than `apart` from each other (where the curves hardly cross, what is left is long, and torn up by rounding).
+inline std::vector<std::array<double, 2>> common_zeros(const std::vector<BernsteinSquare>& f, int depth, double apart) {
+  const auto gap = std::lround(std::ldexp(apart, depth));
+  struct Square {
+    std::vector<BernsteinSquare> f;
+    long i, j;
+  };
+  const auto may_vanish = [](const std::vector<BernsteinSquare>& all) {
+    return std::none_of(all.begin(), all.end(), [](const BernsteinSquare& one) { return one.has_one_sign(); });
+  };
+  std::vector<Square> level{{f, 0, 0}};
+  for (int k = 0; k < depth; ++k) {
+    std::vector<Square> next;
+    for (const Square& square : level)
+      for (const bool right : {false, true})
+        for (const bool above : {false, true}) {
+          Square part{{}, 2 * square.i + right, 2 * square.j + above};
+          for (const BernsteinSquare& one : square.f) part.f.push_back(one.half(true, right).half(false, above));
+          if (may_vanish(part.f)) next.push_back(std::move(part));
+        }
+    level.swap(next);
+  }
+  std::vector<std::array<double, 2>> zeros;
+  std::vector<bool> taken(level.size(), false);
+  for (size_t first = 0; first < level.size(); ++first) {
+    if (taken[first]) continue;
+    std::vector<size_t> cluster{first};
+    taken[first] = true;
+    double u = 0, v = 0;
+    for (size_t k = 0; k < cluster.size(); ++k) {
+      const Square& one = level[cluster[k]];
+      u += one.i + 0.5, v += one.j + 0.5;
+      for (size_t other = 0; other < level.size(); ++other)
+        if (!taken[other] && std::abs(level[other].i - one.i) <= gap && std::abs(level[other].j - one.j) <= gap)
+          taken[other] = true, cluster.push_back(other);
+    }
+    const double scale = std::ldexp(1.0, -depth) / static_cast<double>(cluster.size());
+    zeros.push_back({scale * u, scale * v});
+  }
+  return zeros;
+}
 
 }  // namespace lekalo::tests

@@ -458,6 +458,7 @@ void report(const Counts& counts) {
 }
 
 constexpr int kGridDepth = 8;
+constexpr double kSameCusp = 1e-5;  // in the parameters
 
 TEST(RandomContours, PatchesWithSpheres) {
   std::mt19937 random(41);
@@ -513,10 +514,15 @@ TEST(RandomContours, PlaneSections) {
 }
 
 // i . (s_u x s_v) w^3 / w: the determinant of (i, 0), (A, w), (A_u, w_u), (A_v, w_v).
+//
+// On the outline (i, 0) = a (A_u, w_u) + b (A_v, w_v) + ... (A, w), so that with any fourth row c the determinants of
+// i, A, A_v, c and of i, A, A_u, c are a and -b times a common factor. A cusp is where f_u a + f_v b = 0; where the
+// factor vanishes depends on c.
 TEST(RandomContours, Silhouettes) {
   std::mt19937 random(53);
   std::uniform_real_distribution<double> d(-1, 1);
   Counts counts;
+  int cusps = 0;
   for (int k = 0; k < tests::tier_count(200, 20); ++k) {
     const RandomPatch patch(random, 0.8, 0.4);
     const bool central = k % 2;
@@ -533,10 +539,46 @@ TEST(RandomContours, Silhouettes) {
     const BernsteinSquare f =
         row[0] * minor(1, 2, 3) - row[1] * minor(0, 2, 3) + row[2] * minor(0, 1, 3) - row[3] * minor(0, 1, 2);
     const Contours found = silhouette(patch.surface, {central, view});
-    compare(found, LevelGrid::count(f, kGridDepth), counts, k);
+    const tests::LevelCurves truth = LevelGrid::count(f, kGridDepth);
+    compare(found, truth, counts, k);
     check_promises(found, {patch.surface}, 3);
+    if (truth.unclear) continue;
+
+    std::vector<BernsteinSquare> both{f};
+    for (const std::array<double, 4>& c : {std::array{0.3, -0.8, 0.5, 0.1}, std::array{-0.6, 0.2, 0.7, -0.4}}) {
+      // The determinant of i, A, e, c by the minors of its constant rows.
+      const auto determinant = [&](const std::array<BernsteinSquare, 4>& e) {
+        BernsteinSquare sum{h[0].n + e[0].n, h[0].m + e[0].m, {}};
+        sum.c.assign((sum.n + 1) * (sum.m + 1), 0);
+        for (int p = 0; p < 4; ++p)
+          for (int q = p + 1; q < 4; ++q) {
+            std::array<int, 2> rest{};
+            for (int r = 0, at = 0; r < 4; ++r)
+              if (r != p && r != q) rest[at++] = r;
+            const double sign = (p + q) % 2 ? 1 : -1;
+            sum = sum + (sign * (row[rest[0]] * c[rest[1]] - row[rest[1]] * c[rest[0]])) * (h[p] * e[q] - h[q] * e[p]);
+          }
+        return sum;
+      };
+      both.push_back(f.by_u() * determinant(hv) - f.by_v() * determinant(hu));
+    }
+    std::vector<std::array<double, 2>> expected = tests::common_zeros(both, 26, kSameCusp);
+    size_t count = 0;
+    for (const Contour& one : found.branches)
+      for (const double t : one.cusps) {
+        ++count;
+        const Vec3 at = one.images[0]->point(t);
+        const size_t before = expected.size();
+        std::erase_if(expected, [&](const std::array<double, 2>& zero) {
+          return std::abs(zero[0] - at.x) < kSameCusp && std::abs(zero[1] - at.y) < kSameCusp;
+        });
+        EXPECT_EQ(expected.size() + 1, before) << k << ": a cusp at " << at.x << " " << at.y << " that is none";
+      }
+    cusps += static_cast<int>(count);
+    for (const auto& lost : expected) ADD_FAILURE() << k << ": a cusp lost at " << lost[0] << " " << lost[1];
   }
   report(counts);
+  tests::report_figure("cusps", cusps);
 }
 
 }  // namespace
