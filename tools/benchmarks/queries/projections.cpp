@@ -57,8 +57,8 @@ std::vector<Vec3> feet_of(Occt& occt, const Vec3& p) {
   return points;
 }
 
-template <class Shape, class Occt>
-void race(int runs, const std::vector<Vec3>& points, const Shape& own, Occt& occt, Timed& ours, Timed& theirs,
+template <class Projector, class Occt>
+void race(int runs, const std::vector<Vec3>& points, const Projector& own, Occt& occt, Timed& ours, Timed& theirs,
           Counts& counts) {
   for (int run = 0; run < runs; ++run) {
     theirs.run([&] {
@@ -71,11 +71,11 @@ void race(int runs, const std::vector<Vec3>& points, const Shape& own, Occt& occ
     });
     ours.run([&] {
       size_t count = 0;
-      for (const Vec3& p : points) count += project(p, own).feet.size();
+      for (const Vec3& p : points) count += own.feet(p).feet.size();
       return count;
     });
   }
-  for (const Vec3& p : points) counts.add(stationary(project(p, own)), feet_of(occt, p));
+  for (const Vec3& p : points) counts.add(stationary(own.feet(p)), feet_of(occt, p));
 }
 
 void print(const std::string& name, size_t points, double ours, double theirs, const Counts& counts) {
@@ -96,12 +96,13 @@ void print_projections(int runs) {
     for (int k = 0; k < kShapes; ++k) {
       RandomNet net(100 * degree + k);
       const int count = degree + 6;
-      const NurbsCurve curve(clamped_axis(degree, count), net.points(count), net.weights(count));
-      const Handle(Geom_BSplineCurve) spline = occt_spline(curve);
+      const auto curve =
+          std::make_shared<NurbsCurve>(clamped_axis(degree, count), net.points(count), net.weights(count));
+      const Handle(Geom_BSplineCurve) spline = occt_spline(*curve);
       GeomAPI_ProjectPointOnCurve occt;
       occt.Init(spline, spline->FirstParameter(), spline->LastParameter());
       Timed own_time, occt_time;
-      race(runs, points_about(7 + k, kCurvePoints), curve, occt, own_time, occt_time, counts);
+      race(runs, points_about(7 + k, kCurvePoints), CurveProjector(curve), occt, own_time, occt_time, counts);
       ours += own_time.least(), theirs += occt_time.least();
     }
     print(fmt::format("curve, degree {}", degree), kShapes * kCurvePoints, ours, theirs, counts);
@@ -111,14 +112,14 @@ void print_projections(int runs) {
     Counts counts;
     for (int k = 0; k < kShapes; ++k) {
       const SplineAxis axis = points == 4 ? bezier_axis(3) : clamped_axis(3, points);
-      const NurbsSurface sheet = random_sheet(500 + k, axis, axis);
-      const Handle(Geom_BSplineSurface) spline = occt_spline(sheet);
+      const auto sheet = std::make_shared<NurbsSurface>(random_sheet(500 + k, axis, axis));
+      const Handle(Geom_BSplineSurface) spline = occt_spline(*sheet);
       double u0, u1, v0, v1;
       spline->Bounds(u0, u1, v0, v1);
       GeomAPI_ProjectPointOnSurf occt;
       occt.Init(spline, u0, u1, v0, v1);
       Timed own_time, occt_time;
-      race(runs, points_about(7 + k, kSurfacePoints), sheet, occt, own_time, occt_time, counts);
+      race(runs, points_about(7 + k, kSurfacePoints), SurfaceProjector(sheet), occt, own_time, occt_time, counts);
       ours += own_time.least(), theirs += occt_time.least();
     }
     print(fmt::format("bicubic surface, {0} x {0} spans", points - 3), kShapes * kSurfacePoints, ours, theirs, counts);
