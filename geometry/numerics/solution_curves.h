@@ -186,12 +186,25 @@ struct ChartBox {
 
   ChartBox(const Chart<N, M>& chart, const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range)
       : chart(chart), box(box) {
+    // By middles and radii: |I - C J| <= |I - C m| + |C| r, with the rounding of the sums.
+    std::array<std::array<double, kOthers>, M> middles, radii;
+    for (int k = 0; k < M; ++k)
+      for (int j = 0; j < kOthers; ++j) {
+        const Interval& d = range.derivative[k][chart.others[j]];
+        middles[k][j] = 0.5 * d.lo + 0.5 * d.hi;
+        radii[k][j] = std::max(d.hi - middles[k][j], middles[k][j] - d.lo);
+      }
+    constexpr double kRounding = 1e-14;
     for (int i = 0; i < kOthers; ++i) {
       double reach = 0;
       for (int j = 0; j < kOthers; ++j) {
-        Interval e = i == j ? Interval(1) : Interval(0);
-        for (int k = 0; k < M; ++k) e -= Interval(chart.inverse[i][k]) * range.derivative[k][chart.others[j]];
-        error[i][j] = magnitude(e);
+        double off = i == j ? 1 : 0, spread = 0, size = off;
+        for (int k = 0; k < M; ++k) {
+          const double c = chart.inverse[i][k], by = c * middles[k][j];
+          off -= by, size += std::abs(by), spread += std::abs(c) * radii[k][j];
+        }
+        error[i][j] = std::abs(off) + spread + kRounding * (size + spread);
+        if (!std::isfinite(error[i][j])) error[i][j] = std::numeric_limits<double>::infinity();
         reach = next_up(reach + next_up(error[i][j] * box[chart.others[j]].width()));
       }
       slope[i] = Interval(0);
@@ -202,6 +215,17 @@ struct ChartBox {
     }
   }
   bool is_one_to_one() const { return shrinks < 0.7; }
+
+  // About where the solution near x goes on to.
+  ParameterPlace<N> along_slope(ParameterPlace<N> x, double to) const {
+    const double by = to - x[chart.along];
+    for (int i = 0; i < kOthers; ++i) {
+      double& y = x[chart.others[i]];
+      y = box[chart.others[i]].clamp(y - slope[i].middle() * by);
+    }
+    x[chart.along] = to;
+    return x;
+  }
 
   // Where solutions in the box with the parameter in `slice` can lie, seen from the place x with the values f.
   ParameterBox<N> reachable(const Interval& slice, const ParameterPlace<N>& x, const std::array<Interval, M>& f,
@@ -296,6 +320,12 @@ class Search {
     return f;
   }
 
+  std::array<Interval, M> rounded(const SystemValue<double, N, M>& there) const {
+    std::array<Interval, M> f;
+    for (int k = 0; k < M; ++k) f[k] = {there.value[k] - options_.rounding[k], there.value[k] + options_.rounding[k]};
+    return f;
+  }
+
   void visit(const Box& box) {
     for (const Box& known : options_.settled)
       if (contains<N>(known, box)) return;
@@ -305,13 +335,15 @@ class Search {
     Place middle;
     std::array<double, N> sides;
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
-    const SystemValue<double, N, M> there = system_.evaluate(middle);
+    const SystemValue<double, N, M> there = system_.evaluate_middle(box);
     if (is_excluded(box, range, middle, there, sides)) return;
     const Place direction = direction_of<N, M>(there.derivative, sides);
     // The unknown that changes most, seen in units of the box.
     const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, largest<N>(direction));
     if (chart) {
       const ChartBox<N, M> over(*chart, box, range);
+      if constexpr (M == N - 1)
+        if (is_empty<N>(over.reachable(box[chart->along], middle, rounded(there), box, kCuts))) return;
       if (over.is_one_to_one()) return cover(over, middle);
     }
     divide(box);
@@ -366,13 +398,14 @@ class Search {
     Box wide = over.box;  // with the slack of the domain's border
     for (int i = 0; i < N; ++i)
       if (i != along) wide[i] = {wide[i].lo - options_.slack[i], wide[i].hi + options_.slack[i]};
-    std::vector<Interval> slices{over.box[along]};
+    std::vector<std::pair<Interval, Place>> slices;
+    cut_at_nodes(over, over.box[along], middle, slices);
     int slices_seen = 0;
     while (!slices.empty()) {
-      const Interval slice = slices.back();
+      const Interval slice = slices.back().first;
+      Place x = slices.back().second;
       slices.pop_back();
-      Place x = middle;
-      x[along] = slice.middle();
+      if (is_settled(over, slice, wide, x)) continue;
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
       if (++slices_seen > kMostSlices) {
@@ -392,14 +425,59 @@ class Search {
           return;
         }
         if (is_known_place(x)) {
-          slices.push_back(slice);
+          cut_at_nodes(over, slice, x, slices);
           continue;
         }
       }
       if (slice.width() <= kLeastSlice * scale_[along]) continue;
-      slices.push_back({slice.lo, slice.middle()});
-      slices.push_back({slice.middle(), slice.hi});
+      for (const Interval& half : {Interval(slice.lo, slice.middle()), Interval(slice.middle(), slice.hi)})
+        slices.emplace_back(half, over.along_slope(x, half.middle()));
     }
+  }
+
+  // A range of a chart cut at the nodes of known arcs in its box, so that each slice may lie in one tube; with places
+  // near the solution.
+  void cut_at_nodes(const ChartBox<N, M>& over, const Interval& range, const Place& near,
+                    std::vector<std::pair<Interval, Place>>& slices) const {
+    const int along = over.chart.along;
+    std::vector<const Place*> nodes;
+    for (const SolutionArc<N>& arc : result_.arcs)
+      for (const Place& node : arc.nodes) {
+        bool inside = node[along] > range.lo && node[along] < range.hi;
+        for (int i = 0; inside && i < N; ++i) inside = over.box[i].contains(node[i]);
+        if (inside) nodes.push_back(&node);
+      }
+    if (nodes.empty()) {
+      slices.emplace_back(range, over.along_slope(near, range.middle()));
+      return;
+    }
+    std::sort(nodes.begin(), nodes.end(), [&](const Place* a, const Place* b) { return (*a)[along] < (*b)[along]; });
+    for (size_t k = 0; k <= nodes.size(); ++k) {
+      const Interval slice(k == 0 ? range.lo : (*nodes[k - 1])[along],
+                           k == nodes.size() ? range.hi : (*nodes[k])[along]);
+      if (!(slice.lo < slice.hi)) continue;
+      Place x = over.along_slope(*nodes[k == nodes.size() ? k - 1 : k], slice.middle());
+      if (k > 0 && k < nodes.size())
+        for (int i = 0; i < N; ++i)
+          if (i != along) x[i] = 0.5 * ((*nodes[k - 1])[i] + (*nodes[k])[i]);
+      slices.emplace_back(slice, x);
+    }
+  }
+
+  // Whether a slice holds nothing, or only what is known: seen from near a solution, which moves x nearer to it.
+  bool is_settled(const ChartBox<N, M>& over, const Interval& slice, const Box& wide, Place& x) const {
+    if constexpr (M == N - 1)
+      for (int look = 0; look < 2; ++look) {
+        const SystemValue<double, N, M> there = system_.evaluate(x);
+        const Box reached = over.reachable(slice, x, rounded(there), wide, kLooks);
+        if (is_empty<N>(reached) || is_known(reached)) return true;
+        for (int i = 0; i < N - 1; ++i) {
+          const int unknown = over.chart.others[i];
+          for (int k = 0; k < M; ++k) x[unknown] -= over.chart.inverse[i][k] * there.value[k];
+          x[unknown] = wide[unknown].clamp(x[unknown]);
+        }
+      }
+    return false;
   }
 
   // Whether the equations of least squares cannot all vanish there.
@@ -690,8 +768,8 @@ class Search {
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
   static constexpr double kLeastSlice = 1e-12;
-  static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000,
-                       kMostSlices = 250;
+  static constexpr int kTimes = 400, kCuts = 3, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150,
+                       kMostNodes = 200000, kMostSlices = 250;
 
   const System& system_;
   const Box domain_;
@@ -710,6 +788,8 @@ class Search {
 //     certified ranges over a box in the domain
 //   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const
 //     the same at a place, to rounding; a little outside of the domain too
+//   SystemValue<double, N, M> evaluate_middle(const ParameterBox<N>&) const
+//     the same in the middle of a box
 //   std::array<double, N> extents(const ParameterBox<N>&) const
 //     bounds of how far each parameter moves the image in space, over a box
 //   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const
