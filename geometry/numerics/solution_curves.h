@@ -32,8 +32,8 @@ namespace lekalo::geometry {
 template <int N>
 struct SolutionArc {
   std::vector<ParameterPlace<N>> nodes;  // solutions to rounding, in order; a closed arc repeats the first at the end
-  // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another.
-  std::vector<ParameterBox<N>> tubes;
+  // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another, hulls[i] too, more tightly.
+  std::vector<ParameterBox<N>> tubes, hulls;
   bool closed = false;
   // The arc ends next to a singular solution rather than on the border of the domain.
   bool begins_singular = false, ends_singular = false;
@@ -178,6 +178,7 @@ int largest(const ParameterPlace<N>& direction) {
 template <int N, int M>
 struct ChartBox {
   static constexpr int kOthers = N - 1;
+  static constexpr double kRounding = 1e-14;  // more than that of a few sums
   Chart<N, M> chart;
   ParameterBox<N> box;
   std::array<std::array<double, kOthers>, kOthers> error{};  // |I - C F_y(X)|
@@ -194,7 +195,6 @@ struct ChartBox {
         middles[k][j] = 0.5 * d.lo + 0.5 * d.hi;
         radii[k][j] = std::max(d.hi - middles[k][j], middles[k][j] - d.lo);
       }
-    constexpr double kRounding = 1e-14;
     for (int i = 0; i < kOthers; ++i) {
       double reach = 0;
       for (int j = 0; j < kOthers; ++j) {
@@ -238,20 +238,22 @@ struct ChartBox {
       for (int k = 0; k < M; ++k) base[i] -= Interval(chart.inverse[i][k]) * f[k];
     }
     for (int time = 0; time < times; ++time) {
-      ParameterBox<N> next = y;
+      std::array<double, kOthers> from;
+      for (int j = 0; j < kOthers; ++j) {
+        const Interval& of = y[chart.others[j]];
+        from[j] = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
+      }
       bool shrinks_on = false;
       for (int i = 0; i < kOthers; ++i) {
         double reach = 0;
-        for (int j = 0; j < kOthers; ++j) {
-          const Interval& of = y[chart.others[j]];
-          const double from = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
-          reach = next_up(reach + next_up(error[i][j] * next_up(from)));
-        }
-        next[chart.others[i]] = intersect(y[chart.others[i]], base[i] + Interval(-reach, reach));
-        if (next[chart.others[i]].empty()) return next;
-        shrinks_on = shrinks_on || next[chart.others[i]].width() < 0.97 * y[chart.others[i]].width();
+        for (int j = 0; j < kOthers; ++j) reach += error[i][j] * from[j];
+        reach += kRounding * reach;
+        Interval& own = y[chart.others[i]];
+        const double width = own.width();
+        own = intersect(own, base[i] + Interval(-reach, reach));
+        if (own.empty()) return y;
+        shrinks_on = shrinks_on || own.width() < 0.97 * width;
       }
-      y = next;
       if (!shrinks_on) break;
     }
     return y;
@@ -398,7 +400,7 @@ class Search {
     Box wide = over.box;  // with the slack of the domain's border
     for (int i = 0; i < N; ++i)
       if (i != along) wide[i] = {wide[i].lo - options_.slack[i], wide[i].hi + options_.slack[i]};
-    std::vector<std::pair<Interval, Place>> slices;
+    Slices slices;
     cut_at_nodes(over, over.box[along], middle, slices);
     int slices_seen = 0;
     while (!slices.empty()) {
@@ -406,6 +408,11 @@ class Search {
       Place x = slices.back().second;
       slices.pop_back();
       if (is_settled(over, slice, wide, x)) continue;
+      // On a known arc, but over more than one of its tubes.
+      if (slice.width() > kWideSlice * scale_[along] && is_known_place(x)) {
+        halve(over, slice, x, slices);
+        continue;
+      }
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
       if (++slices_seen > kMostSlices) {
@@ -430,38 +437,54 @@ class Search {
         }
       }
       if (slice.width() <= kLeastSlice * scale_[along]) continue;
-      for (const Interval& half : {Interval(slice.lo, slice.middle()), Interval(slice.middle(), slice.hi)})
-        slices.emplace_back(half, over.along_slope(x, half.middle()));
+      halve(over, slice, x, slices);
     }
   }
 
-  // A range of a chart cut at the nodes of known arcs in its box, so that each slice may lie in one tube; with places
-  // near the solution.
-  void cut_at_nodes(const ChartBox<N, M>& over, const Interval& range, const Place& near,
-                    std::vector<std::pair<Interval, Place>>& slices) const {
+  using Slices = std::vector<std::pair<Interval, Place>>;
+  static void halve(const ChartBox<N, M>& over, const Interval& slice, const Place& x, Slices& slices) {
+    for (const Interval& half : {Interval(slice.lo, slice.middle()), Interval(slice.middle(), slice.hi)})
+      slices.emplace_back(half, over.along_slope(x, half.middle()));
+  }
+
+  // What is left of a range of a chart by known arcs. Where an arc runs inside of the box it is the chart's only
+  // solution; beyond the range is cut at the nodes, so that each slice may lie in one tube. With places near the
+  // solution.
+  void cut_at_nodes(const ChartBox<N, M>& over, const Interval& range, const Place& near, Slices& slices) const {
     const int along = over.chart.along;
+    std::vector<Interval> settled;
     std::vector<const Place*> nodes;
     for (const SolutionArc<N>& arc : result_.arcs)
-      for (const Place& node : arc.nodes) {
-        bool inside = node[along] > range.lo && node[along] < range.hi;
+      for (size_t k = 0; k < arc.nodes.size(); ++k) {
+        const Place& node = arc.nodes[k];
+        if (!range.contains(node[along])) continue;
+        bool inside = true;
         for (int i = 0; inside && i < N; ++i) inside = over.box[i].contains(node[i]);
-        if (inside) nodes.push_back(&node);
+        if (!inside) continue;
+        nodes.push_back(&node);
+        if (k + 1 < arc.nodes.size() && contains<N>(over.box, arc.hulls[k]))
+          settled.push_back(hull(Interval(node[along]), Interval(arc.nodes[k + 1][along])));
       }
-    if (nodes.empty()) {
-      slices.emplace_back(range, over.along_slope(near, range.middle()));
-      return;
-    }
+    std::sort(settled.begin(), settled.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
     std::sort(nodes.begin(), nodes.end(), [&](const Place* a, const Place* b) { return (*a)[along] < (*b)[along]; });
-    for (size_t k = 0; k <= nodes.size(); ++k) {
-      const Interval slice(k == 0 ? range.lo : (*nodes[k - 1])[along],
-                           k == nodes.size() ? range.hi : (*nodes[k])[along]);
-      if (!(slice.lo < slice.hi)) continue;
-      Place x = over.along_slope(*nodes[k == nodes.size() ? k - 1 : k], slice.middle());
-      if (k > 0 && k < nodes.size())
-        for (int i = 0; i < N; ++i)
-          if (i != along) x[i] = 0.5 * ((*nodes[k - 1])[i] + (*nodes[k])[i]);
-      slices.emplace_back(slice, x);
+    const auto add = [&](double lo, double hi) {
+      for (const Place* node : nodes) {
+        const double at = (*node)[along];
+        if (!(at > lo && at < hi)) continue;
+        slices.emplace_back(Interval(lo, at), over.along_slope(*node, 0.5 * (lo + at)));
+        lo = at;
+      }
+      const auto last =
+          std::find_if(nodes.rbegin(), nodes.rend(), [&](const Place* node) { return (*node)[along] <= lo; });
+      const Place& from = last != nodes.rend() ? **last : near;
+      slices.emplace_back(Interval(lo, hi), over.along_slope(from, 0.5 * (lo + hi)));
+    };
+    double lo = range.lo;
+    for (const Interval& part : settled) {
+      if (part.lo > lo) add(lo, part.lo);
+      lo = std::max(lo, part.hi);
     }
+    if (lo < range.hi || settled.empty()) add(lo, range.hi);
   }
 
   // Whether a slice holds nothing, or only what is known: seen from near a solution, which moves x nearer to it.
@@ -549,7 +572,7 @@ class Search {
 
   struct Ahead {
     Place to;
-    Box tube;
+    Box tube, hull;
     bool at_border = false;
   };
 
@@ -563,6 +586,7 @@ class Search {
     if (!arc.closed) {
       std::reverse(arc.nodes.begin(), arc.nodes.end());
       std::reverse(arc.tubes.begin(), arc.tubes.end());
+      std::reverse(arc.hulls.begin(), arc.hulls.end());
       arc.begins_singular = arc.ends_singular;
       Place back = first;
       for (double& x : back) x = -x;
@@ -570,6 +594,7 @@ class Search {
       // In the sense of the direction's sign.
       std::reverse(arc.nodes.begin(), arc.nodes.end());
       std::reverse(arc.tubes.begin(), arc.tubes.end());
+      std::reverse(arc.hulls.begin(), arc.hulls.end());
       std::swap(arc.begins_singular, arc.ends_singular);
     }
     if (arc.nodes.size() == 1) return !arc.begins_singular && !arc.ends_singular;
@@ -597,11 +622,14 @@ class Search {
       if (arc.nodes.size() > known && passes(ahead, x, direction, start)) {
         arc.nodes.push_back(start);
         arc.tubes.push_back(ahead.tube);
+        arc.hulls.push_back(ahead.hull);
+        arc.hulls.push_back(ahead.hull);
         arc.closed = true;
         return false;
       }
       arc.nodes.push_back(ahead.to);
       arc.tubes.push_back(ahead.tube);
+      arc.hulls.push_back(ahead.hull);
       meets_known_ = meets_known_ || is_known_place(ahead.to);
       if (ahead.at_border || meets_known_) return false;
       const Place next = direction_of<N, M>(system_.evaluate(ahead.to).derivative, scale_);
@@ -693,7 +721,7 @@ class Search {
     }
     if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to))) return false;
     ahead.to = to;
-    return certify(x, to, along, step, ahead.tube);
+    return certify(x, to, along, step, ahead);
   }
 
   // At a border that the curve touches from inside it may stay a little beyond: only a true exit ends it.
@@ -742,7 +770,8 @@ class Search {
   }
 
   // A tube about the way from x to `to`: a chart whose sides the curve cannot reach.
-  bool certify(const Place& x, const Place& to, int along, double step, Box& tube) const {
+  bool certify(const Place& x, const Place& to, int along, double step, Ahead& ahead) const {
+    Box& tube = ahead.tube;
     Place middle;
     for (int i = 0; i < N; ++i) {
       const double low = std::min(x[i], to[i]), high = std::max(x[i], to[i]);
@@ -761,13 +790,14 @@ class Search {
       if (reached[i].lo <= tube[i].lo && tube[i].lo > domain_[i].lo) return false;
       if (reached[i].hi >= tube[i].hi && tube[i].hi < domain_[i].hi) return false;
     }
+    ahead.hull = over.reachable(hull(Interval(x[along]), Interval(to[along])), x, {}, reached, kCuts);
     return true;
   }
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
-  static constexpr double kLeastSlice = 1e-12;
+  static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
   static constexpr int kTimes = 400, kCuts = 3, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150,
                        kMostNodes = 200000, kMostSlices = 250;
 
