@@ -70,6 +70,9 @@ namespace solution_curves {
 
 template <int M>
 double determinant(root_search::Matrix<M> a) {
+  if constexpr (M == 3)
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
   double result = 1;
   for (int column = 0; column < M; ++column) {
     int pivot = column;
@@ -338,16 +341,25 @@ class Search {
     std::array<double, N> sides;
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
     const SystemValue<double, N, M> there = system_.evaluate_middle(box);
-    if (is_excluded(box, range, middle, there, sides)) return;
     const Place direction = direction_of<N, M>(there.derivative, sides);
     // The unknown that changes most, seen in units of the box.
     const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, largest<N>(direction));
     if (chart) {
       const ChartBox<N, M> over(*chart, box, range);
-      if constexpr (M == N - 1)
-        if (is_empty<N>(over.reachable(box[chart->along], middle, rounded(there), box, kCuts))) return;
+      Box reached = box;
+      if constexpr (M == N - 1) {
+        reached = over.reachable(box[chart->along], middle, rounded(there), box, kCuts);
+        if (is_empty<N>(reached)) return;
+      }
       if (over.is_one_to_one()) return cover(over, middle);
+      double volume = 1;
+      for (int i = 0; i < N; ++i) volume *= reached[i].width() / box[i].width();
+      if (volume < 0.25) {
+        boxes_.push_back(reached);
+        return;
+      }
     }
+    if (is_excluded(box, range, middle, there, sides)) return;
     divide(box);
   }
 

@@ -44,29 +44,31 @@ SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& pie
   return boxes;
 }
 
-size_t KnownEnclosures::Hash::operator()(const std::array<double, 4>& key) const {
+size_t KnownEnclosures::Hash::operator()(const Key& key) const {
   std::uint64_t sum = 0;
   for (const double x : key) sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u, sum ^= sum >> 29;
   return sum;
 }
 
 const KnownEnclosures::First& KnownEnclosures::of(const Surface& surface, const Rectangle& box) {
-  const auto [found, is_new] = known_.try_emplace({box.u.lo, box.u.hi, box.v.lo, box.v.hi});
-  if (is_new) {
+  Entry& known = entry(box);
+  if (!known.knows_first) {
     const SurfaceEnclosure s = surface.enclose(box, 1);
-    found->second = {s.d(0, 0), s.d(1, 0), s.d(0, 1)};
+    known.first = {s.d(0, 0), s.d(1, 0), s.d(0, 1)};
+    known.knows_first = true;
   }
-  return found->second;
+  return known.first;
 }
 
 const KnownEnclosures::FirstOfMiddle& KnownEnclosures::of_middle(const Surface& surface, const Rectangle& piece,
                                                                  const Rectangle& box) {
-  const auto [found, is_new] = middles_.try_emplace({box.u.lo, box.u.hi, box.v.lo, box.v.hi});
-  if (is_new) {
+  Entry& known = entry(box);
+  if (!known.knows_middle) {
     const SurfaceJet s = evaluate_within(surface, piece, box.u.middle(), box.v.middle(), 1);
-    found->second = {s.point(), s.du(), s.dv()};
+    known.middle = {s.point(), s.du(), s.dv()};
+    known.knows_middle = true;
   }
-  return found->second;
+  return known.middle;
 }
 
 namespace {

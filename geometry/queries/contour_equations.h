@@ -37,11 +37,18 @@ class KnownEnclosures {
   const FirstOfMiddle& of_middle(const Surface& surface, const Rectangle& piece, const Rectangle& box);
 
  private:
+  using Key = std::array<double, 4>;
   struct Hash {
-    size_t operator()(const std::array<double, 4>& key) const;
+    size_t operator()(const Key& key) const;
   };
-  std::unordered_map<std::array<double, 4>, First, Hash> known_;
-  std::unordered_map<std::array<double, 4>, FirstOfMiddle, Hash> middles_;
+  struct Entry {
+    First first;
+    FirstOfMiddle middle;
+    bool knows_first = false, knows_middle = false;
+  };
+  Entry& entry(const Rectangle& box) { return known_[{box.u.lo, box.u.hi, box.v.lo, box.v.hi}]; }
+
+  std::unordered_map<Key, Entry, Hash> known_;
 };
 
 // A system at a place beyond its domain: as at the border, continued linearly.
