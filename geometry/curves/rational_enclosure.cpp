@@ -1,66 +1,161 @@
 #include "geometry/curves/rational_enclosure.h"
 
 #include <cmath>
-#include <vector>
 
-#include "geometry/curves/blossom.h"
+#include "geometry/curves/bspline_basis.h"
+#include "geometry/numerics/instruction_sets.h"
+#include "geometry/numerics/lanes.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-// Bezier points of a homogeneous polynomial over a parameter box, each good to `slack` in each coordinate.
-struct Hull {
-  std::vector<Vec4> points;
-  Vec4 slack{0};
-};
-
-Vec4 largest(std::span<const Vec4> points) {
-  Vec4 result(0);
-  for (const Vec4& p : points) result = glm::max(result, glm::abs(p));
-  return result;
-}
-
-Interval coordinate(const Hull& hull, int axis) {
-  Interval range{kInfinity, -kInfinity};
-  for (const Vec4& p : hull.points) range = geometry::hull(range, Interval(p[axis]));
-  return range + Interval(-hull.slack[axis], hull.slack[axis]);
-}
-
-// The hull of A - c w.
-Interval moved(const Hull& hull, int axis, double c) {
-  Interval range{kInfinity, -kInfinity};
-  double magnitude = 0;
-  for (const Vec4& p : hull.points) {
-    range = geometry::hull(range, Interval(p[axis] - c * p.w));
-    magnitude = std::max(magnitude, std::abs(p[axis]) + std::abs(c * p.w));
-  }
-  const double slack = hull.slack[axis] + std::abs(c) * hull.slack.w + 2 * kEpsilon * magnitude;
-  return range + Interval(-slack, slack);
-}
+constexpr int kMostSide = kMaxDegree + 1;
 
 struct Box {
   Interval c[3];
   Box3 box() const { return {{c[0].lo, c[1].lo, c[2].lo}, {c[0].hi, c[1].hi, c[2].hi}}; }
 };
 
-Box point_box(const Hull& hull, bool rational) {
-  Box box;
-  const Interval w = coordinate(hull, 3);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!rational) {
-      box.c[axis] = coordinate(hull, axis);
-    } else if (w.lo > 0) {
-      Interval range{kInfinity, -kInfinity};
-      const Interval slack(-hull.slack[axis], hull.slack[axis]), slack_w(-hull.slack.w, hull.slack.w);
-      for (const Vec4& p : hull.points)
-        range = geometry::hull(range, (Interval(p[axis]) + slack) / (Interval(p.w) + slack_w));
-      box.c[axis] = range;
-    } else {
-      box.c[axis] = coordinate(hull, axis) / w;
+// The Bezier points over a part of a span are sums of its control points with these weights, [Bezier][control]: de
+// Boor's recursion backwards (geometry/curves/blossom.h), with one argument at each level.
+struct SpanMatrix {
+  int side;
+  double weights[kMostSide][kMostSide];
+
+  SpanMatrix(int degree, std::span<const double> knots, int span, const Interval& t) : side(degree + 1) {
+    double from[kMostSide][kMostSide], to[kMostSide][kMostSide];  // [level][control]
+    for (int r = 1; r <= degree; ++r)
+      for (int j = r; j <= degree; ++j) {
+        const double knot = knots[span - degree + j], inverse = 1 / (knots[span + j + 1 - r] - knot);
+        from[r][j] = std::clamp((t.lo - knot) * inverse, 0.0, 1.0);
+        to[r][j] = std::clamp((t.hi - knot) * inverse, 0.0, 1.0);
+      }
+    for (int m = 0; m <= degree; ++m) {
+      double* w = weights[m];
+      for (int j = 0; j < degree; ++j) w[j] = 0;
+      w[degree] = 1;
+      for (int r = degree; r >= 1; --r)
+        for (int j = r; j <= degree; ++j) {
+          const double share = (r > degree - m ? to : from)[r][j], value = w[j];
+          w[j - 1] += (1 - share) * value;
+          w[j] = share * value;
+        }
     }
+  }
+};
+
+// What sum of weights a row of the matrix and the sum over it may be wrong by: five roundings of each share, three at
+// each level, and those of the products.
+double matrix_slack(int side) { return (16 * side + 2) * kEpsilon; }
+
+// A net of points with what each is good to in each coordinate.
+struct Net {
+  int rows, columns;
+  Lanes slack;
+  Lanes points[kMostSide * kMostSide];
+  int count() const { return rows * columns; }
+};
+
+inline void absolute(const Lanes& x, Lanes& result) { result = x < 0 ? -x : x; }
+inline void largest(const Net& net, Lanes& most) {
+  most = Lanes{};
+  Lanes size;
+  for (int k = 0; k < net.count(); ++k) {
+    absolute(net.points[k], size);
+    most = size > most ? size : most;
+  }
+}
+
+// Control points of the derivative; a side of degree 0 differentiates to zero.
+inline void differentiate(const Net& net, bool by_u, std::span<const double> knots, int span, Net& result) {
+  const int degree = (by_u ? net.rows : net.columns) - 1;
+  if (degree == 0) {
+    result.rows = net.rows, result.columns = net.columns, result.slack = Lanes{};
+    for (int k = 0; k < net.count(); ++k) result.points[k] = Lanes{};
+    return;
+  }
+  result.rows = net.rows - (by_u ? 1 : 0), result.columns = net.columns - (by_u ? 0 : 1);
+  const int step = by_u ? net.columns : 1;
+  double factors[kMostSide], most = 0;
+  for (int k = 0; k < degree; ++k) {
+    factors[k] = degree / (knots[span + 1 + k] - knots[span + 1 - degree + k]);
+    most = std::max(most, factors[k]);
+  }
+  for (int i = 0; i < result.rows; ++i)
+    for (int j = 0; j < result.columns; ++j) {
+      const Lanes* at = net.points + i * net.columns + j;
+      result.points[i * result.columns + j] = factors[by_u ? i : j] * (at[step] - at[0]);
+    }
+  Lanes size;
+  largest(result, size);
+  result.slack = 2 * most * net.slack + 2 * kEpsilon * size;
+}
+
+// The Bezier points over a part of the spans.
+inline void bezier_hull(const Net& net, const SpanMatrix& u, const SpanMatrix& v, Net& hull) {
+  Lanes half[kMostSide * kMostSide];
+  const int columns = net.columns;
+  for (int m = 0; m < net.rows; ++m)
+    for (int j = 0; j < columns; ++j) {
+      Lanes sum{};
+      for (int i = 0; i < net.rows; ++i) sum += u.weights[m][i] * net.points[i * columns + j];
+      half[m * columns + j] = sum;
+    }
+  for (int i = 0; i < net.rows; ++i)
+    for (int m = 0; m < columns; ++m) {
+      Lanes sum{};
+      for (int j = 0; j < columns; ++j) sum += v.weights[m][j] * half[i * columns + j];
+      hull.points[i * columns + m] = sum;
+    }
+  hull.rows = net.rows, hull.columns = columns;
+  largest(net, hull.slack);
+  hull.slack = net.slack + (matrix_slack(u.side) + matrix_slack(v.side)) * hull.slack;
+}
+
+// Ranges of all coordinates of A - c w; the last is that of w where c is zero.
+inline void ranges(const Net& hull, const Vec3& c, Interval* result) {
+  const Lanes center = {c.x, c.y, c.z, 0};
+  Lanes least{}, most{}, size{};
+  for (int k = 0; k < hull.count(); ++k) {
+    const Lanes &p = hull.points[k], off = center * p[3];
+    const Lanes moved = p - off;
+    if (k == 0) least = most = moved;
+    least = moved < least ? moved : least;
+    most = moved > most ? moved : most;
+    Lanes of_p, of_off;
+    absolute(p, of_p), absolute(off, of_off);
+    of_p += of_off;
+    size = of_p > size ? of_p : size;
+  }
+  Lanes slack;
+  absolute(center, slack);
+  slack = 1.0000001 * (hull.slack + slack * hull.slack[3] + 3 * kEpsilon * size);
+  for (int axis = 0; axis < 4; ++axis) result[axis] = {least[axis] - slack[axis], most[axis] + slack[axis]};
+}
+
+// The box of A/w: of the projected points where all weights are positive.
+inline Box point_box(const Net& hull, bool rational) {
+  Box box;
+  Interval plain[4];
+  ranges(hull, Vec3(0), plain);
+  if (!rational || !(plain[3].lo > 0)) {
+    for (int axis = 0; axis < 3; ++axis) box.c[axis] = rational ? plain[axis] / plain[3] : plain[axis];
+    return box;
+  }
+  Lanes least{}, most{};
+  for (int k = 0; k < hull.count(); ++k) {
+    const Lanes r = hull.points[k] / hull.points[k][3];
+    if (k == 0) least = most = r;
+    least = r < least ? r : least;
+    most = r > most ? r : most;
+  }
+  // (A + a)/(w + b) - A/w = (a - b A/w)/(w + b)
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = std::max(std::abs(least[axis]), std::abs(most[axis]));
+    const double slack = 1.0000001 * ((hull.slack[axis] + hull.slack[3] * size) / plain[3].lo + 3 * kEpsilon * size);
+    box.c[axis] = {least[axis] - slack, most[axis] + slack};
   }
   return box;
 }
@@ -71,148 +166,101 @@ double center(const Interval& range) {
   return std::isfinite(middle) ? middle : 0;
 }
 
-// Control points of the derivative of local control points 0..degree, read and written with a stride; knots are those
-// of the whole curve. Returns the largest factor.
-double differentiate(int degree, std::span<const double> knots, int span, const Vec4* points, int stride,
-                     Vec4* result) {
-  double largest_factor = 0;
-  for (int j = 0; j < degree; ++j) {
-    const double factor = degree / (knots[span + 1 + j] - knots[span + 1 - degree + j]);
-    result[j * stride] = factor * (points[(j + 1) * stride] - points[j * stride]);
-    largest_factor = std::max(largest_factor, factor);
+// The boxes of a net and its derivatives, by SurfaceJet::index.
+inline void boxes_of(Net* nets, std::span<const double> ku, int span_u, std::span<const double> kv, int span_v,
+                     bool rational, const Rectangle& box, int order, bool of_curve, Box* r) {
+  const int p = nets[0].rows - 1, q = nets[0].columns - 1;
+  const int count = (order + 1) * (order + 2) / 2;
+  // Of one curve only the derivatives by u.
+  const auto left_out = [&](int k) { return of_curve && k != 0 && k != 1 && k != 3; };
+  if (order >= 1) differentiate(nets[0], true, ku, span_u, nets[1]);
+  if (order >= 1 && !of_curve) differentiate(nets[0], false, kv, span_v, nets[2]);
+  if (order >= 2) differentiate(nets[1], true, ku, span_u, nets[3]);
+  if (order >= 2 && !of_curve) {
+    differentiate(nets[1], false, kv, span_v, nets[4]);
+    differentiate(nets[2], false, kv, span_v, nets[5]);
   }
-  return largest_factor;
-}
-
-double level_slack(int degree) { return 3 * (degree + 1) * kEpsilon; }
-
-// A local tensor net: (degree_u + 1) x (degree_v + 1) points, with the error they carry so far.
-struct Net {
-  int degree_u, degree_v;
-  std::vector<Vec4> points;
-  Vec4 error{0};
-};
-
-// A side of degree 0 differentiates to zero.
-Net differentiate_u(const Net& net, std::span<const double> knots, int span) {
-  if (net.degree_u == 0) return {0, net.degree_v, std::vector<Vec4>(net.degree_v + 1, Vec4(0)), Vec4(0)};
-  const int columns = net.degree_v + 1;
-  Net result{net.degree_u - 1, net.degree_v, std::vector<Vec4>(net.degree_u * columns), Vec4(0)};
-  double factor = 0;
-  for (int j = 0; j < columns; ++j)
-    factor = differentiate(net.degree_u, knots, span, net.points.data() + j, columns, result.points.data() + j);
-  result.error = 2 * factor * net.error + 2 * kEpsilon * largest(result.points);
-  return result;
-}
-
-Net differentiate_v(const Net& net, std::span<const double> knots, int span) {
-  if (net.degree_v == 0) return {net.degree_u, 0, std::vector<Vec4>(net.degree_u + 1, Vec4(0)), Vec4(0)};
-  const int columns = net.degree_v + 1;
-  Net result{net.degree_u, net.degree_v - 1, std::vector<Vec4>((net.degree_u + 1) * net.degree_v), Vec4(0)};
-  double factor = 0;
-  for (int i = 0; i <= net.degree_u; ++i)
-    for (int j = 0; j < net.degree_v; ++j) {
-      const double f = net.degree_v / (knots[span + 1 + j] - knots[span + 1 - net.degree_v + j]);
-      result.points[i * net.degree_v + j] = f * (net.points[i * columns + j + 1] - net.points[i * columns + j]);
-      factor = std::max(factor, f);
+  const SpanMatrix u[] = {SpanMatrix(p, ku, span_u, box.u),
+                          SpanMatrix(order >= 1 ? std::max(p - 1, 0) : 0, ku, span_u, box.u),
+                          SpanMatrix(order >= 2 ? std::max(p - 2, 0) : 0, ku, span_u, box.u)},
+                   v[] = {SpanMatrix(q, kv, span_v, box.v),
+                          SpanMatrix(order >= 1 ? std::max(q - 1, 0) : 0, kv, span_v, box.v),
+                          SpanMatrix(order >= 2 ? std::max(q - 2, 0) : 0, kv, span_v, box.v)};
+  static constexpr int kByU[] = {0, 1, 0, 2, 1, 0}, kByV[] = {0, 0, 1, 0, 1, 2};
+  Net hull;
+  Interval of[6][4];
+  Vec3 c(0);
+  Interval offset[3];
+  for (int k = 0; k < count; ++k) {
+    if (left_out(k)) continue;
+    bezier_hull(nets[k], u[kByU[k]], v[kByV[k]], hull);
+    if (k == 0) {
+      r[0] = point_box(hull, rational);
+      if (!rational) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        c[axis] = center(r[0].c[axis]);
+        offset[axis] = r[0].c[axis] - Interval(c[axis]);
+      }
+      Interval plain[4];
+      ranges(hull, Vec3(0), plain);
+      of[0][3] = plain[3];
+    } else if (rational) {
+      ranges(hull, c, of[k]);
+    } else {
+      r[k] = point_box(hull, false);
     }
-  result.error = 2 * factor * net.error + 2 * kEpsilon * largest(result.points);
-  return result;
+  }
+  if (!rational || order == 0) return;
+  const auto w = [&](int k) -> const Interval& { return of[k][3]; };
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval& off = offset[axis];
+    Interval &ru = r[1].c[axis], &rv = r[2].c[axis];
+    ru = (of[1][axis] - w(1) * off) / w(0);
+    if (!of_curve) rv = (of[2][axis] - w(2) * off) / w(0);
+    if (order < 2) continue;
+    r[3].c[axis] = (of[3][axis] - 2 * w(1) * ru - w(3) * off) / w(0);
+    if (of_curve) continue;
+    r[4].c[axis] = (of[4][axis] - w(1) * rv - w(2) * ru - w(4) * off) / w(0);
+    r[5].c[axis] = (of[5][axis] - 2 * w(2) * rv - w(5) * off) / w(0);
+  }
 }
 
-// Local control points of degree d stand at the knots around the span just as those of the full degree do.
-void local_bezier(int degree, std::span<const double> knots, int span, const Vec4* points, int stride,
-                  const Interval& t, Vec4* result) {
-  bezier_points(degree, knots.subspan(span - degree), degree, points, stride, t.lo, t.hi, result, stride);
+LEKALO_WIDE void enclose_curve(int degree, std::span<const double> knots, int span, std::span<const Vec4> points,
+                               bool rational, const Interval& t, int order, Box* r) {
+  Net nets[6];
+  nets[0].rows = degree + 1, nets[0].columns = 1, nets[0].slack = Lanes{};
+  for (int i = 0; i <= degree; ++i) load(points[span - degree + i], nets[0].points[i]);
+  const double unit[2] = {0, 1};
+  boxes_of(nets, knots, span, unit, 0, rational, {t, {0, 1}}, order, true, r);
 }
 
-Hull bezier_hull(const Net& net, std::span<const double> knots_u, int span_u, std::span<const double> knots_v,
-                 int span_v, const Rectangle& box) {
-  const int columns = net.degree_v + 1;
-  std::vector<Vec4> half(net.points.size());
-  for (int j = 0; j < columns; ++j)
-    local_bezier(net.degree_u, knots_u, span_u, net.points.data() + j, columns, box.u, half.data() + j);
-  Hull hull;
-  hull.points.resize(net.points.size());
-  for (int i = 0; i <= net.degree_u; ++i)
-    local_bezier(net.degree_v, knots_v, span_v, half.data() + i * columns, 1, box.v, hull.points.data() + i * columns);
-  hull.slack = net.error + (level_slack(net.degree_u) + level_slack(net.degree_v)) * largest(net.points);
-  return hull;
+LEKALO_WIDE void enclose_surface(const NurbsSurfaceForm& form, int span_u, int span_v, bool rational,
+                                 const Rectangle& box, int order, Box* r) {
+  const int p = form.degree_u, q = form.degree_v, count_v = form.count_v();
+  Net nets[6];
+  nets[0].rows = p + 1, nets[0].columns = q + 1, nets[0].slack = Lanes{};
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j)
+      load(form.points[static_cast<size_t>(span_u - p + i) * count_v + span_v - q + j],
+           nets[0].points[i * (q + 1) + j]);
+  boxes_of(nets, form.knots_u, span_u, form.knots_v, span_v, rational, box, order, false, r);
 }
 
 }  // namespace
 
 void enclose_span(int degree, std::span<const double> knots, int span, std::span<const Vec4> points, bool rational,
                   const Interval& t, int order, CurveEnclosure& result) {
-  // A curve is a net of one column.
-  Net net{degree, 0, {points.begin() + (span - degree), points.begin() + (span + 1)}, Vec4(0)};
-  const Rectangle box{t, {0, 1}};
-  const double unit[2] = {0, 1};
-  Hull hulls[3];
-  for (int k = 0; k <= order; ++k) {
-    if (k > 0) net = differentiate_u(net, knots, span);
-    hulls[k] = bezier_hull(net, knots, span, unit, 0, box);
-  }
-  Box r[3];
-  r[0] = point_box(hulls[0], rational);
-  if (!rational) {
-    for (int k = 1; k <= order; ++k) r[k] = point_box(hulls[k], false);
-  } else if (order >= 1) {
-    Interval w[3];
-    for (int k = 0; k <= order; ++k) w[k] = coordinate(hulls[k], 3);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double c = center(r[0].c[axis]);
-      const Interval offset = r[0].c[axis] - Interval(c);
-      r[1].c[axis] = (moved(hulls[1], axis, c) - w[1] * offset) / w[0];
-      if (order >= 2) r[2].c[axis] = (moved(hulls[2], axis, c) - 2 * w[1] * r[1].c[axis] - w[2] * offset) / w[0];
-    }
-  }
-  for (int k = 0; k <= order; ++k) result.d[k].include(r[k].box());
+  Box r[6];
+  enclose_curve(degree, knots, span, points, rational, t, order, r);
+  // A curve is a net of one column: its derivatives are those by u.
+  for (int k = 0; k <= order; ++k) result.d[k].include(r[SurfaceJet::index(k, 0)].box());
 }
 
 void enclose_spans(const NurbsSurfaceForm& form, int span_u, int span_v, bool rational, const Rectangle& box, int order,
                    SurfaceEnclosure& result) {
-  const std::span<const double> ku = form.knots_u, kv = form.knots_v;
-  const int p = form.degree_u, q = form.degree_v, count_v = form.count_v();
-  Net nets[6];  // by SurfaceJet::index
-  nets[0] = {p, q, {}, Vec4(0)};
-  for (int i = span_u - p; i <= span_u; ++i)
-    for (int j = span_v - q; j <= span_v; ++j)
-      nets[0].points.push_back(form.points[static_cast<size_t>(i) * count_v + j]);
-  if (order >= 1) {
-    nets[1] = differentiate_u(nets[0], ku, span_u);
-    nets[2] = differentiate_v(nets[0], kv, span_v);
-  }
-  if (order >= 2) {
-    nets[3] = differentiate_u(nets[1], ku, span_u);
-    nets[4] = differentiate_v(nets[1], kv, span_v);
-    nets[5] = differentiate_v(nets[2], kv, span_v);
-  }
-  const int count = (order + 1) * (order + 2) / 2;
-  Hull hulls[6];
-  for (int k = 0; k < count; ++k) hulls[k] = bezier_hull(nets[k], ku, span_u, kv, span_v, box);
-
   Box r[6];
-  r[0] = point_box(hulls[0], rational);
-  if (!rational) {
-    for (int k = 1; k < count; ++k) r[k] = point_box(hulls[k], false);
-  } else if (order >= 1) {
-    Interval w[6];
-    for (int k = 0; k < count; ++k) w[k] = coordinate(hulls[k], 3);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double c = center(r[0].c[axis]);
-      const Interval offset = r[0].c[axis] - Interval(c);
-      auto& ru = r[1].c[axis];
-      auto& rv = r[2].c[axis];
-      ru = (moved(hulls[1], axis, c) - w[1] * offset) / w[0];
-      rv = (moved(hulls[2], axis, c) - w[2] * offset) / w[0];
-      if (order < 2) continue;
-      r[3].c[axis] = (moved(hulls[3], axis, c) - 2 * w[1] * ru - w[3] * offset) / w[0];
-      r[4].c[axis] = (moved(hulls[4], axis, c) - w[1] * rv - w[2] * ru - w[4] * offset) / w[0];
-      r[5].c[axis] = (moved(hulls[5], axis, c) - 2 * w[2] * rv - w[5] * offset) / w[0];
-    }
-  }
-  for (int k = 0; k < count; ++k) result.values[k].include(r[k].box());
+  enclose_surface(form, span_u, span_v, rational, box, order, r);
+  for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k) result.values[k].include(r[k].box());
 }
 
 }  // namespace lekalo::geometry

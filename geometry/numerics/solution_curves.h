@@ -32,8 +32,8 @@ namespace lekalo::geometry {
 template <int N>
 struct SolutionArc {
   std::vector<ParameterPlace<N>> nodes;  // solutions to rounding, in order; a closed arc repeats the first at the end
-  // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another.
-  std::vector<ParameterBox<N>> tubes;
+  // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another, hulls[i] too, more tightly.
+  std::vector<ParameterBox<N>> tubes, hulls;
   bool closed = false;
   // The arc ends next to a singular solution rather than on the border of the domain.
   bool begins_singular = false, ends_singular = false;
@@ -70,6 +70,9 @@ namespace solution_curves {
 
 template <int M>
 double determinant(root_search::Matrix<M> a) {
+  if constexpr (M == 3)
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
   double result = 1;
   for (int column = 0; column < M; ++column) {
     int pivot = column;
@@ -178,6 +181,7 @@ int largest(const ParameterPlace<N>& direction) {
 template <int N, int M>
 struct ChartBox {
   static constexpr int kOthers = N - 1;
+  static constexpr double kRounding = 1e-14;  // more than that of a few sums
   Chart<N, M> chart;
   ParameterBox<N> box;
   std::array<std::array<double, kOthers>, kOthers> error{};  // |I - C F_y(X)|
@@ -186,12 +190,24 @@ struct ChartBox {
 
   ChartBox(const Chart<N, M>& chart, const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range)
       : chart(chart), box(box) {
+    // By middles and radii: |I - C J| <= |I - C m| + |C| r, with the rounding of the sums.
+    std::array<std::array<double, kOthers>, M> middles, radii;
+    for (int k = 0; k < M; ++k)
+      for (int j = 0; j < kOthers; ++j) {
+        const Interval& d = range.derivative[k][chart.others[j]];
+        middles[k][j] = 0.5 * d.lo + 0.5 * d.hi;
+        radii[k][j] = std::max(d.hi - middles[k][j], middles[k][j] - d.lo);
+      }
     for (int i = 0; i < kOthers; ++i) {
       double reach = 0;
       for (int j = 0; j < kOthers; ++j) {
-        Interval e = i == j ? Interval(1) : Interval(0);
-        for (int k = 0; k < M; ++k) e -= Interval(chart.inverse[i][k]) * range.derivative[k][chart.others[j]];
-        error[i][j] = magnitude(e);
+        double off = i == j ? 1 : 0, spread = 0, size = off;
+        for (int k = 0; k < M; ++k) {
+          const double c = chart.inverse[i][k], by = c * middles[k][j];
+          off -= by, size += std::abs(by), spread += std::abs(c) * radii[k][j];
+        }
+        error[i][j] = std::abs(off) + spread + kRounding * (size + spread);
+        if (!std::isfinite(error[i][j])) error[i][j] = std::numeric_limits<double>::infinity();
         reach = next_up(reach + next_up(error[i][j] * box[chart.others[j]].width()));
       }
       slope[i] = Interval(0);
@@ -202,6 +218,17 @@ struct ChartBox {
     }
   }
   bool is_one_to_one() const { return shrinks < 0.7; }
+
+  // About where the solution near x goes on to.
+  ParameterPlace<N> along_slope(ParameterPlace<N> x, double to) const {
+    const double by = to - x[chart.along];
+    for (int i = 0; i < kOthers; ++i) {
+      double& y = x[chart.others[i]];
+      y = box[chart.others[i]].clamp(y - slope[i].middle() * by);
+    }
+    x[chart.along] = to;
+    return x;
+  }
 
   // Where solutions in the box with the parameter in `slice` can lie, seen from the place x with the values f.
   ParameterBox<N> reachable(const Interval& slice, const ParameterPlace<N>& x, const std::array<Interval, M>& f,
@@ -214,20 +241,22 @@ struct ChartBox {
       for (int k = 0; k < M; ++k) base[i] -= Interval(chart.inverse[i][k]) * f[k];
     }
     for (int time = 0; time < times; ++time) {
-      ParameterBox<N> next = y;
+      std::array<double, kOthers> from;
+      for (int j = 0; j < kOthers; ++j) {
+        const Interval& of = y[chart.others[j]];
+        from[j] = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
+      }
       bool shrinks_on = false;
       for (int i = 0; i < kOthers; ++i) {
         double reach = 0;
-        for (int j = 0; j < kOthers; ++j) {
-          const Interval& of = y[chart.others[j]];
-          const double from = std::max(of.hi - x[chart.others[j]], x[chart.others[j]] - of.lo);
-          reach = next_up(reach + next_up(error[i][j] * next_up(from)));
-        }
-        next[chart.others[i]] = intersect(y[chart.others[i]], base[i] + Interval(-reach, reach));
-        if (next[chart.others[i]].empty()) return next;
-        shrinks_on = shrinks_on || next[chart.others[i]].width() < 0.97 * y[chart.others[i]].width();
+        for (int j = 0; j < kOthers; ++j) reach += error[i][j] * from[j];
+        reach += kRounding * reach;
+        Interval& own = y[chart.others[i]];
+        const double width = own.width();
+        own = intersect(own, base[i] + Interval(-reach, reach));
+        if (own.empty()) return y;
+        shrinks_on = shrinks_on || own.width() < 0.97 * width;
       }
-      y = next;
       if (!shrinks_on) break;
     }
     return y;
@@ -296,6 +325,12 @@ class Search {
     return f;
   }
 
+  std::array<Interval, M> rounded(const SystemValue<double, N, M>& there) const {
+    std::array<Interval, M> f;
+    for (int k = 0; k < M; ++k) f[k] = {there.value[k] - options_.rounding[k], there.value[k] + options_.rounding[k]};
+    return f;
+  }
+
   void visit(const Box& box) {
     for (const Box& known : options_.settled)
       if (contains<N>(known, box)) return;
@@ -305,15 +340,26 @@ class Search {
     Place middle;
     std::array<double, N> sides;
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
-    const SystemValue<double, N, M> there = system_.evaluate(middle);
-    if (is_excluded(box, range, middle, there, sides)) return;
+    const SystemValue<double, N, M> there = system_.evaluate_middle(box);
     const Place direction = direction_of<N, M>(there.derivative, sides);
     // The unknown that changes most, seen in units of the box.
     const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, largest<N>(direction));
     if (chart) {
       const ChartBox<N, M> over(*chart, box, range);
+      Box reached = box;
+      if constexpr (M == N - 1) {
+        reached = over.reachable(box[chart->along], middle, rounded(there), box, kCuts);
+        if (is_empty<N>(reached)) return;
+      }
       if (over.is_one_to_one()) return cover(over, middle);
+      double volume = 1;
+      for (int i = 0; i < N; ++i) volume *= reached[i].width() / box[i].width();
+      if (volume < 0.25) {
+        boxes_.push_back(reached);
+        return;
+      }
     }
+    if (is_excluded(box, range, middle, there, sides)) return;
     divide(box);
   }
 
@@ -366,13 +412,19 @@ class Search {
     Box wide = over.box;  // with the slack of the domain's border
     for (int i = 0; i < N; ++i)
       if (i != along) wide[i] = {wide[i].lo - options_.slack[i], wide[i].hi + options_.slack[i]};
-    std::vector<Interval> slices{over.box[along]};
+    Slices slices;
+    cut_at_nodes(over, over.box[along], middle, slices);
     int slices_seen = 0;
     while (!slices.empty()) {
-      const Interval slice = slices.back();
+      const Interval slice = slices.back().first;
+      Place x = slices.back().second;
       slices.pop_back();
-      Place x = middle;
-      x[along] = slice.middle();
+      if (is_settled(over, slice, wide, x)) continue;
+      // On a known arc, but over more than one of its tubes.
+      if (slice.width() > kWideSlice * scale_[along] && is_known_place(x)) {
+        halve(over, slice, x, slices);
+        continue;
+      }
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
       if (++slices_seen > kMostSlices) {
@@ -392,14 +444,75 @@ class Search {
           return;
         }
         if (is_known_place(x)) {
-          slices.push_back(slice);
+          cut_at_nodes(over, slice, x, slices);
           continue;
         }
       }
       if (slice.width() <= kLeastSlice * scale_[along]) continue;
-      slices.push_back({slice.lo, slice.middle()});
-      slices.push_back({slice.middle(), slice.hi});
+      halve(over, slice, x, slices);
     }
+  }
+
+  using Slices = std::vector<std::pair<Interval, Place>>;
+  static void halve(const ChartBox<N, M>& over, const Interval& slice, const Place& x, Slices& slices) {
+    for (const Interval& half : {Interval(slice.lo, slice.middle()), Interval(slice.middle(), slice.hi)})
+      slices.emplace_back(half, over.along_slope(x, half.middle()));
+  }
+
+  // What is left of a range of a chart by known arcs. Where an arc runs inside of the box it is the chart's only
+  // solution; beyond the range is cut at the nodes, so that each slice may lie in one tube. With places near the
+  // solution.
+  void cut_at_nodes(const ChartBox<N, M>& over, const Interval& range, const Place& near, Slices& slices) const {
+    const int along = over.chart.along;
+    std::vector<Interval> settled;
+    std::vector<const Place*> nodes;
+    for (const SolutionArc<N>& arc : result_.arcs)
+      for (size_t k = 0; k < arc.nodes.size(); ++k) {
+        const Place& node = arc.nodes[k];
+        if (!range.contains(node[along])) continue;
+        bool inside = true;
+        for (int i = 0; inside && i < N; ++i) inside = over.box[i].contains(node[i]);
+        if (!inside) continue;
+        nodes.push_back(&node);
+        if (k + 1 < arc.nodes.size() && contains<N>(over.box, arc.hulls[k]))
+          settled.push_back(hull(Interval(node[along]), Interval(arc.nodes[k + 1][along])));
+      }
+    std::sort(settled.begin(), settled.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+    std::sort(nodes.begin(), nodes.end(), [&](const Place* a, const Place* b) { return (*a)[along] < (*b)[along]; });
+    const auto add = [&](double lo, double hi) {
+      for (const Place* node : nodes) {
+        const double at = (*node)[along];
+        if (!(at > lo && at < hi)) continue;
+        slices.emplace_back(Interval(lo, at), over.along_slope(*node, 0.5 * (lo + at)));
+        lo = at;
+      }
+      const auto last =
+          std::find_if(nodes.rbegin(), nodes.rend(), [&](const Place* node) { return (*node)[along] <= lo; });
+      const Place& from = last != nodes.rend() ? **last : near;
+      slices.emplace_back(Interval(lo, hi), over.along_slope(from, 0.5 * (lo + hi)));
+    };
+    double lo = range.lo;
+    for (const Interval& part : settled) {
+      if (part.lo > lo) add(lo, part.lo);
+      lo = std::max(lo, part.hi);
+    }
+    if (lo < range.hi || settled.empty()) add(lo, range.hi);
+  }
+
+  // Whether a slice holds nothing, or only what is known: seen from near a solution, which moves x nearer to it.
+  bool is_settled(const ChartBox<N, M>& over, const Interval& slice, const Box& wide, Place& x) const {
+    if constexpr (M == N - 1)
+      for (int look = 0; look < 2; ++look) {
+        const SystemValue<double, N, M> there = system_.evaluate(x);
+        const Box reached = over.reachable(slice, x, rounded(there), wide, kLooks);
+        if (is_empty<N>(reached) || is_known(reached)) return true;
+        for (int i = 0; i < N - 1; ++i) {
+          const int unknown = over.chart.others[i];
+          for (int k = 0; k < M; ++k) x[unknown] -= over.chart.inverse[i][k] * there.value[k];
+          x[unknown] = wide[unknown].clamp(x[unknown]);
+        }
+      }
+    return false;
   }
 
   // Whether the equations of least squares cannot all vanish there.
@@ -471,7 +584,7 @@ class Search {
 
   struct Ahead {
     Place to;
-    Box tube;
+    Box tube, hull;
     bool at_border = false;
   };
 
@@ -485,6 +598,7 @@ class Search {
     if (!arc.closed) {
       std::reverse(arc.nodes.begin(), arc.nodes.end());
       std::reverse(arc.tubes.begin(), arc.tubes.end());
+      std::reverse(arc.hulls.begin(), arc.hulls.end());
       arc.begins_singular = arc.ends_singular;
       Place back = first;
       for (double& x : back) x = -x;
@@ -492,6 +606,7 @@ class Search {
       // In the sense of the direction's sign.
       std::reverse(arc.nodes.begin(), arc.nodes.end());
       std::reverse(arc.tubes.begin(), arc.tubes.end());
+      std::reverse(arc.hulls.begin(), arc.hulls.end());
       std::swap(arc.begins_singular, arc.ends_singular);
     }
     if (arc.nodes.size() == 1) return !arc.begins_singular && !arc.ends_singular;
@@ -519,11 +634,14 @@ class Search {
       if (arc.nodes.size() > known && passes(ahead, x, direction, start)) {
         arc.nodes.push_back(start);
         arc.tubes.push_back(ahead.tube);
+        arc.hulls.push_back(ahead.hull);
+        arc.hulls.push_back(ahead.hull);
         arc.closed = true;
         return false;
       }
       arc.nodes.push_back(ahead.to);
       arc.tubes.push_back(ahead.tube);
+      arc.hulls.push_back(ahead.hull);
       meets_known_ = meets_known_ || is_known_place(ahead.to);
       if (ahead.at_border || meets_known_) return false;
       const Place next = direction_of<N, M>(system_.evaluate(ahead.to).derivative, scale_);
@@ -615,7 +733,7 @@ class Search {
     }
     if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to))) return false;
     ahead.to = to;
-    return certify(x, to, along, step, ahead.tube);
+    return certify(x, to, along, step, ahead);
   }
 
   // At a border that the curve touches from inside it may stay a little beyond: only a true exit ends it.
@@ -664,7 +782,8 @@ class Search {
   }
 
   // A tube about the way from x to `to`: a chart whose sides the curve cannot reach.
-  bool certify(const Place& x, const Place& to, int along, double step, Box& tube) const {
+  bool certify(const Place& x, const Place& to, int along, double step, Ahead& ahead) const {
+    Box& tube = ahead.tube;
     Place middle;
     for (int i = 0; i < N; ++i) {
       const double low = std::min(x[i], to[i]), high = std::max(x[i], to[i]);
@@ -683,15 +802,16 @@ class Search {
       if (reached[i].lo <= tube[i].lo && tube[i].lo > domain_[i].lo) return false;
       if (reached[i].hi >= tube[i].hi && tube[i].hi < domain_[i].hi) return false;
     }
+    ahead.hull = over.reachable(hull(Interval(x[along]), Interval(to[along])), x, {}, reached, kCuts);
     return true;
   }
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
-  static constexpr double kLeastSlice = 1e-12;
-  static constexpr int kTimes = 400, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150, kMostNodes = 200000,
-                       kMostSlices = 250;
+  static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
+  static constexpr int kTimes = 400, kCuts = 3, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150,
+                       kMostNodes = 200000, kMostSlices = 250;
 
   const System& system_;
   const Box domain_;
@@ -710,6 +830,8 @@ class Search {
 //     certified ranges over a box in the domain
 //   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const
 //     the same at a place, to rounding; a little outside of the domain too
+//   SystemValue<double, N, M> evaluate_middle(const ParameterBox<N>&) const
+//     the same in the middle of a box
 //   std::array<double, N> extents(const ParameterBox<N>&) const
 //     bounds of how far each parameter moves the image in space, over a box
 //   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const

@@ -46,6 +46,33 @@ class BoxTree {
     }
   }
 
+  // Calls visit(index) for every box that meets the one given.
+  template <class Visit>
+  void around(const Box3& box, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    int stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& node = nodes_[stack[--top]];
+      if (!meets(node.box, box)) continue;
+      if (node.count > 0) {
+        for (int i = 0; i < node.count; ++i) {
+          const int item = order_[node.first + i];
+          if (node.count == 1 || meets(boxes_[item], box)) visit(item);
+        }
+      } else {
+        stack[top++] = node.first;
+        stack[top++] = node.first + 1;
+      }
+    }
+  }
+  static bool meets(const Box3& a, const Box3& b) {
+    for (int k = 0; k < 3; ++k)
+      if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
+    return true;
+  }
+
   // Whether the line meets the box with t in the interval; boxes are taken a rounding error larger.
   static bool meets(const Box3& box, const LineToBoxes& line, const Interval& t) {
     double enter = t.lo, leave = t.hi;

@@ -16,6 +16,13 @@ SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPlace
                              [this](const ParameterPlace<N>& inside) { return evaluate_inside(inside); });
 }
 template <int N>
+SystemValue<double, N, N - 1> ContourEquations<N>::evaluate_middle(const ParameterBox<N>& box,
+                                                                   std::array<KnownEnclosures, 2>&) const {
+  ParameterPlace<N> middle;
+  for (int i = 0; i < N; ++i) middle[i] = box[i].middle();
+  return evaluate_inside(middle);
+}
+template <int N>
 std::unique_ptr<TouchingEquations<N>> ContourEquations<N>::touching(std::shared_ptr<const ContourEquations<N>>) const {
   return nullptr;
 }
@@ -37,19 +44,31 @@ SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& pie
   return boxes;
 }
 
-size_t KnownEnclosures::Hash::operator()(const std::array<double, 4>& key) const {
+size_t KnownEnclosures::Hash::operator()(const Key& key) const {
   std::uint64_t sum = 0;
   for (const double x : key) sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u, sum ^= sum >> 29;
   return sum;
 }
 
 const KnownEnclosures::First& KnownEnclosures::of(const Surface& surface, const Rectangle& box) {
-  const auto [found, is_new] = known_.try_emplace({box.u.lo, box.u.hi, box.v.lo, box.v.hi});
-  if (is_new) {
+  Entry& known = entry(box);
+  if (!known.knows_first) {
     const SurfaceEnclosure s = surface.enclose(box, 1);
-    found->second = {s.d(0, 0), s.d(1, 0), s.d(0, 1)};
+    known.first = {s.d(0, 0), s.d(1, 0), s.d(0, 1)};
+    known.knows_first = true;
   }
-  return found->second;
+  return known.first;
+}
+
+const KnownEnclosures::FirstOfMiddle& KnownEnclosures::of_middle(const Surface& surface, const Rectangle& piece,
+                                                                 const Rectangle& box) {
+  Entry& known = entry(box);
+  if (!known.knows_middle) {
+    const SurfaceJet s = evaluate_within(surface, piece, box.u.middle(), box.v.middle(), 1);
+    known.middle = {s.point(), s.du(), s.dv()};
+    known.knows_middle = true;
+  }
+  return known.middle;
 }
 
 namespace {
@@ -311,6 +330,11 @@ class MeetingEquations final : public ContourEquations<4> {
     }
     return result;
   }
+  SystemValue<double, 4, 3> evaluate_middle(const ParameterBox<4>& box,
+                                            std::array<KnownEnclosures, 2>& known) const override {
+    return apart(known[0].of_middle(*r_, piece_r_, {box[0], box[1]}),
+                 known[1].of_middle(*s_, piece_s_, {box[2], box[3]}));
+  }
   std::array<double, 4> extents(const ParameterBox<4>& box, std::array<KnownEnclosures, 2>& known) const override {
     const std::array<double, 2> r = extents_of(*r_, {box[0], box[1]}, known[0]),
                                 s = extents_of(*s_, {box[2], box[3]}, known[1]);
@@ -352,15 +376,20 @@ class MeetingEquations final : public ContourEquations<4> {
   SystemValue<double, 4, 3> evaluate_inside(const ParameterPlace<4>& at) const override {
     const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
     const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 1);
+    return apart({r.point(), r.du(), r.dv()}, {s.point(), s.du(), s.dv()});
+  }
+
+ private:
+  using First = KnownEnclosures::FirstOfMiddle;
+  static SystemValue<double, 4, 3> apart(const First& r, const First& s) {
     SystemValue<double, 4, 3> result;
     for (int k = 0; k < 3; ++k) {
-      result.value[k] = r.point()[k] - s.point()[k];
-      result.derivative[k] = {r.du()[k], r.dv()[k], -s.du()[k], -s.dv()[k]};
+      result.value[k] = r.point[k] - s.point[k];
+      result.derivative[k] = {r.du[k], r.dv[k], -s.du[k], -s.dv[k]};
     }
     return result;
   }
 
- private:
   template <class S, int K, class Derivatives>
   static ContourSeries<S, K, 4> difference(const Derivatives& r, const Derivatives& s,
                                            const std::array<Jet<S, K>, 4>& x) {

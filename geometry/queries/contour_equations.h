@@ -23,20 +23,32 @@ struct ContourSeries {
   Triple<Jet<S, K>> point;
 };
 
-// First-order enclosures of one surface that a search has asked for: it halves the same rectangles again and again,
-// with other rectangles of the other surface.
+// What a search has asked for of one surface, to the first order: it halves the same rectangles again and again, with
+// other rectangles of the other surface.
 class KnownEnclosures {
  public:
   struct First {
     Box3 point, du, dv;
   };
+  struct FirstOfMiddle {
+    Vec3 point, du, dv;
+  };
   const First& of(const Surface& surface, const Rectangle& box);
+  const FirstOfMiddle& of_middle(const Surface& surface, const Rectangle& piece, const Rectangle& box);
 
  private:
+  using Key = std::array<double, 4>;
   struct Hash {
-    size_t operator()(const std::array<double, 4>& key) const;
+    size_t operator()(const Key& key) const;
   };
-  std::unordered_map<std::array<double, 4>, First, Hash> known_;
+  struct Entry {
+    First first;
+    FirstOfMiddle middle;
+    bool knows_first = false, knows_middle = false;
+  };
+  Entry& entry(const Rectangle& box) { return known_[{box.u.lo, box.u.hi, box.v.lo, box.v.hi}]; }
+
+  std::unordered_map<Key, Entry, Hash> known_;
 };
 
 // A system at a place beyond its domain: as at the border, continued linearly.
@@ -72,6 +84,9 @@ class ContourEquations {
                                                   std::array<KnownEnclosures, 2>* known = nullptr) const = 0;
   // Beyond the borders of the piece it goes on as there, linearly.
   SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const;
+  // In the middle of a box of the piece.
+  virtual SystemValue<double, N, N - 1> evaluate_middle(const ParameterBox<N>& box,
+                                                        std::array<KnownEnclosures, 2>& known) const;
   // How far each parameter moves a point in space over a box, at most.
   virtual std::array<double, N> extents(const ParameterBox<N>& box, std::array<KnownEnclosures, 2>& known) const = 0;
   // Whether the border of the piece at that side of a parameter is one point in space: a pole.

@@ -26,6 +26,9 @@ struct Searched {
 
   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box, &known); }
   SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  SystemValue<double, N, N - 1> evaluate_middle(const ParameterBox<N>& box) const {
+    return equations.evaluate_middle(box, known);
+  }
   std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.extents(box, known); }
   Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const { return equations.motion(place, by); }
 };
@@ -38,6 +41,11 @@ struct SearchedTouching {
 
   SystemValue<Interval, N, N + 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box); }
   SystemValue<double, N, N + 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  SystemValue<double, N, N + 1> evaluate_middle(const ParameterBox<N>& box) const {
+    ParameterPlace<N> middle;
+    for (int i = 0; i < N; ++i) middle[i] = box[i].middle();
+    return equations.evaluate(middle);
+  }
   std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.contour().extents(box, known); }
   Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const {
     return equations.contour().motion(place, by);

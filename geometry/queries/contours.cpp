@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/numerics/quadrature.h"
+#include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/picture_cusps.h"
 #include "geometry/surfaces/plane.h"
@@ -15,12 +16,6 @@ namespace {
 
 void demand_bounded(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("the surface is unbounded: give it a domain");
-}
-
-bool meet(const Box3& a, const Box3& b, double by) {
-  for (int k = 0; k < 3; ++k)
-    if (a.lo[k] - by > b.hi[k] || b.lo[k] - by > a.hi[k]) return false;
-  return true;
 }
 
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -91,12 +86,10 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   const std::vector<SurfacePiece> pieces_a = a->pieces(), pieces_b = b->pieces();
   std::vector<Box3> boxes_b;
   for (const SurfacePiece& piece : pieces_b) boxes_b.push_back(bounds(*b, piece));
-  for (const SurfacePiece& piece_a : pieces_a) {
-    const Box3 box = bounds(*a, piece_a);
-    for (size_t k = 0; k < pieces_b.size(); ++k)
-      if (meet(box, boxes_b[k], tolerance * size))
-        assembly.add(meeting_equations(a, piece_a.domain, b, pieces_b[k].domain));
-  }
+  const BoxTree tree_b(boxes_b);
+  for (const SurfacePiece& piece_a : pieces_a)
+    tree_b.around(bounds(*a, piece_a).inflated(tolerance * size),
+                  [&](int k) { assembly.add(meeting_equations(a, piece_a.domain, b, pieces_b[k].domain)); });
   return assembly.joined();
 }
 

@@ -5,14 +5,20 @@
 // (p - r) . r_u = (p - r) . r_v = 0: where the distance is stationary. All of them are found, certified by interval
 // arithmetic (geometry/numerics/root_search.h). Ends, edges, corners and places where the tangent jumps are listed
 // where the distance has a minimum there. So the nearest point of the whole is the first of the list.
+//
+// On rational pieces the search is for zeros of polynomials (geometry/queries/foot_polynomials.h), which are made once
+// for all points: a projector is worth having for more than one.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "geometry/curve.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
+
+class Plane;
 
 enum class FootKind {
   minimum,  // of the distance
@@ -33,7 +39,18 @@ struct CurveFeet {
   // Parts of the curve all of whose points are feet: arcs about the point. Their middles stand among the feet.
   std::vector<Interval> arcs;
 };
-// In the domain of the curve; a closed curve has no ends.
+// In the domain of the curve; a closed curve has no ends. Safe to use from many threads.
+class CurveProjector {
+ public:
+  explicit CurveProjector(CurvePtr curve);
+  // With pieces that it does not know itself.
+  CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces);
+  CurveFeet feet(const Vec3& point) const;
+
+ private:
+  struct Prepared;
+  std::shared_ptr<const Prepared> prepared_;
+};
 CurveFeet project(const Vec3& point, const Curve& curve);
 
 struct SurfaceFoot {
@@ -48,7 +65,18 @@ struct SurfaceFeet {
   // of a surface of revolution, or near to such a place. Their middles stand among the feet.
   std::vector<Rectangle> regions;
 };
-// In the domain of the surface. Throws std::invalid_argument for an unbounded one that is no plane.
+// In the domain of the surface. Throws std::invalid_argument for an unbounded one that is no plane. Safe to use from
+// many threads.
+class SurfaceProjector {
+ public:
+  explicit SurfaceProjector(SurfacePtr surface);
+  SurfaceFeet feet(const Vec3& point) const;
+
+ private:
+  struct Prepared;
+  std::shared_ptr<const Prepared> prepared_;
+  std::shared_ptr<const Plane> plane_;  // an unbounded one instead
+};
 SurfaceFeet project(const Vec3& point, const Surface& surface);
 
 }  // namespace lekalo::geometry

@@ -112,7 +112,16 @@ class MeridianFormula : public MeridianSurface {
     }
   }
   MeridianJet<Interval> meridian(const Interval& v, int order) const override {
-    return order == 0 ? derivatives<0>(v) : order <= 2 ? derivatives<2>(v) : derivatives<kMaxSurfaceOrder>(v);
+    switch (order) {
+      case 0:
+        return derivatives<0>(v);
+      case 1:
+        return derivatives<1>(v);
+      case 2:
+        return derivatives<2>(v);
+      default:
+        return derivatives<kMaxSurfaceOrder>(v);
+    }
   }
 
  private:

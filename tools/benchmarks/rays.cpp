@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
-#include <functional>
 #include <random>
 
 #include "bare_scene.h"
@@ -19,8 +17,11 @@
 #include "ray_cases.h"
 #include "render/trace/world.h"
 #include "shape_mesh.h"
+#include "timed.h"
 
 using namespace lekalo;
+using benchmarks::seconds;
+using benchmarks::Timed;
 using geometry::Mesh;
 using geometry::Vec3;
 
@@ -28,28 +29,6 @@ namespace {
 
 constexpr int kWidth = 960, kHeight = 720;
 constexpr double kMeshPixels = 0.1;
-
-double seconds(clockid_t clock) {
-  timespec now;
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// Processor time of one thread, the least of several runs.
-class Timed {
- public:
-  void run(const std::function<size_t()>& work) {
-    const double begin = seconds(CLOCK_THREAD_CPUTIME_ID);
-    result_ = work();
-    least_ = std::min(least_, seconds(CLOCK_THREAD_CPUTIME_ID) - begin);
-  }
-  double least() const { return least_; }
-  size_t result() const { return result_; }
-
- private:
-  double least_ = 1e300;
-  size_t result_ = 0;
-};
 
 void append(Mesh& all, const Mesh& part) {
   const auto points = static_cast<int32_t>(all.points.size()), normals = static_cast<int32_t>(all.normals.size()),
