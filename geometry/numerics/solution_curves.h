@@ -733,7 +733,7 @@ class Search {
     }
     if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to))) return false;
     ahead.to = to;
-    return certify(x, to, along, step, ahead);
+    return certify(x, to, direction, along, step, ahead);
   }
 
   // At a border that the curve touches from inside it may stay a little beyond: only a true exit ends it.
@@ -781,14 +781,43 @@ class Search {
     return direction;
   }
 
-  // A tube about the way from x to `to`: a chart whose sides the curve cannot reach.
-  bool certify(const Place& x, const Place& to, int along, double step, Ahead& ahead) const {
+  // A tube about the way from x to `to`. A wide one holds other solutions off best. But where unknowns move the
+  // equations very differently (a small surface meets a large one, near a pole) only a tube is a chart that is as
+  // narrow in each as it moves them, but for what the curve bends.
+  bool certify(const Place& x, const Place& to, const Place& direction, int along, double step, Ahead& ahead) const {
+    Place along_way, wide, beside;
+    for (int i = 0; i < N; ++i) {
+      along_way[i] = 0.1 * std::abs(to[i] - x[i]);
+      wide[i] = i == along ? 0 : step * scale_[i];
+      beside[i] = along_way[i] + 0.35 * wide[i];
+    }
+    if (certify(x, to, along, beside, ahead)) return true;
+    const SystemValue<double, N, M> there = system_.evaluate(to);
+    const Place next = direction_of<N, M>(there.derivative, scale_);
+    double with = 0;
+    std::array<double, N> moves{};
+    for (int i = 0; i < N; ++i) {
+      with += next[i] * direction[i];
+      for (int k = 0; k < M; ++k) moves[i] += sqr(there.derivative[k][i]);
+    }
+    for (const double share : {0.35, 0.05, 0.005}) {
+      for (int i = 0; i < N; ++i) {
+        const double bends = 0.5 * std::abs((with < 0 ? -next[i] : next[i]) - direction[i]);
+        const double even = moves[i] > 0 ? step * scale_[along] * std::sqrt(moves[along] / moves[i]) : wide[i];
+        beside[i] = along_way[i] + (i == along ? 0 : bends * wide[i] + share * std::min(wide[i], even));
+      }
+      if (certify(x, to, along, beside, ahead)) return true;
+    }
+    return false;
+  }
+
+  // A tube so far beside the way: a chart whose sides the curve cannot reach.
+  bool certify(const Place& x, const Place& to, int along, const Place& beside, Ahead& ahead) const {
     Box& tube = ahead.tube;
     Place middle;
     for (int i = 0; i < N; ++i) {
       const double low = std::min(x[i], to[i]), high = std::max(x[i], to[i]);
-      const double beside = i == along ? 0.1 * (high - low) : 0.1 * (high - low) + 0.35 * step * scale_[i];
-      tube[i] = {std::max(domain_[i].lo, low - beside), std::min(domain_[i].hi, high + beside)};
+      tube[i] = {std::max(domain_[i].lo, low - beside[i]), std::min(domain_[i].hi, high + beside[i])};
       middle[i] = domain_[i].clamp(0.5 * (x[i] + to[i]));
     }
     const std::optional<Chart<N, M>> chart = chart_of<N, M>(system_.evaluate(middle).derivative, along);
