@@ -693,14 +693,15 @@ class Search {
       for (int i = 0; i < N; ++i)
         if (i != along) to[i] = x[i] + share * (to[i] - x[i]);
     }
-    if (!settle(to, along, step)) return false;
+    Place near = options_.slack;
+    if (!settle(to, along, step, near)) return false;
     ahead.at_border = to[along] != free;
     int out = -1;
     double share = 1;
     for (int i = 0; i < N; ++i) {
       if (i == along) continue;
       const double border = domain_[i].clamp(to[i]);
-      if (std::abs(to[i] - border) <= options_.slack[i]) {
+      if (std::abs(to[i] - border) <= near[i]) {
         to[i] = border;
         continue;
       }
@@ -716,10 +717,11 @@ class Search {
         ahead.to = x;
         return leaves_at_once(x, direction, out);
       }
-      if (!settle(at, out, step)) return false;
+      near[out] = options_.slack[out];
+      if (!settle(at, out, step, near)) return false;
       for (int i = 0; i < N; ++i) {
         const double border = domain_[i].clamp(at[i]);
-        if (std::abs(at[i] - border) > options_.slack[i]) return false;
+        if (std::abs(at[i] - border) > near[i]) return false;
         at[i] = border;
       }
       const double side = (at[along] - x[along]) * (to[along] - x[along]);
@@ -742,24 +744,30 @@ class Search {
     return low ? direction[out] < 0 : direction[out] > 0;
   }
 
-  // Newton's iteration with one unknown held.
-  bool settle(Place& x, int held, double step) const {
+  // Newton's iteration with one unknown held. `near`: how far off a border a place may be and still lie on it: the
+  // slack, or what the rounding of the equations' values makes of the unknown.
+  bool settle(Place& x, int held, double step, Place& near) const {
     const Place start = x;
     double before = kInfinity;
     for (int time = 0; time < kMostHeldSteps; ++time) {
       const SystemValue<double, N, M> there = system_.evaluate(x);
       const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, held);
       if (!chart) return false;
-      double length = 0;
+      double length = 0, noise = options_.rounding_of_places;
       for (int i = 0; i < N - 1; ++i) {
         const int unknown = chart->others[i];
-        double by = 0;
-        for (int k = 0; k < M; ++k) by += chart->inverse[i][k] * there.value[k];
+        double by = 0, rounding = 0;
+        for (int k = 0; k < M; ++k) {
+          by += chart->inverse[i][k] * there.value[k];
+          rounding += std::abs(chart->inverse[i][k]) * options_.rounding[k];
+        }
         x[unknown] -= by;
         length = std::max(length, std::abs(by) / scale_[unknown]);
+        noise = std::max(noise, rounding / scale_[unknown]);
+        near[unknown] = std::max(options_.slack[unknown], rounding);
         if (!(std::abs(x[unknown] - start[unknown]) <= 0.7 * step * scale_[unknown])) return false;
       }
-      if (length <= kSettled || (length < options_.rounding_of_places && length >= 0.5 * before)) return true;
+      if (length <= kSettled || (length < noise && length >= 0.5 * before)) return true;
       before = length;
     }
     return false;

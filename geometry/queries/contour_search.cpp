@@ -18,6 +18,17 @@ constexpr double kBeside = 1e-3;          // so far off a border it is seen whet
 // A solution so far outside of a piece, of its sides, is moved onto the border.
 constexpr double kBorder = 1e-13;
 
+// Where a contour of the neighbour's touches the border, a bit of it is moved onto it.
+template <int N>
+bool is_moved_onto_border(const SolutionArc<N>& arc, const ContourEquations<N>& equations) {
+  const ParameterBox<N> domain = equations.domain();
+  for (int i = 0; i < N; ++i)
+    for (const double border : {domain[i].lo, domain[i].hi})
+      if (std::all_of(arc.nodes.begin(), arc.nodes.end(), [&](const auto& node) { return node[i] == border; }))
+        return true;
+  return false;
+}
+
 // The equations of a piece as the search asks them.
 template <int N>
 struct Searched {
@@ -106,7 +117,9 @@ template <int N>
 void ContourAssembly<N>::add_part(Part part) {
   for (size_t k = 1; k < part.arc.nodes.size(); ++k)
     part.length += glm::length(part.equations->point(part.arc.nodes[k]) - part.equations->point(part.arc.nodes[k - 1]));
-  if (part.length > kShortestBranch * size_) parts_.push_back(std::move(part));
+  // No contour of its own is that short and on the border.
+  const bool is_moved = part.length < kLeastContourImage * size_ && is_moved_onto_border(part.arc, *part.equations);
+  if (part.length > kShortestBranch * size_ && !is_moved) parts_.push_back(std::move(part));
 }
 
 template <int N>

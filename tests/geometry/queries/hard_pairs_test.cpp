@@ -127,7 +127,7 @@ std::vector<HardPair> pairs() {
       {"cap_of_a_torus", torus(3, 1), plate({4 - 1e-6, 0, 0}, {1, 0, 0}, 3, 3), {.loops = 1}},
       {"bead_on_a_cylinder", cylinder(Frame(), 1, 2), sphere({0.6, 0.8, 1.1}, s), {.loops = 1}},
       {"bead_on_a_seam", cylinder(Frame(), 1, 2), sphere({1, 0, 1.1}, s), {.loops = 1}},
-      {"bead_on_both_seams", torus(3, 1), sphere({4, 0, 0}, s), {.loops = 1}},
+      {"bead_on_both_seams", torus(3, 1), sphere({4, 0, 0}, 10 * s), {.loops = 1}},
       {"bead_on_a_pole",
        sphere({0, 0, 0}, 1),
        sphere({0, 0, 1}, s),
