@@ -10,6 +10,7 @@
 
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <functional>
+#include <set>
 
 #include "geometry/queries/contours.h"
 #include "occt/occt_surfaces.h"
@@ -23,6 +24,11 @@ constexpr double kOnSurface = 2e-7;  // of the size: OCCT's curves are no nearer
 constexpr double kGap = 1e-4;        // of the size: ends of OCCT's pieces that are one
 constexpr int kPlaces = 20;          // on each curve that are compared
 constexpr int kNet = 200;            // on each curve from which the nearest point is searched
+
+// Sheets on which OCCT finds no starting point for one of the branches.
+const std::set<std::string> kOcctMissesABranch = {
+    "sheets_4_220", "sheets_4_337", "sheets_4_364", "sheets_4_387", "sheets_6_13", "sheets_6_22", "sheets_6_23",
+    "sheets_6_31",  "sheets_6_34",  "sheets_6_47",  "sheets_6_63",  "sheets_6_74", "sheets_6_96"};
 
 using PointAt = std::function<Vec3(double)>;  // of a share of the curve in [0, 1]
 
@@ -70,16 +76,23 @@ class Track {
 struct Stray {
   int on_both = 0, off = 0;
 };
+// on_both(k, share): of curve k.
 template <class OnBoth>
 Stray stray(const std::vector<Track>& from, const std::vector<Track>& to, double near, const OnBoth& on_both) {
   Stray result;
-  for (const Track& track : from)
+  for (size_t i = 0; i < from.size(); ++i)
     for (int k = 0; k < kPlaces; ++k) {
-      const Vec3 p = track.at((k + 0.5) / kPlaces);
+      const double share = (k + 0.5) / kPlaces;
+      const Vec3 p = from[i].at(share);
       if (std::any_of(to.begin(), to.end(), [&](const Track& other) { return other.passes(p, near); })) continue;
-      ++(on_both(p) ? result.on_both : result.off);
+      ++(on_both(i, share) ? result.on_both : result.off);
     }
   return result;
+}
+
+bool lies_on(const Vec3& p, const OcctTwin& twin, double near) {
+  GeomAPI_ProjectPointOnSurf foot(occt_point(p), twin.theirs);
+  return foot.NbPoints() > 0 && foot.LowerDistance() <= near;
 }
 
 class OcctContours : public testing::Test {
@@ -106,14 +119,28 @@ class OcctContours : public testing::Test {
         });
       for (const Handle(Geom_Curve) & piece : theirs.pieces)
         occt_tracks.emplace_back([piece](double share) { return occt_place(piece, share); });
-      const auto on_both = [&](const Vec3& p) {
-        return std::all_of(&pair.a, &pair.b + 1, [&](const OcctTwin& twin) {
-          GeomAPI_ProjectPointOnSurf foot(occt_point(p), twin.theirs);
-          return foot.NbPoints() > 0 && foot.LowerDistance() <= kOnSurface * size;
-        });
+      const auto theirs_on_both = [&](size_t i, double share) {
+        const Vec3 p = occt_tracks[i].at(share);
+        return lies_on(p, pair.a, kOnSurface * size) && lies_on(p, pair.b, kOnSurface * size);
       };
-      const Stray invented = stray(occt_tracks, own_tracks, kSame * size, on_both),
-                  missed = stray(own_tracks, occt_tracks, kSame * size, on_both);
+      // Splines have the same parameters: OCCT's values need no projection, which may end at a farther foot.
+      const auto ours_on_both = [&](size_t i, double share) {
+        const Contour& one = ours.branches[i];
+        const Interval t = one.curve->domain();
+        const double at = t.lo + share * t.width();
+        const Vec3 p = one.curve->point(at);
+        bool both = true;
+        for (int k = 0; k < 2; ++k) {
+          const OcctTwin& twin = k == 0 ? pair.a : pair.b;
+          const Vec3 uv = one.images[k]->point(at);
+          const bool spline = !Handle(Geom_BSplineSurface)::DownCast(twin.theirs).IsNull();
+          both = both && (spline ? twin.theirs->Value(uv.x, uv.y).Distance(occt_point(p)) <= 1e-12 * size
+                                 : lies_on(p, twin, kOnSurface * size));
+        }
+        return both;
+      };
+      const Stray invented = stray(occt_tracks, own_tracks, kSame * size, theirs_on_both),
+                  missed = stray(own_tracks, occt_tracks, kSame * size, ours_on_both);
       EXPECT_EQ(invented.on_both, 0);
       EXPECT_EQ(missed.off, 0);
       // Where OCCT's curves end and ours go on.
@@ -129,6 +156,9 @@ class OcctContours : public testing::Test {
             << closed << " closed and " << open << " open, OCCT " << theirs.closed << " and " << theirs.open;
       }
       stops_ += stops > 0;
+      if (pair.name.starts_with("sheets")) {
+        EXPECT_EQ(missed.on_both > 0, kOcctMissesABranch.count(pair.name) > 0);
+      }
       off_ += invented.off > 0;
       missed_ += missed.on_both > 0;
     }
