@@ -6,8 +6,8 @@
 //
 //   r' = (A~' - w' r~)/w,   r'' = (A~'' - 2 w' r' - w'' r~)/w
 //
-// loses only a term of the size of the box. Rounding is covered by a slack on each Bezier point, a sum of control points
-// with weights that are not negative and sum up to 1: in proportion to the largest coordinate.
+// loses only a term of the size of the box. Rounding is covered by a slack on each Bezier point, a sum of control
+// points with weights that are not negative and sum up to 1: in proportion to the largest coordinate.
 #pragma once
 
 #include <span>

@@ -87,6 +87,26 @@ using Matrix = std::array<std::array<double, N>, N>;
 // False for a singular matrix.
 template <int N>
 bool invert(Matrix<N> a, Matrix<N>& inverse) {
+  if constexpr (N == 3) {
+    // By cofactors, where these do not cancel.
+    const auto cofactor = [&](int i, int j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      return a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];
+    };
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) inverse[j][i] = cofactor(i, j);
+    double determinant = 0, size = 0;
+    for (int j = 0; j < 3; ++j) {
+      determinant += a[0][j] * inverse[j][0];
+      size += std::abs(a[0][j]) *
+              (std::abs(a[1][(j + 1) % 3] * a[2][(j + 2) % 3]) + std::abs(a[1][(j + 2) % 3] * a[2][(j + 1) % 3]));
+    }
+    if (std::abs(determinant) > 1e-3 * size && std::isfinite(1 / determinant)) {
+      for (auto& row : inverse)
+        for (double& x : row) x /= determinant;
+      return true;
+    }
+  }
   inverse = {};
   for (int i = 0; i < N; ++i) inverse[i][i] = 1;
   for (int column = 0; column < N; ++column) {

@@ -348,19 +348,30 @@ class Search {
       const ChartBox<N, M> over(*chart, box, range);
       Box reached = box;
       if constexpr (M == N - 1) {
-        reached = over.reachable(box[chart->along], middle, rounded(there), box, kCuts);
+        reached = over.reachable(box[chart->along], middle, rounded(there), widened(box, chart->along), kCuts);
         if (is_empty<N>(reached)) return;
       }
       if (over.is_one_to_one()) return cover(over, middle);
-      double volume = 1;
-      for (int i = 0; i < N; ++i) volume *= reached[i].width() / box[i].width();
-      if (volume < 0.25) {
+      double share = 1;
+      for (int i = 0; i < N; ++i) {
+        const Interval part = intersect(reached[i], box[i]);
+        reached[i] = part.empty() ? Interval(box[i].clamp(reached[i].lo)) : part;
+        share *= reached[i].width() / box[i].width();
+      }
+      if (share < kWorthCutting) {
         boxes_.push_back(reached);
         return;
       }
     }
     if (is_excluded(box, range, middle, there, sides)) return;
     divide(box);
+  }
+
+  // With the slack of the domain's border, but for one unknown.
+  Box widened(Box box, int along) const {
+    for (int i = 0; i < N; ++i)
+      if (i != along) box[i] = {box[i].lo - options_.slack[i], box[i].hi + options_.slack[i]};
+    return box;
   }
 
   // The mean value form in the combination of equations that changes least over the box: surfaces that are nearly
@@ -409,9 +420,7 @@ class Search {
   // Finds the curves in a chart that are not known yet.
   void cover(const ChartBox<N, M>& over, const Place& middle) {
     const int along = over.chart.along;
-    Box wide = over.box;  // with the slack of the domain's border
-    for (int i = 0; i < N; ++i)
-      if (i != along) wide[i] = {wide[i].lo - options_.slack[i], wide[i].hi + options_.slack[i]};
+    const Box wide = widened(over.box, along);
     Slices slices;
     cut_at_nodes(over, over.box[along], middle, slices);
     int slices_seen = 0;
@@ -846,6 +855,7 @@ class Search {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
+  static constexpr double kWorthCutting = 0.25;  // of the volume: a box that keeps more is halved instead
   static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
   static constexpr int kTimes = 400, kCuts = 3, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150,
                        kMostNodes = 200000, kMostSlices = 250;

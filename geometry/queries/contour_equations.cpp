@@ -50,6 +50,12 @@ size_t KnownEnclosures::Hash::operator()(const Key& key) const {
   return sum;
 }
 
+KnownEnclosures::Entry& KnownEnclosures::entry(const Rectangle& box) {
+  const Key key{box.u.lo, box.u.hi, box.v.lo, box.v.hi};
+  if (!last_ || last_->first != key) last_ = &*known_.try_emplace(key).first;
+  return last_->second;
+}
+
 const KnownEnclosures::First& KnownEnclosures::of(const Surface& surface, const Rectangle& box) {
   Entry& known = entry(box);
   if (!known.knows_first) {

@@ -33,6 +33,10 @@ class KnownEnclosures {
   struct FirstOfMiddle {
     Vec3 point, du, dv;
   };
+  KnownEnclosures() = default;
+  KnownEnclosures(const KnownEnclosures&) = delete;
+  KnownEnclosures& operator=(const KnownEnclosures&) = delete;
+
   const First& of(const Surface& surface, const Rectangle& box);
   const FirstOfMiddle& of_middle(const Surface& surface, const Rectangle& piece, const Rectangle& box);
 
@@ -46,9 +50,10 @@ class KnownEnclosures {
     FirstOfMiddle middle;
     bool knows_first = false, knows_middle = false;
   };
-  Entry& entry(const Rectangle& box) { return known_[{box.u.lo, box.u.hi, box.v.lo, box.v.hi}]; }
+  Entry& entry(const Rectangle& box);
 
   std::unordered_map<Key, Entry, Hash> known_;
+  std::pair<const Key, Entry>* last_ = nullptr;  // asked for
 };
 
 // A system at a place beyond its domain: as at the border, continued linearly.

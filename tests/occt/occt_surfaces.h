@@ -104,6 +104,7 @@ struct OcctBranches {
   bool done = false;
   std::vector<Handle(Geom_Curve)> pieces;
   int closed = 0, open = 0;  // branches, pieces joined end to end
+  std::vector<Vec3> ends;    // of open ones
   int count() const { return closed + open; }
 };
 
@@ -147,7 +148,10 @@ inline OcctBranches occt_branches(const OcctPair& pair, double tolerance, double
     }
   };
   for (int end = 0; end < ends; ++end)
-    if (mate[end] < 0 && !seen[end]) ++result.open, follow(end);
+    if (mate[end] < 0) {
+      result.ends.push_back(places[end]);
+      if (!seen[end]) ++result.open, follow(end);
+    }
   for (int end = 0; end < ends; ++end)
     if (!seen[end]) ++result.closed, follow(end);
   return result;

@@ -209,5 +209,120 @@ TEST(RandomFeet, NoneOnASurfaceIsLost) {
   tests::report_figure("feet", feet);
 }
 
+// Rational pieces are searched by the signs of polynomials, others by intervals: the same shape is seen as both.
+
+// The surface without the Bezier points of its pieces.
+class WithoutBezierPoints final : public Surface {
+ public:
+  explicit WithoutBezierPoints(SurfacePtr surface) : surface_(std::move(surface)) {}
+  Rectangle domain() const override { return surface_->domain(); }
+  Periods periods() const override { return surface_->periods(); }
+  SurfaceJet evaluate(double u, double v, int order) const override { return surface_->evaluate(u, v, order); }
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override { return surface_->enclose(box, order); }
+  DegenerateEdges degenerate_edges() const override { return surface_->degenerate_edges(); }
+  std::vector<SurfacePiece> pieces() const override {
+    std::vector<SurfacePiece> pieces = surface_->pieces();
+    for (SurfacePiece& piece : pieces) piece.points.clear();
+    return pieces;
+  }
+
+ private:
+  SurfacePtr surface_;
+};
+
+template <class Feet>
+void expect_same_feet(const Feet& a, const Feet& b) {
+  ASSERT_EQ(a.feet.size(), b.feet.size());
+  std::vector<bool> taken(b.feet.size());
+  for (const auto& foot : a.feet) {
+    size_t k = 0;
+    while (k < b.feet.size() &&
+           (taken[k] || b.feet[k].kind != foot.kind || !(glm::length(b.feet[k].point - foot.point) < 1e-10)))
+      ++k;
+    ASSERT_LT(k, b.feet.size()) << "no partner at the distance " << foot.distance;
+    taken[k] = true;
+  }
+}
+
+SplineAxis random_axis(std::mt19937_64& random, int degree, int count) {
+  std::vector<double> knots(degree + 1, 0.0);
+  for (int i = 1; i < count - degree; ++i) {
+    const bool twice = degree > 1 && i > 1 && random() % 4 == 0 && knots.back() != knots[knots.size() - 2];
+    knots.push_back(knots.back() + (twice ? 0.0 : 0.3 + unit(random)));
+  }
+  knots.insert(knots.end(), degree + 1, knots.back() + 1);
+  return SplineAxis(degree, knots, Extension::tangent);
+}
+
+// So that some points lie on the curve, some far off.
+Vec3 random_place(std::mt19937_64& random, const Vec3& on) {
+  const Vec3 p(2 * unit(random) - 0.5, 2 * unit(random) - 0.5, 2 * unit(random) - 0.5);
+  const int kind = static_cast<int>(random() % 8);
+  return kind == 0 ? on : kind == 1 ? on + 1e-5 * p : kind == 2 ? 300.0 * p : p;
+}
+
+TEST(RandomFeet, OfCurvesByPolynomialsAndByIntervals) {
+  std::mt19937_64 random(8);
+  int feet = 0;
+  for (int trial = tests::tier_count(5000); trial > 0; --trial) {
+    SCOPED_TRACE(trial);
+    CurvePtr curve;
+    if (trial % 5 == 0) {
+      curve = std::make_shared<Ellipse>(frame_from({1, 2, 0}, {0.2, 0.3, 1}, {1, 0, 0}), 0.5 + unit(random), 1);
+    } else {
+      const int degree = 1 + trial % 5, count = degree + 1 + trial % 4;
+      std::vector<Vec3> points(count);
+      std::vector<double> weights(count);
+      for (Vec3& p : points) p = {unit(random), unit(random), unit(random)};
+      for (double& w : weights) w = std::exp2(6 * unit(random) - 3);
+      curve = std::make_shared<NurbsCurve>(random_axis(random, degree, count), points, weights);
+    }
+    std::vector<CurvePiece> pieces = curve->pieces();
+    for (CurvePiece& piece : pieces) piece.points.clear();
+    const CurveProjector by_polynomials(curve), by_intervals(curve, pieces);
+    for (int k = 0; k < 4; ++k) {
+      const Interval t = curve->domain();
+      const Vec3 p = random_place(random, curve->point(t.lo + t.width() * unit(random)));
+      const CurveFeet found = by_polynomials.feet(p);
+      feet += static_cast<int>(found.feet.size());
+      expect_same_feet(found, by_intervals.feet(p));
+    }
+  }
+  tests::report_figure("feet", feet);
+}
+
+TEST(RandomFeet, OfSurfacesByPolynomialsAndByIntervals) {
+  std::mt19937_64 random(9);
+  int feet = 0;
+  for (int trial = tests::tier_count(1000); trial > 0; --trial) {
+    SCOPED_TRACE(trial);
+    SurfacePtr surface;
+    if (trial % 5 == 0) {
+      surface =
+          std::make_shared<TorusSurface>(frame_from({1, 2, 0}, {0.2, 0.3, 1}, {1, 0, 0}), 0.5 + unit(random), 0.3);
+    } else {
+      const int p = 1 + trial % 4, q = 1 + trial / 4 % 3, m = p + 1 + trial % 3, n = q + 1 + trial % 2;
+      std::vector<Vec3> points;
+      std::vector<double> weights;
+      for (int i = 0; i < m; ++i)
+        for (int j = 0; j < n; ++j) {
+          points.emplace_back((i + 0.6 * unit(random)) / m, (j + 0.6 * unit(random)) / n, unit(random));
+          weights.push_back(std::exp2(4 * unit(random) - 2));
+        }
+      surface = std::make_shared<NurbsSurface>(random_axis(random, p, m), random_axis(random, q, n), points, weights);
+    }
+    const SurfaceProjector by_polynomials(surface), by_intervals(std::make_shared<WithoutBezierPoints>(surface));
+    for (int k = 0; k < 4; ++k) {
+      const Rectangle domain = surface->domain();
+      const Vec3 p = random_place(random, surface->point(domain.u.lo + domain.u.width() * unit(random),
+                                                         domain.v.lo + domain.v.width() * unit(random)));
+      const SurfaceFeet found = by_polynomials.feet(p);
+      feet += static_cast<int>(found.feet.size());
+      expect_same_feet(found, by_intervals.feet(p));
+    }
+  }
+  tests::report_figure("feet", feet);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry
