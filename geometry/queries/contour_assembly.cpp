@@ -12,6 +12,7 @@ namespace {
 // Parts of the size of the surfaces.
 constexpr double kSameEnd = 1e-8;     // ends of arcs on borders that are one place
 constexpr double kSag = 0.1;          // of a chord of an arc, at most
+constexpr double kSameEdge = 1e-9;    // of a side of all pieces: a place so near to it lies on a surface's edge
 constexpr double kNearSingular = 60;  // of the least image: an arc that ends so near to a singular point ends there
 
 // Directions so opposite go on from each other through a crossing.
@@ -330,6 +331,29 @@ bool ContourAssembly<N>::lies_on_touching(const Vec3& point) const {
   });
 }
 
+// Whether a place lies on an edge of a surface, where it does not close.
+template <int N>
+bool ContourAssembly<N>::on_edge(const ParameterPlace<N>& place, double near) const {
+  for (int i = 0; i < N; ++i) {
+    const Interval& all = (*searched_)[i];
+    if (periods_[i] == 0 && std::min(place[i] - all.lo, all.hi - place[i]) <= near * all.width()) return true;
+  }
+  return false;
+}
+
+// Curves end on the edges of surfaces, at their apexes and where add_end() says so: through all other places they go
+// on, as many arcs towards each as from it. What stops elsewhere has lost what follows.
+template <int N>
+bool ContourAssembly<N>::stops_inside(const End& end) const {
+  const Part& part = parts_[end.part];
+  if (end.mate_part >= 0 || end.singular_point == kDropped || part.arc.closed || end.at_pole) return false;
+  if (on_edge(end.at_end ? part.arc.nodes.back() : part.arc.nodes.front(), kSameEdge)) return false;
+  return std::none_of(places_.begin(), places_.end(), [&](const SingularPlace& place) {
+    return place.group == end.singular_point &&
+           (place.is_added || on_edge(place.place, kNearSingular * kLeastContourImage));
+  });
+}
+
 template <int N>
 Contours ContourAssembly<N>::joined() {
   drop_doubles();
@@ -338,7 +362,8 @@ Contours ContourAssembly<N>::joined() {
   pair_ends();
   attach_rest();
   Contours result;
-  result.complete = complete_;
+  result.complete =
+      complete_ && std::none_of(ends_.begin(), ends_.end(), [this](const End& end) { return stops_inside(end); });
   result.coincident = coincident_;
   std::vector<bool> used(parts_.size(), false);
   // Open branches begin at an end that is joined with none; what is left then is closed.
