@@ -331,6 +331,23 @@ bool ContourAssembly<N>::lies_on_touching(const Vec3& point) const {
   });
 }
 
+// Within a tube there is no other solution than the arc's: what seems a contact there is rounding beside a branch whose
+// equations hardly change across it.
+template <int N>
+bool ContourAssembly<N>::lies_in_tubes(int point) const {
+  return std::all_of(places_.begin(), places_.end(), [&](const SingularPlace& place) {
+    if (place.group != point) return true;
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+      return part.equations == place.equations &&
+             std::any_of(part.arc.tubes.begin(), part.arc.tubes.end(), [&](const ParameterBox<N>& tube) {
+               for (int i = 0; i < N; ++i)
+                 if (!tube[i].contains(place.place[i])) return false;
+               return true;
+             });
+    });
+  });
+}
+
 // Whether a place lies on an edge of a surface, where it does not close.
 template <int N>
 bool ContourAssembly<N>::on_edge(const ParameterPlace<N>& place, double near) const {
@@ -375,8 +392,9 @@ Contours ContourAssembly<N>::joined() {
   for (size_t k = 0; k < points_.size(); ++k) {
     const SingularPoint& point = points_[k];
     const bool contact = point.kind == ContourPointKind::contact;
-    if (!point.passed && !(contact && (point.distance > tolerance_ || lies_on_touching(point.point) ||
-                                       lies_where_surfaces_coincide(static_cast<int>(k)))))
+    if (!point.passed &&
+        !(contact && (point.distance > tolerance_ || lies_on_touching(point.point) ||
+                      lies_in_tubes(static_cast<int>(k)) || lies_where_surfaces_coincide(static_cast<int>(k)))))
       result.points.push_back(point);
   }
   return result;

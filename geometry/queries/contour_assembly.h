@@ -84,6 +84,7 @@ class ContourAssembly {
   bool add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
                    std::vector<ParameterBox<N>>& settled);
   bool lies_on_touching(const Vec3& point) const;
+  bool lies_in_tubes(int point) const;
   bool lies_where_surfaces_coincide(int point) const;
   static bool lies_on(const Part& part, size_t node, const Part& other);
   bool is_same(const Part& part, const Part& known) const;
