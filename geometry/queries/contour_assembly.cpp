@@ -22,9 +22,11 @@ constexpr double kSmooth = -0.9999;
 }  // namespace
 
 template <int N>
-bool ContourAssembly<N>::runs_along(const Part& part, int parameter, double border) const {
-  const double near = 1e-10 * part.equations->domain()[parameter].width();
-  return std::all_of(part.arc.nodes.begin(), part.arc.nodes.end(),
+bool ContourAssembly<N>::runs_along(const ContourEquations<N>& equations, const SolutionArc<N>& arc, ContourKind kind,
+                                    int parameter, double border) {
+  // Contacts are known less well.
+  const double near = (kind == ContourKind::crossing ? 1e-10 : 1e-7) * equations.domain()[parameter].width();
+  return std::all_of(arc.nodes.begin(), arc.nodes.end(),
                      [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; });
 }
 
@@ -33,7 +35,8 @@ template <int N>
 bool ContourAssembly<N>::runs_along_border(const Part& part) const {
   const ParameterBox<N> domain = part.equations->domain();
   for (int i = 0; i < N; ++i)
-    if (runs_along(part, i, domain[i].lo) || runs_along(part, i, domain[i].hi)) return true;
+    for (const double border : {domain[i].lo, domain[i].hi})
+      if (runs_along(*part.equations, part.arc, part.kind, i, border)) return true;
   return false;
 }
 
@@ -209,6 +212,10 @@ void ContourAssembly<N>::pair_ends() {
     for (size_t e = 0; e < ends_.size(); ++e)
       if (ends_[e].singular_point == static_cast<int>(k)) group.push_back(static_cast<int>(e));
     if (group.size() > 2) points_[k].kind = ContourPointKind::crossing;
+    // Curves of contact meet in poles at most, where they are not followed.
+    if (group.size() > 2 && std::any_of(group.begin(), group.end(),
+                                        [&](int e) { return parts_[ends_[e].part].kind == ContourKind::touching; }))
+      complete_ = false;
     if (group.size() == 1 || group.size() == 2) points_[k].kind = ContourPointKind::end;
     // Where a curve goes on smoothly only its parameters are singular.
     points_[k].passed = group.size() == 2 && glm::dot(ends_[group[0]].outward, ends_[group[1]].outward) < kSmooth;

@@ -79,7 +79,7 @@ class ContourAssembly {
   SolutionCurves<N> follow(const TouchingPtr& touching, int exact, const SolutionCurveOptions<N>& as);
   void add_part(const TouchingPtr& touching, SolutionArc<N> arc, ContourKind kind);
   void add_touching(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
-                    std::vector<ParameterBox<N>>& settled);
+                    const std::array<bool, N>& left_to_neighbour, std::vector<ParameterBox<N>>& settled);
   std::optional<int> coincident_sides(const TouchingEquations<N>& touching, const SolutionArc<N>& arc) const;
   bool add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
                    std::vector<ParameterBox<N>>& settled);
@@ -89,7 +89,10 @@ class ContourAssembly {
   static bool lies_on(const Part& part, size_t node, const Part& other);
   bool is_same(const Part& part, const Part& known) const;
   void drop_doubles();
-  bool runs_along(const Part& part, int parameter, double border) const;
+  static bool runs_along(const ContourEquations<N>& equations, const SolutionArc<N>& arc, ContourKind kind,
+                         int parameter, double border);
+  static bool is_left(const ContourEquations<N>& equations, const SolutionArc<N>& arc, ContourKind kind,
+                      const std::array<bool, N>& left_to_neighbour);
   bool runs_along_border(const Part& part) const;
   void find_singular_points();
   void collect_ends();

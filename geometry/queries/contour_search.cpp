@@ -72,6 +72,15 @@ ParameterPlace<N> middle_of(const ParameterPlace<N>& a, const ParameterPlace<N>&
 
 }  // namespace
 
+// Whether an arc runs along an upper border that is a neighbour's lower one.
+template <int N>
+bool ContourAssembly<N>::is_left(const ContourEquations<N>& equations, const SolutionArc<N>& arc, ContourKind kind,
+                                 const std::array<bool, N>& left_to_neighbour) {
+  for (int i = 0; i < N; ++i)
+    if (left_to_neighbour[i] && runs_along(equations, arc, kind, i, equations.domain()[i].hi)) return true;
+  return false;
+}
+
 template <int N>
 void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, const PieceSearch<N>& search) {
   const EquationsPtr equations = std::move(given);
@@ -94,16 +103,14 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, c
       coincident_ = true;
       return;
     }
-    if (touching) add_touching(touching, options, options.settled);
+    if (touching) add_touching(touching, options, search.left_to_neighbour, options.settled);
     options.most_boxes = most_boxes;
     found = search_solution_curves<N, N - 1>(searched, domain, options);
   }
   complete_ = complete_ && found.complete;
   for (SolutionArc<N>& arc : found.arcs) {
-    Part part{equations, std::move(arc), ContourKind::crossing, {}, 0};
-    bool left = false;
-    for (int i = 0; i < N; ++i) left = left || (search.left_to_neighbour[i] && runs_along(part, i, domain[i].hi));
-    if (!left) add_part(std::move(part));
+    if (!is_left(*equations, arc, ContourKind::crossing, search.left_to_neighbour))
+      add_part(Part{equations, std::move(arc), ContourKind::crossing, {}, 0});
   }
   if (found.complete)
     for (const ParameterBox<N>& box : found.open) open_.emplace_back(equations, box);
@@ -150,12 +157,14 @@ SolutionCurves<N> ContourAssembly<N>::follow(const TouchingPtr& touching, int ex
 // nothing else.
 template <int N>
 void ContourAssembly<N>::add_touching(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
+                                      const std::array<bool, N>& left_to_neighbour,
                                       std::vector<ParameterBox<N>>& settled) {
   SolutionCurves<N> found = follow(touching, N - 1, as);
   if (!found.complete) return;
   for (SolutionArc<N>& arc : found.arcs) {
     settled.insert(settled.end(), arc.tubes.begin(), arc.tubes.end());
-    add_part(touching, std::move(arc), ContourKind::touching);
+    if (!is_left(touching->contour(), arc, ContourKind::touching, left_to_neighbour))
+      add_part(touching, std::move(arc), ContourKind::touching);
   }
 }
 

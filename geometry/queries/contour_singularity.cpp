@@ -29,6 +29,25 @@ VectorXd second_derivative(const ContourEquations<N>& equations, const Parameter
   return result;
 }
 
+// The foot of one surface's point on the other, whose parameters are x[first] and the next.
+void move_below(const ContourEquations<4>& equations, int first, ParameterPlace<4>& x) {
+  const ParameterBox<4> domain = equations.domain();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto there = equations.evaluate(x);
+    MatrixXd j(3, 2);
+    VectorXd f(3);
+    for (int k = 0; k < 3; ++k) {
+      f[k] = there.value[k];
+      for (int i = 0; i < 2; ++i) j(k, i) = there.derivative[k][first + i] * domain[first + i].width();
+    }
+    const VectorXd by = j.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(-f);
+    if (!by.allFinite()) return;
+    for (int i = 0; i < 2; ++i)
+      x[first + i] = domain[first + i].clamp(x[first + i] + by[i] * domain[first + i].width());
+    if (by.lpNorm<Eigen::Infinity>() < 1e-15) return;
+  }
+}
+
 }  // namespace
 
 template <int N>
@@ -80,9 +99,11 @@ ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const 
   // At a pole the equations say little.
   for (int i = 0; i < N; ++i)
     for (const bool upper : {false, true}) {
+      if (!equations.is_pole(i, upper)) continue;
       ParameterPlace<N> at = x;
       at[i] = upper ? domain[i].hi : domain[i].lo;
-      if (equations.is_pole(i, upper) && glm::length(equations.point(at) - equations.point(x)) <= near &&
+      if constexpr (N == 4) move_below(equations, i < 2 ? 2 : 0, at);
+      if (glm::length(equations.point(at) - equations.point(x)) <= near &&
           equations.distance(at) <= equations.distance(x) + near)
         x = at;
     }

@@ -20,11 +20,22 @@ void demand_bounded(const Surface& surface) {
 
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
+// Whether the surface goes on beyond the upper borders of a piece, by u and v.
+std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
+  const Rectangle all = surface.domain();
+  const Periods periods = surface.periods();
+  return {piece.u.hi < all.u.hi || periods.u > 0, piece.v.hi < all.v.hi || periods.v > 0};
+}
+
 Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function) {
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
   const Periods periods = surface->periods();
   ContourAssembly<2> assembly(size, kSamePoint * size, {periods.u, periods.v});
-  for (const SurfacePiece& piece : surface->pieces()) assembly.add(function_equations(surface, piece.domain, function));
+  for (const SurfacePiece& piece : surface->pieces()) {
+    PieceSearch<2> search;
+    search.left_to_neighbour = goes_on(*surface, piece.domain);
+    assembly.add(function_equations(surface, piece.domain, function), search);
+  }
   return assembly.joined();
 }
 
@@ -88,8 +99,12 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   for (const SurfacePiece& piece : pieces_b) boxes_b.push_back(bounds(*b, piece));
   const BoxTree tree_b(boxes_b);
   for (const SurfacePiece& piece_a : pieces_a)
-    tree_b.around(bounds(*a, piece_a).inflated(tolerance * size),
-                  [&](int k) { assembly.add(meeting_equations(a, piece_a.domain, b, pieces_b[k].domain)); });
+    tree_b.around(bounds(*a, piece_a).inflated(tolerance * size), [&](int k) {
+      const std::array<bool, 2> in_a = goes_on(*a, piece_a.domain), in_b = goes_on(*b, pieces_b[k].domain);
+      PieceSearch<4> search;
+      search.left_to_neighbour = {in_a[0], in_a[1], in_b[0], in_b[1]};
+      assembly.add(meeting_equations(a, piece_a.domain, b, pieces_b[k].domain), search);
+    });
   return assembly.joined();
 }
 

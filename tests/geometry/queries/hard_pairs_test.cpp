@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <ostream>
+#include <vector>
 
 #include "geometry/queries/contours.h"
 #include "geometry/surfaces/bezier_surface.h"
@@ -29,6 +29,10 @@ struct Truth {
   double length = kUnknown;  // of all branches
   ContourKind kind = ContourKind::crossing;
   bool coincident = false;
+  double precision = 1e-9;  // of the length
+  // Asked too much of the search: it must say that something is left out.
+  bool given_up = false;
+  bool takes_seconds = false;
 };
 
 struct HardPair {
@@ -36,7 +40,6 @@ struct HardPair {
   std::function<SurfacePtr()> a, b;
   Truth truth;
 };
-std::ostream& operator<<(std::ostream& out, const HardPair& pair) { return out << pair.name; }
 
 Frame at(const Vec3& origin) {
   Frame frame;
@@ -98,24 +101,19 @@ Made uneven(const Made& of, double most) {
     return std::make_shared<NurbsSurface>(form);
   };
 }
-Made as_nurbs(const Made& of) {
-  return [=]() -> SurfacePtr {
-    const SurfacePtr surface = of();
-    const auto form = surface->as_nurbs();
-    return form ? std::make_shared<NurbsSurface>(*form) : surface;
-  };
+SurfacePtr as_spline(const SurfacePtr& surface) {
+  const auto form = surface->as_nurbs();
+  return form ? std::make_shared<NurbsSurface>(*form) : surface;
 }
 // Turned and moved, so that no coordinate of a special place is a round number.
-Made turned(const Made& of) {
-  return [=]() -> SurfacePtr {
-    const Frame to = frame_from({0.31, -0.74, 1.3}, glm::normalize(Vec3(0.3, 0.5, 0.7)), {0.9, -0.2, 0.1});
-    NurbsSurfaceForm form = *of()->as_nurbs();
-    for (Vec4& p : form.points) {
-      const Vec3 moved = p.x * to.x + p.y * to.y + p.z * to.z + p.w * to.origin;
-      p = Vec4(moved.x, moved.y, moved.z, p.w);
-    }
-    return std::make_shared<NurbsSurface>(form);
-  };
+SurfacePtr turned(const SurfacePtr& surface) {
+  const Frame to = frame_from({0.31, -0.74, 1.3}, glm::normalize(Vec3(0.3, 0.5, 0.7)), {0.9, -0.2, 0.1});
+  NurbsSurfaceForm form = surface->as_nurbs().value();
+  for (Vec4& p : form.points) {
+    const Vec3 moved = p.x * to.x + p.y * to.y + p.z * to.z + p.w * to.origin;
+    p = Vec4(moved.x, moved.y, moved.z, p.w);
+  }
+  return std::make_shared<NurbsSurface>(form);
 }
 Frame along_x(const Vec3& origin = {-3, 0, 0}) { return frame_from(origin, {1, 0, 0}, {0, 1, 0}); }
 // The radius of the circle in which two unit spheres meet that overlap by d.
@@ -136,7 +134,7 @@ std::vector<HardPair> pairs() {
       {"two_circles_on_a_torus",
        torus(3, 1),
        plate({0, 0, 1 - 5e-7}, {0, 0, 1}, 5, 5),
-       {.loops = 2, .length = 12 * kPi}},
+       {.loops = 2, .length = 12 * kPi, .given_up = true, .takes_seconds = true}},
       {"cap_of_a_torus", torus(3, 1), plate({4 - 1e-6, 0, 0}, {1, 0, 0}, 3, 3), {.loops = 1}},
       {"bead_on_a_cylinder", cylinder(Frame(), 1, 2), sphere({0.6, 0.8, 1.1}, s), {.loops = 1}},
       {"bead_on_a_seam", cylinder(Frame(), 1, 2), sphere({1, 0, 1.1}, s), {.loops = 1}},
@@ -204,7 +202,7 @@ std::vector<HardPair> pairs() {
       {"monkey_saddle",
        graph([](double x, double y) { return x * x * x - 3 * x * y * y; }),
        plate({0, 0, 0}, {0, 0, 1}, 2, 2),
-       {.open = 3, .crossings = 1, .length = 2 + 4 * std::sqrt(4.0 / 3)}},
+       {.open = 3, .crossings = 1, .length = 2 + 4 * std::sqrt(4.0 / 3), .precision = 1e-6}},
       {"ball_in_two_saddles", torus(3, 1), sphere({3.5, 0, 0}, 1.5), {.loops = 1, .crossings = 1}},
       // Seams, poles and tips.
       {"circle_through_poles", sphere({0, 0, 0}, 1), sphere({0, 1, 0}, std::sqrt(2)), {.loops = 1, .length = kTwoPi}},
@@ -238,8 +236,11 @@ std::vector<HardPair> pairs() {
        plate({0, 0, 0}, {0, 0, 1}, 1, 1),
        plate({0, 0, 0}, {1e-6, 0, 1}, 1, 1),
        {.open = 1, .length = 2}},
-      {"spheres_moved_1e-6", sphere({0, 0, 0}, 1), sphere(1e-6 * kSlant, 1), {.loops = 1, .length = kTwoPi}},
-      {"cylinder_around_1e-6", cylinder(Frame(), 1, 2), cylinder(Frame(), 1 + 1e-6, 2), {}},
+      {"spheres_moved_1e-6",
+       sphere({0, 0, 0}, 1),
+       sphere(1e-6 * kSlant, 1),
+       {.loops = 1, .length = kTwoPi, .given_up = true, .takes_seconds = true}},
+      {"cylinder_around_1e-6", cylinder(Frame(), 1, 2), cylinder(Frame(), 1 + 1e-6, 2), {.given_up = true}},
       // Touching along curves.
       {"ball_in_a_tube",
        cylinder(at({0, 0, -2}), 1, 4),
@@ -253,9 +254,18 @@ std::vector<HardPair> pairs() {
        torus(3, 1),
        plate({0, 0, 1}, {0, 0, 1}, 5, 4),
        {.loops = 1, .length = 6 * kPi, .kind = kTouching}},
-      {"ball_about_a_ring", torus(2, 1.5), sphere({0, 0, 0}, 3.5), {.loops = 1, .length = 7 * kPi, .kind = kTouching}},
-      {"ball_in_a_hole", torus(3, 1), sphere({0, 0, 0}, 2), {.loops = 1, .length = 4 * kPi, .kind = kTouching}},
-      {"ball_fills_a_ring", torus(3, 1), sphere({3, 0, 0}, 1), {.loops = 1, .length = kTwoPi, .kind = kTouching}},
+      {"ball_about_a_ring",
+       torus(2, 1.5),
+       sphere({0, 0, 0}, 3.5),
+       {.loops = 1, .length = 7 * kPi, .kind = kTouching, .takes_seconds = true}},
+      {"ball_in_a_hole",
+       torus(3, 1),
+       sphere({0, 0, 0}, 2),
+       {.loops = 1, .length = 4 * kPi, .kind = kTouching, .takes_seconds = true}},
+      {"ball_fills_a_ring",
+       torus(3, 1),
+       sphere({3, 0, 0}, 1),
+       {.loops = 1, .length = kTwoPi, .kind = kTouching, .given_up = true, .takes_seconds = true}},
       {"parallel_cylinders",
        cylinder(Frame(), 1, 4),
        cylinder(at({3, 0, 0.5}), 2, 3),
@@ -277,15 +287,17 @@ std::vector<HardPair> pairs() {
        cylinder(Frame(), 1, 4),
        cylinder(at({0, 0, 2}), 1, 3),
        {.loops = 2, .length = 4 * kPi, .kind = kBorder, .coincident = true}},
-      {"equal_spheres", sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 1), {.coincident = true}},
+      {"equal_spheres", sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 1), {.coincident = true, .takes_seconds = true}},
   };
 }
 
-class HardPairs : public testing::TestWithParam<HardPair> {};
-
-void check(const HardPair& pair, const SurfacePtr& a, const SurfacePtr& b, double precision) {
+void check(const HardPair& pair, const SurfacePtr& a, const SurfacePtr& b) {
   const Contours found = intersect(a, b);
   const Truth& truth = pair.truth;
+  if (truth.given_up) {
+    EXPECT_FALSE(found.complete);
+    return;
+  }
   EXPECT_TRUE(found.complete);
   EXPECT_EQ(found.coincident, truth.coincident);
   int loops = 0, contacts = 0, crossings = 0, others = 0;
@@ -316,42 +328,59 @@ void check(const HardPair& pair, const SurfacePtr& a, const SurfacePtr& b, doubl
   EXPECT_EQ(others, 0);
   if (truth.length != kUnknown) {
     // Rounding of the places of surfaces that barely meet moves a small loop's size.
-    EXPECT_NEAR(length, truth.length, precision * truth.length + 2e-11);
+    EXPECT_NEAR(length, truth.length, truth.precision * truth.length + 2e-11);
   }
 }
 
-TEST_P(HardPairs, AreIntersected) { check(GetParam(), GetParam().a(), GetParam().b(), 1e-9); }
-TEST_P(HardPairs, TheOtherWayRound) { check(GetParam(), GetParam().b(), GetParam().a(), 1e-9); }
-TEST_P(HardPairs, AsRationalSplines) {
-  const SurfacePtr a = as_nurbs(GetParam().a)(), b = as_nurbs(GetParam().b)();
-  check(GetParam(), a, b, 1e-9);
+enum class Way { as_given, swapped, as_splines };
+
+// Of `all` the small tier takes one in so many, and none that takes seconds.
+void check_all(Way way, size_t one_in) {
+  const std::vector<HardPair> all = pairs();
+  int checked = 0;
+  for (size_t k = 0; k < all.size(); ++k) {
+    const HardPair& pair = all[k];
+    if (!tests::is_full_tier() && (pair.truth.takes_seconds || k % one_in != 0)) continue;
+    SCOPED_TRACE(pair.name);
+    ++checked;
+    if (way == Way::as_given) check(pair, pair.a(), pair.b());
+    if (way == Way::swapped) check(pair, pair.b(), pair.a());
+    if (way == Way::as_splines) check(pair, as_spline(pair.a()), as_spline(pair.b()));
+  }
+  tests::report_figure("pairs", checked);
 }
 
-// Rounding breaks up what is special about a pair: the answer is right all the same, or says that it is incomplete.
-TEST_P(HardPairs, TurnedAreRightOrIncomplete) {
-  const Truth& truth = GetParam().truth;
-  if (!tests::is_full_tier() && truth.crossings == 0) GTEST_SKIP() << "full tier";
-  const Contours found = intersect(turned(GetParam().a)(), turned(GetParam().b)());
-  if (!found.complete) return;
-  const auto loops =
-      std::count_if(found.branches.begin(), found.branches.end(), [](const auto& c) { return c.closed; });
-  const auto points = [&](ContourPointKind kind) {
-    return std::count_if(found.points.begin(), found.points.end(), [&](const auto& p) { return p.kind == kind; });
-  };
-  EXPECT_EQ(loops, truth.loops);
-  EXPECT_EQ(static_cast<int>(found.branches.size()) - loops, truth.open);
-  EXPECT_EQ(points(ContourPointKind::contact), truth.contacts);
-  EXPECT_EQ(points(ContourPointKind::crossing), truth.crossings);
-  EXPECT_EQ(points(ContourPointKind::end), 0);
-  EXPECT_EQ(found.coincident, truth.coincident);
-}
+TEST(HardPairs, AreIntersected) { check_all(Way::as_given, 1); }
+TEST(HardPairs, TheOtherWayRound) { check_all(Way::swapped, 5); }
+TEST(HardPairs, AsRationalSplines) { check_all(Way::as_splines, 5); }
 
-INSTANTIATE_TEST_SUITE_P(Known, HardPairs, testing::ValuesIn(pairs()), [](const auto& info) {
-  std::string name = info.param.name;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-});
+// Rounding breaks up what is special about a pair: the answer is right all the same, or says that it is incomplete. The
+// small tier takes those whose branches cross.
+TEST(HardPairs, TurnedAreRightOrIncomplete) {
+  int checked = 0, incomplete = 0;
+  for (const HardPair& pair : pairs()) {
+    const Truth& truth = pair.truth;
+    if (!tests::is_full_tier() && (truth.takes_seconds || truth.crossings == 0)) continue;
+    SCOPED_TRACE(pair.name);
+    const Contours found = intersect(turned(pair.a()), turned(pair.b()));
+    ++checked;
+    incomplete += !found.complete;
+    if (!found.complete) continue;
+    const auto loops =
+        std::count_if(found.branches.begin(), found.branches.end(), [](const auto& c) { return c.closed; });
+    const auto points = [&](ContourPointKind kind) {
+      return std::count_if(found.points.begin(), found.points.end(), [&](const auto& p) { return p.kind == kind; });
+    };
+    EXPECT_EQ(loops, truth.loops);
+    EXPECT_EQ(static_cast<int>(found.branches.size()) - loops, truth.open);
+    EXPECT_EQ(points(ContourPointKind::contact), truth.contacts);
+    EXPECT_EQ(points(ContourPointKind::crossing), truth.crossings);
+    EXPECT_EQ(points(ContourPointKind::end), 0);
+    EXPECT_EQ(found.coincident, truth.coincident);
+  }
+  tests::report_figure("pairs", checked);
+  tests::report_figure("incomplete", incomplete);
+}
 
 }  // namespace
 }  // namespace lekalo::geometry
