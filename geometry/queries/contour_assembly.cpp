@@ -365,17 +365,37 @@ bool ContourAssembly<N>::on_edge(const ParameterPlace<N>& place, double near) co
   return false;
 }
 
-// Curves end on the edges of surfaces, at their apexes and where add_end() says so: through all other places they go
-// on, as many arcs towards each as from it. What stops elsewhere has lost what follows.
+// Whether a place lies in a pole about which the surface closes.
+template <int N>
+bool ContourAssembly<N>::at_closed_pole(const SingularPlace& place, double near) const {
+  const ParameterBox<N> domain = place.equations->domain();
+  for (int i = 0; i < N; ++i)
+    for (const bool upper : {false, true})
+      if (periods_[i ^ 1] > 0 && place.equations->is_pole(i, upper) &&
+          std::abs(place.place[i] - (upper ? domain[i].hi : domain[i].lo)) <= near * domain[i].width())
+        return true;
+  return false;
+}
+
+// Curves end on the edges of surfaces and where add_end() says so: through all other places they go on, as many arcs
+// towards each as from it, though in apexes none is the other's. What stops elsewhere has lost what follows.
 template <int N>
 bool ContourAssembly<N>::stops_inside(const End& end) const {
+  constexpr double kNear = kNearSingular * kLeastContourImage;
   const Part& part = parts_[end.part];
   if (end.mate_part >= 0 || end.singular_point == kDropped || part.arc.closed || end.at_pole) return false;
-  if (on_edge(end.at_end ? part.arc.nodes.back() : part.arc.nodes.front(), kSameEdge)) return false;
-  return std::none_of(places_.begin(), places_.end(), [&](const SingularPlace& place) {
-    return place.group == end.singular_point &&
-           (place.is_added || on_edge(place.place, kNearSingular * kLeastContourImage));
-  });
+  const auto at_point = [&](const auto& has) {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](const SingularPlace& place) { return place.group == end.singular_point && has(place); });
+  };
+  if (at_point([](const SingularPlace& place) { return place.is_added; })) return false;
+  if (at_point([&](const SingularPlace& place) { return at_closed_pole(place, kNear); }))
+    return std::count_if(ends_.begin(), ends_.end(),
+                         [&](const End& other) { return other.singular_point == end.singular_point; }) %
+               2 !=
+           0;
+  return !on_edge(end.at_end ? part.arc.nodes.back() : part.arc.nodes.front(), kSameEdge) &&
+         !at_point([&](const SingularPlace& place) { return on_edge(place.place, kNear); });
 }
 
 template <int N>

@@ -100,6 +100,7 @@ class ContourAssembly {
   void attach_rest();
   void pair_ends();
   void pair(std::vector<int> group, bool all);
+  bool at_closed_pole(const SingularPlace& place, double near) const;
   bool on_edge(const ParameterPlace<N>& place, double near) const;
   bool stops_inside(const End& end) const;
   int end_index(int part, bool at_end) const { return 2 * part + (at_end ? 1 : 0); }
