@@ -12,6 +12,7 @@ namespace {
 // Parts of the size of the surfaces.
 constexpr double kSameEnd = 1e-8;     // ends of arcs on borders that are one place
 constexpr double kSag = 0.1;          // of a chord of an arc, at most
+constexpr double kSameEdge = 1e-9;    // of a side of all pieces: a place so near to it lies on a surface's edge
 constexpr double kNearSingular = 60;  // of the least image: an arc that ends so near to a singular point ends there
 
 // Directions so opposite go on from each other through a crossing.
@@ -337,6 +338,66 @@ bool ContourAssembly<N>::lies_on_touching(const Vec3& point) const {
   });
 }
 
+// Within a tube there is no other solution than the arc's: what seems a contact there is rounding beside a branch whose
+// equations hardly change across it.
+template <int N>
+bool ContourAssembly<N>::lies_in_tubes(int point) const {
+  return std::all_of(places_.begin(), places_.end(), [&](const SingularPlace& place) {
+    if (place.group != point) return true;
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+      return part.equations == place.equations &&
+             std::any_of(part.arc.tubes.begin(), part.arc.tubes.end(), [&](const ParameterBox<N>& tube) {
+               for (int i = 0; i < N; ++i)
+                 if (!tube[i].contains(place.place[i])) return false;
+               return true;
+             });
+    });
+  });
+}
+
+// Whether a place lies on an edge of a surface, where it does not close.
+template <int N>
+bool ContourAssembly<N>::on_edge(const ParameterPlace<N>& place, double near) const {
+  for (int i = 0; i < N; ++i) {
+    const Interval& all = (*searched_)[i];
+    if (periods_[i] == 0 && std::min(place[i] - all.lo, all.hi - place[i]) <= near * all.width()) return true;
+  }
+  return false;
+}
+
+// Whether a place lies in a pole about which the surface closes.
+template <int N>
+bool ContourAssembly<N>::at_closed_pole(const SingularPlace& place, double near) const {
+  const ParameterBox<N> domain = place.equations->domain();
+  for (int i = 0; i < N; ++i)
+    for (const bool upper : {false, true})
+      if (periods_[i ^ 1] > 0 && place.equations->is_pole(i, upper) &&
+          std::abs(place.place[i] - (upper ? domain[i].hi : domain[i].lo)) <= near * domain[i].width())
+        return true;
+  return false;
+}
+
+// Curves end on the edges of surfaces and where add_end() says so: through all other places they go on, as many arcs
+// towards each as from it, though in apexes none is the other's. What stops elsewhere has lost what follows.
+template <int N>
+bool ContourAssembly<N>::stops_inside(const End& end) const {
+  constexpr double kNear = kNearSingular * kLeastContourImage;
+  const Part& part = parts_[end.part];
+  if (end.mate_part >= 0 || end.singular_point == kDropped || part.arc.closed || end.at_pole) return false;
+  const auto at_point = [&](const auto& has) {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](const SingularPlace& place) { return place.group == end.singular_point && has(place); });
+  };
+  if (at_point([](const SingularPlace& place) { return place.is_added; })) return false;
+  if (at_point([&](const SingularPlace& place) { return at_closed_pole(place, kNear); }))
+    return std::count_if(ends_.begin(), ends_.end(),
+                         [&](const End& other) { return other.singular_point == end.singular_point; }) %
+               2 !=
+           0;
+  return !on_edge(end.at_end ? part.arc.nodes.back() : part.arc.nodes.front(), kSameEdge) &&
+         !at_point([&](const SingularPlace& place) { return on_edge(place.place, kNear); });
+}
+
 template <int N>
 Contours ContourAssembly<N>::joined() {
   drop_doubles();
@@ -345,7 +406,8 @@ Contours ContourAssembly<N>::joined() {
   pair_ends();
   attach_rest();
   Contours result;
-  result.complete = complete_;
+  result.complete =
+      complete_ && std::none_of(ends_.begin(), ends_.end(), [this](const End& end) { return stops_inside(end); });
   result.coincident = coincident_;
   std::vector<bool> used(parts_.size(), false);
   // Open branches begin at an end that is joined with none; what is left then is closed.
@@ -357,8 +419,9 @@ Contours ContourAssembly<N>::joined() {
   for (size_t k = 0; k < points_.size(); ++k) {
     const SingularPoint& point = points_[k];
     const bool contact = point.kind == ContourPointKind::contact;
-    if (!point.passed && !(contact && (point.distance > tolerance_ || lies_on_touching(point.point) ||
-                                       lies_where_surfaces_coincide(static_cast<int>(k)))))
+    if (!point.passed &&
+        !(contact && (point.distance > tolerance_ || lies_on_touching(point.point) ||
+                      lies_in_tubes(static_cast<int>(k)) || lies_where_surfaces_coincide(static_cast<int>(k)))))
       result.points.push_back(point);
   }
   return result;

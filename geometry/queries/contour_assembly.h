@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "geometry/numerics/solution_curves.h"
 #include "geometry/queries/contour_curve.h"
@@ -83,6 +84,7 @@ class ContourAssembly {
   bool add_borders(const TouchingPtr& touching, const SolutionCurveOptions<N>& as,
                    std::vector<ParameterBox<N>>& settled);
   bool lies_on_touching(const Vec3& point) const;
+  bool lies_in_tubes(int point) const;
   bool lies_where_surfaces_coincide(int point) const;
   static bool lies_on(const Part& part, size_t node, const Part& other);
   bool is_same(const Part& part, const Part& known) const;
@@ -98,6 +100,9 @@ class ContourAssembly {
   void attach_rest();
   void pair_ends();
   void pair(std::vector<int> group, bool all);
+  bool at_closed_pole(const SingularPlace& place, double near) const;
+  bool on_edge(const ParameterPlace<N>& place, double near) const;
+  bool stops_inside(const End& end) const;
   int end_index(int part, bool at_end) const { return 2 * part + (at_end ? 1 : 0); }
   Contour branch_from(int end, std::vector<bool>& used) const;
   void append(const Part& part, bool backwards, ParameterPlace<N>& shift,
@@ -108,6 +113,7 @@ class ContourAssembly {
   std::array<KnownEnclosures, 2> known_;
   double size_, tolerance_;
   std::array<double, N> periods_;
+  std::optional<ParameterBox<N>> searched_;  // hull of the pieces
   std::vector<Part> parts_;
   std::vector<std::pair<EquationsPtr, ParameterBox<N>>> open_;
   std::vector<SingularPlace> places_;

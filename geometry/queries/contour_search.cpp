@@ -85,6 +85,8 @@ template <int N>
 void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, const PieceSearch<N>& search) {
   const EquationsPtr equations = std::move(given);
   const ParameterBox<N> domain = equations->domain();
+  if (!searched_) searched_ = domain;
+  for (int i = 0; i < N; ++i) (*searched_)[i] = hull((*searched_)[i], domain[i]);
   SolutionCurveOptions<N> options;
   options.least = std::min(kLeastContourImage * size_, search.least);
   options.rounding_of_places = search.rounding_of_places;
