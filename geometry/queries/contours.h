@@ -50,7 +50,7 @@ struct Contours {
   // whole, and is closed, has none.
   bool coincident = false;
   // False where something is left out: surfaces that nearly touch along a curve or nearly coincide, that touch in a way
-  // that is not followed (through poles, to a higher order), a plane seen edge-on.
+  // that is not followed (through poles, to a higher order), a plane seen edge-on, a branch that stops inside.
   bool complete = true;
 };
 
