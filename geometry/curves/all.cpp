@@ -6,6 +6,8 @@
   X(polyline_type)                \
   X(circle_type)                  \
   X(ellipse_type)                 \
+  X(hyperbola_type)               \
+  X(parabola_type)                \
   X(arc_through_points_type)      \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \

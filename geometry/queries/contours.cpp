@@ -6,6 +6,7 @@
 
 #include "geometry/numerics/quadrature.h"
 #include "geometry/queries/box_tree.h"
+#include "geometry/queries/closed_contours.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/picture_cusps.h"
 #include "geometry/surfaces/plane.h"
@@ -92,6 +93,7 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   Box3 all = bounds(*a);
   all.include(bounds(*b));
   const double size = std::max(all.diameter(), 1e-300);
+  if (auto exact = closed_intersection(a, b, tolerance * size)) return *exact;
   const Periods of_a = a->periods(), of_b = b->periods();
   ContourAssembly<4> assembly(size, tolerance * size, {of_a.u, of_a.v, of_b.u, of_b.v});
   const std::vector<SurfacePiece> pieces_a = a->pieces(), pieces_b = b->pieces();
@@ -145,6 +147,7 @@ SurfaceFunction mirrored(const ViewOf& view, const Triple<double>& p, const Trip
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
   demand_bounded(*surface);
   const Vec3 n = unit(normal, "the normal of the plane has no length");
+  if (auto exact = closed_section(surface, origin, n, kSamePoint * bounds(*surface).diameter())) return *exact;
   return contours_of(surface, height_over(triple(origin), triple(n)));
 }
 

@@ -1,0 +1,27 @@
+// Intersections of surfaces that have a closed form: conics and straight lines, exact to rounding, with images by the
+// surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They are
+//
+//   planes with planes and quadrics, also under affine maps;
+//   quadrics that meet in planes (geometry/queries/quadric_sections.h);
+//   tori with planes across or through the axis and those that touch them twice (Villarceau), with planes, spheres,
+//   cylinders, cones and tori about the same axis, with the spheres that fill their tube.
+//
+// Nothing is returned for other pairs, and wherever rounding or the tolerance would have to decide: nearly tangent,
+// nearly coincident, borders that touch, singular points at ends. There the search of geometry/queries/contours.h
+// decides. What is returned lies within 1e-14 of the size on both surfaces.
+#pragma once
+
+#include <optional>
+
+#include "geometry/queries/contours.h"
+
+namespace lekalo::geometry {
+
+// Both bounded; `tolerance` is a length.
+std::optional<Contours> closed_intersection(const SurfacePtr& a, const SurfacePtr& b, double tolerance);
+
+// The plane is unbounded, its normal of unit length; contours have one image.
+std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal,
+                                       double tolerance);
+
+}  // namespace lekalo::geometry
