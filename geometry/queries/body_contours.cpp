@@ -21,31 +21,61 @@ constexpr double kSameJoint = 1e-8;
 // Of the parameters of a face's border.
 constexpr double kOnBorder = 1e-9;
 
-// A contour with the ends of its pieces, between which its parameter is the height over the chord.
+// A contour as a polygon, to look up its points.
 class MeasuredContour {
  public:
-  explicit MeasuredContour(const Contour& contour) : contour_(contour), pieces_(contour.curve->pieces()) {
-    for (const CurvePiece& piece : pieces_) corners_.push_back(contour.curve->point(piece.domain.lo));
-    corners_.push_back(contour.curve->point(pieces_.back().domain.hi));
+  explicit MeasuredContour(const Contour& contour) : contour_(contour) {
+    // Pieces of contours that were searched are short and their own parts of the polygon; those of conics are not.
+    constexpr int kPartsOfConic = 16;
+    ends_.push_back(contour.curve->domain().lo);
+    for (const CurvePiece& piece : contour.curve->pieces()) {
+      const int parts = piece.is_rational() ? kPartsOfConic : 1;
+      for (int k = 1; k <= parts; ++k)
+        ends_.push_back(k == parts ? piece.domain.hi : piece.domain.lo + piece.domain.width() * k / parts);
+    }
+    double length = 0;
+    for (const double t : ends_) {
+      corners_.push_back(contour.curve->point(t));
+      if (corners_.size() > 1) length += glm::length(corners_.back() - corners_[corners_.size() - 2]);
+    }
+    speed_ = length / contour.curve->domain().width();
   }
+  // Length by parameter, in the mean.
+  double speed() const { return speed_; }
+
   // The parameter of a point on it; nothing where it is farther than `near` from it.
   std::optional<double> place_of(const Vec3& p, double near) const {
     double best = kInfinity, t = 0;
-    for (size_t k = 0; k < pieces_.size(); ++k) {
+    for (size_t k = 0; k + 1 < corners_.size(); ++k) {
       const Vec3 chord = corners_[k + 1] - corners_[k];
       const double length = glm::length(chord);
       const double height = std::clamp(glm::dot(p - corners_[k], chord) / length, 0.0, length);
       const double apart = glm::length(corners_[k] + height / length * chord - p);
-      if (apart < best) best = apart, t = pieces_[k].domain.lo + height / length * pieces_[k].domain.width();
+      if (apart < best) best = apart, t = ends_[k] + height / length * (ends_[k + 1] - ends_[k]);
     }
-    if (!(glm::length(contour_.curve->point(t) - p) <= near)) return std::nullopt;
+    // The chord's height is the parameter of what was searched; of a conic it starts Newton's iteration.
+    const Interval domain = contour_.curve->domain();
+    constexpr int kSteps = 6;
+    CurveJet at = contour_.curve->evaluate(t, 1);
+    for (int step = 0; step < kSteps; ++step) {
+      const double off = glm::dot(p - at.d[0], at.d[1]) / glm::dot(at.d[1], at.d[1]);
+      if (!(std::abs(off) * speed_ > 1e-3 * near)) break;
+      t += off;
+      if (contour_.closed)
+        t -= domain.width() * std::floor((t - domain.lo) / domain.width());
+      else
+        t = domain.clamp(t);
+      at = contour_.curve->evaluate(t, 1);
+    }
+    if (!(glm::length(at.d[0] - p) <= near)) return std::nullopt;
     return t;
   }
 
  private:
   const Contour& contour_;
-  std::vector<CurvePiece> pieces_;
+  std::vector<double> ends_;
   std::vector<Vec3> corners_;
+  double speed_ = 1;
 };
 
 struct FaceOf {
@@ -80,13 +110,13 @@ class Joining {
            const std::function<bool(double)>& holds) {
     const Interval domain = contour.curve->domain();
     const MeasuredContour measured(contour);
+    const double same = kSameCut * size_ / measured.speed();
     std::vector<double> places;
     for (const Vec3& cut : cuts)
       if (const auto t = measured.place_of(cut, kSameJoint * size_)) places.push_back(*t);
     std::sort(places.begin(), places.end());
-    places.erase(
-        std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= kSameCut * size_; }),
-        places.end());
+    places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
+                 places.end());
     if (!contour.closed) {
       places.insert(places.begin(), domain.lo);
       places.push_back(domain.hi);
@@ -102,7 +132,7 @@ class Joining {
     }
     for (size_t k = 0; k + 1 < places.size(); ++k) {
       const Interval t{places[k], places[k + 1]};
-      if (!(t.width() > kSameCut * size_) || !holds(t.middle())) continue;
+      if (!(t.width() > same) || !holds(t.middle())) continue;
       parts_.push_back({contour, t, false, face, other_face, contour.curve->point(t.lo), contour.curve->point(t.hi)});
     }
   }

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kMostSteps = 40;
 constexpr int kContractions = 4;
+// Of a box that is to hold the solution by Krawczyk's operator.
+constexpr int kInflations = 6;
 constexpr int kPowers = 8, kNarrowings = 50;
 
 // The square system of a segment: the equations, and the plane across the chord.
@@ -197,6 +199,52 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
   const bool regular = root_search::invert<N>(system.matrix(segment.equations->evaluate(center), center), inverse);
   bool solved = false;
   Triple<Jet<Interval, 2>> point;
+  // |I - C A| for all matrices A of the system over the box.
+  const auto error_over = [&] {
+    const auto range = segment.equations->enclose(box);
+    std::array<std::array<Interval, N>, N> a;
+    for (int i = 0; i < N; ++i) {
+      for (int k = 0; k < N - 1; ++k) a[k][i] = range.derivative[k][i];
+      std::array<Jet<Interval, 2>, N> unit;
+      for (int j = 0; j < N; ++j) unit[j] = Jet<Interval, 2>(box[j]);
+      unit[i].c[1] = Interval(1);
+      const auto moved = segment.equations->series(unit).point;
+      a[N - 1][i] = Interval(system.along.x) * moved.x.c[1] + Interval(system.along.y) * moved.y.c[1] +
+                    Interval(system.along.z) * moved.z.c[1];
+    }
+    root_search::Matrix<N> error{};
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j) {
+        Interval e = i == j ? Interval(1) : Interval(0);
+        for (int k = 0; k < N; ++k) e -= Interval(inverse[i][k]) * a[k][j];
+        error[i][j] = magnitude(e);
+      }
+    return error;
+  };
+  // A tube may be much wider than the part of the curve: Krawczyk's operator, center + C e_N (t - middle) + (I - C A)
+  // (box - center), proves that the solution does not leave a box about it for any t.
+  const auto narrowed_tube = [&] {
+    const ParameterBox<N> tube = box;
+    std::array<double, N> least, reach;
+    for (int i = 0; i < N; ++i) {
+      least[i] = std::abs(inverse[i][N - 1]) * 0.5 * t.width() + 1e-14 * std::max(std::abs(center[i]), all[i].width());
+      reach[i] = 1.5 * least[i];
+    }
+    for (int time = 0; time < kInflations; ++time) {
+      for (int i = 0; i < N; ++i) box[i] = intersect(tube[i], {center[i] - reach[i], center[i] + reach[i]});
+      const root_search::Matrix<N> error = error_over();
+      bool holds = true;
+      std::array<double, N> next = least;
+      for (int i = 0; i < N; ++i) {
+        for (int j = 0; j < N; ++j) next[i] += error[i][j] * reach[j];
+        holds = holds && next[i] <= reach[i];
+      }
+      if (holds) return true;
+      for (int i = 0; i < N; ++i) reach[i] = 1.25 * std::max(next[i], reach[i] / 1.25);
+    }
+    box = tube;
+    return false;
+  };
   // The solution of A y = b for all A of the system over the box: y in C b + [-1, 1] q / (1 - q) |C b|, q the norm of
   // I - C A.
   const auto derivative = [&](int m) {
@@ -211,27 +259,11 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
       b[N - 1] = -(Interval(system.along.x) * series.point.x.c[m] + Interval(system.along.y) * series.point.y.c[m] +
                    Interval(system.along.z) * series.point.z.c[m]);
     }
-    const auto range = segment.equations->enclose(box);
+    const root_search::Matrix<N> error = error_over();
     std::array<Interval, N> y;
-    std::array<std::array<Interval, N>, N> a;
-    for (int i = 0; i < N; ++i) {
-      for (int k = 0; k < N - 1; ++k) a[k][i] = range.derivative[k][i];
-      std::array<Jet<Interval, 2>, N> unit;
-      for (int j = 0; j < N; ++j) unit[j] = Jet<Interval, 2>(box[j]);
-      unit[i].c[1] = Interval(1);
-      const auto moved = segment.equations->series(unit).point;
-      a[N - 1][i] = Interval(system.along.x) * moved.x.c[1] + Interval(system.along.y) * moved.y.c[1] +
-                    Interval(system.along.z) * moved.z.c[1];
-    }
-    root_search::Matrix<N> error{};
     for (int i = 0; i < N; ++i) {
       y[i] = Interval(0);
       for (int k = 0; k < N; ++k) y[i] += Interval(inverse[i][k]) * b[k];
-      for (int j = 0; j < N; ++j) {
-        Interval e = i == j ? Interval(1) : Interval(0);
-        for (int k = 0; k < N; ++k) e -= Interval(inverse[i][k]) * a[k][j];
-        error[i][j] = magnitude(e);
-      }
     }
     // The norm with the best weights, those of the largest eigenvalue of the errors: powers of the matrix find them.
     std::array<double, N> scale;
@@ -272,14 +304,19 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
     for (int i = 0; i < N; ++i) x[i].c[m] = y[i] + Interval(-reach[i], reach[i]);
     return true;
   };
+  bool narrowed = false;
   for (int time = 0; regular && time < kContractions; ++time) {
-    if (!derivative(1)) break;
+    if (!derivative(1)) {
+      if (solved || narrowed || !segment.is_certified() || !narrowed_tube()) break;
+      narrowed = true;
+      continue;
+    }
     solved = true;
     for (int i = 0; i < N; ++i) {
       const double slack = 1e-14 * std::max(std::abs(center[i]), all[i].width());
-      const Interval narrowed =
+      const Interval closer =
           intersect(box[i], Interval(center[i] - slack, center[i] + slack) + x[i].c[1] * (t - Interval(middle)));
-      if (!narrowed.empty()) box[i] = narrowed;
+      if (!closer.empty()) box[i] = closer;
     }
     if (segment.is_certified() && time > 0 && t.width() > 0.5 * segment.t.width()) break;
   }

@@ -56,8 +56,8 @@ struct Contours {
   bool closed_form = false;
 };
 
-// The length of a part of a contour: by Gauss's rule on each of its pieces, which are short arcs. Other rules for
-// curves ask for more digits than a tiny loop between large surfaces has.
+// The length of a part of a contour that was searched: by Gauss's rule on each of its pieces, which are short arcs.
+// Other rules for curves ask for more digits than a tiny loop between large surfaces has.
 Measured contour_length(const Contour& contour, const Interval& t);
 inline Measured contour_length(const Contour& contour) { return contour_length(contour, contour.curve->domain()); }
 

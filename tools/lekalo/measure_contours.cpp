@@ -93,6 +93,7 @@ ordered_json rows(const Contours& found, int samples) {
     out["branches"].push_back(row);
   }
   put_points(out, found);
+  out["method"] = found.closed_form ? "closed form" : "search";
   return out;
 }
 

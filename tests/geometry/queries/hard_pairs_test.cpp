@@ -30,9 +30,9 @@ struct Truth {
   ContourKind kind = ContourKind::crossing;
   bool coincident = false;
   double precision = 1e-9;  // of the length
-  // Asked too much of the search: it must say that something is left out.
-  bool given_up = false;
-  bool takes_seconds = false;
+  // Asked too much of the search: it must say that something is left out. Closed forms may know.
+  bool search_gives_up = false;
+  bool takes_seconds = false;  // the search
 };
 
 struct HardPair {
@@ -134,7 +134,7 @@ std::vector<HardPair> pairs() {
       {"two_circles_on_a_torus",
        torus(3, 1),
        plate({0, 0, 1 - 5e-7}, {0, 0, 1}, 5, 5),
-       {.loops = 2, .length = 12 * kPi, .given_up = true, .takes_seconds = true}},
+       {.loops = 2, .length = 12 * kPi, .search_gives_up = true, .takes_seconds = true}},
       {"cap_of_a_torus", torus(3, 1), plate({4 - 1e-6, 0, 0}, {1, 0, 0}, 3, 3), {.loops = 1}},
       {"bead_on_a_cylinder", cylinder(Frame(), 1, 2), sphere({0.6, 0.8, 1.1}, s), {.loops = 1}},
       {"bead_on_a_seam", cylinder(Frame(), 1, 2), sphere({1, 0, 1.1}, s), {.loops = 1}},
@@ -239,8 +239,8 @@ std::vector<HardPair> pairs() {
       {"spheres_moved_1e-6",
        sphere({0, 0, 0}, 1),
        sphere(1e-6 * kSlant, 1),
-       {.loops = 1, .length = kTwoPi, .given_up = true, .takes_seconds = true}},
-      {"cylinder_around_1e-6", cylinder(Frame(), 1, 2), cylinder(Frame(), 1 + 1e-6, 2), {.given_up = true}},
+       {.loops = 1, .length = kTwoPi, .search_gives_up = true, .takes_seconds = true}},
+      {"cylinder_around_1e-6", cylinder(Frame(), 1, 2), cylinder(Frame(), 1 + 1e-6, 2), {.search_gives_up = true}},
       // Touching along curves.
       {"ball_in_a_tube",
        cylinder(at({0, 0, -2}), 1, 4),
@@ -265,7 +265,7 @@ std::vector<HardPair> pairs() {
       {"ball_fills_a_ring",
        torus(3, 1),
        sphere({3, 0, 0}, 1),
-       {.loops = 1, .length = kTwoPi, .kind = kTouching, .given_up = true, .takes_seconds = true}},
+       {.loops = 1, .length = kTwoPi, .kind = kTouching, .search_gives_up = true, .takes_seconds = true}},
       {"parallel_cylinders",
        cylinder(Frame(), 1, 4),
        cylinder(at({3, 0, 0.5}), 2, 3),
@@ -294,7 +294,7 @@ std::vector<HardPair> pairs() {
 void check(const HardPair& pair, const SurfacePtr& a, const SurfacePtr& b) {
   const Contours found = intersect(a, b);
   const Truth& truth = pair.truth;
-  if (truth.given_up) {
+  if (truth.search_gives_up && !found.closed_form) {
     EXPECT_FALSE(found.complete);
     return;
   }
