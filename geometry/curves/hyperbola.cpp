@@ -63,7 +63,8 @@ std::optional<NurbsCurveForm> Hyperbola::as_nurbs() const {
 }
 
 TypeDeclaration hyperbola_type() {
-  return declare(Category::curve, "hyperbola", "Arc of a hyperbola, (a cosh t, b sinh t) in the x, y plane of its frame.")
+  return declare(Category::curve, "hyperbola",
+                 "Arc of a hyperbola, (a cosh t, b sinh t) in the x, y plane of its frame.")
       .field("frame", frame(), "placement: the center; x points to the vertex of the branch, z is normal to the plane",
              "{}")
       .field("semi_axes", numbers().count(2, 2).positive(),
@@ -74,7 +75,8 @@ TypeDeclaration hyperbola_type() {
         const std::vector<double>& axes = f.numbers("semi_axes");
         if (!(axes[0] > 0 && axes[1] > 0)) throw FieldError("semi_axes", "semi-axes must be positive");
         if (f.range("range").lo < -kFarthest || f.range("range").hi > kFarthest)
-          throw FieldError("range", "the range of a hyperbola lies between -300 and 300", "t = 10 is 11000 semi-axes out");
+          throw FieldError("range", "the range of a hyperbola lies between -300 and 300",
+                           "t = 10 is 11000 semi-axes out");
         return Hyperbola(f.frame(), axes[0], axes[1], f.range("range"));
       });
 }

@@ -42,7 +42,8 @@ std::optional<NurbsCurveForm> Parabola::as_nurbs() const {
 
 TypeDeclaration parabola_type() {
   return declare(Category::curve, "parabola", "Arc of a parabola, (f t^2, 2 f t) in the x, y plane of its frame.")
-      .field("frame", frame(), "placement: the vertex; x is the axis, towards the focus, z is normal to the plane", "{}")
+      .field("frame", frame(), "placement: the vertex; x is the axis, towards the focus, z is normal to the plane",
+             "{}")
       .field("focal_length", length().positive(), "f: from the vertex to the focus and to the directrix")
       .field("range", range(), "of t; the vertex is at t = 0")
       .example("focal_length: 0.5, range: [-2, 2]")

@@ -170,8 +170,7 @@ std::optional<QuadricForm> CanonicalSurface::quadric(const Vec3& center, double 
   result.b = back * (d * m + Vec3(0, 0, e));
   result.c = glm::dot(m, d * m) + 2 * e * m.z + k;
   const Vec3 reach = glm::abs(m) + size * Vec3(glm::length(back[0]), glm::length(back[1]), glm::length(back[2]));
-  result.rounding =
-      16 * kEpsilon * (glm::dot(reach, glm::abs(d) * reach) + 2 * std::abs(e) * reach.z + std::abs(k));
+  result.rounding = 16 * kEpsilon * (glm::dot(reach, glm::abs(d) * reach) + 2 * std::abs(e) * reach.z + std::abs(k));
   return result;
 }
 

@@ -1,5 +1,5 @@
-// Surfaces that are known by their equation as well as by their parameters: planes, quadrics and tori, also under affine
-// maps (Golovanov 2016, 3.2). In coordinates of their own, q = to_local (p - origin), they are
+// Surfaces that are known by their equation as well as by their parameters: planes, quadrics and tori, also under
+// affine maps (Golovanov 2016, 3.2). In coordinates of their own, q = to_local (p - origin), they are
 //
 //   plane         (u, v, 0)                                cone        ((r + w v) e(u), h v)
 //   saddle        (u, v, u^2 - v^2)                        torus       ((R + r cos v) e(u), r sin v)

@@ -182,9 +182,8 @@ class Cutting {
       on.push_back(surface->surface->point(uv->x, uv->y));
     }
     const PlaneEquation plane = pair_.plane;
-    result.distance = on.size() == 2
-                          ? glm::length(on[0] - on[1])
-                          : std::abs(glm::dot(plane.normal, on[0] - pair_.middle) - plane.height);
+    result.distance = on.size() == 2 ? glm::length(on[0] - on[1])
+                                     : std::abs(glm::dot(plane.normal, on[0] - pair_.middle) - plane.height);
     if (kind == ContourPointKind::crossing && ends_near(point)) return false;
     found_.points.push_back(result);
     return true;
@@ -258,8 +257,8 @@ class Cutting {
         branch.error = std::max(branch.error, glm::length(surfaces_[s]->surface->point(uv.x, uv.y) - p));
       }
       if (!pair_.b)
-        branch.error = std::max(branch.error,
-                                std::abs(glm::dot(pair_.plane.normal, p - pair_.middle) - pair_.plane.height));
+        branch.error =
+            std::max(branch.error, std::abs(glm::dot(pair_.plane.normal, p - pair_.middle) - pair_.plane.height));
     }
     const double reach = pair_.scale.size + glm::length(pair_.middle);
     if (!(branch.error <= kResidual * reach)) return false;
@@ -338,8 +337,11 @@ std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& or
   const auto first = canonical(surface);
   if (!first) return std::nullopt;
   const Box3 box = bounds(*surface);
-  const Pair pair{*first, std::nullopt, {normal, glm::dot(normal, origin - box.center())}, box.center(),
-            {box.diameter(), tolerance}};
+  const Pair pair{*first,
+                  std::nullopt,
+                  {normal, glm::dot(normal, origin - box.center())},
+                  box.center(),
+                  {box.diameter(), tolerance}};
   return closed_form(pair);
 }
 

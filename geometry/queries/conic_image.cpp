@@ -21,9 +21,7 @@ constexpr double kAtPole = 1e-14, kBesidePole = 1e-9;
 constexpr double kLongestPart = 0.25 * kPi;
 constexpr int kFewestParts = 4;
 
-double size_of(const Conic& conic) {
-  return glm::length(conic.origin) + glm::length(conic.x) + glm::length(conic.y);
-}
+double size_of(const Conic& conic) { return glm::length(conic.origin) + glm::length(conic.x) + glm::length(conic.y); }
 
 }  // namespace
 
@@ -150,20 +148,20 @@ Triple<T> ConicImage::place(const Part& part, const T& t) const {
   }
   T factor(1.0);
   const Triple<T> q = seen(part, t, factor);
-  const T along = part.direction.x * q.x + part.direction.y * q.y, across = part.direction.x * q.y - part.direction.y * q.x;
+  const T along = part.direction.x * q.x + part.direction.y * q.y,
+          across = part.direction.x * q.y - part.direction.y * q.x;
   const T u = part.u + atan2(across, along);
   T rho = hypot(along, across);
   if (part.pole) rho = factor * rho;
-  if (surface_.kind != CanonicalSurface::Kind::torus)
-    return {u, surface_.parameter(part.side * rho, q.z), T(0.0)};
+  if (surface_.kind != CanonicalSurface::Kind::torus) return {u, surface_.parameter(part.side * rho, q.z), T(0.0)};
   const T out = rho - surface_.major;
   const Vec2& e = part.on_meridian;
   return {u, part.v + atan2(e.x * q.z - e.y * out, e.x * out + e.y * q.z), T(0.0)};
 }
 
 CurveJet ConicImage::evaluate(double t, int order) const {
-  const auto after = std::upper_bound(parts_.begin(), parts_.end(), t,
-                                      [](double at, const Part& part) { return at < part.t.lo; });
+  const auto after =
+      std::upper_bound(parts_.begin(), parts_.end(), t, [](double at, const Part& part) { return at < part.t.lo; });
   const Part& part = after == parts_.begin() ? parts_.front() : *(after - 1);
   return evaluate_curve_formula([&](const auto& x) { return place(part, x); }, t, order);
 }
@@ -174,8 +172,7 @@ CurveEnclosure ConicImage::enclose(const Interval& t, int order) const {
     const Interval common = intersect(part.t, t);
     // At a common end of two parts the one before counts, as derivatives from the left do.
     if (common.empty() || (common.width() == 0 && t.width() > 0)) continue;
-    const CurveEnclosure one =
-        enclose_curve_formula([&](const auto& x) { return place(part, x); }, common, order);
+    const CurveEnclosure one = enclose_curve_formula([&](const auto& x) { return place(part, x); }, common, order);
     for (int k = 0; k <= order; ++k) result.d[k].include(one.d[k]);
   }
   return result;

@@ -84,8 +84,8 @@ std::optional<PlaneMeeting> central(const QuadricForm& quadric, const PlaneForm&
     if (degenerate) {
       result.contacts = {center};
     } else if (-k / form.l1 > 0) {
-      result.conics = {{Conic::Kind::ellipse, center, std::sqrt(-k / form.l1) * form.x,
-                        std::sqrt(-k / form.l2) * form.y}};
+      result.conics = {
+          {Conic::Kind::ellipse, center, std::sqrt(-k / form.l1) * form.x, std::sqrt(-k / form.l2) * form.y}};
     } else {
       const double distance = distance_at(quadric, center);
       if (distance < tolerance / kUnclear)
@@ -176,8 +176,7 @@ double value_across(const QuadricForm& quadric) {
 // The second times a number, so that the difference can be a product; nothing where no number does that.
 std::optional<QuadricForm> comparable(const QuadricForm& first, const QuadricForm& second) {
   double both = 0, square = 0;
-  for (int i = 0; i < 3; ++i)
-    both += glm::dot(first.a[i], second.a[i]), square += glm::dot(second.a[i], second.a[i]);
+  for (int i = 0; i < 3; ++i) both += glm::dot(first.a[i], second.a[i]), square += glm::dot(second.a[i], second.a[i]);
   const double alike = both / square;
   if (alike != 0 && largest(first.a - alike * second.a) <= kRounding * largest(first.a)) return times(alike, second);
   const double a = value_across(first), b = value_across(second);
@@ -206,10 +205,10 @@ std::optional<CommonPlanes> linear(const Difference& difference, const QuadricFo
     return result;
   }
   // How far apart the quadrics are, seen along normals of the first.
-  const double steep = 2 * std::sqrt(largest(first.a) * (std::abs(first.c) + largest(first.a) * scale.size * scale.size));
+  const double steep =
+      2 * std::sqrt(largest(first.a) * (std::abs(first.c) + largest(first.a) * scale.size * scale.size));
   if ((2 * slope * scale.size + std::abs(d.c)) <= kUnclear * scale.tolerance * steep) return std::nullopt;
-  if (slope > in_b)
-    result.planes = {plane_of(2.0 * d.b, -d.c)};
+  if (slope > in_b) result.planes = {plane_of(2.0 * d.b, -d.c)};
   return result;
 }
 
@@ -236,7 +235,8 @@ std::optional<CommonPlanes> parallel(const Difference& difference, double e, con
 
 }  // namespace
 
-std::optional<CommonPlanes> common_planes(const QuadricForm& first, const QuadricForm& given, const SectionScale& scale) {
+std::optional<CommonPlanes> common_planes(const QuadricForm& first, const QuadricForm& given,
+                                          const SectionScale& scale) {
   const std::optional<QuadricForm> second = comparable(first, given);
   if (!second) return std::nullopt;
   const double rounding = first.rounding + second->rounding;

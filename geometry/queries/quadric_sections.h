@@ -35,8 +35,8 @@ struct PlaneEquation {
 
 struct PlaneMeeting {
   std::vector<Conic> conics;
-  bool touching = false;       // along them
-  std::vector<Vec3> contacts;  // isolated points
+  bool touching = false;        // along them
+  std::vector<Vec3> contacts;   // isolated points
   std::vector<Vec3> crossings;  // of two of the conics
 };
 
@@ -54,6 +54,7 @@ struct CommonPlanes {
   bool coincident = false;  // they are the same
 };
 // Nothing where the quadrics meet in no planes, or where rounding or the tolerance would have to decide.
-std::optional<CommonPlanes> common_planes(const QuadricForm& first, const QuadricForm& second, const SectionScale& scale);
+std::optional<CommonPlanes> common_planes(const QuadricForm& first, const QuadricForm& second,
+                                          const SectionScale& scale);
 
 }  // namespace lekalo::geometry

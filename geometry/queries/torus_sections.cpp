@@ -63,11 +63,11 @@ std::optional<PlaneMeeting> coaxial_section(const TorusForm& torus, const Coaxia
 
 std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEquation& plane,
                                           const SectionScale& scale) {
-  const double cosine = glm::dot(plane.normal, torus.axis), height = plane.height - glm::dot(plane.normal, torus.center);
+  const double cosine = glm::dot(plane.normal, torus.axis),
+               height = plane.height - glm::dot(plane.normal, torus.center);
   const Vec3 across = glm::cross(torus.axis, plane.normal);
   const double sine = glm::length(across);
-  if (sine <= kRounding)
-    return coaxial_section(torus, {true, {0, 1}, cosine > 0 ? height : -height}, scale);
+  if (sine <= kRounding) return coaxial_section(torus, {true, {0, 1}, cosine > 0 ? height : -height}, scale);
   // The others go through the center of a ring.
   if (std::abs(height) > kRounding * scale.size || !(torus.major > torus.minor)) return std::nullopt;
   const Vec3 node = across / sine, steepest = glm::cross(plane.normal, node);
@@ -81,7 +81,8 @@ std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEqu
   // Villarceau: sine = r/R.
   if (std::abs(sine - torus.minor / torus.major) > kRounding) return std::nullopt;
   for (const double side : {1.0, -1.0}) {
-    result.conics.push_back(circle(torus.center + side * torus.minor * node, torus.major * node, torus.major * steepest));
+    result.conics.push_back(
+        circle(torus.center + side * torus.minor * node, torus.major * node, torus.major * steepest));
     const double reach = std::sqrt((torus.major - torus.minor) * (torus.major + torus.minor));
     result.crossings.push_back(torus.center + side * reach * steepest);
   }
