@@ -245,7 +245,7 @@ class Search {
       before = next.length;
       if (!settled) continue;
       if (next.leads_out) break;
-      if (holds(x)) keep(x);
+      if (holds(x)) keep(x, next.moved_back);
       return true;
     }
     // With C kept the step, moved back to the box, is a contraction: after so many it stands at the solution, or there
@@ -257,13 +257,14 @@ class Search {
       if (last.length <= kSettled) break;
     }
     if (!(last.length <= kNearlySettled)) return false;
-    if (!last.leads_out && holds(x)) keep(x);
+    if (!last.leads_out && holds(x)) keep(x, last.moved_back);
     return true;
   }
 
   struct Step {
     ParameterPlace<N> to;
     double length = 0;  // the longest of all parameters, of the domain's sides
+    double moved_back = 0;  // to the box, likewise
     bool leads_out = false;
   };
   Step stepped(const ParameterBox<N>& box, const ParameterPlace<N>& x, const Inverse& c,
@@ -274,6 +275,7 @@ class Search {
       for (int k = 0; k < M; ++k) free -= c[i][k] * there.value[k];
       step.to[i] = box[i].clamp(free);
       step.length = std::max(step.length, std::abs(step.to[i] - x[i]) / domain_[i].width());
+      step.moved_back = std::max(step.moved_back, std::abs(free - step.to[i]) / domain_[i].width());
       step.leads_out = step.leads_out || !(std::abs(free - step.to[i]) <= options_.slack[i]);
     }
     return step;
@@ -287,14 +289,18 @@ class Search {
     return true;
   }
 
-  // Neighbouring boxes both find what lies on their border.
-  void keep(const ParameterPlace<N>& x) {
-    for (const ParameterPlace<N>& other : result_.isolated) {
+  // Neighbouring boxes both find what lies on their border or next to it: that counts in whose box it lies.
+  void keep(const ParameterPlace<N>& x, double moved_back) {
+    for (size_t k = 0; k < result_.isolated.size(); ++k) {
+      ParameterPlace<N>& other = result_.isolated[k];
       bool same = true;
       for (int i = 0; i < N; ++i) same = same && std::abs(other[i] - x[i]) <= 2 * options_.slack[i];
-      if (same) return;
+      if (!same) continue;
+      if (moved_back < moved_back_[k]) other = x, moved_back_[k] = moved_back;
+      return;
     }
     result_.isolated.push_back(x);
+    moved_back_.push_back(moved_back);
   }
 
   void divide(const ParameterBox<N>& box, const SystemValue<Interval, N, M>& range) {
@@ -352,6 +358,7 @@ class Search {
   const RootSearchOptions<N, M>& options_;
   std::vector<ParameterBox<N>> boxes_;
   RootSearchResult<N> result_;
+  std::vector<double> moved_back_;  // of each isolated root: how far from where the iteration led
 };
 
 }  // namespace root_search
