@@ -5,6 +5,7 @@
 
 #include "geometry/queries/canonical_surface.h"
 #include "geometry/queries/conic_image.h"
+#include "geometry/queries/profile_sections.h"
 #include "geometry/queries/torus_sections.h"
 
 namespace lekalo::geometry {
@@ -152,6 +153,24 @@ std::optional<PlaneMeeting> meeting_of(const Pair& pair, bool& coincident) {
   return quadrics(pair.a, *pair.b, pair, coincident);
 }
 
+// Measures how far a branch is from its surfaces, from the plane too if there is one surface only, whose heights count
+// from `middle`; false where that is too far.
+bool lies_on(Contour& branch, const std::vector<SurfacePtr>& surfaces, const PlaneEquation& plane, const Vec3& middle,
+             double size) {
+  const Interval t = branch.curve->domain();
+  for (int k = 0; k <= kSamples; ++k) {
+    const double at = t.lo + t.width() * k / kSamples;
+    const Vec3 p = branch.curve->point(at);
+    for (size_t s = 0; s < surfaces.size(); ++s) {
+      const Vec3 uv = branch.images[s]->point(at);
+      branch.error = std::max(branch.error, glm::length(surfaces[s]->point(uv.x, uv.y) - p));
+    }
+    if (surfaces.size() == 1)
+      branch.error = std::max(branch.error, std::abs(glm::dot(plane.normal, p - middle) - plane.height));
+  }
+  return branch.error <= kResidual * (size + glm::length(middle));
+}
+
 // What of the conics lies on both surfaces, with images.
 class Cutting {
  public:
@@ -249,19 +268,9 @@ class Cutting {
       if (image->passes_beside_pole()) return false;
       branch.images.push_back(std::move(image));
     }
-    for (int k = 0; k <= kSamples; ++k) {
-      const double at = t.lo + t.width() * k / kSamples;
-      const Vec3 p = branch.curve->point(at);
-      for (size_t s = 0; s < surfaces_.size(); ++s) {
-        const Vec3 uv = branch.images[s]->point(at);
-        branch.error = std::max(branch.error, glm::length(surfaces_[s]->surface->point(uv.x, uv.y) - p));
-      }
-      if (!pair_.b)
-        branch.error =
-            std::max(branch.error, std::abs(glm::dot(pair_.plane.normal, p - pair_.middle) - pair_.plane.height));
-    }
-    const double reach = pair_.scale.size + glm::length(pair_.middle);
-    if (!(branch.error <= kResidual * reach)) return false;
+    std::vector<SurfacePtr> surfaces;
+    for (const CanonicalSurface* surface : surfaces_) surfaces.push_back(surface->surface);
+    if (!lies_on(branch, surfaces, pair_.plane, pair_.middle, pair_.scale.size)) return false;
     found_.branches.push_back(std::move(branch));
     return true;
   }
@@ -313,36 +322,56 @@ std::optional<Contours> closed_form(const Pair& pair) {
 
 }  // namespace
 
+namespace {
+
+// Of a surface that is no canonical one.
+std::optional<Contours> profile_form(const SurfacePtr& surface, const CuttingPlane& plane, const Box3& box) {
+  auto found = profile_section(surface, plane, box.diameter());
+  if (!found) return std::nullopt;
+  std::vector<SurfacePtr> surfaces{surface};
+  if (plane.bounded) surfaces.push_back(plane.bounded);
+  const PlaneEquation equation{plane.normal, glm::dot(plane.normal, plane.origin - box.center())};
+  for (Contour& branch : found->branches)
+    if (!lies_on(branch, surfaces, equation, box.center(), box.diameter())) return std::nullopt;
+  found->closed_form = true;
+  return found;
+}
+
+void swap_surfaces(Contours& found) {
+  for (Contour& branch : found.branches) std::swap(branch.images[0], branch.images[1]);
+  for (ContourPoint& point : found.points)
+    std::rotate(point.parameters.begin(), point.parameters.begin() + 2, point.parameters.end());
+}
+
+}  // namespace
+
 std::optional<Contours> closed_intersection(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
-  const auto of_a = canonical(a);
-  if (!of_a) return std::nullopt;
-  const auto of_b = canonical(b);
-  if (!of_b) return std::nullopt;
+  const auto of_a = canonical(a), of_b = canonical(b);
+  const bool a_is_plane = of_a && of_a->kind == Kind::plane, b_is_plane = of_b && of_b->kind == Kind::plane;
+  if (!(of_a && of_b) && !a_is_plane && !b_is_plane) return std::nullopt;
   Box3 box = bounds(*a);
   box.include(bounds(*b));
-  // The plane is the second; images keep their order.
-  const bool swap = of_a->kind == Kind::plane && of_b->kind != Kind::plane;
-  const Pair pair{swap ? *of_b : *of_a, swap ? *of_a : *of_b, {}, box.center(), {box.diameter(), tolerance}};
-  auto found = closed_form(pair);
-  if (found && swap) {
-    for (Contour& branch : found->branches) std::swap(branch.images[0], branch.images[1]);
-    for (ContourPoint& point : found->points)
-      std::rotate(point.parameters.begin(), point.parameters.begin() + 2, point.parameters.end());
+  // The plane is the second.
+  const bool swap = a_is_plane && !b_is_plane;
+  std::optional<Contours> found;
+  if (of_a && of_b) {
+    const Pair pair{swap ? *of_b : *of_a, swap ? *of_a : *of_b, {}, box.center(), {box.diameter(), tolerance}};
+    found = closed_form(pair);
+  } else {
+    const CanonicalSurface& plane = swap ? *of_a : *of_b;
+    found = profile_form(swap ? b : a, {plane.origin, plane.normal(), plane.surface}, box);
   }
+  if (found && swap) swap_surfaces(*found);
   return found;
 }
 
 std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal,
                                        double tolerance) {
-  const auto first = canonical(surface);
-  if (!first) return std::nullopt;
   const Box3 box = bounds(*surface);
-  const Pair pair{*first,
-                  std::nullopt,
-                  {normal, glm::dot(normal, origin - box.center())},
-                  box.center(),
-                  {box.diameter(), tolerance}};
-  return closed_form(pair);
+  const auto first = canonical(surface);
+  if (!first) return profile_form(surface, {origin, normal, nullptr}, box);
+  const PlaneEquation plane{normal, glm::dot(normal, origin - box.center())};
+  return closed_form({*first, std::nullopt, plane, box.center(), {box.diameter(), tolerance}});
 }
 
 }  // namespace lekalo::geometry

@@ -1,7 +1,8 @@
-// Intersections of surfaces that have a closed form: conics and straight lines, exact to rounding, with images by the
-// surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They are
+// Intersections of surfaces that have a closed form: conics, straight lines, profiles, exact to rounding, with images
+// by the surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They are
 //
 //   planes with planes and quadrics, also under affine maps;
+//   planes with extrusions and surfaces of revolution (geometry/queries/profile_sections.h): the profile, moved;
 //   quadrics that meet in planes (geometry/queries/quadric_sections.h);
 //   tori with planes across or through the axis and those that touch them twice (Villarceau), with planes, spheres,
 //   cylinders, cones and tori about the same axis, with the spheres that fill their tube.

@@ -10,16 +10,19 @@
 
 #include "geometry/curves/circle.h"
 #include "geometry/curves/hyperbola.h"
+#include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/parabola.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/conic_image.h"
 #include "geometry/queries/projection.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/ellipsoid.h"
+#include "geometry/surfaces/extrusion.h"
 #include "geometry/surfaces/hyperboloid.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/paraboloid.h"
 #include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 #include "geometry/transformed.h"
@@ -89,6 +92,25 @@ SurfacePtr cone(Dice& dice, const Frame& apex, double slope, double height) {
 }
 SurfacePtr torus(Dice& dice, const Frame& frame, double major, double minor) {
   return std::make_shared<TorusSurface>(frame, major, minor, dice.part(TorusSurface::full_domain(major, minor)));
+}
+
+// A Bezier curve of degree 5: in the plane x, z on the side of x > 0, or anywhere.
+CurvePtr profile(Dice& d, bool beside_axis) {
+  NurbsCurveForm form;
+  form.degree = 5;
+  form.knots = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+  for (int k = 0; k <= 5; ++k) {
+    const double w = d.number(0.5, 2), along = 0.4 * k - 1;
+    const Vec3 p = beside_axis ? Vec3(d.number(0.5, 2), 0, along + d.number(-0.5, 0.5))
+                               : Vec3(along, d.number(-0.8, 0.8), d.number(-0.4, 0.4));
+    form.points.push_back({w * p, w});
+  }
+  return std::make_shared<NurbsCurve>(form);
+}
+Rectangle part_of_extrusion(Dice& d) { return {d.part(Interval(0, 1)), d.part(Interval(-0.5, 1.5))}; }
+SurfacePtr turned_profile(Dice& d) {
+  return std::make_shared<RevolutionSurface>(profile(d, true), Axis{{0, 0, 0}, {0, 0, 1}},
+                                             Rectangle{{0, 1}, d.part(Interval(0, kTwoPi))});
 }
 
 struct Kind {
@@ -229,6 +251,28 @@ std::vector<Kind> kinds() {
          const Frame apex = frame_from({0, 0, distance}, {0, 0, 1}, d.unit());
          const Vec3 across(1, 0, d.number(-0.3, 0.3));
          return Two{cone(d, apex, slope, 4), tube(d, frame_from({0, 0, 0}, across, {0, 1, 0}), 1, 5)};
+       },
+       true},
+      {"section across an extrusion",
+       [](Dice& d) {
+         return Two{std::make_shared<ExtrusionSurface>(profile(d, false), Vec3(0.3, -0.2, 2), part_of_extrusion(d)),
+                    plate(frame_from({0, 0, d.number(0.3, 1.5)}, {d.number(-0.5, 0.5), 0.2, 1}, d.unit()), 1.5)};
+       }},
+      {"section along an extrusion",
+       [](Dice& d) {
+         const Vec3 along(0.3, -0.2, 2);
+         const Vec3 normal = glm::normalize(glm::cross(along, {d.number(-0.5, 0.5), 1, 0}));
+         return Two{std::make_shared<ExtrusionSurface>(profile(d, false), along, part_of_extrusion(d)),
+                    plate(frame_from({0, 0, 0}, normal, d.unit()), 2)};
+       }},
+      {"section of a turned profile across its axis",
+       [](Dice& d) {
+         return Two{turned_profile(d), plate(frame_from({0, 0, d.number(-0.5, 0.5)}, {0, 0, 1}, d.unit()), 2.5)};
+       },
+       true},
+      {"section of a turned profile through its axis",
+       [](Dice& d) {
+         return Two{turned_profile(d), plate(frame_from({0, 0, 0}, {d.number(-1, 1), 1, 0}, d.unit()), 2.5)};
        },
        true},
   };
@@ -447,6 +491,20 @@ TEST(ClosedContours, LeaveWhatIsNearlySpecial) {
   // What has no closed form.
   EXPECT_TRUE(left(ball, tube(at({0.5, 0, 0}), 0.5)));
   EXPECT_TRUE(left(std::make_shared<TorusSurface>(Frame(), 3, 1), plate(frame_about({0.2, 0, 0}, {1, 0, 0}), 5)));
+}
+
+// Golovanov 2016, 4.7c, with an oblique direction: the base z = 0, d = (1, 0, 1), the cut z = 2 at v = 2.
+TEST(ClosedContours, ObliqueExtrusionOfTheTextbook) {
+  const auto base = std::make_shared<Ellipse>(Frame(), 1.5, 1);
+  const auto surface = std::make_shared<ExtrusionSurface>(base, Vec3(1, 0, 1), Rectangle{{0, kTwoPi}, {0, 3}});
+  const Contours found = plane_section(surface, {0, 0, 2}, {0, 0, 1});
+  ASSERT_TRUE(found.closed_form);
+  ASSERT_EQ(found.branches.size(), 1u);
+  EXPECT_TRUE(found.branches[0].closed);
+  for (const double t : {0.1, 2.0, 5.0}) {
+    EXPECT_EQ(found.branches[0].images[0]->point(t), Vec3(t, 2, 0));
+    EXPECT_LT(glm::length(found.branches[0].curve->point(t) - base->point(t) - Vec3(2, 0, 2)), 1e-15);
+  }
 }
 
 }  // namespace
