@@ -239,10 +239,8 @@ class Search {
       }
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
-      if (++slices_seen > kMostSlices) {
-        result_.open.push_back(over.box);
-        return;
-      }
+      // Along a border that the curve hardly passes a smaller box tells more.
+      if (++slices_seen > kMostSlices) return divide(over.box);
       // What was found is the solution, to rounding; where the equations are flat their values' rounding says nothing.
       const Box reached = over.reachable(slice, x, values_of(there, !found), wide, kTimes);
       if (is_empty<N>(reached)) continue;
@@ -456,12 +454,7 @@ class Search {
       arc.hulls.push_back(ahead.hull);
       meets_known_ = meets_known_ || is_known_place(ahead.to);
       if (ahead.at_border || meets_known_) return false;
-      const Place next = direction_of<N, M>(system_.evaluate(ahead.to).derivative, scale_);
-      double with = 0;
-      for (int i = 0; i < N; ++i) with += next[i] * direction[i];
-      direction = next;
-      if (with < 0)
-        for (double& d : direction) d = -d;
+      direction = onward(ahead.to, direction);
       step = std::min(1.7 * step, kLongestStep);
     }
     return true;
@@ -545,9 +538,42 @@ class Search {
       to = at;
       ahead.at_border = true;
     }
-    if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to))) return false;
+    if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to)) || dips_out(x, to, direction, along, step))
+      return false;
     ahead.to = to;
     return certify(x, to, direction, along, step, ahead);
+  }
+
+  // Between two places inside the curve may be outside for a while: where it turns back beyond a border. No farther off
+  // than a place may be that still lies on the border is inside.
+  bool dips_out(const Place& x, const Place& to, const Place& direction, int along, double step) const {
+    Place next{};
+    for (int i = 0; i < N; ++i) {
+      if (i == along) continue;
+      const bool up = direction[i] > 0;
+      const double border = up ? domain_[i].hi : domain_[i].lo;
+      if (std::min(std::abs(border - x[i]), std::abs(border - to[i])) > 0.5 * step * scale_[i]) continue;
+      if (next == Place{}) next = onward(to, direction);
+      if (direction[i] == 0 || (next[i] > 0) == up) continue;
+      Place before = x, after = to;
+      for (int time = 0; time < kBisections; ++time) {
+        Place middle, near = options_.slack;
+        for (int k = 0; k < N; ++k) middle[k] = 0.5 * (before[k] + after[k]);
+        if (!settle(middle, along, step, near)) return true;
+        if (up ? middle[i] > border + near[i] : middle[i] < border - near[i]) return true;
+        ((onward(middle, direction)[i] > 0) == up ? before : after) = middle;
+      }
+    }
+    return false;
+  }
+  // The curve's direction at a place on, when that was `direction` before.
+  Place onward(const Place& x, const Place& direction) const {
+    Place next = direction_of<N, M>(system_.evaluate(x).derivative, scale_);
+    double with = 0;
+    for (int i = 0; i < N; ++i) with += next[i] * direction[i];
+    if (with < 0)
+      for (double& d : next) d = -d;
+    return next;
   }
 
   // At a border that the curve touches from inside it may stay a little beyond: only a true exit ends it.
@@ -660,8 +686,8 @@ class Search {
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
   static constexpr double kWorthCutting = 0.25;  // of the volume: a box that keeps more is halved instead
   static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
-  static constexpr int kTimes = 400, kCuts = 3, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20, kMostSteps = 150,
-                       kMostNodes = 200000, kMostSlices = 250;
+  static constexpr int kTimes = 400, kCuts = 3, kBisections = 30, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20,
+                       kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250;
 
   const System& system_;
   const Box domain_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "geometry/queries/contour_curve.h"
 #include "geometry/queries/trim.h"
 #include "geometry/surfaces/plane.h"
 
@@ -25,14 +26,13 @@ constexpr double kOnBorder = 1e-9;
 class MeasuredContour {
  public:
   explicit MeasuredContour(const Contour& contour) : contour_(contour) {
-    // Pieces of contours that were searched are short and their own parts of the polygon; those of conics are not.
-    constexpr int kPartsOfConic = 16;
+    // Pieces of contours that were searched are short and their own parts of the polygon.
+    constexpr int kPartsOfOthers = 16;
+    const int parts = is_searched(*contour.curve) ? 1 : kPartsOfOthers;
     ends_.push_back(contour.curve->domain().lo);
-    for (const CurvePiece& piece : contour.curve->pieces()) {
-      const int parts = piece.is_rational() ? kPartsOfConic : 1;
+    for (const CurvePiece& piece : contour.curve->pieces())
       for (int k = 1; k <= parts; ++k)
         ends_.push_back(k == parts ? piece.domain.hi : piece.domain.lo + piece.domain.width() * k / parts);
-    }
     double length = 0;
     for (const double t : ends_) {
       corners_.push_back(contour.curve->point(t));
@@ -53,7 +53,7 @@ class MeasuredContour {
       const double apart = glm::length(corners_[k] + height / length * chord - p);
       if (apart < best) best = apart, t = ends_[k] + height / length * (ends_[k + 1] - ends_[k]);
     }
-    // The chord's height is the parameter of what was searched; of a conic it starts Newton's iteration.
+    // The chord's height is the parameter of what was searched; of others it starts Newton's iteration.
     const Interval domain = contour_.curve->domain();
     constexpr int kSteps = 6;
     CurveJet at = contour_.curve->evaluate(t, 1);

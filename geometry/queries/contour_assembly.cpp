@@ -26,8 +26,22 @@ bool ContourAssembly<N>::runs_along(const ContourEquations<N>& equations, const 
                                     int parameter, double border) {
   // Contacts are known less well.
   const double near = (kind == ContourKind::crossing ? 1e-10 : 1e-7) * equations.domain()[parameter].width();
-  return std::all_of(arc.nodes.begin(), arc.nodes.end(),
-                     [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; });
+  const auto is_near = [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; };
+  if (!std::all_of(arc.nodes.begin(), arc.nodes.end(), is_near)) return false;
+  if (kind != ContourKind::crossing) return true;
+  // A sliver between two nodes on the border is none.
+  for (size_t k = 0; k + 1 < arc.nodes.size(); ++k) {
+    ContourSegment<N> segment;
+    // The solution does not outlive the equations.
+    segment.equations = EquationsPtr(EquationsPtr(), &equations);
+    segment.begin = arc.nodes[k], segment.end = arc.nodes[k + 1], segment.tube = arc.tubes[k];
+    segment.from = equations.point(segment.begin), segment.to = equations.point(segment.end);
+    if (segment.from == segment.to) continue;
+    const ContourSolution<N> solution({segment}, false);
+    const auto middle = solution.at(solution.domain().middle(), 0).x;
+    if (std::abs(middle[parameter].value() - border) > near) return false;
+  }
+  return true;
 }
 
 // An arc along the border of a piece is found by the neighbour too.

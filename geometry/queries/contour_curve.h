@@ -87,6 +87,11 @@ class ContourCurve final : public Curve {
   std::shared_ptr<const ContourSolution<N>> solution_;
 };
 
+// A contour that was searched; others have a closed form, and pieces of any length.
+inline bool is_searched(const Curve& curve) {
+  return dynamic_cast<const ContourCurve<2>*>(&curve) || dynamic_cast<const ContourCurve<4>*>(&curve);
+}
+
 // Two of the parameters, as a curve in a parameter plane with the same parameter.
 template <int N>
 class ContourImage final : public Curve {

@@ -62,8 +62,7 @@ ViewOf checked(ViewOf view) {
 }  // namespace
 
 Measured contour_length(const Contour& contour, const Interval& t) {
-  // Conics, whose pieces are long.
-  if (contour.curve->as_nurbs()) return arc_length(*contour.curve, t.lo, t.hi);
+  if (!is_searched(*contour.curve)) return arc_length(*contour.curve, t.lo, t.hi);
   static const GaussRule coarse = gauss_legendre(6), fine = gauss_legendre(9);
   Measured sum;
   for (const CurvePiece& piece : contour.curve->pieces()) {

@@ -279,7 +279,25 @@ std::vector<Kind> kinds() {
   return all;
 }
 
-SurfacePtr as_spline(const SurfacePtr& surface) { return std::make_shared<NurbsSurface>(surface->as_nurbs().value()); }
+// Forms cover at least the domain: where that is one patch, it is what is taken.
+SurfacePtr as_spline(const SurfacePtr& surface) {
+  NurbsSurfaceForm form = surface->as_nurbs().value();
+  if (const auto pieces = surface->pieces(); pieces.size() == 1) {
+    const auto clamped = [](int degree) {
+      std::vector<double> knots(degree + 1, 0.0);
+      knots.insert(knots.end(), degree + 1, 1.0);
+      return knots;
+    };
+    form = {pieces[0].degree_u,
+            pieces[0].degree_v,
+            clamped(pieces[0].degree_u),
+            clamped(pieces[0].degree_v),
+            pieces[0].points,
+            {},
+            {}};
+  }
+  return std::make_shared<NurbsSurface>(form);
+}
 
 // What all closed forms keep: both images lead to the curve with its derivatives, boxes hold what they should.
 void check_promises(const Contour& contour, const Two& two, double size) {

@@ -273,6 +273,31 @@ TEST(Contours, SpheresThatNearlyTouch) {
   }
 }
 
+// A circle in a plane spline of two by two spans that passes over a knot line by a little, at any place along it.
+TEST(Contours, LoopsThatHardlyPassOverAKnot) {
+  NurbsSurfaceForm form;
+  form.degree_u = form.degree_v = 2;
+  form.knots_u = form.knots_v = {0, 0, 0, 0.5, 1, 1, 1};
+  for (const double x : {0.0, 0.25, 0.75, 1.0})
+    for (const double y : {0.0, 0.25, 0.75, 1.0}) form.points.push_back(Vec4(x, y, 0, 1));
+  const auto sheet = std::make_shared<NurbsSurface>(form);
+  int step = 0;
+  for (double over = 1e-2; over > 1e-9; over *= 0.4) {
+    SCOPED_TRACE(over);
+    const double r = 0.2 + 0.01 * (step % 3), y = 0.3 + 0.017 * (step++ % 5);
+    const Contours found = intersect(sheet, sphere({0.5 + over - r, y, 0}, r));
+    EXPECT_TRUE(found.complete);
+    ASSERT_EQ(found.branches.size(), 1u);
+    EXPECT_TRUE(found.branches[0].closed);
+    EXPECT_NEAR(length_of(found), kTwoPi * r, 1e-11);
+    const Interval t = found.branches[0].curve->domain();
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3 p = found.branches[0].curve->point(t.lo + t.width() * k / 2000);
+      EXPECT_NEAR(glm::length(p - Vec3(0.5 + over - r, y, 0)), r, 1e-13);
+    }
+  }
+}
+
 TEST(Contours, TangentPlanesOfATorus) {
   // Inside, the plane x = 2 touches at a saddle: a figure of eight.
   const Contours eight = plane_section(torus(3, 1), {2, 0, 0}, {1, 0, 0});
