@@ -239,11 +239,17 @@ class Search {
       }
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
-      // Along a border that the curve hardly passes a smaller box tells more.
-      if (++slices_seen > kMostSlices) return divide(over.box);
+      if (++slices_seen > kMostSlices) {
+        result_.open.push_back(over.box);
+        return;
+      }
       // What was found is the solution, to rounding; where the equations are flat their values' rounding says nothing.
-      const Box reached = over.reachable(slice, x, values_of(there, !found), wide, kTimes);
+      Box reached = over.reachable(slice, x, values_of(there, !found), wide, kTimes);
       if (is_empty<N>(reached)) continue;
+      if (slices_seen > kPatience) {
+        reached = seen_closer(slice, along, x, values_of(there, !found), reached);
+        if (is_empty<N>(reached)) continue;
+      }
       if (is_known(reached)) continue;
       const bool holds_here = found && holds(there);
       if (found && !holds_here && lies_off(reached)) continue;
@@ -261,6 +267,20 @@ class Search {
       if (slice.width() <= kLeastSlice * scale_[along]) continue;
       halve(over, slice, x, slices);
     }
+  }
+
+  // What a chart of its own leaves of a slice, seen from x with the values f: where a curve turns back near a border
+  // the slopes of a large box tell little.
+  Box seen_closer(const Interval& slice, int along, const Place& x, const std::array<Interval, M>& f,
+                  const Box& reached) const {
+    Box box = reached;
+    for (int i = 0; i < N; ++i) {
+      box[i] = intersect(reached[i], domain_[i]);
+      if (box[i].empty()) box[i] = Interval(domain_[i].clamp(reached[i].lo));
+    }
+    const std::optional<Chart<N, M>> chart = chart_of<N, M>(system_.evaluate(inside(x)).derivative, along);
+    if (!chart) return reached;
+    return ChartBox<N, M>(*chart, box, system_.enclose(box)).reachable(slice, x, f, widened(reached, along), kTimes);
   }
 
   using Slices = std::vector<std::pair<Interval, Place>>;
@@ -687,7 +707,7 @@ class Search {
   static constexpr double kWorthCutting = 0.25;  // of the volume: a box that keeps more is halved instead
   static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
   static constexpr int kTimes = 400, kCuts = 3, kBisections = 30, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20,
-                       kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250;
+                       kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250, kPatience = 12;
 
   const System& system_;
   const Box domain_;
