@@ -263,7 +263,7 @@ class Search {
 
   struct Step {
     ParameterPlace<N> to;
-    double length = 0;  // the longest of all parameters, of the domain's sides
+    double length = 0;      // the longest of all parameters, of the domain's sides
     double moved_back = 0;  // to the box, likewise
     bool leads_out = false;
   };
