@@ -413,7 +413,7 @@ class Search {
   // --- following a curve
 
   struct Ahead {
-    Place to;
+    Place to, direction;  // there, on
     Box tube, hull;
     bool at_border = false;
   };
@@ -474,7 +474,7 @@ class Search {
       arc.hulls.push_back(ahead.hull);
       meets_known_ = meets_known_ || is_known_place(ahead.to);
       if (ahead.at_border || meets_known_) return false;
-      direction = onward(ahead.to, direction);
+      direction = ahead.direction;
       step = std::min(1.7 * step, kLongestStep);
     }
     return true;
@@ -558,37 +558,37 @@ class Search {
       to = at;
       ahead.at_border = true;
     }
-    if (turns_too_much(x, to, direction) || !holds(system_.evaluate(to)) || dips_out(x, to, direction, along, step))
-      return false;
+    const SystemValue<double, N, M> there = system_.evaluate(to);
     ahead.to = to;
-    return certify(x, to, direction, along, step, ahead);
+    ahead.direction = onward(there, direction);
+    if (turns_too_much(x, direction, ahead) || !holds(there) || dips_out(x, direction, along, step, ahead))
+      return false;
+    return certify(x, direction, along, step, there, ahead);
   }
 
   // Between two places inside the curve may be outside for a while: where it turns back beyond a border. No farther off
   // than a place may be that still lies on the border is inside.
-  bool dips_out(const Place& x, const Place& to, const Place& direction, int along, double step) const {
-    Place next{};
+  bool dips_out(const Place& x, const Place& direction, int along, double step, const Ahead& ahead) const {
     for (int i = 0; i < N; ++i) {
       if (i == along) continue;
       const bool up = direction[i] > 0;
       const double border = up ? domain_[i].hi : domain_[i].lo;
-      if (std::min(std::abs(border - x[i]), std::abs(border - to[i])) > 0.5 * step * scale_[i]) continue;
-      if (next == Place{}) next = onward(to, direction);
-      if (direction[i] == 0 || (next[i] > 0) == up) continue;
-      Place before = x, after = to;
+      if (std::min(std::abs(border - x[i]), std::abs(border - ahead.to[i])) > 0.5 * step * scale_[i]) continue;
+      if (direction[i] == 0 || (ahead.direction[i] > 0) == up) continue;
+      Place before = x, after = ahead.to;
       for (int time = 0; time < kBisections; ++time) {
         Place middle, near = options_.slack;
         for (int k = 0; k < N; ++k) middle[k] = 0.5 * (before[k] + after[k]);
         if (!settle(middle, along, step, near)) return true;
         if (up ? middle[i] > border + near[i] : middle[i] < border - near[i]) return true;
-        ((onward(middle, direction)[i] > 0) == up ? before : after) = middle;
+        ((onward(system_.evaluate(middle), direction)[i] > 0) == up ? before : after) = middle;
       }
     }
     return false;
   }
   // The curve's direction at a place on, when that was `direction` before.
-  Place onward(const Place& x, const Place& direction) const {
-    Place next = direction_of<N, M>(system_.evaluate(x).derivative, scale_);
+  Place onward(const SystemValue<double, N, M>& there, const Place& direction) const {
+    Place next = direction_of<N, M>(there.derivative, scale_);
     double with = 0;
     for (int i = 0; i < N; ++i) with += next[i] * direction[i];
     if (with < 0)
@@ -630,15 +630,12 @@ class Search {
     }
     return false;
   }
-  bool turns_too_much(const Place& x, const Place& to, const Place& direction) const {
-    Place next = direction_of<N, M>(system_.evaluate(to).derivative, scale_);
+  bool turns_too_much(const Place& x, const Place& direction, const Ahead& ahead) const {
     double with = 0;
-    for (int i = 0; i < N; ++i) with += next[i] * direction[i];
+    for (int i = 0; i < N; ++i) with += ahead.direction[i] * direction[i];
     const double cosine = std::cos(options_.most_turn);
-    if (with < 0)
-      for (double& d : next) d = -d;
-    if (!(std::abs(with) >= cosine)) return true;
-    const Vec3 here = system_.motion(x, scaled(direction)), there = system_.motion(to, scaled(next));
+    if (!(with >= cosine)) return true;
+    const Vec3 here = system_.motion(x, scaled(direction)), there = system_.motion(ahead.to, scaled(ahead.direction));
     const double lengths = glm::length(here) * glm::length(there);
     return lengths > 0 && glm::dot(here, there) < cosine * lengths;
   }
@@ -650,7 +647,9 @@ class Search {
   // A tube about the way from x to `to`. A wide one holds other solutions off best. But where unknowns move the
   // equations very differently (a small surface meets a large one, near a pole) only a tube is a chart that is as
   // narrow in each as it moves them, but for what the curve bends.
-  bool certify(const Place& x, const Place& to, const Place& direction, int along, double step, Ahead& ahead) const {
+  bool certify(const Place& x, const Place& direction, int along, double step, const SystemValue<double, N, M>& there,
+               Ahead& ahead) const {
+    const Place& to = ahead.to;
     Place along_way, wide, beside;
     for (int i = 0; i < N; ++i) {
       along_way[i] = 0.1 * std::abs(to[i] - x[i]);
@@ -658,17 +657,13 @@ class Search {
       beside[i] = along_way[i] + 0.35 * wide[i];
     }
     if (certify(x, to, along, beside, ahead)) return true;
-    const SystemValue<double, N, M> there = system_.evaluate(to);
-    const Place next = direction_of<N, M>(there.derivative, scale_);
-    double with = 0;
+    if (step > kNarrowStep) return false;  // a shorter one may do
     std::array<double, N> moves{};
-    for (int i = 0; i < N; ++i) {
-      with += next[i] * direction[i];
+    for (int i = 0; i < N; ++i)
       for (int k = 0; k < M; ++k) moves[i] += sqr(there.derivative[k][i]);
-    }
     for (const double share : {0.35, 0.05, 0.005}) {
       for (int i = 0; i < N; ++i) {
-        const double bends = 0.5 * std::abs((with < 0 ? -next[i] : next[i]) - direction[i]);
+        const double bends = 0.5 * std::abs(ahead.direction[i] - direction[i]);
         const double even = moves[i] > 0 ? step * scale_[along] * std::sqrt(moves[along] / moves[i]) : wide[i];
         beside[i] = along_way[i] + (i == along ? 0 : bends * wide[i] + share * std::min(wide[i], even));
       }
@@ -703,7 +698,8 @@ class Search {
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
-  static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kShortStep = 1e-3, kLeastStep = 1e-10;
+  static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kNarrowStep = 0.01, kShortStep = 1e-3,
+                          kLeastStep = 1e-10;
   static constexpr double kWorthCutting = 0.25;  // of the volume: a box that keeps more is halved instead
   static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
   static constexpr int kTimes = 400, kCuts = 3, kBisections = 30, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20,
