@@ -54,18 +54,18 @@ bool ContourAssembly<N>::runs_along_border(const Part& part) const {
   return false;
 }
 
-// Whether a node lies on another arc, within the sag of its chords.
+// Whether a node lies on another arc, within the sag of its chords; next to singular points arcs end anywhere near.
 template <int N>
-bool ContourAssembly<N>::lies_on(const Part& part, size_t node, const Part& other) {
+bool ContourAssembly<N>::lies_on(const Part& part, size_t node, const Part& other) const {
   const Vec3 at = part.equations->point(part.arc.nodes[node]);
-  double nearest = kInfinity;
   for (size_t i = 0; i + 1 < other.arc.nodes.size(); ++i) {
     const Vec3 from = other.equations->point(other.arc.nodes[i]);
     const Vec3 chord = other.equations->point(other.arc.nodes[i + 1]) - from;
     const double share = std::clamp(glm::dot(at - from, chord) / glm::dot(chord, chord), 0.0, 1.0);
-    nearest = std::min(nearest, glm::length(from + share * chord - at) / glm::length(chord));
+    const double near = std::max(kSag * glm::length(chord), 10 * kLeastContourImage * size_);
+    if (glm::length(from + share * chord - at) < near) return true;
   }
-  return nearest < kSag;
+  return false;
 }
 
 template <int N>
@@ -92,7 +92,7 @@ bool ContourAssembly<N>::is_same(const Part& part, const Part& known) const {
 
 template <int N>
 void ContourAssembly<N>::drop_doubles() {
-  // The longest of those that touch along one border stays.
+  // The longest of those that touch along one curve stays.
   std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
     const bool a_crosses = a.kind == ContourKind::crossing, b_crosses = b.kind == ContourKind::crossing;
     return a_crosses != b_crosses ? a_crosses : !a_crosses && a.length > b.length;
@@ -100,7 +100,8 @@ void ContourAssembly<N>::drop_doubles() {
   std::vector<Part> kept;
   std::vector<bool> on_border;
   for (Part& part : parts_) {
-    const bool along = runs_along_border(part);
+    // Where surfaces touch near a border both neighbours follow the curve.
+    const bool along = part.kind != ContourKind::crossing || runs_along_border(part);
     bool known = false;
     for (size_t k = 0; along && !known && k < kept.size(); ++k) known = on_border[k] && is_same(part, kept[k]);
     if (known) continue;

@@ -86,7 +86,7 @@ class ContourAssembly {
   bool lies_on_touching(const Vec3& point) const;
   bool lies_in_tubes(int point) const;
   bool lies_where_surfaces_coincide(int point) const;
-  static bool lies_on(const Part& part, size_t node, const Part& other);
+  bool lies_on(const Part& part, size_t node, const Part& other) const;
   bool is_same(const Part& part, const Part& known) const;
   void drop_doubles();
   static bool runs_along(const ContourEquations<N>& equations, const SolutionArc<N>& arc, ContourKind kind,

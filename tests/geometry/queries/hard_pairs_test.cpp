@@ -265,7 +265,7 @@ std::vector<HardPair> pairs() {
       {"ball_fills_a_ring",
        torus(3, 1),
        sphere({3, 0, 0}, 1),
-       {.loops = 1, .length = kTwoPi, .kind = kTouching, .search_gives_up = true, .takes_seconds = true}},
+       {.loops = 1, .length = kTwoPi, .kind = kTouching, .takes_seconds = true}},
       {"parallel_cylinders",
        cylinder(Frame(), 1, 4),
        cylinder(at({3, 0, 0.5}), 2, 3),
