@@ -72,6 +72,11 @@ ProjectedCurve::Jet ProjectedCurve::jet(double t) const {
   return jet;
 }
 
+ProjectedCurve::Place ProjectedCurve::place(double t) const {
+  const Jet at = jet(t);
+  return {at.p, at.p1};
+}
+
 void ProjectedCurve::cut(const Interval& t) {
   const CurveEnclosure boxes = curve_->enclose(t, 2);
   const auto& [row_x, row_y, row_w] = map_.row;

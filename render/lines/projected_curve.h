@@ -52,6 +52,12 @@ class ProjectedCurve {
   // may lie within the reach: a corner between two cells belongs to the first of them.
   std::optional<Nearest> nearest(int cell, const Vec2& q) const;
 
+  // P and P'.
+  struct Place {
+    Vec2 p, tangent;
+  };
+  Place place(double t) const;
+
   // The point in the world, and the derivative of it.
   geometry::Line tangent(double t) const;
   // Length of the curve in the picture up to t in the cell, in pixels.

@@ -5,11 +5,18 @@
 #include <map>
 #include <set>
 
+#include "geometry/curves/curve_part.h"
+#include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
+#include "geometry/queries/body_contours.h"
+#include "geometry/queries/contours.h"
+#include "geometry/queries/self_intersections.h"
+#include "geometry/surfaces/plane.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
+#include "render/scene/objects.h"
 
 namespace lekalo::render {
 
@@ -32,6 +39,9 @@ const std::map<std::string, Mark::Sign, std::less<>> kSigns = {
 
 // What pictures show of `lines`, in the order in which they are drawn over one another; and of `show`.
 constexpr const char* kLinesShown[] = {"parameter", "smooth", "sharp", "boundary", "curve"};
+// Those of drawings.
+constexpr const char* kLinesDrawn[] = {"parameter", "smooth",     "section",      "intersection", "self_intersection",
+                                       "sharp",     "silhouette", "boundary",     "curve"};
 constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "knots", "normals"};
 
 bool shows(std::span<const char* const> names, std::string_view name) {
@@ -75,9 +85,15 @@ bool is_closed_in(const Surface& surface, HeldParameter held) {
 
 class Collector {
  public:
-  explicit Collector(const World& world) : model_(world.model()) {
-    const double paper = model_.paper.width;
-    pixels_ = paper > 0 ? model_.film.width / paper : kPixelsPerInch / kMillimetresPerInch;
+  explicit Collector(const World& world, bool drawing) : model_(world.model()), drawing_(drawing) {
+    pixels_ = drawing ? 1 : 1 / millimetres_of_pixel(model_);
+    least_width_ = drawing ? 0 : 1;
+    if (model_.camera) {
+      const Camera& camera = *model_.camera;
+      view_.central = !camera.is_parallel();
+      view_.direction_or_eye =
+          view_.central ? camera.ray(0.5 * camera.width(), 0.5 * camera.height()).origin : camera.view_direction();
+    }
     for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
     if (const auto hidden = model_.styles.find("hidden"); hidden != model_.styles.end()) dashes_ = hidden->second.dash;
     add(model_.objects, Affine());
@@ -98,17 +114,20 @@ class Collector {
       const bool is_point = std::holds_alternative<Vec3>(object.shape),
                  is_curve = std::holds_alternative<CurvePtr>(object.shape);
       const bool says = object.look && object.look->lines;
-      if (says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
+      if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
       if (object.look)
-        for (const Helper& helper : object.look->helpers) add_helper(helper);
+        for (const Helper& helper : object.look->helpers) {
+          kind_ = helper.type;
+          add_helper(helper);
+        }
     }
   }
 
   LineLook look_of(const Style& style) {
     LineLook look;
     const double width = style.width * pixels_;
-    look.half_width = 0.5 * std::max(width, 1.0);
-    look.opacity = style.opacity * std::min(width, 1.0);
+    look.half_width = 0.5 * std::max(width, least_width_);
+    look.opacity = style.opacity * (least_width_ > 0 ? std::min(width / least_width_, 1.0) : 1.0);
     look.color = rgb(color_of(style));
     for (const double length : style.dash) look.dash.push_back(length * pixels_);
     look.cap = style.cap == "round"    ? LineLook::Cap::round
@@ -135,8 +154,8 @@ class Collector {
         for (const double length : dashes_) look.dash.push_back(length * pixels_);
         return look;
       case HiddenLines::Way::thin:
-        look.opacity *= std::min(1.0, seen.half_width);
-        look.half_width = std::max(0.5, 0.5 * seen.half_width);
+        if (least_width_ > 0) look.opacity *= std::min(1.0, seen.half_width);
+        look.half_width = std::max(0.5 * least_width_, 0.5 * seen.half_width);
         return look;
       case HiddenLines::Way::faded:
         look.opacity /= 3;
@@ -156,6 +175,12 @@ class Collector {
     stroke.hidden = hidden_of(stroke.look, hidden);
     stroke.object = numbers_.at(object_);
     stroke.order = order_++;
+    stroke.kind = kind_;
+    stroke.drawn = !undrawn_;
+    stroke.outlines = outlines_;
+    stroke.hosts = std::move(hosts_);
+    stroke.cusps = std::move(cusps_);
+    hosts_.clear(), cusps_.clear();
     work_.strokes.push_back(std::move(stroke));
   }
 
@@ -185,13 +210,21 @@ class Collector {
 
   void add_lines(const Lines& lines) {
     const bool is_drawings_own = !object_->look || !object_->look->lines;
-    for (const char* kind : kLinesShown) {
+    for (const char* kind : drawing_ ? std::span<const char* const>(kLinesDrawn) : kLinesShown) {
       const auto style = lines.styles.find(kind);
-      if (style != lines.styles.end())
+      kind_ = kind;
+      const std::string_view word = kind;
+      // What others are hidden by ends at all of these, drawn or not.
+      outlines_ = drawing_ && (word == "boundary" || word == "sharp" || word == "silhouette");
+      undrawn_ = style == lines.styles.end();
+      if (undrawn_ && outlines_)
+        add_kind(kind, Style(), lines);
+      else if (style != lines.styles.end())
         add_kind(kind, style->second, lines);
       else if (is_drawings_own && kind == std::string_view("curve"))
-        add_kind(kind, Style(), lines);  // a model made without a scene file
+        undrawn_ = false, add_kind(kind, Style(), lines);  // a model made without a scene file
     }
+    undrawn_ = outlines_ = false;
   }
 
   void add_kind(std::string_view kind, const Style& style, const Lines& lines) {
@@ -199,6 +232,14 @@ class Collector {
       if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(*curve, style, lines.hidden);
       if (const auto* point = std::get_if<Vec3>(&object_->shape))
         mark(*point, style.marker == "none" ? "dot" : style.marker, style, lines.hidden);
+    } else if (kind == "silhouette") {
+      add_silhouettes(style, lines.hidden);
+    } else if (kind == "section") {
+      for (const SectionPlane& plane : lines.planes) add_section(plane, style, lines.hidden);
+    } else if (kind == "intersection") {
+      for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
+    } else if (kind == "self_intersection") {
+      each_surface([&](const SurfacePtr& surface) { add(self_intersection(surface), {surface, surface}, style, lines.hidden); });
     } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
       add_edges(**body, kind, style, lines.hidden);
     } else {
@@ -223,6 +264,7 @@ class Collector {
     const Rectangle domain = surface->domain();
     const DegenerateEdges edges = surface->degenerate_edges();
     const auto edge = [&](HeldParameter held, double at) {
+      lies_on_line(surface, held, at);
       stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
     };
     if (!is_closed_in(*surface, HeldParameter::u)) {
@@ -245,14 +287,100 @@ class Collector {
     for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
       if ((at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max)))
         continue;
+      lies_on_line(surface, held, at);
       stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
     }
   }
 
   void add_edges(const Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden) {
     for (const Edge& edge : body.edges)
-      if (edge.kind == EdgeKind::regular && edge.curve && kind_of(body, edge) == kind)
+      if (edge.kind == EdgeKind::regular && edge.curve && kind_of(body, edge) == kind) {
+        if (drawing_)
+          for (const int c : edge.coedges) {
+            const Coedge& coedge = body.coedges[c];
+            hosts_.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
+          }
         stroke(edge.curve, style, hidden);
+      }
+  }
+
+  // The line of a surface on which its parameter is held.
+  void lies_on_line(const SurfacePtr& surface, HeldParameter held, double at) {
+    if (!drawing_) return;
+    const Rectangle domain = surface->domain();
+    const bool u = held == HeldParameter::u;
+    const Interval& along = u ? domain.v : domain.u;
+    const Vec3 from = u ? Vec3(at, along.lo, 0) : Vec3(along.lo, at, 0),
+               to = u ? Vec3(at, along.hi, 0) : Vec3(along.hi, at, 0);
+    NurbsCurveForm form;
+    form.degree = 1;
+    form.knots = {along.lo, along.lo, along.hi, along.hi};
+    form.points = {Vec4(from, 1), Vec4(to, 1)};
+    hosts_.push_back({surface, std::make_shared<NurbsCurve>(form)});
+  }
+
+  void add(const Contours& contours, const std::vector<SurfacePtr>& surfaces, const Style& style,
+           const HiddenLines& hidden) {
+    if (!contours.complete) ++work_.incomplete;
+    for (const Contour& contour : contours.branches) {
+      for (size_t k = 0; k < contour.images.size() && k < surfaces.size(); ++k)
+        hosts_.push_back({surfaces[k], contour.images[k]});
+      cusps_ = contour.cusps;
+      stroke(contour.curve, style, hidden);
+    }
+  }
+  void add(const BodyContours& contours, const Body& body, const Style& style, const HiddenLines& hidden) {
+    if (!contours.complete) ++work_.incomplete;
+    for (const BodyContour& branch : contours.branches)
+      for (const BodyContourPart& part : branch.parts) {
+        const Interval all = part.contour.curve->domain();
+        const auto add_part = [&](const Interval& t) {
+          if (!(t.width() > 0)) return;
+          hosts_.push_back({body.faces[part.face].surface, part.contour.images[0]});
+          for (const double cusp : part.contour.cusps)
+            if (t.contains(cusp)) cusps_.push_back(cusp);
+          stroke(t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t), style,
+                 hidden);
+        };
+        add_part({part.t.lo, std::min(part.t.hi, all.hi)});
+        if (part.t.hi > all.hi) add_part({all.lo, part.t.hi - all.width()});
+      }
+  }
+
+  // As seen from the object's own coordinates.
+  void add_silhouettes(const Style& style, const HiddenLines& hidden) {
+    const Affine back = to_world_.inverse();
+    ViewOf view = view_;
+    view.direction_or_eye =
+        view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
+      add(silhouette(**body, view), **body, style, hidden);
+    each_surface([&](const SurfacePtr& surface) {
+      if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
+      add(silhouette(surface, view), {surface}, style, hidden);
+    });
+  }
+
+  void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
+    // A plane of the world in the object's coordinates.
+    const Affine back = to_world_.inverse();
+    const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
+      add(plane_section(**body, through, normal), **body, style, hidden);
+    each_surface([&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
+  }
+
+  void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
+    const auto* body = std::get_if<BodyPtr>(&object_->shape);
+    if (const auto* with = std::get_if<BodyPtr>(&other)) {
+      if (body) add(intersect(**body, **with), **body, style, hidden);
+      each_surface([&](const SurfacePtr& surface) { add(intersect(**with, surface), **with, style, hidden); });
+    } else if (const auto* with_surface = std::get_if<SurfacePtr>(&other)) {
+      if (body) add(intersect(**body, *with_surface), **body, style, hidden);
+      each_surface([&](const SurfacePtr& surface) {
+        add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
+      });
+    }
   }
 
   static std::string_view kind_of(const Body& body, const Edge& edge) {
@@ -375,7 +503,10 @@ class Collector {
   }
 
   const Model& model_;
-  double pixels_ = 1;  // of a millimetre on the page
+  bool drawing_;
+  double pixels_ = 1;       // of a millimetre on the page
+  double least_width_ = 1;  // of lines
+  ViewOf view_;
   std::map<const Object*, int> numbers_;
   std::vector<double> dashes_;  // of hidden lines, in millimetres
   std::map<std::string, std::map<const Object*, size_t>> cycles_;
@@ -384,11 +515,20 @@ class Collector {
   // What is being added.
   const Object* object_ = nullptr;
   Affine to_world_;
+  std::string kind_;
+  bool undrawn_ = false, outlines_ = false;
+  std::vector<Stroke::Host> hosts_;  // of the next stroke
+  std::vector<double> cusps_;        // likewise
 };
 
 }  // namespace
 
-LineWork line_work(const World& world) { return Collector(world).take(); }
+double millimetres_of_pixel(const Model& model) {
+  return model.paper.width > 0 ? model.paper.width / model.film.width : kMillimetresPerInch / kPixelsPerInch;
+}
+
+LineWork line_work(const World& world) { return Collector(world, false).take(); }
+LineWork drawing_work(const World& world) { return Collector(world, true).take(); }
 
 std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {
   std::set<std::string> lines, helpers;

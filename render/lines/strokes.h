@@ -22,8 +22,18 @@ struct LineLook {
 };
 
 struct Stroke {
+  // A surface on which the curve lies, with its image there; in the coordinates of the curve.
+  struct Host {
+    geometry::SurfacePtr surface;
+    geometry::Curve2Ptr image;
+  };
   geometry::CurvePtr curve;
   geometry::Affine to_world;
+  std::string kind;         // boundary, sharp, ...; control_polygon, ... of helpers
+  std::vector<Host> hosts;  // of drawings
+  std::vector<double> cusps;  // of silhouettes, by t: the picture turns back there
+  bool drawn = true;        // else it is only there for what it hides: the outlines of all surfaces
+  bool outlines = false;    // where surfaces end as seen: what others are hidden by ends there
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
   int object = 0;                  // its number in World::objects()
@@ -45,9 +55,17 @@ struct Mark {
 struct LineWork {
   std::vector<Stroke> strokes;
   std::vector<Mark> marks;
+  int incomplete = 0;
 };
 
+// Millimetres on the page for one pixel of the picture.
+double millimetres_of_pixel(const Model& model);
+
 LineWork line_work(const World& world);
+
+// That of a drawing: lengths in millimetres on the page, all kinds of lines, and the outlines of all surfaces, drawn or
+// not. `incomplete` counts surfaces whose silhouettes are not all known.
+LineWork drawing_work(const World& world);
 
 // What of the objects' lines, helpers and shapes pictures do not show, but drawings: "lines (silhouette)", "helpers
 // (comb)".

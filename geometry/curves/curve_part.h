@@ -1,0 +1,26 @@
+// A part of a curve, with the curve's own parameter.
+#pragma once
+
+#include "geometry/curve.h"
+
+namespace lekalo::geometry {
+
+class CurvePart final : public Curve {
+ public:
+  // The range is finite, not empty, and lies in the curve's domain; throws std::invalid_argument.
+  CurvePart(CurvePtr of, const Interval& range);
+
+  Interval domain() const override { return range_; }
+  bool is_closed() const override { return false; }
+  CurveJet evaluate(double t, int order) const override { return of_->evaluate(t, order); }
+  CurveEnclosure enclose(const Interval& t, int order) const override { return of_->enclose(t, order); }
+  std::vector<CurvePiece> pieces() const override;
+  // The whole curve's: it covers more than the part.
+  std::optional<NurbsCurveForm> as_nurbs() const override { return of_->as_nurbs(); }
+
+ private:
+  CurvePtr of_;
+  Interval range_;
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,53 @@
+// Where curves cross in the picture.
+//
+// Curves are cut into cells that hardly turn (render/lines/projected_curve.h). Two cells whose directions cannot agree
+// cross at most once; others are halved until they are apart, cross once, or are shorter than a ten-thousandth of a
+// pixel: there they touch.
+#pragma once
+
+#include <vector>
+
+#include "render/lines/projected_curve.h"
+
+namespace lekalo::render {
+
+struct PictureCrossing {
+  double t = 0;        // on the curve
+  double t_other = 0;  // on the other
+  bool touching = false;
+};
+
+// The cells of many curves by place, to be crossed with others.
+class PictureCrossings {
+ public:
+  // The curves must stay. `width` and `height` in pixels.
+  PictureCrossings(std::vector<const ProjectedCurve*> curves, double width, double height);
+
+  // Calls found(index of the other curve, crossing) for all crossings of a curve; the same place may come twice where
+  // cells meet. Of a curve with itself too, but for neighbouring cells.
+  template <class Found>
+  void with(const ProjectedCurve& curve, Found&& found) const {
+    std::vector<Hit> hits;
+    collect(curve, hits);
+    for (const Hit& hit : hits) found(hit.curve, hit.crossing);
+  }
+
+ private:
+  struct Hit {
+    int curve;
+    PictureCrossing crossing;
+  };
+  struct Item {
+    int curve;
+    int cell;
+  };
+  void collect(const ProjectedCurve& curve, std::vector<Hit>& hits) const;
+  template <class Visit>
+  void each_bin(const ProjectedCurve::Cell& cell, Visit&& visit) const;
+
+  std::vector<const ProjectedCurve*> curves_;
+  int columns_, rows_;
+  std::vector<std::vector<Item>> bins_;
+};
+
+}  // namespace lekalo::render

@@ -1,0 +1,266 @@
+#include "render/drawing/visible_lines.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "geometry/curves/surface_curve.h"
+#include "geometry/numerics/root_search.h"
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/transformed.h"
+#include "render/drawing/picture_crossings.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// A sheet that passes nearer than this to a point of a line, of the scene's radius, is that on which the line lies.
+constexpr double kTouch = 1e-9;
+// Events nearer than this part of a curve's domain are one.
+constexpr double kSameEvent = 1e-9;
+// Where rays disagree inside of a stretch the place is found to this part of the domain.
+constexpr double kBisected = 1e-10;
+// Cells of curves bend as the picture of a line of no width does.
+constexpr double kReach = 0.01;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// i . (s_u x s_v) along the image of a curve on a surface, i from the eye to the point or the way of sight.
+struct SightAlong {
+  const Surface& surface;
+  const Curve& image;
+  bool central;
+  Vec3 from;
+
+  template <class T, class Vector>
+  static T triple_product(const Vector& a, const Vector& b, const Vector& c) {
+    return dot(a, cross(b, c));
+  }
+  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& t) const {
+    const CurveJet x = image.evaluate(t[0], 1);
+    const SurfaceJet s = surface.evaluate(x.d[0].x, x.d[0].y, 2);
+    const double u1 = x.d[1].x, v1 = x.d[1].y;
+    const Vec3 sight = central ? s.point() - from : from;
+    const Vec3 turn = central ? s.du() * u1 + s.dv() * v1 : Vec3(0);
+    const Vec3 du1 = s.duu() * u1 + s.duv() * v1, dv1 = s.duv() * u1 + s.dvv() * v1;
+    const auto det = [](const Vec3& a, const Vec3& b, const Vec3& c) { return glm::dot(a, glm::cross(b, c)); };
+    return {{det(sight, s.du(), s.dv())},
+            {{{det(turn, s.du(), s.dv()) + det(sight, du1, s.dv()) + det(sight, s.du(), dv1)}}}};
+  }
+  SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& t) const {
+    const CurveEnclosure x = image.enclose(t[0], 1);
+    const auto range = [](const Box3& box, int axis) { return Interval(box.lo[axis], box.hi[axis]); };
+    const SurfaceEnclosure s = enclose_unwrapped(surface, {range(x.d[0], 0), range(x.d[0], 1)}, 2);
+    const Interval u1 = range(x.d[1], 0), v1 = range(x.d[1], 1);
+    const auto vec = [](const Box3& b) {
+      return Triple<Interval>{{b.lo.x, b.hi.x}, {b.lo.y, b.hi.y}, {b.lo.z, b.hi.z}};
+    };
+    const Triple<Interval> du = vec(s.d(1, 0)), dv = vec(s.d(0, 1));
+    const Triple<Interval> origin{Interval(from.x), Interval(from.y), Interval(from.z)};
+    const Triple<Interval> sight = central ? vec(s.d(0, 0)) - origin : origin;
+    const Triple<Interval> du1 = u1 * vec(s.d(2, 0)) + v1 * vec(s.d(1, 1)),
+                           dv1 = u1 * vec(s.d(1, 1)) + v1 * vec(s.d(0, 2));
+    Interval slope = dot(sight, cross(du1, dv)) + dot(sight, cross(du, dv1));
+    if (central) slope += dot(u1 * du + v1 * dv, cross(du, dv));
+    return {{dot(sight, cross(du, dv))}, {{{slope}}}};
+  }
+};
+
+class Drawing {
+ public:
+  Drawing(const World& world, const std::function<void(double)>& progress)
+      : world_(world), camera_(*world.model().camera), progress_(progress) {}
+
+  VisibleLines run() {
+    auto begin = std::chrono::steady_clock::now();
+    LineWork work = drawing_work(world_);
+    result_.incomplete = work.incomplete;
+    for (Stroke& stroke : work.strokes) {
+      curves_.emplace_back(stroke.curve, stroke.to_world, camera_, kReach);
+      strokes_.push_back(std::move(stroke));
+    }
+    std::vector<const ProjectedCurve*> outlines;
+    for (size_t k = 0; k < strokes_.size(); ++k)
+      if (strokes_[k].outlines) outlines.push_back(&curves_[k]), outline_of_.push_back(static_cast<int>(k));
+    const PictureCrossings crossings(outlines, camera_.width(), camera_.height());
+    result_.statistics.seconds_of_lines = seconds_since(begin);
+    for (size_t k = 0; k < strokes_.size(); ++k) {
+      if (progress_) progress_(static_cast<double>(k) / strokes_.size());
+      if (!strokes_[k].drawn || curves_[k].cells().empty()) continue;
+      begin = std::chrono::steady_clock::now();
+      const std::vector<double> events = events_of(static_cast<int>(k), crossings);
+      result_.statistics.seconds_of_crossings += seconds_since(begin);
+      begin = std::chrono::steady_clock::now();
+      VisibleLine line{strokes_[k], pieces_of(static_cast<int>(k), events)};
+      result_.statistics.seconds_of_rays += seconds_since(begin);
+      result_.statistics.pieces += static_cast<int>(line.pieces.size());
+      ++result_.statistics.lines;
+      result_.lines.push_back(std::move(line));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  double depth_at(int line, double t) const { return camera_.project(curves_[line].tangent(t).origin).depth; }
+
+  std::vector<double> events_of(int line, const PictureCrossings& crossings) {
+    const Stroke& stroke = strokes_[line];
+    std::vector<double> events = stroke.cusps;
+    crossings.with(curves_[line], [&](int other, const PictureCrossing& crossing) {
+      ++result_.statistics.crossings;
+      const int outline = outline_of_[other];
+      const double near = kTouch * world_.radius();
+      if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
+        events.push_back(crossing.t);
+    });
+    add_own_outlines(stroke, events);
+    add_piercings(stroke, events);
+    for (const CurvePiece& piece : stroke.curve->pieces()) events.push_back(piece.domain.lo);
+    return events;
+  }
+
+  // Where the line goes round a surface on which it lies.
+  void add_own_outlines(const Stroke& stroke, std::vector<double>& events) const {
+    if (stroke.kind == "silhouette") return;  // it is one
+    const Affine back = stroke.to_world.inverse();
+    const bool central = !camera_.is_parallel();
+    const Vec3 from = central ? back.point(camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin)
+                              : back.direction(camera_.view_direction());
+    const Interval domain = stroke.curve->domain();
+    for (const Stroke::Host& host : stroke.hosts) {
+      for (const CurvePiece& piece : stroke.curve->pieces()) {
+        const SightAlong system{*host.surface, *host.image, central, from};
+        RootSearchOptions<1, 1> options;
+        options.slack = {1e-12 * domain.width()};
+        options.most_boxes = 2000;
+        const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
+        for (const auto& root : found.isolated) events.push_back(root[0]);
+      }
+    }
+  }
+
+  // Where it meets other surfaces.
+  void add_piercings(const Stroke& stroke, std::vector<double>& events) {
+    prepare_surfaces();
+    const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
+    const Box3 box = bounds(*curve);
+    for (const WorldSurface& other : surfaces_) {
+      bool apart = false;
+      for (int axis = 0; axis < 3; ++axis)
+        apart = apart || box.lo[axis] > other.box.hi[axis] || other.box.lo[axis] > box.hi[axis];
+      if (apart) continue;
+      const bool own = std::any_of(stroke.hosts.begin(), stroke.hosts.end(), [&](const Stroke::Host& host) {
+        return host.surface == other.original && stroke.object == other.object;
+      });
+      if (own) continue;
+      for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
+    }
+  }
+
+  struct WorldSurface {
+    SurfacePtr surface, original;
+    Box3 box;
+    int object;
+  };
+  void prepare_surfaces() {
+    if (prepared_) return;
+    prepared_ = true;
+    for (size_t k = 0; k < strokes_.size(); ++k)
+      for (const Stroke::Host& host : strokes_[k].hosts) {
+        const bool known = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const WorldSurface& one) {
+          return one.original == host.surface && one.object == strokes_[k].object;
+        });
+        if (known || !host.surface->bounded()) continue;
+        const SurfacePtr placed = transformed(host.surface, strokes_[k].to_world);
+        surfaces_.push_back({placed, host.surface, bounds(*placed), strokes_[k].object});
+      }
+  }
+
+  // How many sheets the line lies behind.
+  int layers_at(int line, double t) {
+    ++result_.statistics.rays;
+    const Vec3 point = curves_[line].tangent(t).origin;
+    const PicturePoint at = camera_.project(point);
+    const Ray ray = camera_.ray(at.x, at.y);
+    int layers = 0;
+    for (const Hit& hit : world_.all_hits(ray)) {
+      if (!(hit.t < at.depth)) continue;
+      const SurfacePoint met = world_.surface_point(ray, hit);
+      const double across = std::abs((hit.t - at.depth) * glm::dot(ray.direction, met.geometric_normal));
+      if (across > kTouch * world_.radius() + 4 * met.error) ++layers;
+    }
+    return layers;
+  }
+
+  std::vector<VisiblePiece> pieces_of(int line, std::vector<double> events) {
+    const Interval domain = strokes_[line].curve->domain();
+    const double same = kSameEvent * domain.width();
+    std::vector<VisiblePiece> pieces;
+    // The parts inside of the picture: runs of cells.
+    const auto& cells = curves_[line].cells();
+    for (size_t first = 0; first < cells.size();) {
+      size_t last = first;
+      while (last + 1 < cells.size() && cells[last + 1].t.lo == cells[last].t.hi) ++last;
+      const Interval run{cells[first].t.lo, cells[last].t.hi};
+      std::vector<double> cuts{run.lo};
+      std::sort(events.begin(), events.end());
+      for (const double t : events)
+        if (t > cuts.back() + same && t < run.hi - same) cuts.push_back(t);
+      cuts.push_back(run.hi);
+      for (size_t k = 0; k + 1 < cuts.size(); ++k) add_stretch(line, {cuts[k], cuts[k + 1]}, pieces);
+      first = last + 1;
+    }
+    return pieces;
+  }
+
+  static void add_piece(const Interval& t, int layers, std::vector<VisiblePiece>& pieces) {
+    if (!pieces.empty() && pieces.back().layers == layers && pieces.back().t.hi == t.lo)
+      pieces.back().t.hi = t.hi;
+    else
+      pieces.push_back({t, layers});
+  }
+
+  void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
+    constexpr double kShares[] = {0.5, 0.17, 0.83};
+    std::vector<std::pair<double, int>> seen;
+    for (const double share : kShares) {
+      const double at = t.lo + share * t.width();
+      seen.emplace_back(at, layers_at(line, at));
+    }
+    std::sort(seen.begin(), seen.end());
+    double from = t.lo;
+    for (size_t k = 0; k + 1 < seen.size(); ++k) {
+      if (seen[k].second == seen[k + 1].second) continue;
+      double lo = seen[k].first, hi = seen[k + 1].first;
+      while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
+        const double middle = 0.5 * (lo + hi);
+        (layers_at(line, middle) == seen[k].second ? lo : hi) = middle;
+      }
+      add_piece({from, hi}, seen[k].second, pieces);
+      from = hi;
+    }
+    add_piece({from, t.hi}, seen.back().second, pieces);
+  }
+
+  const World& world_;
+  const Camera& camera_;
+  const std::function<void(double)>& progress_;
+  std::vector<Stroke> strokes_;
+  std::vector<ProjectedCurve> curves_;
+  std::vector<int> outline_of_;
+  std::vector<WorldSurface> surfaces_;
+  bool prepared_ = false;
+  VisibleLines result_;
+};
+
+}  // namespace
+
+VisibleLines visible_lines(const World& world, const std::function<void(double)>& progress) {
+  return Drawing(world, progress).run();
+}
+
+}  // namespace lekalo::render
