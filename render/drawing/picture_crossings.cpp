@@ -9,10 +9,10 @@ using geometry::Interval;
 
 namespace {
 
-constexpr double kBin = 16;           // pixels
-constexpr double kTouching = 1e-4;    // pixels
-constexpr double kCellTurn = 0.27;    // how far directions of a cell are from its chord's, radians; projected_curve.cpp
-constexpr double kEndSlack = 1e-9;    // of a cell: a crossing at its end is its own too
+constexpr double kBin = 16;         // pixels
+constexpr double kTouching = 1e-4;  // pixels
+constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
+constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
 struct Part {
@@ -131,8 +131,9 @@ PictureCrossings::PictureCrossings(std::vector<const ProjectedCurve*> curves, do
       bins_(static_cast<size_t>(columns_) * rows_) {
   for (size_t k = 0; k < curves_.size(); ++k)
     for (size_t i = 0; i < curves_[k]->cells().size(); ++i)
-      each_bin(curves_[k]->cells()[i],
-               [&](size_t bin) { bins_[bin].push_back({static_cast<int>(k), static_cast<int>(i)}); });
+      each_bin(curves_[k]->cells()[i], [&](size_t bin) {
+        bins_[bin].push_back({static_cast<int>(k), static_cast<int>(i)});
+      });
 }
 
 template <class Visit>

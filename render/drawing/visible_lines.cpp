@@ -6,6 +6,7 @@
 
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/root_search.h"
+#include "geometry/numerics/triple.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
@@ -36,10 +37,6 @@ struct SightAlong {
   bool central;
   Vec3 from;
 
-  template <class T, class Vector>
-  static T triple_product(const Vector& a, const Vector& b, const Vector& c) {
-    return dot(a, cross(b, c));
-  }
   SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& t) const {
     const CurveJet x = image.evaluate(t[0], 1);
     const SurfaceJet s = surface.evaluate(x.d[0].x, x.d[0].y, 2);
@@ -80,37 +77,41 @@ class Drawing {
     LineWork work = drawing_work(world_);
     result_.incomplete = work.incomplete;
     for (Stroke& stroke : work.strokes) {
-      curves_.emplace_back(stroke.curve, stroke.to_world, camera_, kReach);
+      curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
       strokes_.push_back(std::move(stroke));
     }
     std::vector<const ProjectedCurve*> outlines;
     for (size_t k = 0; k < strokes_.size(); ++k)
-      if (strokes_[k].outlines) outlines.push_back(&curves_[k]), outline_of_.push_back(static_cast<int>(k));
+      if (strokes_[k].outlines) outlines.push_back(curves_[k].get()), outline_of_.push_back(static_cast<int>(k));
     const PictureCrossings crossings(outlines, camera_.width(), camera_.height());
     result_.statistics.seconds_of_lines = seconds_since(begin);
     for (size_t k = 0; k < strokes_.size(); ++k) {
       if (progress_) progress_(static_cast<double>(k) / strokes_.size());
-      if (!strokes_[k].drawn || curves_[k].cells().empty()) continue;
+      if (!strokes_[k].drawn || curves_[k]->cells().empty()) continue;
       begin = std::chrono::steady_clock::now();
       const std::vector<double> events = events_of(static_cast<int>(k), crossings);
       result_.statistics.seconds_of_crossings += seconds_since(begin);
       begin = std::chrono::steady_clock::now();
-      VisibleLine line{strokes_[k], pieces_of(static_cast<int>(k), events)};
+      VisibleLine line{strokes_[k], curves_[k], pieces_of(static_cast<int>(k), events)};
       result_.statistics.seconds_of_rays += seconds_since(begin);
       result_.statistics.pieces += static_cast<int>(line.pieces.size());
       ++result_.statistics.lines;
       result_.lines.push_back(std::move(line));
     }
+    for (const Mark& mark : work.marks) {
+      const PicturePoint at = camera_.project(mark.point);
+      if (at.visible_side) result_.marks.push_back({mark, {at.x, at.y}, layers_before(mark.point)});
+    }
     return std::move(result_);
   }
 
  private:
-  double depth_at(int line, double t) const { return camera_.project(curves_[line].tangent(t).origin).depth; }
+  double depth_at(int line, double t) const { return camera_.project(curves_[line]->tangent(t).origin).depth; }
 
   std::vector<double> events_of(int line, const PictureCrossings& crossings) {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
-    crossings.with(curves_[line], [&](int other, const PictureCrossing& crossing) {
+    crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       const double near = kTouch * world_.radius();
@@ -180,10 +181,11 @@ class Drawing {
       }
   }
 
-  // How many sheets the line lies behind.
-  int layers_at(int line, double t) {
+  int layers_at(int line, double t) { return layers_before(curves_[line]->tangent(t).origin); }
+
+  // How many sheets a point lies behind.
+  int layers_before(const Vec3& point) {
     ++result_.statistics.rays;
-    const Vec3 point = curves_[line].tangent(t).origin;
     const PicturePoint at = camera_.project(point);
     const Ray ray = camera_.ray(at.x, at.y);
     int layers = 0;
@@ -201,7 +203,7 @@ class Drawing {
     const double same = kSameEvent * domain.width();
     std::vector<VisiblePiece> pieces;
     // The parts inside of the picture: runs of cells.
-    const auto& cells = curves_[line].cells();
+    const auto& cells = curves_[line]->cells();
     for (size_t first = 0; first < cells.size();) {
       size_t last = first;
       while (last + 1 < cells.size() && cells[last + 1].t.lo == cells[last].t.hi) ++last;
@@ -250,7 +252,7 @@ class Drawing {
   const Camera& camera_;
   const std::function<void(double)>& progress_;
   std::vector<Stroke> strokes_;
-  std::vector<ProjectedCurve> curves_;
+  std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> outline_of_;
   std::vector<WorldSurface> surfaces_;
   bool prepared_ = false;

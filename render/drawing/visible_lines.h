@@ -12,8 +12,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "render/lines/projected_curve.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -25,15 +27,22 @@ struct VisiblePiece {
 };
 struct VisibleLine {
   Stroke stroke;
-  std::vector<VisiblePiece> pieces;  // inside of the picture, by t
+  std::shared_ptr<const ProjectedCurve> curve;  // its picture
+  std::vector<VisiblePiece> pieces;             // inside of the picture, by t
+};
+struct VisibleMark {
+  Mark mark;
+  Vec2 place{0};  // in pixels
+  int layers = 0;
 };
 struct LineStatistics {
   int lines = 0, pieces = 0, crossings = 0, rays = 0;
   double seconds_of_lines = 0, seconds_of_crossings = 0, seconds_of_rays = 0;
 };
 struct VisibleLines {
-  std::vector<VisibleLine> lines;  // drawn ones
-  int incomplete = 0;              // surfaces whose outlines are not all known
+  std::vector<VisibleLine> lines;  // drawn ones, in their order
+  std::vector<VisibleMark> marks;
+  int incomplete = 0;  // surfaces whose outlines are not all known
   LineStatistics statistics;
 };
 

@@ -40,8 +40,8 @@ const std::map<std::string, Mark::Sign, std::less<>> kSigns = {
 // What pictures show of `lines`, in the order in which they are drawn over one another; and of `show`.
 constexpr const char* kLinesShown[] = {"parameter", "smooth", "sharp", "boundary", "curve"};
 // Those of drawings.
-constexpr const char* kLinesDrawn[] = {"parameter", "smooth",     "section",      "intersection", "self_intersection",
-                                       "sharp",     "silhouette", "boundary",     "curve"};
+constexpr const char* kLinesDrawn[] = {"parameter", "smooth",     "section",  "intersection", "self_intersection",
+                                       "sharp",     "silhouette", "boundary", "curve"};
 constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "knots", "normals"};
 
 bool shows(std::span<const char* const> names, std::string_view name) {
@@ -197,7 +197,7 @@ class Collector {
     Mark mark;
     mark.point = to_world_.point(point);
     mark.sign = found->second;
-    mark.radius = std::max(0.5, 0.5 * style.marker_size * pixels_);
+    mark.radius = std::max(0.5 * least_width_, 0.5 * style.marker_size * pixels_);
     mark.line = look_of(style);
     mark.line.opacity = style.opacity;
     if (style.fill) mark.fill = rgb(*style.fill);
@@ -239,7 +239,9 @@ class Collector {
     } else if (kind == "intersection") {
       for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
     } else if (kind == "self_intersection") {
-      each_surface([&](const SurfacePtr& surface) { add(self_intersection(surface), {surface, surface}, style, lines.hidden); });
+      each_surface([&](const SurfacePtr& surface) {
+        add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+      });
     } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
       add_edges(**body, kind, style, lines.hidden);
     } else {
@@ -339,8 +341,8 @@ class Collector {
           hosts_.push_back({body.faces[part.face].surface, part.contour.images[0]});
           for (const double cusp : part.contour.cusps)
             if (t.contains(cusp)) cusps_.push_back(cusp);
-          stroke(t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t), style,
-                 hidden);
+          stroke(t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t),
+                 style, hidden);
         };
         add_part({part.t.lo, std::min(part.t.hi, all.hi)});
         if (part.t.hi > all.hi) add_part({all.lo, part.t.hi - all.width()});
@@ -353,8 +355,7 @@ class Collector {
     ViewOf view = view_;
     view.direction_or_eye =
         view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
-    if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
-      add(silhouette(**body, view), **body, style, hidden);
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
     each_surface([&](const SurfacePtr& surface) {
       if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
       add(silhouette(surface, view), {surface}, style, hidden);
@@ -367,7 +368,8 @@ class Collector {
     const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
     if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
       add(plane_section(**body, through, normal), **body, style, hidden);
-    each_surface([&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
+    each_surface(
+        [&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
   }
 
   void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {

@@ -29,11 +29,11 @@ struct Stroke {
   };
   geometry::CurvePtr curve;
   geometry::Affine to_world;
-  std::string kind;         // boundary, sharp, ...; control_polygon, ... of helpers
-  std::vector<Host> hosts;  // of drawings
+  std::string kind;           // boundary, sharp, ...; control_polygon, ... of helpers
+  std::vector<Host> hosts;    // of drawings
   std::vector<double> cusps;  // of silhouettes, by t: the picture turns back there
-  bool drawn = true;        // else it is only there for what it hides: the outlines of all surfaces
-  bool outlines = false;    // where surfaces end as seen: what others are hidden by ends there
+  bool drawn = true;          // else it is only there for what it hides: the outlines of all surfaces
+  bool outlines = false;      // where surfaces end as seen: what others are hidden by ends there
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
   int object = 0;                  // its number in World::objects()

@@ -49,6 +49,7 @@ void add_evaluate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
+void add_draw(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_types(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);

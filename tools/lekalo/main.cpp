@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   command::add_test(app, action);
   command::add_measure(app, action);
   command::add_trace(app, action);
+  command::add_draw(app, action);
   command::add_export(app, action);
   command::add_types(app, action);
   command::add_schema(app, action);
