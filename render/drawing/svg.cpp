@@ -98,14 +98,15 @@ class Writer {
     group.clear();
   }
 
-  std::string point(const Vec2& p) const { return number(p.x * scale_) + " " + number(p.y * scale_); }
+  std::string point(const Vec2& p) const { return fmt::format("{} {}", number(p.x * scale_), number(p.y * scale_)); }
 
   std::string data_of(const Path& path) const {
-    std::string data = "M" + point(path.from);
+    std::string data = fmt::format("M{}", point(path.from));
     for (const PathStep& step : path.steps)
-      data += step.straight ? " L" + point(step.to)
-                            : " C" + point(step.first) + " " + point(step.second) + " " + point(step.to);
-    return data + (path.closed ? " Z" : "");
+      data += step.straight ? fmt::format(" L{}", point(step.to))
+                            : fmt::format(" C{} {} {}", point(step.first), point(step.second), point(step.to));
+    if (path.closed) data += " Z";
+    return data;
   }
 
   static std::string attributes(const LineLook& look) {
@@ -114,7 +115,7 @@ class Writer {
     if (look.opacity < 1) text += fmt::format(" stroke-opacity=\"{}\"", number(look.opacity));
     if (!look.dash.empty()) {
       std::string dash;
-      for (const double length : look.dash) dash += (dash.empty() ? "" : " ") + number(length);
+      for (const double length : look.dash) dash += fmt::format("{}{}", dash.empty() ? "" : " ", number(length));
       text += fmt::format(" stroke-dasharray=\"{}\"", dash);
     }
     if (look.cap == LineLook::Cap::round) text += " stroke-linecap=\"round\"";
@@ -130,14 +131,15 @@ class Writer {
     const double r = mark.radius;
     const std::string color = color_text(mark.line.color);
     const std::string fill = mark.fill ? color_text(*mark.fill) : color;
-    const auto lines = [&](const char* data) {
-      return fmt::format("<path class=\"mark\" d=\"{}\" {}/>\n", data, attributes(mark.line));
+    const auto lines = [&](const std::string& first, const std::string& second) {
+      return fmt::format("<path class=\"mark\" d=\"{} {}\" {}/>\n", first, second, attributes(mark.line));
     };
     const auto path = [&](std::initializer_list<Vec2> points, bool closed) {
       std::string data;
       for (const Vec2& p : points)
-        data += (data.empty() ? "M" : " L") + number(at.x + r * p.x) + " " + number(at.y + r * p.y);
-      return data + (closed ? " Z" : "");
+        data += fmt::format("{}{} {}", data.empty() ? "M" : " L", number(at.x + r * p.x), number(at.y + r * p.y));
+      if (closed) data += " Z";
+      return data;
     };
     const auto filled = [&](const std::string& data) {
       return fmt::format("<path class=\"mark\" d=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>\n", data, fill,
@@ -155,11 +157,10 @@ class Writer {
                              attributes(mark.line));
         break;
       case Mark::Sign::cross:
-        text_ +=
-            lines((path({{-0.7, -0.7}, {0.7, 0.7}}, false) + " " + path({{-0.7, 0.7}, {0.7, -0.7}}, false)).c_str());
+        text_ += lines(path({{-0.7, -0.7}, {0.7, 0.7}}, false), path({{-0.7, 0.7}, {0.7, -0.7}}, false));
         break;
       case Mark::Sign::plus:
-        text_ += lines((path({{-1, 0}, {1, 0}}, false) + " " + path({{0, -1}, {0, 1}}, false)).c_str());
+        text_ += lines(path({{-1, 0}, {1, 0}}, false), path({{0, -1}, {0, 1}}, false));
         break;
       case Mark::Sign::square:
         text_ += filled(path({{-0.8, -0.8}, {0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}}, true));
