@@ -17,10 +17,11 @@ _lekalo() {
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render make compare test check measure evaluate trace export schema types --help --version'
+      words='render make draw compare test check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
         render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
+        draw) words='-o --output --set --allow-external --quiet --stats' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         check) words='--set --allow-external' ;;

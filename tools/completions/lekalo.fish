@@ -1,8 +1,8 @@
 # fish completion for lekalo(1)
 
-set -l commands render make compare test check measure evaluate trace export schema types
+set -l commands render make draw compare test check measure evaluate trace export schema types
 complete -c lekalo -n "not __fish_seen_subcommand_from $commands" -f
-for line in 'render:render the pictures of a scene' 'make:write all outputs of a scene' \
+for line in 'render:render the pictures of a scene' 'make:write all outputs of a scene' 'draw:draw a scene as lines' \
         'compare:compare two images' 'test:run a regression suite' 'check:report all errors of a scene file' \
         'measure:lengths, areas, volumes, topology' 'evaluate:a point with derivatives and curvatures' 'trace:all hits of rays' \
         'export:write a scene for another program' 'schema:print the JSON Schema of scene files' 'types:list or describe types'
@@ -24,13 +24,13 @@ complete -c lekalo -n $picture -l frames -x -d 'name=a..b:n'
 complete -c lekalo -n $picture -l watch -d 'render again when a file changes'
 complete -c lekalo -n $picture -l representation -x -a 'direct mesh' -d 'of every object'
 complete -c lekalo -n $picture -l resume -r -d 'go on with an interrupted rendering'
-complete -c lekalo -n $picture -l stats -d 'print rays, times, memory'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw' -l stats -d 'print what was done, times, memory'
 complete -c lekalo -n $picture -l stamp -d 'put date, machine and path into outputs'
-complete -c lekalo -n '__fish_seen_subcommand_from render make export' -s o -l output -r -d 'output file'
-complete -c lekalo -n '__fish_seen_subcommand_from render make check measure evaluate trace export' -l set -x -d 'name=value'
-complete -c lekalo -n '__fish_seen_subcommand_from render make check measure evaluate trace export test' -l allow-external -d 'let the scene run foreign code'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw export' -s o -l output -r -d 'output file'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export' -l set -x -d 'name=value'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export test' -l allow-external -d 'let the scene run foreign code'
 complete -c lekalo -n '__fish_seen_subcommand_from compare test measure evaluate trace' -l json -d 'print JSON'
-complete -c lekalo -n '__fish_seen_subcommand_from render make compare test export' -l quiet -d 'print errors only'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw compare test export' -l quiet -d 'print errors only'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l metric -x -a 'flip rmse psnr ssim max' -d 'what to measure'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l threshold -x -d 'largest difference'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l layer -x -d 'layer of EXR files'

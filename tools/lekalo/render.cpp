@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "command.h"
+#include "draw.h"
 #include "engine.h"
 #include "frames.h"
 #include "picture.h"
@@ -180,10 +181,18 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
   const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
                                               [](const OutputFile& file) { return file.kind == "render"; });
-  for (auto file = drawings; file != outputs.end(); ++file)
-    fmt::print(stderr, "{}: not made: this version makes pictures (exr, png) and no drawings\n", file->path);
-  const int code = drawings == outputs.end() ? kDone : kFileError;
+  int code = kDone;
+  std::vector<std::string> drawn;
+  for (auto file = drawings; file != outputs.end(); ++file) {
+    if (is_drawn(file->path)) {
+      drawn.push_back(file->path);
+      continue;
+    }
+    fmt::print(stderr, "{}: not made: this version draws svg\n", file->path);
+    code = kFileError;
+  }
   outputs.erase(drawings, outputs.end());
+  if (!drawn.empty()) draw_files(model, drawn, {options.quiet, options.stats});
   if (outputs.empty()) return code;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;

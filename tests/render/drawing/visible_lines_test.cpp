@@ -1,0 +1,184 @@
+// What is seen of lines, against what is known of convex bodies, spheres and discs in any view.
+#include "render/drawing/visible_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/curves/segment.h"
+#include "render/drawing/paths.h"
+#include "render/scene/look.h"
+#include "render/small_scene.h"
+#include "support/tier.h"
+
+namespace lekalo::render {
+namespace {
+
+using namespace geometry;
+
+class Views {
+ public:
+  explicit Views(unsigned seed) : random_(seed) {}
+  double number(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
+  Vec3 direction() {
+    Vec3 v(number(-1, 1), number(-1, 1), number(-1, 1));
+    while (glm::length(v) > 1 || glm::length(v) < 0.2) v = {number(-1, 1), number(-1, 1), number(-1, 1)};
+    return glm::normalize(v);
+  }
+  // From all around, every second one central.
+  void look(SmallScene& scene, bool central) {
+    scene.model.film.width = 600;
+    scene.model.film.height = 500;
+    const Vec3 from = number(7, 15) * direction();
+    if (central)
+      scene.model.camera = make_camera(PerspectiveView{from, {0, 0, 0}, direction(), 1.0}, 600, 500);
+    else
+      scene.model.camera = make_camera(ParallelView{from, {0, 0, 0}, direction(), 8}, 600, 500);
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+void show(SmallScene& scene, Entity shape, const std::vector<std::string>& kinds, int parameter_lines = 0) {
+  Look look;
+  look.lines.emplace();
+  for (const std::string& kind : kinds) look.lines->styles[kind] = Style();
+  look.lines->at_u.count = look.lines->at_v.count = parameter_lines;
+  ClassicLook white;
+  scene.add(std::move(shape), make_material(white));
+  scene.model.objects.back().look = std::make_shared<const Look>(look);
+}
+
+// Towards the viewer from a point.
+Vec3 towards(const Camera& camera, const Vec3& p) {
+  if (camera.is_parallel()) return -camera.view_direction();
+  return glm::normalize(camera.ray(0.5 * camera.width(), 0.5 * camera.height()).origin - p);
+}
+
+// An edge of a box is hidden, by one face for each of its own that look at the viewer elsewhere, where both of its
+// faces look away.
+TEST(VisibleLines, EdgesOfBoxes) {
+  Views views(3);
+  for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+    SmallScene scene;
+    const Vec3 size(views.number(1, 3), views.number(1, 3), views.number(1, 3));
+    Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
+    frame.origin = -frame.direction(0.5 * size);
+    show(scene, std::make_shared<Body>(box(frame, size)), {"sharp"});
+    views.look(scene, k % 2);
+    const auto world = scene.world();
+    const VisibleLines found = visible_lines(*world);
+    ASSERT_EQ(found.lines.size(), 12u);
+    for (const VisibleLine& line : found.lines) {
+      ASSERT_EQ(line.pieces.size(), 1u);
+      const Interval domain = line.stroke.curve->domain();
+      EXPECT_EQ(line.pieces[0].t.lo, domain.lo);
+      EXPECT_EQ(line.pieces[0].t.hi, domain.hi);
+      const Vec3 middle = line.stroke.curve->point(domain.middle());
+      bool seen = false;
+      for (const Stroke::Host& host : line.stroke.hosts) {
+        Vec3 normal = host.surface->normal(0, 0);
+        if (glm::dot(normal, middle) < 0) normal = -normal;  // outward: the box stands about the origin
+        seen = seen || glm::dot(normal, towards(*world->model().camera, middle)) > 0;
+      }
+      EXPECT_EQ(line.pieces[0].layers, seen ? 0 : 1);
+    }
+  }
+}
+
+// Of a sphere's outline all is seen, of its parameter lines what looks at the viewer: the change is where the normal
+// stands across the way of sight.
+TEST(VisibleLines, ParameterLinesOfSpheres) {
+  Views views(5);
+  int changes = 0;
+  for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+    SmallScene scene;
+    const double radius = views.number(1, 2.5);
+    const auto ball =
+        std::make_shared<SphereSurface>(frame_from({0, 0, 0}, views.direction(), views.direction()), radius);
+    show(scene, SurfacePtr(ball), {"silhouette", "parameter"}, 5);
+    views.look(scene, k % 2);
+    const auto world = scene.world();
+    const Camera& camera = *world->model().camera;
+    const VisibleLines found = visible_lines(*world);
+    EXPECT_EQ(found.incomplete, 0);
+    for (const VisibleLine& line : found.lines) {
+      const auto facing = [&](double t) {
+        const Vec3 p = line.stroke.curve->point(t);
+        return glm::dot(p / radius, towards(camera, p));
+      };
+      if (line.stroke.kind == "silhouette") {
+        for (const VisiblePiece& piece : line.pieces) EXPECT_EQ(piece.layers, 0);
+        continue;
+      }
+      for (const VisiblePiece& piece : line.pieces) {
+        EXPECT_EQ(piece.layers, facing(piece.t.middle()) > 0 ? 0 : 1);
+        const Interval domain = line.stroke.curve->domain();
+        for (const double t : {piece.t.lo, piece.t.hi})
+          if (t != domain.lo && t != domain.hi) ++changes, EXPECT_NEAR(facing(t), 0, 1e-7);
+      }
+    }
+  }
+  EXPECT_GT(changes, 100);
+  tests::report_figure("changes", changes);
+}
+
+// A needle through a ball, one behind it and one before it.
+TEST(VisibleLines, NeedlesAndABall) {
+  SmallScene scene;
+  show(scene, sphere({0, 0, 0}, 1), {});
+  for (const double y : {0.0, 2.0, -2.0})
+    show(scene, CurvePtr(std::make_shared<Segment>(Vec3(-3, y, 0.6), Vec3(3, y, 0.6))), {"curve"});
+  scene.model.film.width = 600, scene.model.film.height = 500;
+  scene.model.camera = make_camera(ParallelView{{0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 8}, 600, 500);
+  const VisibleLines found = visible_lines(*scene.world());
+  ASSERT_EQ(found.lines.size(), 3u);
+  // They enter at x = -0.8, of [-3, 3]. Inside of the ball one sheet is before them, behind it two.
+  for (int k = 0; k < 2; ++k) {
+    const auto& pieces = found.lines[k].pieces;
+    ASSERT_EQ(pieces.size(), 3u);
+    EXPECT_NEAR(pieces[0].t.hi, 2.2 / 6, 1e-9);
+    EXPECT_NEAR(pieces[1].t.hi, 3.8 / 6, 1e-9);
+    EXPECT_EQ(pieces[0].layers, 0);
+    EXPECT_EQ(pieces[1].layers, k == 0 ? 1 : 2);
+    EXPECT_EQ(pieces[2].layers, 0);
+  }
+  ASSERT_EQ(found.lines[2].pieces.size(), 1u);
+  EXPECT_EQ(found.lines[2].pieces[0].layers, 0);
+}
+
+TEST(FittedPaths, LieOnThePictures) {
+  SmallScene scene;
+  show(scene, sphere({0, 0, 0}, 2), {"silhouette", "parameter"}, 7);
+  Views views(11);
+  views.look(scene, true);
+  const auto world = scene.world();
+  for (const VisibleLine& line : visible_lines(*world).lines)
+    for (const VisiblePiece& piece : line.pieces) {
+      const Path path = fitted_path(*line.curve, piece.t, {}, 0.01);
+      Vec2 from = path.from;
+      for (const PathStep& step : path.steps) {
+        for (const double s : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+          const double r = 1 - s;
+          const Vec2 p = step.straight ? r * from + s * step.to
+                                       : r * r * r * from + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
+                                             s * s * s * step.to;
+          double nearest = kInfinity;
+          for (size_t cell = 0; cell < line.curve->cells().size(); ++cell) {
+            const auto& of = line.curve->cells()[cell];
+            if (glm::length(0.5 * (of.begin + of.end) - p) > 60) continue;
+            for (int i = 0; i <= 200; ++i)
+              nearest = std::min(nearest, glm::length(line.curve->place(of.t.lo + of.t.width() * i / 200).p - p));
+          }
+          EXPECT_LT(nearest, 0.07);  // between places that are 0.12 pixels apart
+        }
+        from = step.to;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace lekalo::render
