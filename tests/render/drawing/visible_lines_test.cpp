@@ -118,7 +118,10 @@ TEST(VisibleLines, ParameterLinesOfSpheres) {
         EXPECT_EQ(piece.layers, facing(piece.t.middle()) > 0 ? 0 : 1);
         const Interval domain = line.stroke.curve->domain();
         for (const double t : {piece.t.lo, piece.t.hi})
-          if (t != domain.lo && t != domain.hi) ++changes, EXPECT_NEAR(facing(t), 0, 1e-7);
+          if (t != domain.lo && t != domain.hi) {
+            ++changes;
+            EXPECT_NEAR(facing(t), 0, 1e-7);
+          }
       }
     }
   }
