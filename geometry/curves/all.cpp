@@ -11,6 +11,7 @@
   X(arc_through_points_type)      \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
+  X(basis_function_type)          \
   X(formula_curve_type)           \
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \

@@ -34,8 +34,9 @@ class Camera {
   // Width of one pixel at the given place, in scene units.
   virtual double pixel_size(const Vec3& point) const = 0;
   virtual bool is_parallel() const = 0;
-  virtual Vec3 view_direction() const = 0;  // unit, from the viewer into the scene
-  virtual int width() const = 0;            // pixels of the full picture
+  virtual bool is_graph() const { return false; }  // x and y are scaled independently: axes may stand beside it
+  virtual Vec3 view_direction() const = 0;         // unit, from the viewer into the scene
+  virtual int width() const = 0;                   // pixels of the full picture
   virtual int height() const = 0;
 };
 using CameraPtr = std::shared_ptr<const Camera>;

@@ -38,6 +38,7 @@ class GraphCamera final : public Camera {
     return std::min((x_.hi - x_.lo) / width_, (y_.hi - y_.lo) / height_);
   }
   bool is_parallel() const override { return true; }
+  bool is_graph() const override { return true; }
   Vec3 view_direction() const override { return {0, 0, -1}; }
   int width() const override { return width_; }
   int height() const override { return height_; }

@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "render/lines/curve_helpers.h"
 #include "render/scene/model.h"
 
 namespace lekalo::render {
@@ -73,12 +74,14 @@ void add(const std::vector<Object>& objects, const Affine& map, bool closely, st
   for (const Object& object : objects) {
     const Affine placed = map * object.transform;
     const auto* group = std::get_if<GroupPtr>(&object.shape);
-    if (group && closely)
+    if (group && closely) {
       add((*group)->objects, placed, closely, points);
-    else if (closely)
+    } else if (closely) {
       add(object.shape, placed, points);
-    else
+      for (const Vec3& p : helper_points(object)) points.push_back(placed.point(p));
+    } else {
       add_corners(bounds(object.shape), placed, points);
+    }
   }
 }
 

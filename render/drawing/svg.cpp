@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
-#include "render/drawing/paths.h"
+#include "render/drawing/cairo_output.h"
+#include "render/drawing/fonts.h"
 #include "render/image/display.h"
 
 namespace lekalo::render {
 
 namespace {
-
-constexpr double kFitted = 0.01;  // pixels
 
 // Millimetres with four decimals: a ten-thousandth of what is seen.
 std::string number(double x) {
@@ -21,6 +22,8 @@ std::string number(double x) {
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
+
+std::string point(const Vec2& p) { return fmt::format("{} {}", number(p.x), number(p.y)); }
 
 std::string escaped(std::string_view text) {
   std::string result;
@@ -46,145 +49,160 @@ std::string color_text(const Spectrum& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(color[0]), byte(color[1]), byte(color[2]));
 }
 
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t three = 0;
+    for (size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) result += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return result;
+}
+
+// Behind what is there already.
+void append(std::string& data, const Path& path) {
+  data += fmt::format("{}M{}", data.empty() ? "" : " ", point(path.from));
+  for (const PathStep& step : path.steps)
+    data += step.straight ? fmt::format(" L{}", point(step.to))
+                          : fmt::format(" C{} {} {}", point(step.first), point(step.second), point(step.to));
+  if (path.closed) data += " Z";
+}
+
 class Writer {
  public:
-  Writer(const VisibleLines& drawing, const Model& model, const std::vector<std::string>& names)
-      : drawing_(drawing), model_(model), names_(names), scale_(millimetres_of_pixel(model)) {}
+  Writer(const Sheet& sheet, const SvgOptions& options) : sheet_(sheet), options_(options) {}
 
   std::string write() {
-    const double width = model_.film.width * scale_, height = model_.film.height * scale_;
+    std::string body;
+    std::swap(text_, body);
+    items(sheet_.items);
+    std::swap(text_, body);
     text_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     text_ += fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} "
-        "{1}\">\n",
-        number(width), number(height));
-    if (!model_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(model_.title));
-    text_ += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(width),
-                         number(height), color_text(rgb(model_.drawing.paper)));
-    text_ += "<g fill=\"none\" stroke-linejoin=\"round\">\n";
-    // What is hidden lies under what is seen.
-    for (const bool hidden : {true, false}) write_lines(hidden);
-    for (const VisibleMark& mark : drawing_.marks) write_mark(mark);
-    text_ += "</g>\n</svg>\n";
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" "
+        "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
+        number(sheet_.width), number(sheet_.height));
+    if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(sheet_.title));
+    write_fonts();
+    text_ += clips_;
+    text_ += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(sheet_.width),
+                         number(sheet_.height), color_text(sheet_.paper));
+    text_ += "<g fill=\"none\" stroke-linejoin=\"round\">\n" + body + "</g>\n</svg>\n";
     return std::move(text_);
   }
 
  private:
-  void write_lines(bool hidden) {
-    std::string group;
-    for (const VisibleLine& line : drawing_.lines) {
-      const LineLook* look = hidden ? line.stroke.hidden ? &*line.stroke.hidden : nullptr : &line.stroke.look;
-      if (!look) continue;
-      std::vector<double> breaks;
-      for (const geometry::CurvePiece& piece : line.stroke.curve->pieces()) breaks.push_back(piece.domain.lo);
-      for (const VisiblePiece& piece : line.pieces) {
-        if ((piece.layers > 0) != hidden) continue;
-        const std::string name =
-            fmt::format("{} {}{}", names_[line.stroke.object], line.stroke.kind, hidden ? " hidden" : "");
-        if (name != group) {
-          close(group);
-          group = name;
-          text_ += fmt::format("<g class=\"{}{}\" data-object=\"{}\">\n", line.stroke.kind, hidden ? " hidden" : "",
-                               escaped(names_[line.stroke.object]));
-        }
-        text_ += fmt::format("<path d=\"{}\" {}/>\n", data_of(fitted_path(*line.curve, piece.t, breaks, kFitted)),
-                             attributes(*look));
-      }
+  void items(const std::vector<SheetItem>& list) {
+    for (const SheetItem& item : list) std::visit([&](const auto& one) { write(one); }, item);
+  }
+
+  void write(const SheetGroup& group) {
+    if (group.items.empty()) return;
+    text_ += fmt::format("<g class=\"{}\"", escaped(group.kind));
+    if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", escaped(group.object));
+    if (group.clip_at) {
+      const int id = ++clip_count_;
+      clips_ += fmt::format("<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
+                            id, number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x),
+                            number(group.clip_size.y));
+      text_ += fmt::format(" clip-path=\"url(#clip{})\"", id);
     }
-    close(group);
-  }
-  void close(std::string& group) {
-    if (!group.empty()) text_ += "</g>\n";
-    group.clear();
+    text_ += ">\n";
+    items(group.items);
+    text_ += "</g>\n";
   }
 
-  std::string point(const Vec2& p) const { return fmt::format("{} {}", number(p.x * scale_), number(p.y * scale_)); }
-
-  std::string data_of(const Path& path) const {
-    std::string data = fmt::format("M{}", point(path.from));
-    for (const PathStep& step : path.steps)
-      data += step.straight ? fmt::format(" L{}", point(step.to))
-                            : fmt::format(" C{} {} {}", point(step.first), point(step.second), point(step.to));
-    if (path.closed) data += " Z";
-    return data;
+  void write(const SheetPath& path) {
+    std::string data;
+    for (const Path& part : path.parts) append(data, part);
+    text_ += fmt::format("<path d=\"{}\"", data);
+    if (path.brush) {
+      text_ += fmt::format(" fill=\"{}\"", color_text(path.brush->color));
+      if (path.brush->opacity < 1) text_ += fmt::format(" fill-opacity=\"{}\"", number(path.brush->opacity));
+      if (path.parts.size() > 1) text_ += " fill-rule=\"evenodd\"";
+    }
+    if (path.pen) text_ += pen_text(*path.pen);
+    text_ += "/>\n";
   }
 
-  static std::string attributes(const LineLook& look) {
+  static std::string pen_text(const LineLook& pen) {
     std::string text =
-        fmt::format("stroke=\"{}\" stroke-width=\"{}\"", color_text(look.color), number(2 * look.half_width));
-    if (look.opacity < 1) text += fmt::format(" stroke-opacity=\"{}\"", number(look.opacity));
-    if (!look.dash.empty()) {
+        fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", color_text(pen.color), number(2 * pen.half_width));
+    if (pen.opacity < 1) text += fmt::format(" stroke-opacity=\"{}\"", number(pen.opacity));
+    if (!pen.dash.empty()) {
       std::string dash;
-      for (const double length : look.dash) dash += fmt::format("{}{}", dash.empty() ? "" : " ", number(length));
+      for (const double length : pen.dash) dash += fmt::format("{}{}", dash.empty() ? "" : " ", number(length));
       text += fmt::format(" stroke-dasharray=\"{}\"", dash);
     }
-    if (look.cap == LineLook::Cap::round) text += " stroke-linecap=\"round\"";
-    if (look.cap == LineLook::Cap::square) text += " stroke-linecap=\"square\"";
+    if (pen.cap == LineLook::Cap::round) text += " stroke-linecap=\"round\"";
+    if (pen.cap == LineLook::Cap::square) text += " stroke-linecap=\"square\"";
+    if (pen.join == LineLook::Join::miter) text += " stroke-linejoin=\"miter\"";
+    if (pen.join == LineLook::Join::bevel) text += " stroke-linejoin=\"bevel\"";
     return text;
   }
 
-  void write_mark(const VisibleMark& visible) {
-    const Mark& mark = visible.mark;
-    const double opacity = visible.layers > 0 ? mark.hidden_opacity.value_or(0) : mark.line.opacity;
-    if (!(opacity > 0)) return;
-    const Vec2 at = visible.place * scale_;
-    const double r = mark.radius;
-    const std::string color = color_text(mark.line.color);
-    const std::string fill = mark.fill ? color_text(*mark.fill) : color;
-    const auto lines = [&](const std::string& first, const std::string& second) {
-      return fmt::format("<path class=\"mark\" d=\"{} {}\" {}/>\n", first, second, attributes(mark.line));
-    };
-    const auto path = [&](std::initializer_list<Vec2> points, bool closed) {
+  void write(const SheetText& text) {
+    const std::string color = color_text(text.brush.color);
+    const std::string opacity =
+        text.brush.opacity < 1 ? fmt::format(" opacity=\"{}\"", number(text.brush.opacity)) : std::string();
+    text_ += fmt::format("<g transform=\"translate({})", point(text.at));
+    if (text.angle != 0) text_ += fmt::format(" rotate({})", number(-text.angle * 180 / geometry::kPi));
+    text_ += fmt::format("\"{}>", opacity);
+    if (options_.outlines) {
       std::string data;
-      for (const Vec2& p : points)
-        data += fmt::format("{}{} {}", data.empty() ? "M" : " L", number(at.x + r * p.x), number(at.y + r * p.y));
-      if (closed) data += " Z";
-      return data;
-    };
-    const auto filled = [&](const std::string& data) {
-      return fmt::format("<path class=\"mark\" d=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>\n", data, fill,
-                         number(opacity));
-    };
-    switch (mark.sign) {
-      case Mark::Sign::dot:
-      case Mark::Sign::ball:
-        text_ += fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>\n",
-                             number(at.x), number(at.y), number(r), fill, number(opacity));
-        break;
-      case Mark::Sign::circle:
-        text_ += fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" {}/>\n", number(at.x),
-                             number(at.y), number(r), mark.fill ? fill : color_text(rgb(model_.drawing.paper)),
-                             attributes(mark.line));
-        break;
-      case Mark::Sign::cross:
-        text_ += lines(path({{-0.7, -0.7}, {0.7, 0.7}}, false), path({{-0.7, 0.7}, {0.7, -0.7}}, false));
-        break;
-      case Mark::Sign::plus:
-        text_ += lines(path({{-1, 0}, {1, 0}}, false), path({{0, -1}, {0, 1}}, false));
-        break;
-      case Mark::Sign::square:
-        text_ += filled(path({{-0.8, -0.8}, {0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}}, true));
-        break;
-      case Mark::Sign::triangle:
-        text_ += filled(path({{0, -1}, {0.87, 0.5}, {-0.87, 0.5}}, true));
-        break;
-      case Mark::Sign::diamond:
-        text_ += filled(path({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, true));
-        break;
+      for (const TextRun& run : text.runs)
+        for (const Path& outline : text_outlines(run)) append(data, outline);
+      if (!data.empty()) text_ += fmt::format("<path d=\"{}\" fill=\"{}\"/>", data, color);
+    } else if (!text.runs.empty()) {
+      text_ += fmt::format("<text fill=\"{}\" xml:space=\"preserve\">", color);
+      for (const TextRun& run : text.runs) {
+        used_[run.font] += run.text;
+        text_ += fmt::format("<tspan x=\"{}\" y=\"{}\" font-family=\"{}\" font-size=\"{}\"{}{}>{}</tspan>",
+                             number(run.at.x), number(run.at.y), escaped(run.font.family), number(run.size),
+                             run.font.italic ? " font-style=\"italic\"" : "",
+                             run.font.bold ? " font-weight=\"bold\"" : "", escaped(run.text));
+      }
+      text_ += "</text>";
     }
+    std::string strokes;
+    for (const Path& stroke : text.strokes) append(strokes, stroke);
+    if (!strokes.empty())
+      text_ +=
+          fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>", strokes, color, number(text.stroke_width));
+    text_ += "</g>\n";
   }
 
-  const VisibleLines& drawing_;
-  const Model& model_;
-  const std::vector<std::string>& names_;
-  double scale_;  // millimetres of a pixel
-  std::string text_;
+  void write(const SheetPicture& picture) {
+    text_ += fmt::format(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+        "xlink:href=\"data:image/png;base64,{}\"/>\n",
+        number(picture.at.x), number(picture.at.y), number(picture.width), number(picture.height),
+        base64(png_bytes(*picture.picture)));
+  }
+
+  void write_fonts() {
+    if (used_.empty()) return;
+    text_ += "<style>\n";
+    for (const auto& [font, characters] : used_)
+      text_ += fmt::format(
+          "@font-face {{ font-family: \"{}\"; font-style: {}; font-weight: {}; src: "
+          "url(data:font/ttf;base64,{}); }}\n",
+          font.family, font.italic ? "italic" : "normal", font.bold ? "bold" : "normal",
+          base64(font_subset(font, characters)));
+    text_ += "</style>\n";
+  }
+
+  const Sheet& sheet_;
+  const SvgOptions& options_;
+  std::string text_, clips_;
+  std::map<Font, std::string> used_;  // characters
+  int clip_count_ = 0;
 };
 
 }  // namespace
 
-std::string svg_of(const VisibleLines& drawing, const Model& model, const std::vector<std::string>& object_names) {
-  return Writer(drawing, model, object_names).write();
-}
+std::string svg_of(const Sheet& sheet, const SvgOptions& options) { return Writer(sheet, options).write(); }
 
 }  // namespace lekalo::render

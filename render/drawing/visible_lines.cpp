@@ -21,6 +21,11 @@ namespace {
 constexpr double kTouch = 1e-9;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
+// A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
+constexpr double kSameTurn = 0.01;
+// How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
+// way of sight for that, times the radius.
+constexpr double kAside = 1e-6, kBends = 1e-2;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -72,9 +77,8 @@ class Drawing {
   Drawing(const World& world, const std::function<void(double)>& progress)
       : world_(world), camera_(*world.model().camera), progress_(progress) {}
 
-  VisibleLines run() {
+  VisibleLines run(LineWork work) {
     auto begin = std::chrono::steady_clock::now();
-    LineWork work = drawing_work(world_);
     result_.incomplete = work.incomplete;
     for (Stroke& stroke : work.strokes) {
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
@@ -102,6 +106,11 @@ class Drawing {
       const PicturePoint at = camera_.project(mark.point);
       if (at.visible_side) result_.marks.push_back({mark, {at.x, at.y}, layers_before(mark.point)});
     }
+    for (PointText& text : work.texts) {
+      const PicturePoint at = camera_.project(text.point);
+      const int layers = text.hidden_opacity < 1 ? layers_before(text.point) : 0;
+      if (at.visible_side) result_.texts.push_back({std::move(text), {at.x, at.y}, layers});
+    }
     return std::move(result_);
   }
 
@@ -111,17 +120,32 @@ class Drawing {
   std::vector<double> events_of(int line, const PictureCrossings& crossings) {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
+    add_own_outlines(stroke, events);
+    std::vector<Vec2> turns;  // where it goes round its own surface, and only touches the outline in the picture
+    for (const double t : events) turns.push_back(curves_[line]->place(t).p);
     crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       const double near = kTouch * world_.radius();
+      if (outline != line && share_host(strokes_[outline], stroke)) {
+        const Vec2 place = curves_[line]->place(crossing.t).p;
+        for (const Vec2& turn : turns)
+          if (glm::length(place - turn) < kSameTurn) return;
+      }
       if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
         events.push_back(crossing.t);
     });
-    add_own_outlines(stroke, events);
     add_piercings(stroke, events);
     for (const CurvePiece& piece : stroke.curve->pieces()) events.push_back(piece.domain.lo);
     return events;
+  }
+
+  static bool share_host(const Stroke& a, const Stroke& b) {
+    if (a.object != b.object) return false;
+    for (const Stroke::Host& one : a.hosts)
+      for (const Stroke::Host& other : b.hosts)
+        if (one.surface == other.surface) return true;
+    return false;
   }
 
   // Where the line goes round a surface on which it lies.
@@ -181,7 +205,40 @@ class Drawing {
       }
   }
 
-  int layers_at(int line, double t) { return layers_before(curves_[line]->tangent(t).origin); }
+  int layers_at(int line, double t) { return layers_before(probe(line, t)); }
+
+  // The point at which a ray is aimed for a point of a line. Rays along an outline touch its surface, and rays to a
+  // border of a surface meet it or not: both are found slowly, so that they are aimed a little outside of the outline,
+  // where its surface does not go, and a little inside of the border.
+  Vec3 probe(int line, double t) const {
+    const Stroke& stroke = strokes_[line];
+    const Vec3 exact = curves_[line]->tangent(t).origin;
+    if (stroke.hosts.size() != 1) return exact;
+    const Surface& surface = *stroke.hosts[0].surface;
+    Vec3 uv = stroke.hosts[0].image->point(t);
+    if (stroke.kind == "silhouette") {
+      const SurfaceJet s = surface.evaluate(uv.x, uv.y, 2);
+      const Affine back = stroke.to_world.inverse();
+      const Vec3 sight =
+          glm::normalize(back.direction(camera_.is_parallel() ? camera_.view_direction() : exact - eye()));
+      const Vec3 normal = glm::normalize(glm::cross(s.du(), s.dv()));
+      // The way of sight is tangent, sight = a s_u + b s_v: the surface bends to one side along it.
+      const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
+      const double x = glm::dot(sight, s.du()), y = glm::dot(sight, s.dv()), area = e * g - f * f;
+      const double a = (g * x - f * y) / area, b = (e * y - f * x) / area;
+      const double bend = glm::dot(normal, s.duu() * a * a + 2.0 * s.duv() * a * b + s.dvv() * b * b);
+      const double size = world_.radius();
+      if (!(std::abs(bend) * size > kBends)) return exact;
+      const Vec3 out = stroke.to_world.direction(bend > 0 ? -normal : normal);
+      return exact + kAside * size / glm::length(out) * out;
+    }
+    if (stroke.kind != "boundary" || std::holds_alternative<BodyPtr>(world_.objects()[stroke.object]->shape))
+      return exact;
+    const Rectangle domain = surface.domain();
+    uv.x += kAside * (domain.u.middle() - uv.x), uv.y += kAside * (domain.v.middle() - uv.y);
+    return stroke.to_world.point(surface.point(uv.x, uv.y));
+  }
+  Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }
 
   // How many sheets a point lies behind.
   int layers_before(const Vec3& point) {
@@ -261,8 +318,8 @@ class Drawing {
 
 }  // namespace
 
-VisibleLines visible_lines(const World& world, const std::function<void(double)>& progress) {
-  return Drawing(world, progress).run();
+VisibleLines visible_lines(const World& world, LineWork work, const std::function<void(double)>& progress) {
+  return Drawing(world, progress).run(std::move(work));
 }
 
 }  // namespace lekalo::render

@@ -35,6 +35,11 @@ struct VisibleMark {
   Vec2 place{0};  // in pixels
   int layers = 0;
 };
+struct VisibleText {
+  PointText text;
+  Vec2 place{0};  // of its point, in pixels
+  int layers = 0;
+};
 struct LineStatistics {
   int lines = 0, pieces = 0, crossings = 0, rays = 0;
   double seconds_of_lines = 0, seconds_of_crossings = 0, seconds_of_rays = 0;
@@ -42,11 +47,12 @@ struct LineStatistics {
 struct VisibleLines {
   std::vector<VisibleLine> lines;  // drawn ones, in their order
   std::vector<VisibleMark> marks;
+  std::vector<VisibleText> texts;
   int incomplete = 0;  // surfaces whose outlines are not all known
   LineStatistics statistics;
 };
 
-// `progress`: the share that is done.
-VisibleLines visible_lines(const World& world, const std::function<void(double)>& progress = {});
+// Of drawing_work(world), perhaps with lines and points of annotations. `progress`: the share that is done.
+VisibleLines visible_lines(const World& world, LineWork work, const std::function<void(double)>& progress = {});
 
 }  // namespace lekalo::render

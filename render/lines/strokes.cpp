@@ -14,6 +14,7 @@
 #include "geometry/queries/contours.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/surfaces/plane.h"
+#include "render/lines/curve_helpers.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
 #include "render/scene/objects.h"
@@ -83,6 +84,48 @@ bool is_closed_in(const Surface& surface, HeldParameter held) {
   return meets || meets_turned;
 }
 
+LineLook look_of_style(const Style& style, double pixels, double least_width) {
+  LineLook look;
+  const double width = style.width * pixels;
+  look.half_width = 0.5 * std::max(width, least_width);
+  look.opacity = style.opacity * (least_width > 0 ? std::min(width / least_width, 1.0) : 1.0);
+  look.color = rgb(style.color);
+  for (const double length : style.dash) look.dash.push_back(length * pixels);
+  look.cap = style.cap == "round"    ? LineLook::Cap::round
+             : style.cap == "square" ? LineLook::Cap::square
+                                     : LineLook::Cap::butt;
+  look.join = style.join == "miter"   ? LineLook::Join::miter
+              : style.join == "bevel" ? LineLook::Join::bevel
+                                      : LineLook::Join::round;
+  return look;
+}
+
+std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden, double pixels,
+                                    double least_width) {
+  LineLook look = seen;
+  switch (hidden.way) {
+    case HiddenLines::Way::show:
+      return look;
+    case HiddenLines::Way::drop:
+      return std::nullopt;
+    case HiddenLines::Way::dashed:
+      look.dash.clear();
+      if (const auto style = model.styles.find("hidden"); style != model.styles.end())
+        for (const double length : style->second.dash) look.dash.push_back(length * pixels);
+      return look;
+    case HiddenLines::Way::thin:
+      if (least_width > 0) look.opacity *= std::min(1.0, seen.half_width);
+      look.half_width = std::max(0.5 * least_width, 0.5 * seen.half_width);
+      return look;
+    case HiddenLines::Way::faded:
+      look.opacity /= 3;
+      return look;
+    case HiddenLines::Way::styled:
+      return look_of_style(hidden.style, pixels, least_width);
+  }
+  return std::nullopt;
+}
+
 class Collector {
  public:
   explicit Collector(const World& world, bool drawing) : model_(world.model()), drawing_(drawing) {
@@ -95,7 +138,6 @@ class Collector {
           view_.central ? camera.ray(0.5 * camera.width(), 0.5 * camera.height()).origin : camera.view_direction();
     }
     for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
-    if (const auto hidden = model_.styles.find("hidden"); hidden != model_.styles.end()) dashes_ = hidden->second.dash;
     add(model_.objects, Affine());
   }
   LineWork take() { return std::move(work_); }
@@ -120,19 +162,25 @@ class Collector {
           kind_ = helper.type;
           add_helper(helper);
         }
+      if (drawing_ && !object.legend.empty()) add_legend(object);
     }
   }
 
+  // The line or the sign that stands for an object: what there is of it first.
+  void add_legend(const Object& object) {
+    const int number = numbers_.at(&object);
+    LegendEntry entry{object.legend, {}, {}};
+    for (const Stroke& stroke : work_.strokes)
+      if (stroke.object == number && stroke.drawn && (!entry.line || stroke.kind == "curve")) entry.line = stroke.look;
+    if (!entry.line)
+      for (const Mark& mark : work_.marks)
+        if (mark.object == number && !entry.mark) entry.mark = mark;
+    work_.legend.push_back(std::move(entry));
+  }
+
   LineLook look_of(const Style& style) {
-    LineLook look;
-    const double width = style.width * pixels_;
-    look.half_width = 0.5 * std::max(width, least_width_);
-    look.opacity = style.opacity * (least_width_ > 0 ? std::min(width / least_width_, 1.0) : 1.0);
+    LineLook look = look_of_style(style, pixels_, least_width_);
     look.color = rgb(color_of(style));
-    for (const double length : style.dash) look.dash.push_back(length * pixels_);
-    look.cap = style.cap == "round"    ? LineLook::Cap::round
-               : style.cap == "square" ? LineLook::Cap::square
-                                       : LineLook::Cap::butt;
     return look;
   }
 
@@ -144,35 +192,13 @@ class Collector {
     return *hex_color(kPalette[number % std::size(kPalette)]);
   }
 
-  std::optional<LineLook> hidden_of(const LineLook& seen, const HiddenLines& hidden) {
-    LineLook look = seen;
-    switch (hidden.way) {
-      case HiddenLines::Way::drop:
-        return std::nullopt;
-      case HiddenLines::Way::dashed:
-        look.dash.clear();
-        for (const double length : dashes_) look.dash.push_back(length * pixels_);
-        return look;
-      case HiddenLines::Way::thin:
-        if (least_width_ > 0) look.opacity *= std::min(1.0, seen.half_width);
-        look.half_width = std::max(0.5 * least_width_, 0.5 * seen.half_width);
-        return look;
-      case HiddenLines::Way::faded:
-        look.opacity /= 3;
-        return look;
-      case HiddenLines::Way::styled:
-        return look_of(hidden.style);
-    }
-    return std::nullopt;
-  }
-
   void stroke(CurvePtr curve, const Style& style, const HiddenLines& hidden) {
     if (!(curve->domain().width() < kInfinity)) return;
     Stroke stroke;
     stroke.curve = std::move(curve);
     stroke.to_world = to_world_;
     stroke.look = look_of(style);
-    stroke.hidden = hidden_of(stroke.look, hidden);
+    stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, least_width_);
     stroke.object = numbers_.at(object_);
     stroke.order = order_++;
     stroke.kind = kind_;
@@ -181,6 +207,9 @@ class Collector {
     stroke.hosts = std::move(hosts_);
     stroke.cusps = std::move(cusps_);
     hosts_.clear(), cusps_.clear();
+    stroke.arrow_at_start = style.arrows == "start" || style.arrows == "both";
+    stroke.arrow_at_end = style.arrows == "end" || style.arrows == "both";
+    stroke.arrow_size = style.arrow_size;
     work_.strokes.push_back(std::move(stroke));
   }
 
@@ -192,11 +221,11 @@ class Collector {
   }
 
   void mark(const Vec3& point, const std::string& sign, const Style& style, const HiddenLines& hidden) {
-    const auto found = kSigns.find(sign);
-    if (found == kSigns.end()) return;  // none
+    const auto found = mark_sign(sign);
+    if (!found) return;  // none
     Mark mark;
     mark.point = to_world_.point(point);
-    mark.sign = found->second;
+    mark.sign = *found;
     mark.radius = std::max(0.5 * least_width_, 0.5 * style.marker_size * pixels_);
     mark.line = look_of(style);
     mark.line.opacity = style.opacity;
@@ -206,6 +235,25 @@ class Collector {
     mark.object = numbers_.at(object_);
     mark.order = order_++;
     work_.marks.push_back(mark);
+  }
+
+  // The label of a helper's point, for these counters.
+  void label(const Vec3& point, std::initializer_list<double> counters, const Helper& helper) {
+    if (!drawing_ || !helper.values.has("label") || !helper.values.holds<TextTemplate>("label")) return;
+    text(point, helper.values.get<TextTemplate>("label").text({counters.begin(), counters.size()}), helper,
+         helper.values.has("marker") && helper.values.text("marker") != "none");
+  }
+  void text(const Vec3& point, std::string words, const Helper& helper, bool marked) {
+    PointText text;
+    text.point = to_world_.point(point);
+    text.text = std::move(words);
+    text.style = helper.style;
+    text.kind = helper.type;
+    text.distance = 0.6 + (marked ? 0.5 * helper.style.marker_size : 0);
+    if (helper.hidden.way == HiddenLines::Way::drop) text.hidden_opacity = 0;
+    if (helper.hidden.way == HiddenLines::Way::faded) text.hidden_opacity = 1.0 / 3;
+    text.object = numbers_.at(object_);
+    work_.texts.push_back(std::move(text));
   }
 
   void add_lines(const Lines& lines) {
@@ -413,17 +461,27 @@ class Collector {
             control_points(form->points, 0, 1, distinct(form->points.size(), form->degree, closed));
         polygon(points, closed, helper.style, helper.hidden);
         marks(points);
+        for (size_t i = 0; i < points.size(); ++i)
+          if (helper.values.text("label_points") == "all" || i == 0 || i + 1 == points.size())
+            label(points[i], {static_cast<double>(i)}, helper);
       }
     } else if (is_triangle(helper) && curve) {
       if (const auto form = (*curve)->as_nurbs()) add_triangle(*form, sign, helper);
     } else if (helper.type == "knots" && curve) {
       if (const auto form = (*curve)->as_nurbs()) {
-        const std::set<double> knots(form->knots.begin(), form->knots.end());
         std::vector<Vec3> points;
-        for (const double knot : knots)
-          if ((*curve)->domain().contains(knot)) points.push_back((*curve)->point(knot));
+        for (size_t i = 0; i < form->knots.size(); ++i) {
+          const double knot = form->knots[i];
+          if ((i > 0 && form->knots[i - 1] == knot) || !(*curve)->domain().contains(knot)) continue;
+          points.push_back((*curve)->point(knot));
+          label(points.back(), {static_cast<double>(i)}, helper);
+        }
         marks(points);
       }
+    } else if (helper.type == "comb" && curve && drawing_) {
+      add_comb(**curve, helper);
+    } else if (helper.type == "frames" && curve && drawing_) {
+      add_frames(**curve, helper);
     }
     each_surface([&](const SurfacePtr& surface) {
       const auto form = surface->as_nurbs();
@@ -460,6 +518,11 @@ class Collector {
       const std::vector<Vec3> shown = control_points(points, level, 1, p + 1 - level);
       polygon(shown, false, helper.style, helper.hidden);
       for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
+      for (size_t i = 0; i < shown.size(); ++i)
+        label(shown[i],
+              {static_cast<double>(i + (form.degree + 1 == static_cast<int>(form.points.size()) ? 0 : span - p)),
+               static_cast<double>(level)},
+              helper);
     }
   }
 
@@ -488,8 +551,40 @@ class Collector {
     }
     for (int j = 0; j < columns; ++j)
       polygon(control_points(form.points, j, form.count_v(), rows), closed_u, helper.style, helper.hidden);
-    for (const std::vector<Vec3>& row : all)
-      for (const Vec3& point : row) mark(point, sign, helper.style, helper.hidden);
+    const bool corners = helper.values.text("label_points") == "corners";
+    for (size_t i = 0; i < all.size(); ++i)
+      for (size_t j = 0; j < all[i].size(); ++j) {
+        mark(all[i][j], sign, helper.style, helper.hidden);
+        const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
+        if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j)}, helper);
+      }
+  }
+
+  void add_comb(const Curve& curve, const Helper& helper) {
+    const CurvatureComb comb = curvature_comb(curve, helper.values.integer("count"), helper.values.number("scale"));
+    for (size_t k = 0; k < comb.feet.size(); ++k)
+      if (comb.tips[k] != comb.feet[k])
+        stroke(std::make_shared<Segment>(comb.feet[k], comb.tips[k]), helper.style, helper.hidden);
+    if (helper.values.boolean("envelope")) polygon(comb.tips, false, helper.style, helper.hidden);
+  }
+
+  void add_frames(const Curve& curve, const Helper& helper) {
+    const std::vector<Frame> frames = helper_frames(curve, helper);
+    Style style = helper.style;
+    style.arrows = "end";
+    const double length = helper.values.number("length");
+    const std::string& named = helper.values.text("label");
+    for (size_t k = 0; k < frames.size(); ++k) {
+      const bool names = named == "all" || (named == "first" && k == 0) || (named == "last" && k + 1 == frames.size());
+      const auto arrow = [&](const Vec3& axis, const char* name) {
+        const Vec3 tip = frames[k].origin + length * axis;
+        stroke(std::make_shared<Segment>(frames[k].origin, tip), style, helper.hidden);
+        if (names) text(tip, name, helper, false);
+      };
+      arrow(frames[k].z, "$\\mathbf{t}$");
+      arrow(frames[k].x, "$\\mathbf{n}$");
+      arrow(frames[k].y, "$\\mathbf{b}$");
+    }
   }
 
   void add_normals(const Surface& surface, const Helper& helper) {
@@ -510,7 +605,6 @@ class Collector {
   double least_width_ = 1;  // of lines
   ViewOf view_;
   std::map<const Object*, int> numbers_;
-  std::vector<double> dashes_;  // of hidden lines, in millimetres
   std::map<std::string, std::map<const Object*, size_t>> cycles_;
   LineWork work_;
   int order_ = 0;
@@ -524,6 +618,17 @@ class Collector {
 };
 
 }  // namespace
+
+LineLook drawn_look(const Style& style) { return look_of_style(style, 1, 0); }
+
+std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden) {
+  return hidden_look(model, seen, hidden, 1, 0);
+}
+
+std::optional<Mark::Sign> mark_sign(std::string_view name) {
+  const auto found = kSigns.find(name);
+  return found == kSigns.end() ? std::nullopt : std::optional(found->second);
+}
 
 double millimetres_of_pixel(const Model& model) {
   return model.paper.width > 0 ? model.paper.width / model.film.width : kMillimetresPerInch / kPixelsPerInch;

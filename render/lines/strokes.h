@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/look.h"
 #include "render/trace/world.h"
 
 namespace lekalo::render {
@@ -19,6 +20,7 @@ struct LineLook {
   double opacity = 1;
   std::vector<double> dash;  // pixels drawn and left out in turn; empty: solid
   enum class Cap { butt, round, square } cap = Cap::butt;
+  enum class Join { round, miter, bevel } join = Join::round;  // of drawings
 };
 
 struct Stroke {
@@ -36,8 +38,10 @@ struct Stroke {
   bool outlines = false;      // where surfaces end as seen: what others are hidden by ends there
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
-  int object = 0;                  // its number in World::objects()
+  int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
   int order = 0;                   // of lines at the same depth the one of the higher order is seen
+  bool arrow_at_start = false, arrow_at_end = false;  // of drawings
+  double arrow_size = 2;                              // millimetres
 };
 
 // A sign of constant size at a point.
@@ -52,11 +56,40 @@ struct Mark {
   int order = 0;
 };
 
+// A text at a point, of drawings.
+struct PointText {
+  Vec3 point{0};     // in the world
+  std::string text;  // TeX
+  Style style;
+  std::string kind;       // label, ...
+  std::string side;       // above left, ...; empty: where there is room
+  double distance = 0.6;  // millimetres from the point, or the sign at it, to the text
+  bool leader = false;
+  double hidden_opacity = 1;  // of what lies behind something, of its own
+  int object = 0;
+};
+
+// What an object looks like in a legend.
+struct LegendEntry {
+  std::string text;
+  std::optional<LineLook> line;
+  std::optional<Mark> mark;
+};
+
 struct LineWork {
   std::vector<Stroke> strokes;
   std::vector<Mark> marks;
+  std::vector<PointText> texts;  // of drawings, as the legend
+  std::vector<LegendEntry> legend;
   int incomplete = 0;
 };
+
+// How a style's lines look in a drawing, widths in millimetres; and what lies behind something (none: not drawn), with
+// the dashes of the style `hidden`.
+LineLook drawn_look(const Style& style);
+std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden);
+// The sign at points that a scene calls so.
+std::optional<Mark::Sign> mark_sign(std::string_view name);
 
 // Millimetres on the page for one pixel of the picture.
 double millimetres_of_pixel(const Model& model);

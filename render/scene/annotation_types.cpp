@@ -22,6 +22,11 @@ TypeDeclaration annotation(const char* name, const char* description, const char
       .field("style", reference({Category::style}), "of its lines and texts", default_style);
 }
 
+// Of annotations that stand in space.
+TypeDeclaration& with_hidden(TypeDeclaration& type) {
+  return type.field("hidden", hidden_lines(), "what becomes of what lies behind something", "show");
+}
+
 // Builds the annotation when `check` finds nothing wrong.
 TypeDeclaration finish(TypeDeclaration type, void (*check)(const Fields&) = nullptr) {
   return type.built_by([name = type.name, check](const Fields& f) {
@@ -44,7 +49,7 @@ TypeDeclaration label_annotation() {
   with_side(type)
       .optional("distance", page_length().non_negative(), "from the point to the text")
       .field("leader", boolean(), "a line from the text to the point", "false");
-  return finish(type);
+  return finish(with_hidden(type));
 }
 
 TypeDeclaration point_annotation() {
@@ -53,7 +58,7 @@ TypeDeclaration point_annotation() {
       .field("marker", choice({"dot", "circle", "ball", "cross", "plus", "square", "triangle", "diamond"}),
              "sign at the point", "dot")
       .optional("label", label(), "text beside it");
-  return finish(with_side(type));
+  return finish(with_hidden(with_side(type)));
 }
 
 TypeDeclaration arrow_annotation() {
@@ -63,8 +68,8 @@ TypeDeclaration arrow_annotation() {
       .optional("to", anchor(), "where it ends")
       .optional("along", direction(), "the way it goes, instead of `to`")
       .optional("length", length().positive(), "in scene units, with `along`")
-      .optional("label", label(), "text at its middle");
-  return finish(with_side(type), [](const Fields& f) {
+      .optional("label", label(), "text at its end");
+  return finish(with_hidden(with_side(type)), [](const Fields& f) {
     if (f.has("to") == f.has("along"))
       throw FieldError(f.has("to") ? "along" : "", "an arrow has either 'to' or 'along' and 'length'",
                        "to: where it ends; along: its direction");
@@ -80,7 +85,7 @@ TypeDeclaration frame_annotation() {
   type.field("frame", frame(), "where it stands", "{}")
       .field("length", length().positive(), "of the arrows, in scene units", "1")
       .field("labels", labels().count(0, 3), "names of the axes", "['$x$', '$y$', '$z$']");
-  return finish(type);
+  return finish(with_hidden(type));
 }
 
 TypeDeclaration axes_annotation() {
@@ -88,7 +93,7 @@ TypeDeclaration axes_annotation() {
   type.field("at", anchor(), "where they meet: in the scene, or in a corner of the page", "[0, 0, 0]")
       .field("length", length().positive(), "of the axes, in scene units", "1")
       .field("labels", labels().count(0, 3), "names of the axes", "['$x$', '$y$', '$z$']");
-  return finish(type);
+  return finish(with_hidden(type));
 }
 
 TypeDeclaration angle_annotation() {
@@ -98,7 +103,7 @@ TypeDeclaration angle_annotation() {
       .field("to", anchor(), "a point on the second side")
       .field("radius", page_length().positive(), "of the arc", "6 mm")
       .optional("label", label(), "text at the arc");
-  return finish(with_side(type));
+  return finish(with_hidden(with_side(type)));
 }
 
 TypeDeclaration leader_annotation() {

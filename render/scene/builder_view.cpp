@@ -108,6 +108,7 @@ void Builder::build_camera(Model& model) {
   attempt(camera ? *camera : scene_.root, "'camera'", [&] {
     PictureSize size = image->get<PictureSize>("size");
     const double scale = size.on_paper ? image->number("dpi") / kMillimetresPerInch : 1;
+    model.paper.auto_width = size.width == 0, model.paper.auto_height = size.height == 0;
     if (size.width == 0 || size.height == 0) {
       const double aspect = natural_aspect(make, all);
       if (size.width == 0) size.width = size.height / aspect;

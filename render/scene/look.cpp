@@ -6,7 +6,7 @@ namespace lekalo::render {
 
 using namespace geometry;
 
-FieldType hidden_lines() { return reference({Category::style}).or_word({"drop", "dashed", "thin", "faded"}); }
+FieldType hidden_lines() { return reference({Category::style}).or_word({"show", "drop", "dashed", "thin", "faded"}); }
 
 HiddenLines hidden_of(const Fields& fields) {
   HiddenLines hidden;
@@ -16,7 +16,11 @@ HiddenLines hidden_of(const Fields& fields) {
     hidden.way = Way::styled;
     hidden.style = style_of(fields, "hidden");
   } else {
-    hidden.way = word == "dashed" ? Way::dashed : word == "thin" ? Way::thin : word == "faded" ? Way::faded : Way::drop;
+    hidden.way = word == "show"     ? Way::show
+                 : word == "dashed" ? Way::dashed
+                 : word == "thin"   ? Way::thin
+                 : word == "faded"  ? Way::faded
+                                    : Way::drop;
   }
   return hidden;
 }
@@ -56,8 +60,8 @@ std::vector<Field> lines_fields() {
        {}},
       {"self_intersection", style, "where a surface goes through itself", false, "thin"},
       {"curve", style, "the curve itself", false, "thick"},
-      {"hidden", hidden_lines(), "what becomes of lines behind something: drop, dashed, thin, faded, or a style", false,
-       "drop"}};
+      {"hidden", hidden_lines(), "what becomes of lines behind something: show, drop, dashed, thin, faded, or a style",
+       false, "drop"}};
 }
 
 Lines lines_of(const Fields& fields) {

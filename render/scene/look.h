@@ -15,6 +15,7 @@ namespace lekalo::render {
 // What becomes of lines behind something.
 struct HiddenLines {
   enum class Way {
+    show,    // as if nothing were before them
     drop,    // not drawn
     dashed,  // in their own style, with the dashes of the style `hidden`
     thin,    // in their own style at half the width

@@ -60,6 +60,7 @@ struct Paper {
   double width = 0;  // millimetres; a picture in pixels counts 96 of them to the inch
   double height = 0;
   double margin = 0;
+  bool auto_width = false, auto_height = false;  // as the panels want it
 };
 
 std::vector<geometry::Field> drawing_fields();

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "render/scene/tex.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -44,9 +46,13 @@ std::string TextTemplate::text(std::span<const double> values) const {
     const std::string number = number_text(part.value->evaluate<double>(arguments));
     const auto missing = part.width - static_cast<int>(number.size());
     const bool negative = part.zeros && number.front() == '-';
+    // A script is one thing in TeX: t_12 is t_{1}2.
+    const bool script = !result.empty() && (result.back() == '_' || result.back() == '^');
+    if (script) result += '{';
     if (negative) result += '-';
     if (missing > 0) result.append(static_cast<std::size_t>(missing), part.zeros ? '0' : ' ');
     result += negative ? number.substr(1) : number;
+    if (script) result += '}';
   }
   return result;
 }
@@ -137,7 +143,9 @@ std::optional<TextSlip> check_tex(std::string_view text) {
   if (dollar && open.size() <= braces_at_dollar)
     return TextSlip{*dollar, "this $ has no partner", "formulas stand between two $; as a character it is written \\$"};
   if (!open.empty()) return TextSlip{open.back(), "this brace is not closed", "a brace as a character is written \\{"};
-  return std::nullopt;
+  const auto parsed = parse_tex(text);
+  const auto* slip = std::get_if<TextSlip>(&parsed);
+  return slip ? std::optional(*slip) : std::nullopt;
 }
 
 }  // namespace lekalo::render

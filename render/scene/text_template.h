@@ -53,7 +53,7 @@ struct TextSlip {
 std::optional<TextSlip> split_template(std::string_view text, std::span<const std::string> names,
                                        std::vector<TemplatePart>& parts);
 
-// Unbalanced braces or dollar signs of TeX; `\{`, `\}`, `\$` and `\\` are characters.
+// Unbalanced braces or dollar signs of TeX (`\{`, `\}`, `\$` and `\\` are characters), and what tex.h does not know.
 std::optional<TextSlip> check_tex(std::string_view text);
 
 }  // namespace lekalo::render

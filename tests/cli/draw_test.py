@@ -1,9 +1,9 @@
-"""Drawings: which lines an SVG holds, how hidden ones look, the same bytes again, what is not made yet."""
+"""Drawings: which lines an SVG holds, how hidden ones look, the same bytes again, formats, errors."""
 
 import unittest
 import xml.etree.ElementTree as tree
 
-from program import FILE_ERROR, ProgramTest, USAGE
+from program import ProgramTest, SCENE_ERROR, USAGE
 
 BLOCK = """lekalo: 1
 geometry: { block: { type: box, size: [1, 2, 3] } }
@@ -23,7 +23,7 @@ class Draw(ProgramTest):
         for group in tree.fromstring(self.bytes_of(name)).iter(GROUP):
             if group.get("class"):
                 found.setdefault(group.get("class"), []).extend(group.findall(PATH))
-        return found
+        return {name: paths for name, paths in found.items() if paths}
 
     def test_a_block(self):
         """Nine edges seen, three behind, as straight lines on a sheet in millimetres."""
@@ -61,14 +61,32 @@ camera: { view: top }
             self.assertTrue(path.get("d").endswith(" Z"))
             self.assertIn(" C", path.get("d"))
 
-    def test_what_is_not_made(self):
-        self.write("block.yaml", BLOCK.replace("block.svg", "[block.svg, block.pdf]"))
-        errors = self.run_program("draw", "block.yaml", code=FILE_ERROR)[1]
-        self.assertIn("block.pdf: not made", errors)
-        self.assertTrue(self.paths("block.svg"))
-        self.assertIn("'x.pdf': draw writes svg", self.run_program("draw", "block.yaml", "-o", "x.pdf", code=USAGE)[1])
-        self.write("labelled.yaml", BLOCK + "drawing: { annotations: [{ type: label, at: [0, 0, 0], text: 'A' }] }\n")
-        self.assertIn("not in the drawing yet: annotations", self.run_program("draw", "labelled.yaml")[1])
+    def test_formats(self):
+        """PDF and PNG of the same drawing: page size, text as text, fonts embedded, no clock."""
+        labelled = BLOCK.replace("block.svg", "[block.svg, block.pdf, { file: block.png, kind: drawing }]")
+        self.write("block.yaml", labelled + "drawing: { annotations: [{ type: label, at: [0, 0, 0], "
+                   "text: 'Куб $\\mathbf{p}_{12}$' }] }\n")
+        self.run_program("draw", "block.yaml", "--quiet")
+        pdf = self.bytes_of("block.pdf")
+        self.assertTrue(pdf.startswith(b"%PDF-"))
+        self.assertNotIn(b"CreationDate", pdf)
+        text = self.bytes_of("block.svg").decode()
+        self.assertIn(">Куб </tspan>", text)
+        self.assertIn(">12</tspan>", text)
+        self.assertEqual(text.count("@font-face"), 2)
+        self.assertEqual(self.bytes_of("block.png")[:8], b"\x89PNG\r\n\x1a\n")
+        self.run_program("draw", "block.yaml", "-o", "again.pdf", "-o", "again.png", "--quiet")
+        self.assertEqual(self.bytes_of("again.pdf"), pdf)
+        self.assertEqual(self.bytes_of("again.png"), self.bytes_of("block.png"))
+        self.run_program("draw", "block.yaml", "-o", "outlines.svg", "--outlines", "--quiet")
+        self.assertNotIn("<text", self.bytes_of("outlines.svg").decode())
+
+    def test_errors(self):
+        self.write("block.yaml", BLOCK)
+        self.assertIn("'x.exr': draw writes", self.run_program("draw", "block.yaml", "-o", "x.exr", code=USAGE)[1])
+        self.write("wrong.yaml", BLOCK + "drawing: { annotations: [{ type: label, at: [0, 0, 0], text: '$\\aplha$' }] }\n")
+        errors = self.run_program("draw", "wrong.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("labels do not know '\\aplha' (did you mean 'alpha'?)", errors)
 
 
 if __name__ == "__main__":

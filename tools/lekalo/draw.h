@@ -8,13 +8,15 @@ namespace lekalo::command {
 struct DrawSettings {
   bool quiet = false;
   bool stats = false;
+  bool outlines = false;  // texts of svg files as outlines
 };
 
 // Whether drawings of this kind of file are made.
 bool is_drawn(const std::string& path);
 
-// Writes the drawing of the model; `outputs` all satisfy is_drawn(). Throws ImageError.
-void draw_files(const std::shared_ptr<const render::Model>& model, const std::vector<std::string>& outputs,
+// Writes the drawing of the model; `outputs` all satisfy is_drawn(). Throws ImageError, and
+// std::runtime_error where something does not fit.
+void draw_files(const std::shared_ptr<const render::Model>& model, const std::vector<render::OutputFile>& outputs,
                 const DrawSettings& settings);
 
 }  // namespace lekalo::command

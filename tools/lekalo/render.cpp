@@ -181,19 +181,10 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
   const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
                                               [](const OutputFile& file) { return file.kind == "render"; });
-  int code = kDone;
-  std::vector<std::string> drawn;
-  for (auto file = drawings; file != outputs.end(); ++file) {
-    if (is_drawn(file->path)) {
-      drawn.push_back(file->path);
-      continue;
-    }
-    fmt::print(stderr, "{}: not made: this version draws svg\n", file->path);
-    code = kFileError;
-  }
+  const std::vector<OutputFile> drawn(drawings, outputs.end());
   outputs.erase(drawings, outputs.end());
   if (!drawn.empty()) draw_files(model, drawn, {options.quiet, options.stats});
-  if (outputs.empty()) return code;
+  if (outputs.empty()) return kDone;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
   check_writable(outputs);
@@ -235,7 +226,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   // What an interrupted run has left, or this one has saved on the way.
   std::error_code ignored;
   std::filesystem::remove(settings.partial_file, ignored);
-  return code;
+  return kDone;
 }
 
 int render_frames(Run& run, const std::vector<Frame>& frames) {
@@ -327,8 +318,7 @@ void add_make(CLI::App& app, Action& action) {
   sub->footer(
       "Examples:\n"
       "  lekalo make figure.yaml\n"
-      "  lekalo make figure.yaml --watch\n"
-      "Drawings (pdf, svg) are named and left out by this version; the exit code is 4 then.");
+      "  lekalo make figure.yaml --watch");
   auto options = std::make_shared<Options>();
   options->make_drawings = true;
   add_options(*sub, options);

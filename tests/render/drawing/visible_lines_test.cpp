@@ -70,7 +70,7 @@ TEST(VisibleLines, EdgesOfBoxes) {
     show(scene, std::make_shared<Body>(box(frame, size)), {"sharp"});
     views.look(scene, k % 2);
     const auto world = scene.world();
-    const VisibleLines found = visible_lines(*world);
+    const VisibleLines found = visible_lines(*world, drawing_work(*world));
     ASSERT_EQ(found.lines.size(), 12u);
     for (const VisibleLine& line : found.lines) {
       ASSERT_EQ(line.pieces.size(), 1u);
@@ -103,7 +103,7 @@ TEST(VisibleLines, ParameterLinesOfSpheres) {
     views.look(scene, k % 2);
     const auto world = scene.world();
     const Camera& camera = *world->model().camera;
-    const VisibleLines found = visible_lines(*world);
+    const VisibleLines found = visible_lines(*world, drawing_work(*world));
     EXPECT_EQ(found.incomplete, 0);
     for (const VisibleLine& line : found.lines) {
       const auto facing = [&](double t) {
@@ -137,7 +137,8 @@ TEST(VisibleLines, NeedlesAndABall) {
     show(scene, CurvePtr(std::make_shared<Segment>(Vec3(-3, y, 0.6), Vec3(3, y, 0.6))), {"curve"});
   scene.model.film.width = 600, scene.model.film.height = 500;
   scene.model.camera = make_camera(ParallelView{{0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 8}, 600, 500);
-  const VisibleLines found = visible_lines(*scene.world());
+  const auto world = scene.world();
+  const VisibleLines found = visible_lines(*world, drawing_work(*world));
   ASSERT_EQ(found.lines.size(), 3u);
   // They enter at x = -0.8, of [-3, 3]. Inside of the ball one sheet is before them, behind it two.
   for (int k = 0; k < 2; ++k) {
@@ -159,7 +160,7 @@ TEST(FittedPaths, LieOnThePictures) {
   Views views(11);
   views.look(scene, true);
   const auto world = scene.world();
-  for (const VisibleLine& line : visible_lines(*world).lines)
+  for (const VisibleLine& line : visible_lines(*world, drawing_work(*world)).lines)
     for (const VisiblePiece& piece : line.pieces) {
       const Path path = fitted_path(*line.curve, piece.t, {}, 0.01);
       Vec2 from = path.from;

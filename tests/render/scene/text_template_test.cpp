@@ -42,9 +42,10 @@ TEST(TextTemplate, NumbersOfParametersAndCounters) {
   EXPECT_EQ(label("$\\{%nth\\}$").text(), "$\\{7th\\}$");
 }
 
+// A script is one thing in TeX: t_12 would be t_{1}2.
 TEST(TextTemplate, CountersOfTheField) {
   EXPECT_EQ(point_label("$\\mathbf{p}_{%i%i}$", 3), "$\\mathbf{p}_{33}$");
-  EXPECT_EQ(point_label("$t_%(2*i + 1)$", 3), "$t_7$");
+  EXPECT_EQ(point_label("$t_%(2*i + 1)$", 3), "$t_{7}$");
 }
 
 std::string said(const std::string& text) {

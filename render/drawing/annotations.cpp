@@ -1,0 +1,476 @@
+#include "render/drawing/annotations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/curves/circle.h"
+#include "geometry/curves/parameter_line.h"
+#include "geometry/curves/segment.h"
+#include "geometry/queries/roundness.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Millimetres, as ISO 129-1 draws dimensions of a small figure.
+constexpr double kGap = 0.8;          // between a point and the line that leads away from it
+constexpr double kBeyond = 1.5;       // by which these lines pass the dimension line
+constexpr double kTextOff = 0.7;      // between a line and the text upon it
+constexpr double kShelf = 6;          // from a circle to the number of its radius
+constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
+
+// The circle of a round curve or surface.
+Circle circle_of(const Fields& f) {
+  CurvePtr curve;
+  if (f.holds<CurvePtr>("of")) {
+    curve = f.curve("of");
+  } else {
+    const SurfacePtr surface = f.surface("of");
+    const Rectangle domain = surface->domain();
+    const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
+    for (const HeldParameter held : {HeldParameter::v, HeldParameter::u}) {
+      curve = std::make_shared<ParameterLine>(surface, held, middle(held == HeldParameter::v ? domain.v : domain.u));
+      if (curve->domain().width() < kInfinity && is_round(*curve)) break;
+    }
+  }
+  const Interval t = curve->domain();
+  const auto at = [&](double x) { return curve->point(t.lo + x * t.width()); };
+  return arc_through(at(0), at(0.31), at(0.67));
+}
+
+class Annotator {
+ public:
+  Annotator(const View& view, LineWork& work, PageWork& page) : view_(view), work_(work), page_(page) {}
+
+  void add(const Annotation& annotation) {
+    kind_ = annotation.type;
+    style_ = &annotation.style;
+    look_ = drawn_look(annotation.style);
+    const Fields& f = annotation.values;
+    const std::string& type = annotation.type;
+    if (type == "label")
+      add_label(f);
+    else if (type == "point")
+      add_point(f);
+    else if (type == "arrow")
+      add_arrow(f);
+    else if (type == "frame")
+      add_triad(f.frame().origin, {f.frame().x, f.frame().y, f.frame().z}, f);
+    else if (type == "axes")
+      add_axes(f);
+    else if (type == "angle")
+      add_angle(f, f.number("radius"), f.has("label") ? f.get<TextTemplate>("label").text() : std::string(), false);
+    else if (type == "angle_dimension")
+      add_angle_dimension(f);
+    else if (type == "leader")
+      add_leader(f);
+    else if (type == "brace")
+      add_brace(f);
+    else if (type == "linear_dimension")
+      add_linear_dimension(f);
+    else if (type == "radius_dimension" || type == "diameter_dimension")
+      add_round_dimension(f, type == "diameter_dimension");
+    else if (type != "knots")  // a graph's axis has them
+      page_.left_out.push_back(type);
+  }
+
+ private:
+  // ---------------------------------------------------------------- in space
+
+  HiddenLines hidden(const Fields& f) const { return hidden_of(f); }
+  static double opacity_of(const HiddenLines& hidden) {
+    return hidden.way == HiddenLines::Way::drop ? 0 : hidden.way == HiddenLines::Way::faded ? 1.0 / 3 : 1;
+  }
+
+  void stroke(CurvePtr curve, const HiddenLines& hidden, bool start, bool end) {
+    Stroke stroke;
+    stroke.curve = std::move(curve);
+    stroke.kind = kind_;
+    stroke.look = look_;
+    stroke.hidden = drawn_hidden_look(view_.model, look_, hidden);
+    stroke.object = -1;
+    stroke.arrow_at_start = start, stroke.arrow_at_end = end;
+    stroke.arrow_size = style_->arrow_size;
+    work_.strokes.push_back(std::move(stroke));
+  }
+
+  void text(const Vec3& point, std::string words, const std::string& side, double distance, const HiddenLines& hidden,
+            bool leader = false) {
+    PointText text;
+    text.point = point;
+    text.text = std::move(words);
+    text.style = *style_;
+    text.kind = kind_;
+    text.side = side;
+    text.distance = distance;
+    text.leader = leader;
+    text.hidden_opacity = opacity_of(hidden);
+    text.object = -1;
+    work_.texts.push_back(std::move(text));
+  }
+
+  static std::string side_of(const Fields& f) { return f.has("side") ? f.text("side") : std::string(); }
+
+  void add_label(const Fields& f) {
+    const Anchor& at = f.get<Anchor>("at");
+    const std::string words = f.get<TextTemplate>("text").text();
+    const double distance = f.has("distance") ? f.number("distance") : at.on_page ? 0.0 : 1.2;
+    if (!at.on_page) return text(at.point, words, side_of(f), distance, hidden(f), f.boolean("leader"));
+    Label label = page_label(words, view_.place(at));
+    label.side = f.has("side") ? f.text("side") : "center";
+    label.distance = distance;
+    page_.labels.push_back(std::move(label));
+  }
+
+  void add_point(const Fields& f) {
+    const Anchor& at = f.get<Anchor>("at");
+    Mark mark;
+    mark.point = at.point;
+    mark.sign = *mark_sign(f.text("marker"));
+    mark.radius = 0.5 * style_->marker_size;
+    mark.line = look_;
+    if (style_->fill) mark.fill = rgb(*style_->fill);
+    const HiddenLines ways = hidden(f);
+    if (ways.way != HiddenLines::Way::drop) mark.hidden_opacity = style_->opacity * opacity_of(ways);
+    mark.object = -1;
+    if (at.on_page) {
+      page_.shapes.push_back(SheetGroup{kind_, "", {}, {}, drawn_mark(mark, view_.place(at), style_->opacity, view_)});
+    } else {
+      work_.marks.push_back(mark);
+    }
+    if (!f.has("label")) return;
+    const std::string words = f.get<TextTemplate>("label").text();
+    const double distance = 0.6 + mark.radius;
+    if (!at.on_page) return text(at.point, words, side_of(f), distance, ways);
+    Label label = page_label(words, view_.place(at));
+    label.side = side_of(f), label.distance = distance;
+    page_.labels.push_back(std::move(label));
+  }
+
+  std::pair<bool, bool> heads() const {
+    return {style_->arrows == "start" || style_->arrows == "both", style_->arrows == "end" || style_->arrows == "both"};
+  }
+
+  void add_arrow(const Fields& f) {
+    const Anchor& from = f.get<Anchor>("from");
+    const std::string words = f.has("label") ? f.get<TextTemplate>("label").text() : std::string();
+    const auto [start, end] = heads();
+    Anchor to;
+    if (f.has("to"))
+      to = f.get<Anchor>("to");
+    else
+      to.point = from.point + f.number("length") * f.vec3("along");
+    if (from.on_page || to.on_page) {
+      const Vec2 a = view_.place(from), b = view_.place(to);
+      page_line(a, b, start, end);
+      if (words.empty()) return;
+      Label label = page_label(words, b);
+      label.side = side_of(f);
+      page_.labels.push_back(std::move(label));
+      return;
+    }
+    if (to.point == from.point) return;
+    const HiddenLines ways = hidden(f);
+    stroke(std::make_shared<Segment>(from.point, to.point), ways, start, end);
+    if (!words.empty()) text(to.point, words, side_of(f), 0.8, ways);
+  }
+
+  void add_triad(const Vec3& origin, const std::array<Vec3, 3>& axes, const Fields& f) {
+    const auto [start, end] = heads();
+    const double length = f.number("length");
+    const auto& labels = f.get<std::vector<TextTemplate>>("labels");
+    const HiddenLines ways = hidden(f);
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 tip = origin + length * axes[k];
+      stroke(std::make_shared<Segment>(origin, tip), ways, start, end);
+      if (k < labels.size() && seen_from_the_side(origin, tip)) text(tip, labels[k].text(), "", 0.6, ways);
+    }
+  }
+  // An axis that points at the viewer has no room for its name.
+  bool seen_from_the_side(const Vec3& from, const Vec3& to) const {
+    return glm::length(view_.place(to) - view_.place(from)) > 0.5;
+  }
+
+  void add_axes(const Fields& f) {
+    const Anchor& at = f.get<Anchor>("at");
+    constexpr std::array<Vec3, 3> kAxes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+    if (!at.on_page) return add_triad(at.point, kAxes, f);
+    // As they would be seen in the middle of the picture.
+    const auto [start, end] = heads();
+    const Ray middle = view_.camera.ray(0.5 * view_.camera.width(), 0.5 * view_.camera.height());
+    const double depth = view_.camera.is_parallel() ? 0 : glm::length(middle_point() - middle.origin);
+    const Vec3 origin = middle.origin + depth * middle.direction;
+    const Vec2 corner = view_.place(at);
+    const auto& labels = f.get<std::vector<TextTemplate>>("labels");
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec2 tip = corner + view_.place(origin + f.number("length") * kAxes[k]) - view_.place(origin);
+      if (glm::length(tip - corner) < 0.5) continue;
+      page_line(corner, tip, start, end);
+      if (k >= labels.size()) continue;
+      Label label = page_label(labels[k].text(), tip);
+      page_.labels.push_back(std::move(label));
+    }
+  }
+  Vec3 middle_point() const {
+    const Box3 box = bounds(view_.model);
+    return 0.5 * (box.lo + box.hi);
+  }
+
+  // The arc from one side of an angle to the other, `radius` millimetres on the page.
+  void add_angle(const Fields& f, double radius, const std::string& words, bool dimension) {
+    const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
+    if (at.on_page || from.on_page || to.on_page) {
+      const Vec2 apex = view_.place(at), a = view_.place(from) - apex, b = view_.place(to) - apex;
+      const auto space = [](const Vec2& p) { return Vec3(p.x, -p.y, 0); };
+      page_arc(apex, space(a), space(b), radius);
+      return;
+    }
+    const Vec3 x = from.point - at.point, other = to.point - at.point;
+    const Vec3 z = glm::cross(x, other);
+    const double angle = std::atan2(glm::length(z), glm::dot(x, other));
+    if (!(angle > 1e-9) || !(glm::length(z) > 0)) return;
+    const Frame frame = frame_from(at.point, glm::normalize(z), glm::normalize(x));
+    const double size = radius / view_.millimetres * view_.camera.pixel_size(at.point);
+    const auto [start, end] = heads();
+    const HiddenLines ways = dimension ? HiddenLines{HiddenLines::Way::show, {}} : hidden(f);
+    stroke(std::make_shared<Circle>(frame, size, Interval{0, angle}), ways, start, end);
+    if (words.empty()) return;
+    const Vec3 middle = frame.point(size * Vec3(std::cos(0.5 * angle), std::sin(0.5 * angle), 0));
+    // Outside of the arc.
+    Label label = page_label(words, view_.place(middle));
+    const Vec2 way = glm::normalize(view_.place(middle) - view_.place(at.point));
+    label.side = f.has("side") && !dimension ? f.text("side") : side_towards(way);
+    label.distance = kTextOff;
+    page_.labels.push_back(std::move(label));
+  }
+
+  void add_angle_dimension(const Fields& f) {
+    const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
+    if (at.on_page || from.on_page || to.on_page) return;
+    const Vec2 apex = view_.place(at), a = view_.place(from), b = view_.place(to);
+    const double nearest = std::min(glm::length(a - apex), glm::length(b - apex));
+    const double radius = nearest + f.number("offset");
+    const Vec3 x = from.point - at.point, y = to.point - at.point;
+    const double degrees = std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180 / kPi;
+    for (const Vec2& side : {a, b}) {
+      const double length = glm::length(side - apex);
+      if (!(length > 0) || length + kGap > radius) continue;
+      const Vec2 way = (side - apex) / length;
+      page_line(side + kGap * way, apex + (radius + kBeyond) * way, false, false);
+    }
+    add_angle(f, radius, number_text(f, degrees, "", "°"), true);
+  }
+
+  // ---------------------------------------------------------------- on the page
+
+  Label page_label(const std::string& words, const Vec2& at) const {
+    Label label;
+    label.text = text_in(*style_, words);
+    label.at = at;
+    label.kind = kind_;
+    if (style_->fill) label.box = Brush{rgb(*style_->fill), 1};
+    return label;
+  }
+
+  static std::string side_towards(const Vec2& way) {
+    constexpr const char* kSides[] = {"right", "below right", "below", "below left",
+                                      "left",  "above left",  "above", "above right"};
+    const double eighth = std::atan2(way.y, way.x) / (kPi / 4);
+    return kSides[(static_cast<int>(std::lround(eighth)) + 8) % 8];
+  }
+
+  void shape(std::vector<SheetItem> items) { page_.shapes.push_back(SheetGroup{kind_, "", {}, {}, std::move(items)}); }
+
+  void page_line(const Vec2& from, const Vec2& to, bool start, bool end) {
+    const double length = glm::length(to - from);
+    if (!(length > 0)) return;
+    const Vec2 way = (to - from) / length;
+    const double size = std::min(style_->arrow_size, 0.5 * length);
+    std::vector<SheetItem> items;
+    items.push_back(drawn(
+        straight_path({from + (start ? shortened_by(size) : 0.0) * way, to - (end ? shortened_by(size) : 0.0) * way}),
+        look_));
+    if (start) items.push_back(arrow_head(from, -way, size, look_));
+    if (end) items.push_back(arrow_head(to, way, size, look_));
+    shape(std::move(items));
+  }
+
+  void page_arc(const Vec2& apex, const Vec3& x, const Vec3& y, double radius) {
+    const double from = std::atan2(x.y, x.x);
+    double angle = std::atan2(y.y, y.x) - from;
+    if (angle > kPi) angle -= kTwoPi;
+    if (angle < -kPi) angle += kTwoPi;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / 0.5)));
+    const double step = angle / parts, handle = 4.0 / 3 * std::tan(step / 4);
+    const auto at = [&](double a) { return apex + radius * Vec2(std::cos(a), -std::sin(a)); };
+    const auto way = [&](double a) { return radius * Vec2(-std::sin(a), -std::cos(a)); };
+    Path path;
+    path.from = at(from);
+    for (int k = 0; k < parts; ++k) {
+      const double a = from + k * step, b = a + step;
+      path.steps.push_back({false, at(a) + handle * way(a), at(b) - handle * way(b), at(b)});
+    }
+    shape({drawn(path, look_)});
+  }
+
+  void add_leader(const Fields& f) {
+    const Vec2 at = view_.place(f.get<Anchor>("at")), to = view_.place(f.get<Anchor>("to"));
+    const std::string& head = f.text("head");
+    page_line(to, at, false, head == "arrow");
+    if (head == "dot") {
+      Mark dot;
+      dot.radius = 0.5 * style_->marker_size;
+      dot.line = look_;
+      shape(drawn_mark(dot, at, style_->opacity, view_));
+    }
+    Label label = page_label(f.get<TextTemplate>("text").text(), to);
+    label.side = f.has("side") ? f.text("side") : to.x >= at.x ? "right" : "left";
+    page_.labels.push_back(std::move(label));
+  }
+
+  // Two quarter turns, a straight part, the tip, and the same back.
+  void add_brace(const Fields& f) {
+    Vec2 from = view_.place(f.get<Anchor>("from")), to = view_.place(f.get<Anchor>("to"));
+    const double length = glm::length(to - from);
+    if (!(length > 0)) return;
+    const Vec2 way = (to - from) / length, out(way.y, -way.x);  // to the left of the way, as seen
+    const double offset = f.number("offset"), depth = (offset < 0 ? -1 : 1) * f.number("depth");
+    from += offset * out, to += offset * out;
+    const Vec2 tip = 0.5 * (from + to) + depth * out;
+    const double turn = std::min(0.5 * std::abs(depth), 0.25 * length);
+    const auto place = [&](const Vec2& begin, double along, double high) { return begin + along * way + high * out; };
+    const double half = 0.5 * depth, round = 0.55 * turn;
+    Path path;
+    path.from = from;
+    path.steps = {{false, place(from, 0, 0.55 * half), place(from, turn - round, half), place(from, turn, half)},
+                  {true, {}, {}, place(tip, -turn, -half)},
+                  {false, place(tip, -turn + round, -half), place(tip, 0, -0.55 * half), tip},
+                  {false, place(tip, 0, -0.55 * half), place(tip, turn - round, -half), place(tip, turn, -half)},
+                  {true, {}, {}, place(to, -turn, half)},
+                  {false, place(to, -turn + round, half), place(to, 0, 0.55 * half), to}};
+    shape({drawn(path, look_)});
+    if (!f.has("label")) return;
+    Label label = page_label(f.get<TextTemplate>("label").text(), tip);
+    label.side = side_towards(depth > 0 ? out : -out);
+    label.distance = kTextOff;
+    page_.labels.push_back(std::move(label));
+  }
+
+  // The number with what stands around it, or the text in its place.
+  static std::string number_text(const Fields& f, double value, const std::string& sign, const std::string& unit) {
+    if (f.has("text")) return f.get<TextTemplate>("text").text();
+    std::string words;
+    if (f.has("prefix")) words += f.get<TextTemplate>("prefix").text();
+    words += sign + dimension_number(value, f.integer("decimals")) + unit;
+    if (f.has("suffix")) words += f.get<TextTemplate>("suffix").text();
+    return words;
+  }
+
+  void add_linear_dimension(const Fields& f) {
+    const Vec3 a = f.get<Anchor>("from").point, b = f.get<Anchor>("to").point;
+    const Vec3 along = f.has("along") ? f.vec3("along") : b - a;
+    const double value = f.has("along") ? std::abs(glm::dot(b - a, along)) : glm::length(b - a);
+    const Vec2 p = view_.place(a), q = view_.place(b);
+    const Vec2 shown = view_.place(a + along) - p;
+    if (!(glm::length(shown) > 1e-6) || !(value > 0)) return;  // seen along itself
+    Vec2 way = glm::normalize(shown);
+    if (glm::dot(q - p, way) < 0) way = -way;
+    const Vec2 forward = glm::normalize(shown), out(forward.y, -forward.x);  // to the left, as seen
+    const double offset = f.number("offset");
+    const double hp = glm::dot(p, out), hq = glm::dot(q, out);
+    const double level = (offset >= 0 ? std::max(hp, hq) : std::min(hp, hq)) + offset;
+    const Vec2 from = p + (level - hp) * out, to = q + (level - hq) * out;
+    for (const auto& [point, foot] : {std::pair(p, from), std::pair(q, to)}) {
+      const double length = glm::length(foot - point);
+      if (length <= kGap) continue;
+      const Vec2 away = (foot - point) / length;
+      page_line(point + kGap * away, foot + kBeyond * away, false, false);
+    }
+    const double length = glm::length(to - from);
+    if (length >= kLeastForHeads * style_->arrow_size) {
+      const auto [start, end] = heads();
+      page_line(from, to, start, end);
+    } else {
+      page_line(from, to, false, false);
+      page_line(from - 2 * style_->arrow_size * way, from, false, true);
+      page_line(to + 2 * style_->arrow_size * way, to, false, true);
+    }
+    text_along(number_text(f, value, "", ""), 0.5 * (from + to), way, length);
+  }
+
+  // Above the line as read from below or from the right.
+  void text_along(const std::string& words, const Vec2& middle, Vec2 way, double length) {
+    if (way.x < -1e-9 || (std::abs(way.x) <= 1e-9 && way.y > 0)) way = -way;
+    const Vec2 up(way.y, -way.x);
+    Label label = page_label(words, middle);
+    label.side = "here";
+    label.text.angle = std::atan2(-way.y, way.x);
+    const double beside = label.text.width + 1 > length && std::abs(way.y) < 1e-9
+                              ? 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width
+                              : 0.0;
+    label.text.at = middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+    page_.labels.push_back(std::move(label));
+  }
+
+  void add_round_dimension(const Fields& f, bool diameter) {
+    const Circle circle = circle_of(f);
+    const Frame& frame = circle.frame();
+    const double radius = circle.radius();
+    const double leader = f.number("leader");
+    const Vec2 way(std::cos(leader), -std::sin(leader));
+    const Vec2 center = view_.place(frame.origin);
+    const Vec2 x = view_.place(frame.origin + radius * frame.x) - center,
+               y = view_.place(frame.origin + radius * frame.y) - center;
+    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
+    // The point of the circle that is seen in this direction.
+    double t = std::atan2(-cross(way, x), cross(way, y));
+    if (glm::dot(std::cos(t) * x + std::sin(t) * y, way) < 0) t += kPi;
+    const auto on = [&](double at) { return view_.place(frame.point(radius * Vec3(std::cos(at), std::sin(at), 0))); };
+    const Vec2 near = on(t), far = on(t + kPi);
+    const double span = diameter ? glm::length(near - far) : glm::length(near - center);
+    if (!(span > 0)) return;
+    const Vec2 out = glm::normalize(near - (diameter ? far : center));
+    const Vec2 end = near + kShelf * out;
+    const bool fits = span >= kLeastForHeads * style_->arrow_size;
+    if (fits) {
+      page_line(diameter ? far : center, near, diameter, true);
+      page_line(near, end, false, false);
+    } else {
+      page_line(end, near, false, true);
+      if (diameter) page_line(far - 2 * style_->arrow_size * out, far, false, true);
+    }
+    Label label = page_label(number_text(f, diameter ? 2 * radius : radius, diameter ? "⌀" : "R", ""), end);
+    label.side = out.x >= -1e-9 ? "right" : "left";
+    label.distance = 0.6;
+    page_.labels.push_back(std::move(label));
+  }
+
+  const View& view_;
+  LineWork& work_;
+  PageWork& page_;
+  std::string kind_;
+  const Style* style_ = nullptr;
+  LineLook look_;
+};
+
+}  // namespace
+
+std::string dimension_number(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+void add_annotations(const View& view, LineWork& work, PageWork& page) {
+  Annotator annotator(view, work, page);
+  for (const Annotation& annotation : view.model.drawing.annotations) annotator.add(annotation);
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,23 @@
+// The annotations of a drawing: those in space join its lines and points, so that what covers them is known; those on
+// the page (dimensions, braces, leaders) become paths and texts.
+#pragma once
+
+#include "render/drawing/label_placement.h"
+#include "render/drawing/view.h"
+
+namespace lekalo::render {
+
+// What stands on the page.
+struct PageWork {
+  std::vector<SheetItem> shapes;
+  std::vector<Label> labels;
+  std::vector<std::string> left_out;  // types that drawings do not show
+};
+
+// Adds the annotations of the view's model.
+void add_annotations(const View& view, LineWork& work, PageWork& page);
+
+// The number of a dimension: at most so many decimals, zeros at its end left out.
+std::string dimension_number(double value, int decimals);
+
+}  // namespace lekalo::render

@@ -1,0 +1,317 @@
+#include "render/drawing/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "render/cameras/shown.h"
+#include "render/cameras/window.h"
+#include "render/drawing/annotations.h"
+#include "render/drawing/graph_axes.h"
+#include "render/drawing/label_placement.h"
+#include "render/drawing/panel_layout.h"
+#include "render/film/render.h"
+#include "render/image/display.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+constexpr double kFitted = 0.01;  // pixels: how far a path may be from its curve
+// Lines are cut so far outside of a graph or a panel, for their own width.
+constexpr double kClipFree = 0.35;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void collect_legend(const std::vector<Object>& objects, std::vector<LegendEntry>& entries) {
+  for (const Object& object : objects) {
+    if (const auto* group = std::get_if<GroupPtr>(&object.shape))
+      collect_legend((*group)->objects, entries);
+    else if (!object.legend.empty())
+      entries.push_back({object.legend, {}, {}});
+  }
+}
+
+// What of the objects only lines show is not rendered under them.
+std::vector<Object> without_lines(const std::vector<Object>& objects) {
+  std::vector<Object> kept;
+  for (Object object : objects) {
+    if (std::holds_alternative<CurvePtr>(object.shape) || std::holds_alternative<Vec3>(object.shape)) continue;
+    if (const auto* group = std::get_if<GroupPtr>(&object.shape))
+      object.shape = std::make_shared<const Group>(Group{without_lines((*group)->objects)});
+    object.look = nullptr;
+    kept.push_back(std::move(object));
+  }
+  return kept;
+}
+
+// Draws one view onto the sheet.
+class ViewDrawing {
+ public:
+  ViewDrawing(std::shared_ptr<const Model> model, const View& view, bool clipped, const FigureOptions& options,
+              Figure& figure)
+      : model_(std::move(model)), view_(view), clipped_(clipped), options_(options), figure_(figure), world_(model_) {}
+
+  void draw() {
+    LineWork work = drawing_work(world_);
+    const std::vector<LegendEntry> legend = std::move(work.legend);
+    PageWork page;
+    add_annotations(view_, work, page);
+    figure_.left_out.insert(figure_.left_out.end(), page.left_out.begin(), page.left_out.end());
+    const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
+    add_statistics(lines);
+    const auto begin = std::chrono::steady_clock::now();
+    for (const Object* object : world_.objects()) names_.push_back(object->name);
+    if (model_->drawing.ground == Ground::shaded) add_ground();
+    GraphWork graph = graph_axes(view_, legend);
+    append(std::move(graph.under));
+    for (const bool hidden : {true, false}) add_lines(lines, hidden);
+    append(std::move(graph.over));
+    add_marks(lines);
+    append(std::move(page.shapes));
+    std::vector<Label> labels = std::move(page.labels);
+    labels.insert(labels.end(), std::make_move_iterator(graph.labels.begin()),
+                  std::make_move_iterator(graph.labels.end()));
+    add_texts(lines, labels);
+    figure_.seconds_of_layout += seconds_since(begin);
+  }
+
+ private:
+  void append(std::vector<SheetItem> items) {
+    for (SheetItem& item : items) figure_.sheet.items.push_back(std::move(item));
+  }
+
+  void add_statistics(const VisibleLines& lines) {
+    LineStatistics& sum = figure_.statistics;
+    const LineStatistics& one = lines.statistics;
+    sum.lines += one.lines, sum.pieces += one.pieces, sum.crossings += one.crossings, sum.rays += one.rays;
+    sum.seconds_of_lines += one.seconds_of_lines, sum.seconds_of_crossings += one.seconds_of_crossings;
+    sum.seconds_of_rays += one.seconds_of_rays;
+    figure_.incomplete += lines.incomplete;
+  }
+
+  // The picture as rendered, pixel by pixel where the view has it.
+  void add_ground() {
+    const auto begin = std::chrono::steady_clock::now();
+    auto model = std::make_shared<Model>(*model_);
+    model->objects = without_lines(model->objects);
+    model->film.width = view_.camera.width(), model->film.height = view_.camera.height();
+    model->film.crop = {};
+    model->film.layers = {"color"};
+    RenderOptions settings;
+    if (options_.rendering) settings.progress = [&](double done, uint64_t) { options_.rendering(done); };
+    const World world(model, false);
+    const RenderResult rendered = render(world, settings);
+    DisplayTransform transform;
+    for (const OutputFile& file : model->outputs)
+      if (file.kind == "render" && file.path.ends_with(".png"))
+        transform.exposure = file.exposure, transform.curve = file.filmic ? ToneCurve::filmic : ToneCurve::none;
+    SheetPicture picture;
+    picture.at = view_.at;
+    picture.width = view_.width(), picture.height = view_.height();
+    picture.picture = std::make_shared<const DisplayImage>(to_display(rendered.image, transform).image);
+    figure_.sheet.items.push_back(SheetGroup{"ground", "", {}, {}, {picture}});
+    figure_.seconds_of_ground += seconds_since(begin);
+  }
+
+  std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
+
+  Path placed(Path path) const {
+    path.from = view_.place(path.from);
+    for (PathStep& step : path.steps)
+      step.first = view_.place(step.first), step.second = view_.place(step.second), step.to = view_.place(step.to);
+    return path;
+  }
+
+  // Where, on the way from the piece's end to its middle, the line is so far from the end's place.
+  static double shortened(const VisibleLine& line, double end, double other, double distance) {
+    const Vec2 tip = line.curve->place(end).p;
+    double near = end, far = 0.5 * (end + other);
+    if (glm::length(line.curve->place(far).p - tip) < distance) return far;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (near + far);
+      (glm::length(line.curve->place(middle).p - tip) < distance ? near : far) = middle;
+    }
+    return far;
+  }
+
+  void add_lines(const VisibleLines& lines, bool hidden) {
+    SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
+    if (clipped_) {
+      all.clip_at = view_.at - Vec2(kClipFree);
+      all.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
+    }
+    for (const VisibleLine& line : lines.lines) {
+      const Stroke& stroke = line.stroke;
+      const LineLook* look = hidden ? stroke.hidden ? &*stroke.hidden : nullptr : &stroke.look;
+      if (!look) continue;
+      std::vector<double> breaks;
+      for (const CurvePiece& piece : stroke.curve->pieces()) breaks.push_back(piece.domain.lo);
+      const Interval domain = stroke.curve->domain();
+      for (const VisiblePiece& piece : line.pieces) {
+        if ((piece.layers > 0) != hidden) continue;
+        Interval t = piece.t;
+        std::vector<SheetItem> heads;
+        const auto head = [&](bool at_end) {
+          const double end = at_end ? t.hi : t.lo, other = at_end ? t.lo : t.hi;
+          const Vec2 tip = view_.place(line.curve->place(end).p), rest = view_.place(line.curve->place(other).p);
+          const double size = std::min(stroke.arrow_size, 0.6 * glm::length(tip - rest));
+          if (!(size > 0.05)) return;
+          const double back = shortened(line, end, other, size / view_.millimetres);
+          const Vec2 way = tip - view_.place(line.curve->place(back).p);
+          if (!(glm::length(way) > 0)) return;
+          heads.push_back(arrow_head(tip, glm::normalize(way), size, *look));
+          (at_end ? t.hi : t.lo) = shortened(line, end, other, shortened_by(size) / view_.millimetres);
+        };
+        if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
+        if (stroke.arrow_at_start && piece.t.lo == domain.lo) head(false);
+        Path path = placed(fitted_path(*line.curve, t, breaks, kFitted));
+        add_obstacles(path);
+        SheetGroup& group = group_of(all, hidden ? stroke.kind + " hidden" : stroke.kind, name_of(stroke.object));
+        group.items.push_back(drawn(std::move(path), *look));
+        for (SheetItem& item : heads) group.items.push_back(std::move(item));
+      }
+    }
+    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+  }
+
+  // The last group, if it is of this kind and object, or a new one.
+  static SheetGroup& group_of(SheetGroup& all, const std::string& kind, const std::string& object) {
+    if (!all.items.empty()) {
+      auto& last = std::get<SheetGroup>(all.items.back());
+      if (last.kind == kind && last.object == object) return last;
+    }
+    all.items.push_back(SheetGroup{kind, object, {}, {}, {}});
+    return std::get<SheetGroup>(all.items.back());
+  }
+
+  void add_obstacles(const Path& path) {
+    Vec2 at = path.from;
+    for (const PathStep& step : path.steps) {
+      const int parts = step.straight ? 1 : 8;
+      const Vec2 begin = at;
+      for (int k = 1; k <= parts; ++k) {
+        const double s = static_cast<double>(k) / parts, r = 1 - s;
+        const Vec2 next = step.straight ? step.to
+                                        : r * r * r * begin + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
+                                              s * s * s * step.to;
+        obstacles_.segments.emplace_back(at, next);
+        at = next;
+      }
+    }
+  }
+
+  void add_marks(const VisibleLines& lines) {
+    SheetGroup all{"marks", "", {}, {}, {}};
+    for (const VisibleMark& visible : lines.marks) {
+      const double opacity = visible.layers > 0 ? visible.mark.hidden_opacity.value_or(0) : visible.mark.line.opacity;
+      if (!(opacity > 0)) continue;
+      const Vec2 at = view_.place(visible.place);
+      obstacles_.discs.emplace_back(at, visible.mark.radius);
+      SheetGroup& group = group_of(all, "mark", name_of(visible.mark.object));
+      for (SheetItem& item : drawn_mark(visible.mark, at, opacity, view_)) group.items.push_back(std::move(item));
+    }
+    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+  }
+
+  void add_texts(const VisibleLines& lines, std::vector<Label>& labels) {
+    for (const VisibleText& visible : lines.texts) {
+      const PointText& text = visible.text;
+      const double opacity = visible.layers > 0 ? text.hidden_opacity : 1;
+      if (!(opacity > 0)) continue;
+      Label label;
+      label.text = text_in(text.style, text.text);
+      label.text.brush.opacity *= opacity;
+      label.at = view_.place(visible.place);
+      label.side = text.side;
+      label.distance = text.distance;
+      label.kind = text.kind, label.object = name_of(text.object);
+      if (text.leader) label.leader = drawn_look(text.style);
+      if (text.style.fill) label.box = Brush{rgb(*text.style.fill), 1};
+      labels.push_back(std::move(label));
+    }
+    obstacles_.width = figure_.sheet.width, obstacles_.height = figure_.sheet.height;
+    place_labels(labels, obstacles_);
+    SheetGroup all{"labels", "", {}, {}, {}};
+    for (const Label& label : labels) all.items.push_back(drawn_label(label));
+    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+  }
+
+  std::shared_ptr<const Model> model_;
+  const View& view_;
+  bool clipped_;
+  const FigureOptions& options_;
+  Figure& figure_;
+  World world_;
+  std::vector<std::string> names_;
+  LabelObstacles obstacles_;
+};
+
+// The view of a model into a rectangle of the sheet, less the room that its axes and legend take.
+void add_view(Model model, const Vec2& at, const Vec2& size, bool panel, const FigureOptions& options, Figure& figure) {
+  const double per_pixel = millimetres_of_pixel(model);
+  const auto camera_for = [&](const Vec2& millimetres) {
+    const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
+    return model.make_camera ? model.make_camera(pixels(millimetres.x), pixels(millimetres.y)) : model.camera;
+  };
+  Vec2 corner = at, room = size;
+  model.camera = camera_for(size);
+  const bool graph = model.camera->is_graph();
+  if (graph || model.drawing.legend) {
+    std::vector<LegendEntry> legend;
+    collect_legend(model.objects, legend);
+    const View trial{model, *model.camera, at, per_pixel, {}};
+    const Insets insets = insets_of(trial, legend);
+    corner += Vec2(insets.left, insets.top);
+    room -= Vec2(insets.left + insets.right, insets.top + insets.bottom);
+    if (!(room.x > 1 && room.y > 1))
+      throw std::runtime_error(fmt::format(
+          "axes, numbers and legend leave no room for the graph: they take {:.1f} x {:.1f} mm of {:.1f} x {:.1f} mm",
+          insets.left + insets.right, insets.top + insets.bottom, size.x, size.y));
+    model.camera = camera_for(room);
+  }
+  const auto shared = std::make_shared<const Model>(std::move(model));
+  const View view{*shared, *shared->camera, corner, per_pixel, {at.x, at.y + size.y}};
+  ViewDrawing(shared, view, graph || panel, options, figure).draw();
+}
+
+}  // namespace
+
+Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions& options) {
+  Model model = *given;
+  Figure figure;
+  if (!(model.paper.width > 0)) {
+    const double per_pixel = millimetres_of_pixel(model);
+    model.paper.width = model.film.width * per_pixel, model.paper.height = model.film.height * per_pixel;
+  }
+  if (options.width > 0) {
+    model.paper.height *= options.width / model.paper.width;
+    model.paper.width = options.width;
+  }
+  figure.sheet.title = model.title;
+  figure.sheet.paper = rgb(model.drawing.paper);
+  if (!model.panels.empty()) {
+    PanelLayout layout = panel_layout(model, options.panel);
+    figure.sheet.width = layout.width, figure.sheet.height = layout.height;
+    for (PlacedPanel& panel : layout.panels)
+      add_view(std::move(panel.model), panel.at, panel.size, true, options, figure);
+    return figure;
+  }
+  figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;
+  const Vec2 margin(model.paper.margin);
+  const Vec2 size = Vec2(figure.sheet.width, figure.sheet.height) - 2.0 * margin;
+  if (!(size.x > 1 && size.y > 1))
+    throw std::runtime_error(fmt::format("a margin of {} mm leaves nothing of a page of {:.1f} x {:.1f} mm",
+                                         model.paper.margin, figure.sheet.width, figure.sheet.height));
+  add_view(std::move(model), margin, size, false, options, figure);
+  return figure;
+}
+
+}  // namespace lekalo::render

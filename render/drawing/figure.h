@@ -1,0 +1,33 @@
+// A scene as a finished drawing: its view, or several of them as panels, with lines, signs, axes, annotations and texts
+// in their places.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/drawing/sheet.h"
+#include "render/drawing/visible_lines.h"
+
+namespace lekalo::render {
+
+struct FigureOptions {
+  std::string panel;                      // only this one; empty: the page
+  double width = 0;                       // of the sheet in millimetres, its height in proportion; 0: the scene's
+  std::function<void(double)> progress;   // the share of the lines that is done
+  std::function<void(double)> rendering;  // of a ground that is rendered
+};
+
+struct Figure {
+  Sheet sheet;
+  LineStatistics statistics;
+  double seconds_of_ground = 0, seconds_of_layout = 0;
+  int incomplete = 0;                 // surfaces of which not all lines are known
+  std::vector<std::string> left_out;  // what the scene asks for and drawings do not show
+};
+
+// Throws std::runtime_error where something does not fit on the paper (by how much), or a font is missing.
+Figure figure_of(const std::shared_ptr<const Model>& model, const FigureOptions& options);
+
+}  // namespace lekalo::render

@@ -1,0 +1,365 @@
+#include "render/drawing/graph_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Millimetres.
+constexpr double kTick = 1.2;         // outwards, of the marks
+constexpr double kFromTick = 0.9;     // to their numbers
+constexpr double kFromNumbers = 1.2;  // to the axis's name
+constexpr double kPerTick = 14;       // of an axis, for each mark of `auto`
+constexpr double kSample = 7, kSampleToText = 1.5, kEntry = 1.5, kLegendFree = 3;
+
+// What the picture of a graph shows.
+struct Ranges {
+  Interval x, y;
+};
+Ranges ranges_of(const Camera& camera) {
+  const Vec3 upper = camera.ray(0, 0).origin, lower = camera.ray(camera.width(), camera.height()).origin;
+  return {{upper.x, lower.x}, {lower.y, upper.y}};
+}
+
+std::string tick_text(double value) {
+  const double rounded = std::abs(value) < 1e-12 ? 0.0 : value;
+  std::string text = fmt::format("{:.6g}", rounded);
+  if (text.front() == '-') text.replace(0, 1, "−");
+  return text;
+}
+
+struct KnotMarks {
+  double t = 0;
+  int multiplicity = 1;
+  std::string text;
+};
+
+class Axes {
+ public:
+  Axes(const View& view, const std::vector<LegendEntry>& entries)
+      : view_(view), entries_(entries), ranges_(ranges_of(view.camera)) {
+    const auto& axes = view.model.drawing.axes;
+    if (axes) {
+      style_ = axes->style;
+      if (axes->x) x_ticks_ = ticks(*axes->x, ranges_.x, view.width());
+      if (axes->y) y_ticks_ = ticks(*axes->y, ranges_.y, view.height());
+    }
+    for (const Annotation& one : view.model.drawing.annotations)
+      if (one.type == "knots") add_knots(one);
+    if (view.model.drawing.legend)
+      for (const LegendEntry& entry : entries) texts_.push_back(text_in(view.model.drawing.legend->style, entry.text));
+  }
+
+  Insets insets() const {
+    Insets room;
+    const auto& axes = view_.model.drawing.axes;
+    if (axes && axes->x) {
+      room.bottom = kTick;
+      if (!x_ticks_.empty()) room.bottom += kFromTick + height_of(x_ticks_);
+      // Half of the last number stands beyond the axis.
+      for (const double at : {ranges_.x.lo, ranges_.x.hi})
+        for (const auto& [value, text] : x_ticks_)
+          if (std::abs(value - at) < 0.02 * ranges_.x.width())
+            (at == ranges_.x.lo ? room.left : room.right) = 0.5 * text.width;
+    }
+    if (has_knot_texts()) room.bottom += kFromNumbers + knot_text_height();
+    if (axes && axes->x && !name(axes->x).empty()) {
+      const SheetText text = name_text(axes->x);
+      room.bottom += kFromNumbers + text.ascent + text.descent;
+    }
+    if (axes && axes->y) {
+      double left = kTick;
+      if (!y_ticks_.empty()) left += kFromTick + width_of(y_ticks_);
+      if (!name(axes->y).empty()) left += kFromNumbers + name_height(axes->y);
+      room.left = std::max(room.left, left);
+      room.top = std::max(room.top, 0.5 * height_of(y_ticks_));
+    }
+    // Marks of a multiple knot stand on one another below the axis.
+    const Insets legend = legend_room();
+    room.left += legend.left, room.right += legend.right, room.top += legend.top, room.bottom += legend.bottom;
+    // Lines are as wide as they are.
+    room.right = std::max(room.right, 0.5), room.top = std::max(room.top, 0.5);
+    return room;
+  }
+
+  GraphWork draw() {
+    const auto& axes = view_.model.drawing.axes;
+    if (axes) draw_axes(*axes);
+    draw_knots();
+    if (view_.model.drawing.legend && !entries_.empty()) draw_legend();
+    return std::move(work_);
+  }
+
+ private:
+  using Tick = std::pair<double, SheetText>;
+
+  std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length) const {
+    std::vector<Tick> result;
+    const std::vector<double> values = axis.ticks == "auto" ? round_values(range, length / kPerTick)
+                                       : axis.ticks.empty() ? axis.tick_values
+                                                            : std::vector<double>();
+    const double slack = 1e-9 * range.width();
+    for (const double value : values)
+      if (value >= range.lo - slack && value <= range.hi + slack)
+        result.emplace_back(value, text_in(style_, tick_text(value)));
+    return result;
+  }
+
+  static double height_of(const std::vector<Tick>& ticks) {
+    double height = 0;
+    for (const auto& [value, text] : ticks) height = std::max(height, text.ascent);
+    return height;
+  }
+  static double width_of(const std::vector<Tick>& ticks) {
+    double width = 0;
+    for (const auto& [value, text] : ticks) width = std::max(width, text.width);
+    return width;
+  }
+  static std::string name(const std::optional<GraphAxis>& axis) { return axis ? axis->label.text() : std::string(); }
+  SheetText name_text(const std::optional<GraphAxis>& axis) const { return text_in(style_, name(axis)); }
+  double name_height(const std::optional<GraphAxis>& axis) const {
+    const SheetText text = name_text(axis);
+    return text.ascent + text.descent;
+  }
+
+  double x_at(double value) const { return view_.at.x + (value - ranges_.x.lo) / ranges_.x.width() * view_.width(); }
+  double y_at(double value) const { return view_.at.y + (ranges_.y.hi - value) / ranges_.y.width() * view_.height(); }
+  double bottom() const { return view_.at.y + view_.height(); }
+  double right() const { return view_.at.x + view_.width(); }
+
+  void put(SheetText text, const Vec2& at, const char* kind) {
+    text.at = at;
+    Label label;
+    label.text = std::move(text);
+    label.side = "here";
+    label.kind = kind;
+    work_.labels.push_back(std::move(label));
+  }
+
+  void draw_axes(const GraphAxes& axes) {
+    const LineLook pen = drawn_look(axes.style), grid = drawn_look(axes.grid_style);
+    std::vector<SheetItem> lines, grids;
+    const auto line = [](std::vector<SheetItem>& list, const Vec2& a, const Vec2& b, const LineLook& look) {
+      list.push_back(drawn(straight_path({a, b}), look));
+    };
+    if (axes.x) {
+      line(lines, {view_.at.x, bottom()}, {right(), bottom()}, pen);
+      for (const auto& [value, text] : x_ticks_) {
+        const double x = x_at(value);
+        line(lines, {x, bottom()}, {x, bottom() + kTick}, pen);
+        if (axes.x->grid) line(grids, {x, view_.at.y}, {x, bottom()}, grid);
+        put(text, {x - 0.5 * text.width, bottom() + kTick + kFromTick + height_of(x_ticks_)}, "tick");
+      }
+      if (!name(axes.x).empty()) {
+        const SheetText text = name_text(axes.x);
+        double y = bottom() + kTick + kFromNumbers + text.ascent;
+        if (!x_ticks_.empty()) y += kFromTick + height_of(x_ticks_);
+        if (has_knot_texts()) y += kFromNumbers + knot_text_height();
+        put(text, {0.5 * (view_.at.x + right()) - 0.5 * text.width, y}, "axis");
+      }
+    }
+    if (axes.y) {
+      line(lines, {view_.at.x, bottom()}, {view_.at.x, view_.at.y}, pen);
+      for (const auto& [value, text] : y_ticks_) {
+        const double y = y_at(value);
+        line(lines, {view_.at.x, y}, {view_.at.x - kTick, y}, pen);
+        if (axes.y->grid) line(grids, {view_.at.x, y}, {right(), y}, grid);
+        put(text, {view_.at.x - kTick - kFromTick - text.width, y + 0.5 * text.ascent}, "tick");
+      }
+      if (!name(axes.y).empty()) {
+        // Upwards along the axis.
+        SheetText text = name_text(axes.y);
+        text.angle = 0.5 * kPi;
+        double x = view_.at.x - kTick - kFromNumbers - text.descent;
+        if (!y_ticks_.empty()) x -= kFromTick + width_of(y_ticks_);
+        put(text, {x, 0.5 * (view_.at.y + bottom()) + 0.5 * text.width}, "axis");
+      }
+    }
+    work_.under.push_back(SheetGroup{"grid", "", {}, {}, std::move(grids)});
+    work_.over.push_back(SheetGroup{"axes", "", {}, {}, std::move(lines)});
+  }
+
+  // ---------------------------------------------------------------- knots
+
+  void add_knots(const Annotation& annotation) {
+    const Fields& f = annotation.values;
+    const auto form = f.curve("of")->as_nurbs();
+    if (!form) return;
+    knot_style_ = annotation.style;
+    knot_marker_ = f.text("marker");
+    stacked_ = f.text("multiplicity") == "stacked";
+    knot_texts_inside_ = f.has("side") && f.text("side").starts_with("above");
+    for (size_t i = 0; i < form->knots.size();) {
+      size_t last = i;
+      while (last + 1 < form->knots.size() && form->knots[last + 1] == form->knots[i]) ++last;
+      KnotMarks marks{form->knots[i], static_cast<int>(last - i) + 1, {}};
+      if (f.has("label")) {
+        const auto& words = f.get<TextTemplate>("label");
+        const auto text = [&](size_t k) {
+          const double index = static_cast<double>(k);
+          return words.text(std::span(&index, 1));
+        };
+        marks.text = text(i);
+        if (last > i) {
+          marks.text += last == i + 1 ? "," : "–";
+          marks.text += text(last);
+        }
+      }
+      knots_.push_back(std::move(marks));
+      i = last + 1;
+    }
+  }
+
+  bool has_knot_texts() const {
+    return !knot_texts_inside_ &&
+           std::any_of(knots_.begin(), knots_.end(), [](const KnotMarks& one) { return !one.text.empty(); });
+  }
+  double knot_text_height() const {
+    double height = 0;
+    for (const KnotMarks& one : knots_)
+      if (!one.text.empty()) {
+        const SheetText text = text_in(knot_style_, one.text);
+        height = std::max(height, text.ascent + text.descent);
+      }
+    return height;
+  }
+
+  void draw_knots() {
+    if (knots_.empty()) return;
+    std::vector<SheetItem> signs;
+    Mark mark;
+    mark.sign = *mark_sign(knot_marker_);
+    mark.radius = 0.5 * knot_style_.marker_size;
+    mark.line = drawn_look(knot_style_);
+    for (const KnotMarks& one : knots_) {
+      if (!ranges_.x.contains(one.t)) continue;
+      const double x = x_at(one.t);
+      for (int k = 0; k < (stacked_ ? one.multiplicity : 1); ++k)
+        for (SheetItem& item : drawn_mark(mark, {x, bottom() - 1.3 * knot_style_.marker_size * k}, 1, view_))
+          signs.push_back(std::move(item));
+      if (one.text.empty()) continue;
+      const SheetText text = text_in(knot_style_, one.text);
+      double y = bottom() + kTick + kFromNumbers + text.ascent;
+      if (!x_ticks_.empty()) y += kFromTick + height_of(x_ticks_);
+      if (knot_texts_inside_) y = bottom() - kFromNumbers - text.descent;
+      put(text, {x - 0.5 * text.width, y}, "knots");
+    }
+    work_.over.push_back(SheetGroup{"knots", "", {}, {}, std::move(signs)});
+  }
+
+  // ---------------------------------------------------------------- legend
+
+  double entry_height() const {
+    double height = 0;
+    for (const SheetText& text : texts_) height = std::max(height, text.ascent + text.descent);
+    return height;
+  }
+  Vec2 legend_size() const {
+    double width = 0;
+    for (const SheetText& text : texts_) width = std::max(width, text.width);
+    double height = static_cast<double>(texts_.size()) * (entry_height() + kEntry) - kEntry;
+    if (const auto& title = view_.model.drawing.legend->title) {
+      const SheetText text = text_in(view_.model.drawing.legend->style, title->text());
+      height += text.ascent + text.descent + kEntry;
+      width = std::max(width, text.width - kSample - kSampleToText);
+    }
+    return {kSample + kSampleToText + width, height};
+  }
+  // Above or below the entries stand in a row.
+  bool in_a_row() const {
+    const std::string& side = view_.model.drawing.legend->side;
+    return side == "above" || side == "below";
+  }
+  double row_width() const {
+    double width = -2 * kLegendFree;
+    for (const SheetText& text : texts_) width += kSample + kSampleToText + text.width + 2 * kLegendFree;
+    return width;
+  }
+  Insets legend_room() const {
+    Insets room;
+    if (!view_.model.drawing.legend || texts_.empty()) return room;
+    const std::string& side = view_.model.drawing.legend->side;
+    const Vec2 size = legend_size();
+    if (side == "right") room.right = size.x + kLegendFree;
+    if (side == "left") room.left = size.x + kLegendFree;
+    if (side == "above") room.top = entry_height() + kLegendFree;
+    if (side == "below") room.bottom = entry_height() + kLegendFree;
+    return room;
+  }
+
+  void draw_legend() {
+    const Legend& legend = *view_.model.drawing.legend;
+    const Vec2 size = legend_size();
+    const Insets room = insets();
+    Vec2 at(view_.at.x + kLegendFree, view_.at.y + kLegendFree);
+    if (legend.side == "right") at = {right() + room.right - size.x, 0.5 * (view_.at.y + bottom() - size.y)};
+    if (legend.side == "left") at = {view_.at.x - room.left, 0.5 * (view_.at.y + bottom() - size.y)};
+    if (legend.side.find("right") != std::string::npos && legend.side != "right") at.x = right() - kLegendFree - size.x;
+    if (legend.side.find("below ") != std::string::npos) at.y = bottom() - kLegendFree - size.y;
+    if (in_a_row())
+      at = {0.5 * (view_.at.x + right() - row_width()),
+            legend.side == "above" ? view_.at.y - room.top : bottom() + room.bottom - entry_height()};
+    // Taller than the graph, it still stays in its place on the page.
+    if (legend.side == "right" || legend.side == "left")
+      at.y = std::max(view_.at.y - room.top, std::min(at.y, bottom() + room.bottom - size.y));
+    std::vector<SheetItem> samples;
+    if (legend.title && !in_a_row()) {
+      const SheetText text = text_in(legend.style, legend.title->text());
+      put(text, {at.x, at.y + text.ascent}, "legend");
+      at.y += text.ascent + text.descent + kEntry;
+    }
+    for (size_t k = 0; k < entries_.size(); ++k) {
+      const SheetText& text = texts_[k];
+      const double middle = at.y + 0.5 * entry_height();
+      if (entries_[k].line)
+        samples.push_back(drawn(straight_path({{at.x, middle}, {at.x + kSample, middle}}), *entries_[k].line));
+      if (entries_[k].mark)
+        for (SheetItem& item : drawn_mark(*entries_[k].mark, {at.x + 0.5 * kSample, middle}, 1, view_))
+          samples.push_back(std::move(item));
+      put(text, {at.x + kSample + kSampleToText, middle + 0.5 * (text.ascent - text.descent)}, "legend");
+      if (in_a_row())
+        at.x += kSample + kSampleToText + text.width + 2 * kLegendFree;
+      else
+        at.y += entry_height() + kEntry;
+    }
+    work_.over.push_back(SheetGroup{"legend", "", {}, {}, std::move(samples)});
+  }
+
+  const View& view_;
+  const std::vector<LegendEntry>& entries_;
+  Ranges ranges_;
+  Style style_;
+  std::vector<Tick> x_ticks_, y_ticks_;
+  std::vector<KnotMarks> knots_;
+  Style knot_style_;
+  std::string knot_marker_;
+  bool stacked_ = true, knot_texts_inside_ = false;
+  std::vector<SheetText> texts_;  // of the legend
+  GraphWork work_;
+};
+
+}  // namespace
+
+Insets insets_of(const View& view, const std::vector<LegendEntry>& entries) { return Axes(view, entries).insets(); }
+
+GraphWork graph_axes(const View& view, const std::vector<LegendEntry>& entries) { return Axes(view, entries).draw(); }
+
+std::vector<double> round_values(const Interval& range, double count) {
+  const double rough = range.width() / std::max(count, 1.0);
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= 0.999 * rough) step = factor * power;
+  std::vector<double> values;
+  for (double k = std::ceil(range.lo / step - 1e-9); k * step <= range.hi + 1e-9 * step; ++k)
+    values.push_back(k * step);
+  return values;
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,44 @@
+// Where texts stand: beside what they speak of, clear of lines, signs and one another.
+//
+// Each text has places around its point, eight directions at a few distances. The place of least cost is taken: what
+// covers another text costs most, then what lies outside of the paper, then lines and signs under the text, then
+// distance; texts with a side of their own have one place. After the first choice all texts choose again, some times,
+// given the others' places.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/drawing/sheet.h"
+
+namespace lekalo::render {
+
+// A text that wants a place; lengths in millimetres on the sheet.
+struct Label {
+  SheetText text;
+  Vec2 at{0};                      // what it speaks of
+  std::string side;                // above left, ...: its place; empty: any; `here`: text.at is decided already
+  double distance = 0.6;           // from the point to the text
+  std::optional<LineLook> leader;  // a line from the text to the point: the text may stand farther off
+  std::optional<Brush> box;        // behind the text
+  std::string kind = "label", object;
+};
+
+struct LabelObstacles {
+  std::vector<std::pair<Vec2, Vec2>> segments;  // lines
+  std::vector<std::pair<Vec2, double>> discs;   // signs: centre, radius
+  double width = 0, height = 0;                 // of the paper
+};
+
+// Decides text.at of all labels; true where a text still covers another, or stands outside of the paper.
+void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles);
+
+// Upper left corner of the box of a text of so much beside a point, and the unit direction for a side.
+Vec2 direction_of_side(std::string_view side);
+
+// The label with its box and leader as they are drawn. Its place must be decided.
+SheetGroup drawn_label(const Label& label);
+
+}  // namespace lekalo::render

@@ -1,0 +1,226 @@
+#include "render/drawing/panel_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "render/cameras/shown.h"
+#include "render/cameras/window.h"
+#include "render/drawing/annotations.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+constexpr double kFree = 1.5;  // millimetres around what a panel shows
+constexpr int kTrial = 1000;   // pixels of cameras by which sizes are found
+
+double millimetres_of(const std::string& unit) {
+  if (unit == "cm") return 10;
+  if (unit == "m") return 1000;
+  if (unit == "um" || unit == "µm") return 1e-3;
+  if (unit == "km") return 1e6;
+  if (unit == "in" || unit == "inch") return 25.4;
+  if (unit == "ft") return 304.8;
+  return 1;
+}
+
+struct Rect {
+  Vec2 lo{kInfinity}, hi{-kInfinity};
+  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  Vec2 size() const { return hi - lo; }
+};
+
+Model model_of(const Model& page, const Panel& panel) {
+  Model model = page;
+  model.panels.clear();
+  if (panel.objects) model.objects = *panel.objects;
+  model.drawing = panel.drawing;
+  model.camera = panel.camera;
+  model.make_camera = panel.make_camera;
+  return model;
+}
+
+// What of the picture the objects take.
+Rect shown_part(const Model& model, const Camera& camera) {
+  Rect part;
+  for (const Vec3& point : Shown(model.objects).points()) {
+    const PicturePoint p = camera.project(point);
+    if (p.visible_side) part.include({p.x, p.y});
+  }
+  if (!(part.lo.x < kInfinity)) part.include(Vec2(0)), part.include(Vec2(camera.width(), camera.height()));
+  return part;
+}
+
+void include(const SheetItem& item, Rect& part) {
+  if (const auto* group = std::get_if<SheetGroup>(&item))
+    for (const SheetItem& one : group->items) include(one, part);
+  if (const auto* path = std::get_if<SheetPath>(&item))
+    for (const Path& one : path->parts) {
+      part.include(one.from);
+      for (const PathStep& step : one.steps) part.include(step.to);
+    }
+}
+
+// What the panel shows in millimetres, and the room that annotations take around it.
+struct Extent {
+  Vec2 half{0};              // of what is shown
+  Vec2 before{0}, after{0};  // left and above, right and below of it
+  CameraPtr camera;          // a picture whose pixels are as large as `millimetres` says
+  double millimetres = 1;
+  Rect shown;  // in its pixels
+};
+
+void add_annotation_room(const Model& model, Extent& extent) {
+  Model trial = model;
+  trial.camera = extent.camera;
+  const View view{trial, *trial.camera, Vec2(0), extent.millimetres, Vec2(0)};
+  LineWork work;
+  PageWork page;
+  add_annotations(view, work, page);
+  Rect all;
+  all.include(extent.millimetres * extent.shown.lo), all.include(extent.millimetres * extent.shown.hi);
+  for (const SheetItem& item : page.shapes) include(item, all);
+  for (Label& label : page.labels) {
+    std::vector<Label> one{label};
+    LabelObstacles free;
+    free.width = free.height = kInfinity;
+    if (label.side != "here") place_labels(one, free);
+    const SheetText& text = one[0].text;
+    const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+    for (const double x : {0.0, text.width})
+      for (const double y : {text.ascent, -text.descent}) all.include(text.at + x * along + y * up);
+  }
+  extent.before = extent.millimetres * extent.shown.lo - all.lo + Vec2(kFree);
+  extent.after = all.hi - extent.millimetres * extent.shown.hi + Vec2(kFree);
+}
+
+// At a scale: millimetres for one scene unit.
+Extent extent_at(const Model& model, double scale, const std::string& name) {
+  Extent extent;
+  extent.camera = model.make_camera(kTrial, kTrial);
+  if (!extent.camera->is_parallel())
+    throw std::runtime_error(
+        fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name));
+  extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
+  extent.shown = shown_part(model, *extent.camera);
+  extent.half = 0.5 * extent.millimetres * extent.shown.size();
+  add_annotation_room(model, extent);
+  return extent;
+}
+
+// Room on both sides of the line through the middles of a row or column.
+struct Track {
+  double before = 0, after = 0;
+  double size() const { return before + after; }
+};
+
+}  // namespace
+
+PanelLayout panel_layout(const Model& page, const std::string& only) {
+  const std::vector<std::vector<std::string>> rows =
+      only.empty() ? page.layout.rows : std::vector<std::vector<std::string>>{{only}};
+  std::map<std::string, const Panel*> panels;
+  for (const Panel& panel : page.panels) panels.emplace(panel.name, &panel);
+  if (!only.empty() && !panels.contains(only))
+    throw std::runtime_error(fmt::format("there is no panel called '{}'", only));
+  size_t columns = 0;
+  for (const auto& row : rows) columns = std::max(columns, row.size());
+  const double gap = page.layout.gap, margin = page.paper.margin;
+  PanelLayout layout;
+  layout.width = page.paper.width, layout.height = page.paper.height;
+
+  if (page.layout.scale > 0) {
+    const double scale = page.layout.scale * millimetres_of(page.unit);
+    std::map<std::string, Extent> extents;
+    std::vector<Track> across(columns), down(rows.size());
+    for (size_t i = 0; i < rows.size(); ++i)
+      for (size_t j = 0; j < rows[i].size(); ++j) {
+        if (rows[i][j].empty()) continue;
+        const Extent extent = extent_at(model_of(page, *panels.at(rows[i][j])), scale, rows[i][j]);
+        across[j].before = std::max(across[j].before, extent.half.x + extent.before.x);
+        across[j].after = std::max(across[j].after, extent.half.x + extent.after.x);
+        down[i].before = std::max(down[i].before, extent.half.y + extent.before.y);
+        down[i].after = std::max(down[i].after, extent.half.y + extent.after.y);
+        extents.emplace(rows[i][j], extent);
+      }
+    const auto sum = [&](const std::vector<Track>& tracks) {
+      double total = 2 * margin + gap * static_cast<double>(tracks.size() - 1);
+      for (const Track& track : tracks) total += track.size();
+      return total;
+    };
+    const double width = sum(across), height = sum(down);
+    if (page.paper.auto_width || !only.empty()) layout.width = width;
+    if (page.paper.auto_height || !only.empty()) layout.height = height;
+    if (width > layout.width + 1e-6 || height > layout.height + 1e-6)
+      throw std::runtime_error(fmt::format(
+          "the panels do not fit at the scale {:g}: they need {:.1f} x {:.1f} mm, the page has {:.1f} x {:.1f} mm",
+          page.layout.scale, width, height, layout.width, layout.height));
+    // What is free stands around all.
+    Vec2 at(margin + 0.5 * (layout.width - width), margin + 0.5 * (layout.height - height));
+    for (size_t i = 0; i < rows.size(); ++i) {
+      double x = at.x;
+      for (size_t j = 0; j < rows[i].size(); ++j) {
+        if (!rows[i][j].empty()) {
+          const Extent& extent = extents.at(rows[i][j]);
+          Model model = model_of(page, *panels.at(rows[i][j]));
+          // A window of the trial's picture, its middle on the lines of row and column.
+          const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
+          const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
+          const Vec2 corner = middle - Vec2(across[j].before, down[i].before) / extent.millimetres;
+          model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
+            return window_of(camera, corner.x, corner.y, zoom, w, h);
+          };
+          layout.panels.push_back({std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
+        }
+        x += across[j].size() + gap;
+      }
+      at.y += down[i].size() + gap;
+    }
+    return layout;
+  }
+
+  // Equal shares of the page.
+  const double width =
+      (layout.width - 2 * margin - gap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  std::vector<double> heights;
+  for (const auto& row : rows) {
+    double tallest = 0;
+    for (const std::string& name : row) {
+      if (name.empty()) continue;
+      const Model model = model_of(page, *panels.at(name));
+      const Vec2 size = shown_part(model, *model.make_camera(kTrial, kTrial)).size();
+      tallest = std::max(tallest, size.x > 0 ? std::clamp(size.y / size.x, 0.1, 3.0) * width : width);
+    }
+    heights.push_back(page.paper.auto_height || !only.empty()
+                          ? tallest
+                          : (layout.height - 2 * margin - gap * static_cast<double>(rows.size() - 1)) /
+                                static_cast<double>(rows.size()));
+  }
+  if (page.paper.auto_height || !only.empty()) {
+    layout.height = 2 * margin + gap * static_cast<double>(rows.size() - 1);
+    for (const double height : heights) layout.height += height;
+  }
+  if (!(width > 1) || !(*std::min_element(heights.begin(), heights.end()) > 1))
+    throw std::runtime_error(fmt::format("margins and gaps leave no room for {} x {} panels on {:.1f} x {:.1f} mm",
+                                         columns, rows.size(), layout.width, layout.height));
+  double y = margin;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t j = 0; j < rows[i].size(); ++j)
+      if (!rows[i][j].empty()) {
+        PlacedPanel placed{model_of(page, *panels.at(rows[i][j])),
+                           {margin + static_cast<double>(j) * (width + gap), y},
+                           {width, heights[i]}};
+        layout.panels.push_back(std::move(placed));
+      }
+    y += heights[i] + gap;
+  }
+  return layout;
+}
+
+}  // namespace lekalo::render

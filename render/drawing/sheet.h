@@ -1,0 +1,81 @@
+// A finished drawing as plain data: what is on the paper, in millimetres from its upper left corner, y downwards; later
+// things lie over earlier ones. Made by figure.h, written by svg.h and cairo_output.h.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/drawing/paths.h"
+#include "render/image/png.h"
+#include "render/lines/strokes.h"
+
+namespace lekalo::render {
+
+struct Brush {
+  Spectrum color;
+  double opacity = 1;
+};
+
+// Filled by the even-odd rule, then drawn.
+struct SheetPath {
+  std::vector<Path> parts;
+  std::optional<LineLook> pen;  // widths in millimetres
+  std::optional<Brush> brush;
+};
+
+// Which file of the font families that drawings use (fonts.h).
+struct Font {
+  std::string family;
+  bool italic = false, bold = false;
+  auto operator<=>(const Font&) const = default;
+};
+
+// Characters of one font on a line.
+struct TextRun {
+  Vec2 at{0};  // of the baseline's beginning, from the text's own
+  std::string text;
+  Font font;
+  double size = 1;  // millimetres of an em
+};
+
+// A text as it was laid out: runs, and what is drawn: bars of fractions, roots, arrows over vectors.
+struct SheetText {
+  Vec2 at{0};        // of the baseline's beginning
+  double angle = 0;  // radians, counterclockwise on the paper
+  std::vector<TextRun> runs;
+  std::vector<Path> strokes;  // from `at`, turned with it
+  double stroke_width = 0.1;
+  Brush brush;
+  // For LaTeX's own setting: the text as written, and its box about `at`.
+  std::string tex;
+  double width = 0, ascent = 0, descent = 0, size = 0;
+};
+
+struct SheetPicture {
+  Vec2 at{0};  // upper left corner
+  double width = 0, height = 0;
+  std::shared_ptr<const DisplayImage> picture;
+};
+
+struct SheetGroup;
+using SheetItem = std::variant<SheetPath, SheetText, SheetPicture, SheetGroup>;
+
+struct SheetGroup {
+  std::string kind;    // boundary, silhouette hidden, label, ...: classes of a style sheet
+  std::string object;  // whose it is; empty: of the drawing
+  std::optional<Vec2> clip_at;
+  Vec2 clip_size{0};  // of a group that is cut at a rectangle
+  std::vector<SheetItem> items;
+};
+
+struct Sheet {
+  double width = 0, height = 0;
+  Spectrum paper;
+  std::string title;
+  std::vector<SheetItem> items;
+};
+
+}  // namespace lekalo::render

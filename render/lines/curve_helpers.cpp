@@ -1,0 +1,118 @@
+#include "render/lines/curve_helpers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries/arc_length.h"
+#include "geometry/surfaces/ribbon.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Curvature below this, in units of the curve's own derivatives, is none.
+constexpr double kStraight = 1e-12;
+
+// k n = ((r' x r'') x r') / |r'|^4, or zero.
+Vec3 curvature_vector(const CurveJet& at) {
+  const double square = glm::dot(at.d[1], at.d[1]);
+  const Vec3 across = glm::cross(glm::cross(at.d[1], at.d[2]), at.d[1]);
+  if (!(square > 0) || !(glm::length(across) > kStraight * square * glm::length(at.d[2]))) return Vec3(0);
+  return across / (square * square);
+}
+
+}  // namespace
+
+CurvatureComb curvature_comb(const Curve& curve, int count, double scale) {
+  const Interval domain = curve.domain();
+  CurvatureComb comb;
+  for (int k = 0; k < count; ++k) {
+    const CurveJet at = curve.evaluate(domain.clamp(domain.lo + domain.width() * k / (count - 1)), 2);
+    if (!(glm::length(at.d[1]) > 0)) continue;
+    comb.feet.push_back(at.d[0]);
+    comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
+  }
+  return comb;
+}
+
+std::vector<double> even_parameters(const Curve& curve, int count) {
+  if (count == 1) return {parameter_at_fraction(curve, 0.5)};
+  std::vector<double> at;
+  const int parts = curve.is_closed() ? count : count - 1;
+  for (int k = 0; k < count; ++k) at.push_back(parameter_at_fraction(curve, static_cast<double>(k) / parts));
+  return at;
+}
+
+std::vector<Frame> frenet_frames(const Curve& curve, const std::vector<double>& at) {
+  std::vector<Frame> frames;
+  for (const double t : at) {
+    const CurveJet jet = curve.evaluate(t, 2);
+    const Vec3 bend = curvature_vector(jet);
+    if (bend == Vec3(0)) continue;
+    const Vec3 z = glm::normalize(jet.d[1]), x = glm::normalize(bend);
+    frames.push_back({jet.d[0], x, glm::cross(z, x), z});
+  }
+  return frames;
+}
+
+std::vector<Frame> rotation_minimizing_frames(const Curve& curve, const std::vector<double>& at) {
+  RibbonDirection direction;
+  direction.start = curvature_vector(curve.evaluate(curve.domain().lo, 2));
+  if (direction.start != Vec3(0)) direction.start = glm::normalize(direction.start);
+  // A ribbon knows the direction across; the curve outlives it.
+  const Ribbon ribbon(CurvePtr(CurvePtr(), &curve), 1, direction);
+  std::vector<Frame> frames;
+  for (const double t : at) {
+    const CurveJet jet = curve.evaluate(t, 1);
+    const Vec3 z = glm::normalize(jet.d[1]), x = ribbon.direction(t, 0).d[0];
+    frames.push_back({jet.d[0], x, glm::cross(z, x), z});
+  }
+  return frames;
+}
+
+std::vector<Vec3> helper_points(const Object& object) {
+  std::vector<Vec3> points;
+  if (!object.look) return points;
+  const auto* curve = std::get_if<CurvePtr>(&object.shape);
+  std::vector<SurfacePtr> surfaces;
+  if (const auto* surface = std::get_if<SurfacePtr>(&object.shape)) surfaces = {*surface};
+  if (const auto* set = std::get_if<SurfaceSet>(&object.shape)) surfaces = *set;
+  const auto add = [&](const std::vector<Vec4>& form) {
+    for (const Vec4& p : form)
+      if (p.w != 0) points.push_back(Vec3(p) / p.w);
+  };
+  for (const Helper& helper : object.look->helpers) {
+    const Fields& f = helper.values;
+    if (helper.type == "control_polygon" && curve)
+      if (const auto form = (*curve)->as_nurbs()) add(form->points);
+    if (helper.type == "comb" && curve) {
+      const CurvatureComb comb = curvature_comb(**curve, f.integer("count"), f.number("scale"));
+      points.insert(points.end(), comb.tips.begin(), comb.tips.end());
+    }
+    if (helper.type == "frames" && curve && (*curve)->domain().width() < kInfinity)
+      for (const Frame& frame : helper_frames(**curve, helper))
+        for (const Vec3& axis : {frame.x, frame.y, frame.z}) points.push_back(frame.origin + f.number("length") * axis);
+    for (const SurfacePtr& surface : surfaces) {
+      if (helper.type == "control_net")
+        if (const auto form = surface->as_nurbs()) add(form->points);
+      if (helper.type == "normals" && surface->bounded()) {
+        const Rectangle domain = surface->domain();
+        for (const double u : {domain.u.lo, domain.u.middle(), domain.u.hi})
+          for (const double v : {domain.v.lo, domain.v.middle(), domain.v.hi})
+            points.push_back(surface->point(u, v) + f.number("length") * surface->normal(u, v));
+      }
+    }
+  }
+  std::erase_if(points, [](const Vec3& p) { return !std::isfinite(p.x + p.y + p.z); });
+  return points;
+}
+
+std::vector<Frame> helper_frames(const Curve& curve, const Helper& helper) {
+  const Fields& f = helper.values;
+  const std::vector<double> at = f.has("at") ? f.numbers("at") : even_parameters(curve, f.integer("count"));
+  return f.text("kind") == "frenet" ? frenet_frames(curve, at) : rotation_minimizing_frames(curve, at);
+}
+
+}  // namespace lekalo::render

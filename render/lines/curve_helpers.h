@@ -1,0 +1,35 @@
+// What helpers show: combs of curvature, moving frames; and how far they reach.
+#pragma once
+
+#include <vector>
+
+#include "geometry/curve.h"
+#include "render/scene/model.h"
+
+namespace lekalo::render {
+
+// Teeth r - scale k n across the curve, on the side away from the centre of curvature (k n the vector of curvature), at
+// `count` even parameters; where the curve rests there are none.
+struct CurvatureComb {
+  std::vector<geometry::Vec3> feet, tips;
+};
+CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale);
+
+// So many parameters, evenly spaced in arc length: both ends, or of a closed curve the first alone. One: the middle.
+std::vector<double> even_parameters(const geometry::Curve& curve, int count);
+
+// Frames with z the tangent, x the principal normal, y the binormal (Golovanov 2016, 2.1). Places without curvature
+// have none.
+std::vector<geometry::Frame> frenet_frames(const geometry::Curve& curve, const std::vector<double>& at);
+
+// Frames that turn about the tangent no more than they must, beginning with the principal normal where there is one.
+// `at` must rise.
+std::vector<geometry::Frame> rotation_minimizing_frames(const geometry::Curve& curve, const std::vector<double>& at);
+
+// Those that a helper `frames` asks for.
+std::vector<geometry::Frame> helper_frames(const geometry::Curve& curve, const Helper& helper);
+
+// What the helpers of an object reach: control points, tips of combs, frames and normals.
+std::vector<geometry::Vec3> helper_points(const Object& object);
+
+}  // namespace lekalo::render
