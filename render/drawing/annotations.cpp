@@ -408,6 +408,7 @@ class Annotator {
     const Vec2 up(way.y, -way.x);
     Label label = page_label(words, middle);
     label.side = "here";
+    label.text.alignment = 0.5;
     label.text.angle = std::atan2(-way.y, way.x);
     const double beside = label.text.width + 1 > length && std::abs(way.y) < 1e-9
                               ? 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width

@@ -133,8 +133,9 @@ class Axes {
   double bottom() const { return view_.at.y + view_.height(); }
   double right() const { return view_.at.x + view_.width(); }
 
-  void put(SheetText text, const Vec2& at, const char* kind) {
+  void put(SheetText text, const Vec2& at, const char* kind, double alignment = 0.5) {
     text.at = at;
+    text.alignment = alignment;
     Label label;
     label.text = std::move(text);
     label.side = "here";
@@ -170,7 +171,7 @@ class Axes {
         const double y = y_at(value);
         line(lines, {view_.at.x, y}, {view_.at.x - kTick, y}, pen);
         if (axes.y->grid) line(grids, {view_.at.x, y}, {right(), y}, grid);
-        put(text, {view_.at.x - kTick - kFromTick - text.width, y + 0.5 * text.ascent}, "tick");
+        put(text, {view_.at.x - kTick - kFromTick - text.width, y + 0.5 * text.ascent}, "tick", 1);
       }
       if (!name(axes.y).empty()) {
         // Upwards along the axis.
@@ -311,7 +312,7 @@ class Axes {
     std::vector<SheetItem> samples;
     if (legend.title && !in_a_row()) {
       const SheetText text = text_in(legend.style, legend.title->text());
-      put(text, {at.x, at.y + text.ascent}, "legend");
+      put(text, {at.x, at.y + text.ascent}, "legend", 0);
       at.y += text.ascent + text.descent + kEntry;
     }
     for (size_t k = 0; k < entries_.size(); ++k) {
@@ -322,7 +323,7 @@ class Axes {
       if (entries_[k].mark)
         for (SheetItem& item : drawn_mark(*entries_[k].mark, {at.x + 0.5 * kSample, middle}, 1, view_))
           samples.push_back(std::move(item));
-      put(text, {at.x + kSample + kSampleToText, middle + 0.5 * (text.ascent - text.descent)}, "legend");
+      put(text, {at.x + kSample + kSampleToText, middle + 0.5 * (text.ascent - text.descent)}, "legend", 0);
       if (in_a_row())
         at.x += kSample + kSampleToText + text.width + 2 * kLegendFree;
       else

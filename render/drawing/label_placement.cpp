@@ -71,6 +71,7 @@ Vec2 baseline(const SheetText& text, const Vec2& at, const Vec2& way, double dis
 
 struct Candidate {
   Vec2 at{0};
+  double alignment = 0;
   double cost = 0;  // all but that of other texts
   Rect box;
 };
@@ -97,12 +98,13 @@ std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obst
   const auto add = [&](const Vec2& way, double distance, double liked) {
     Candidate one;
     one.at = baseline(label.text, label.at, way, distance);
+    one.alignment = way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5;
     one.box = box_of(label.text, one.at);
     one.cost = liked + fixed_cost(one.box, obstacles);
     result.push_back(one);
   };
   if (label.side == "here") {
-    result.push_back({label.text.at, 0, box_of(label.text, label.text.at)});
+    result.push_back({label.text.at, label.text.alignment, 0, box_of(label.text, label.text.at)});
   } else if (!label.side.empty()) {
     add(direction_of_side(label.side), label.distance, 0);
   } else {
@@ -147,7 +149,10 @@ void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles) {
       }
       placed[i] = true;
     }
-  for (size_t i = 0; i < labels.size(); ++i) labels[i].text.at = all[i][chosen[i]].at;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    labels[i].text.at = all[i][chosen[i]].at;
+    labels[i].text.alignment = all[i][chosen[i]].alignment;
+  }
 }
 
 SheetGroup drawn_label(const Label& label) {

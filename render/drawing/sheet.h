@@ -52,6 +52,8 @@ struct SheetText {
   // For LaTeX's own setting: the text as written, and its box about `at`.
   std::string tex;
   double width = 0, ascent = 0, descent = 0, size = 0;
+  // Which point of its width stays where it is if the text comes out wider or narrower: 0 left, 0.5 middle, 1 right.
+  double alignment = 0;
 };
 
 struct SheetPicture {

@@ -47,7 +47,7 @@ std::string TextTemplate::text(std::span<const double> values) const {
     const auto missing = part.width - static_cast<int>(number.size());
     const bool negative = part.zeros && number.front() == '-';
     // A script is one thing in TeX: t_12 is t_{1}2.
-    const bool script = !result.empty() && (result.back() == '_' || result.back() == '^');
+    const bool script = !result.empty() && (result.back() == '_' || result.back() == '^') && number.size() > 1;
     if (script) result += '{';
     if (negative) result += '-';
     if (missing > 0) result.append(static_cast<std::size_t>(missing), part.zeros ? '0' : ' ');

@@ -64,3 +64,5 @@ complete -c lekalo -n '__fish_seen_subcommand_from export' -l format -x -a 'pov 
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l sag -x -d 'largest distance from the surface'
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l patch-steps -x -d 'steps of Bezier patches (pov)'
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l flatness -x -d 'flatness of Bezier patches (pov)'
+complete -c lekalo -n '__fish_seen_subcommand_from draw' -l outlines -d 'texts of svg files as outlines'
+complete -c lekalo -n '__fish_seen_subcommand_from draw' -l latex -d 'texts in a file for LaTeX'

@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "render/drawing/cairo_output.h"
 #include "render/drawing/figure.h"
+#include "render/drawing/latex.h"
 #include "render/drawing/svg.h"
 #include "render/image/atomic_file.h"
 
@@ -34,13 +35,15 @@ int draw(const Options& options) {
   std::vector<render::OutputFile> outputs;
   for (const std::string& path : options.outputs) {
     if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf and png", path));
+    if (options.settings.latex && path.ends_with(".svg"))
+      throw UsageError(fmt::format("'{}': LaTeX takes pdf and png files", path));
     outputs.push_back({path, "drawing"});
   }
   if (options.outputs.empty())
     for (const render::OutputFile& file : scene.model->outputs)
-      if (file.kind == "drawing") outputs.push_back(file);
+      if (file.kind == "drawing" && !(options.settings.latex && file.path.ends_with(".svg"))) outputs.push_back(file);
   if (outputs.empty())
-    outputs.push_back({std::filesystem::path(options.scene.file).stem().string() + ".svg", "drawing"});
+    outputs.push_back({std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"), "drawing"});
   draw_files(scene.model, outputs, options.settings);
   return kDone;
 }
@@ -100,7 +103,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       if (settings.stats)
         print_statistics(figure, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
-    const render::Sheet& sheet = found->figure.sheet;
+    const render::Sheet whole = found->figure.sheet;
+    const render::Sheet sheet = settings.latex ? render::without_texts(whole) : whole;
     const std::string ending = std::filesystem::path(file.path).extension().string();
     if (ending == ".svg")
       render::write_file_atomically(file.path, render::svg_of(sheet, {settings.outlines}));
@@ -109,6 +113,11 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
     else
       write_pixels(file.path, sheet, *model);
     if (!settings.quiet) fmt::print(stderr, "{}\n", file.path);
+    if (!settings.latex) continue;
+    const std::filesystem::path overlay = std::filesystem::path(file.path).replace_extension(".tex");
+    render::write_file_atomically(overlay,
+                                  render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()));
+    if (!settings.quiet) fmt::print(stderr, "{}\n", overlay.string());
   }
 }
 
@@ -126,6 +135,7 @@ void add_draw(CLI::App& app, Action& action) {
   sub->add_option("-o,--output", options->outputs,
                   "file to write (svg, pdf, png) in place of the scene's outputs; repeatable")
       ->type_name("FILE");
+  sub->add_flag("--latex", options->settings.latex, "texts in FILE.tex, for LaTeX to set over the drawing (pdf, png)");
   sub->add_flag("--outlines", options->settings.outlines, "texts of svg files as outlines in place of text and fonts");
   sub->add_flag("--quiet", options->settings.quiet, "no progress and no notes");
   sub->add_flag("--stats", options->settings.stats, "print how many lines and pieces there are, and times");

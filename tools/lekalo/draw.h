@@ -8,6 +8,7 @@ namespace lekalo::command {
 struct DrawSettings {
   bool quiet = false;
   bool stats = false;
+  bool latex = false;     // texts in a file of their own, for LaTeX
   bool outlines = false;  // texts of svg files as outlines
 };
 

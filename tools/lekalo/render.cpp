@@ -183,7 +183,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
                                               [](const OutputFile& file) { return file.kind == "render"; });
   const std::vector<OutputFile> drawn(drawings, outputs.end());
   outputs.erase(drawings, outputs.end());
-  if (!drawn.empty()) draw_files(model, drawn, {options.quiet, options.stats});
+  if (!drawn.empty()) draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats});
   if (outputs.empty()) return kDone;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;

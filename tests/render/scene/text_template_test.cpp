@@ -45,7 +45,8 @@ TEST(TextTemplate, NumbersOfParametersAndCounters) {
 // A script is one thing in TeX: t_12 would be t_{1}2.
 TEST(TextTemplate, CountersOfTheField) {
   EXPECT_EQ(point_label("$\\mathbf{p}_{%i%i}$", 3), "$\\mathbf{p}_{33}$");
-  EXPECT_EQ(point_label("$t_%(2*i + 1)$", 3), "$t_{7}$");
+  EXPECT_EQ(point_label("$t_%(2*i + 1)$", 3), "$t_7$");
+  EXPECT_EQ(point_label("$t_%(4*i)$", 3), "$t_{12}$");
 }
 
 std::string said(const std::string& text) {
