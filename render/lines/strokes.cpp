@@ -12,6 +12,7 @@
 #include "geometry/curves/segment.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/contours.h"
+#include "geometry/queries/csg_contours.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/surfaces/plane.h"
 #include "render/lines/curve_helpers.h"
@@ -292,6 +293,9 @@ class Collector {
       });
     } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
       add_edges(**body, kind, style, lines.hidden);
+    } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+      if (kind == "sharp")
+        each_csg(*shape, [](const Csg& solid, const Affine&) { return csg_edges(solid); }, style, lines.hidden);
     } else {
       each_surface([&](const SurfacePtr& surface) {
         if (kind == "boundary") add_boundary(surface, style, lines.hidden);
@@ -404,10 +408,41 @@ class Collector {
     view.direction_or_eye =
         view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
     if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
+    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+      const auto outlines = [&](const Csg& solid, const Affine& map) {
+        ViewOf own = view;
+        const Affine inverse = map.inverse();
+        own.direction_or_eye = view.central ? inverse.point(view.direction_or_eye)
+                                            : glm::normalize(inverse.direction(view.direction_or_eye));
+        return csg_silhouette(solid, own);
+      };
+      each_csg(*shape, outlines, style, hidden);
+    }
     each_surface([&](const SurfacePtr& surface) {
       if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
       add(silhouette(surface, view), {surface}, style, hidden);
     });
+  }
+
+  // The lines of a solid put together of others, which may have been moved as a whole.
+  template <class Find>
+  void each_csg(const ShapePtr& shape, const Find& find, const Style& style, const HiddenLines& hidden) {
+    const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
+    const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape.get());
+    if (!solid) {
+      ++work_.incomplete;
+      return;
+    }
+    const Affine map = moved ? moved->map() : Affine(), to_world = to_world_;
+    to_world_ = to_world * map;
+    CsgLines found = find(*solid, map);
+    if (!found.complete) ++work_.incomplete;
+    for (CsgLine& line : found.lines) {
+      for (CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
+      cusps_ = std::move(line.cusps);
+      stroke(line.curve, style, hidden);
+    }
+    to_world_ = to_world;
   }
 
   void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
