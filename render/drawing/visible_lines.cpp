@@ -25,7 +25,7 @@ constexpr double kSameEvent = 1e-9;
 constexpr double kSameTurn = 0.01;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
-constexpr double kAside = 1e-6, kBends = 1e-2;
+constexpr double kAside = 1e-6, kBends = 1e-9;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -121,22 +121,26 @@ class Drawing {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
     add_own_outlines(stroke, events);
-    std::vector<Vec2> turns;  // where it goes round its own surface, and only touches the outline in the picture
-    for (const double t : events) turns.push_back(curves_[line]->place(t).p);
+    add_piercings(stroke, events);
+    // Where it goes round its own surface, or ends on an outline, it only touches that in the picture: such a place is
+    // known better than as a crossing.
+    std::vector<Vec2> known;
+    for (const double t : events) known.push_back(curves_[line]->place(t).p);
+    for (const double end : {stroke.curve->domain().lo, stroke.curve->domain().hi})
+      known.push_back(curves_[line]->place(end).p);
+    for (const CurvePiece& piece : stroke.curve->pieces()) events.push_back(piece.domain.lo);
     crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       const double near = kTouch * world_.radius();
-      if (outline != line && share_host(strokes_[outline], stroke)) {
+      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke))) {
         const Vec2 place = curves_[line]->place(crossing.t).p;
-        for (const Vec2& turn : turns)
-          if (glm::length(place - turn) < kSameTurn) return;
+        for (const Vec2& one : known)
+          if (glm::length(place - one) < kSameTurn) return;
       }
       if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
         events.push_back(crossing.t);
     });
-    add_piercings(stroke, events);
-    for (const CurvePiece& piece : stroke.curve->pieces()) events.push_back(piece.domain.lo);
     return events;
   }
 

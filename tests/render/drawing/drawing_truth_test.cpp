@@ -1,0 +1,237 @@
+// The visible and hidden pieces of all lines of solids against an oracle of closed forms (support/sight_oracle.h):
+// at random places of each line, and on both sides of every transition, a ten-millionth of the line away.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "render/drawing/random_views.h"
+#include "render/drawing/visible_lines.h"
+#include "support/sight_oracle.h"
+#include "support/tier.h"
+
+namespace lekalo::render {
+namespace {
+
+using namespace geometry;
+using oracle::SolidPtr;
+
+constexpr double kBisected = 1e-7;  // of a line's domain
+// Sheets nearer than this before a point are its own; where the two bounds tell apart, a nearly touching sheet is near,
+// and the oracle does not know. Of outlines, where rounding of 1e-16 makes two crossings 1e-8
+// apart of the one contact, also two so near as that; so an outline can be told from its surface only so far (part of
+// the line) from a cusp.
+constexpr double kOwn = 3e-9, kOwnToo = 3e-8, kContact = 3e-6, kFromCusp = 1e-4;
+
+struct Found {
+  int views = 0, lines = 0, places = 0, transitions = 0, incomplete = 0;
+  int unclear = 0, wrong_places = 0, wrong_transitions = 0;
+};
+
+class Truth {
+ public:
+  Truth(const World& world, const std::vector<SolidPtr>& solids, Views& random, Found& found)
+      : camera_(*world.model().camera), solids_(solids), random_(random), found_(found) {
+    const VisibleLines drawing = visible_lines(world, drawing_work(world));
+    ++found_.views;
+    if (drawing.incomplete > 0) {
+      ++found_.incomplete;
+      return;
+    }
+    for (const VisibleLine& line : drawing.lines) check(line);
+  }
+
+ private:
+  // -1: it is not clear.
+  int layers(const VisibleLine& line, double t) const {
+    const Vec3 p = line.curve->tangent(t).origin;
+    const PicturePoint at = camera_.project(p);
+    const Ray ray = camera_.ray(at.x, at.y);
+    const Vec3 from = camera_.is_parallel() ? p - (at.depth + 5) * ray.direction : ray.origin;
+    const double contact = line.stroke.kind == "silhouette" ? kContact : 0;
+    const int layers = oracle::layers_before(solids_, from, p, kOwn, contact);
+    return layers == oracle::layers_before(solids_, from, p, kOwnToo, contact) ? layers : -1;
+  }
+
+  void check(const VisibleLine& line) {
+    ++found_.lines;
+    const double width = line.stroke.curve->domain().width();
+    for (size_t k = 0; k < line.pieces.size(); ++k) {
+      const VisiblePiece& piece = line.pieces[k];
+      const double margin = std::min(kBisected * width, 0.25 * piece.t.width());
+      for (int i = 0; i < 12; ++i) {
+        const double t = random_.number(piece.t.lo + margin, piece.t.hi - margin);
+        if (near_cusp(line, t)) continue;
+        ++found_.places;
+        const int truth = layers(line, t);
+        if (truth < 0) ++found_.unclear;
+        if (truth < 0 || truth == piece.layers) continue;
+        ++found_.wrong_places;
+        if (found_.wrong_places <= 5) report(line, piece, t, "place");
+      }
+      if (k + 1 == line.pieces.size() || line.pieces[k + 1].t.lo != piece.t.hi) continue;
+      ++found_.transitions;
+      const VisiblePiece& next = line.pieces[k + 1];
+      const double away = (near_cusp(line, piece.t.hi) ? 2 * kFromCusp : kBisected) * width;
+      const int before = layers(line, piece.t.hi - std::min(away, 0.5 * piece.t.width())),
+                behind = layers(line, next.t.lo + std::min(away, 0.5 * next.t.width()));
+      if (before < 0 || behind < 0) ++found_.unclear;
+      if ((before < 0 || before == piece.layers) && (behind < 0 || behind == next.layers)) continue;
+      ++found_.wrong_transitions;
+      if (found_.wrong_transitions <= 5) report(line, piece, piece.t.hi, "transition");
+    }
+  }
+
+  static bool near_cusp(const VisibleLine& line, double t) {
+    for (const double cusp : line.stroke.cusps)
+      if (std::abs(t - cusp) < kFromCusp * line.stroke.curve->domain().width()) return true;
+    return false;
+  }
+
+  void report(const VisibleLine& line, const VisiblePiece& piece, double t, const char* what) const {
+    const double width = line.stroke.curve->domain().width();
+    std::string pieces;
+    for (const VisiblePiece& one : line.pieces)
+      pieces += " [" + std::to_string(one.t.lo) + " " + std::to_string(one.t.hi) + "]:" + std::to_string(one.layers);
+    ADD_FAILURE() << "view " << found_.views << (camera_.is_parallel() ? " parallel " : " central ") << what << " of a "
+                  << line.stroke.kind << " at t = " << t << ": " << piece.layers << " layers found, there are "
+                  << layers(line, t) << " (before " << layers(line, t - kBisected * width) << ", behind "
+                  << layers(line, t + kBisected * width) << ", 1e-5 away " << layers(line, t - 1e-5 * width) << ", "
+                  << layers(line, t + 1e-5 * width) << "); pieces" << pieces;
+  }
+
+  const Camera& camera_;
+  const std::vector<SolidPtr>& solids_;
+  Views& random_;
+  Found& found_;
+};
+
+Frame anywhere(Views& views, double reach) {
+  Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
+  frame.origin = {views.number(-reach, reach), views.number(-reach, reach), views.number(-reach, reach)};
+  return frame;
+}
+
+void expect_right(const Found& found, const char* name) {
+  EXPECT_EQ(found.wrong_places, 0);
+  EXPECT_EQ(found.wrong_transitions, 0);
+  EXPECT_EQ(found.incomplete, 0);
+  EXPECT_LE(found.unclear, 1 + (found.places + found.transitions) / 100);
+  tests::report_figure(std::string(name) + " unclear", found.unclear);
+  tests::report_figure(std::string(name) + " views", found.views);
+  tests::report_figure(std::string(name) + " lines", found.lines);
+  tests::report_figure(std::string(name) + " places", found.places);
+  tests::report_figure(std::string(name) + " transitions", found.transitions);
+}
+
+const std::vector<std::string> kAll = {"sharp", "smooth", "silhouette", "parameter"};
+
+struct Part {
+  Body body;
+  SolidPtr solid;
+};
+Part random_part(Views& views, int kind, double reach) {
+  const Frame frame = anywhere(views, reach);
+  const double r = views.number(0.6, 1.4), h = views.number(0.8, 2.5);
+  switch (kind % 5) {
+    case 0: {
+      const Vec3 size(r, h, views.number(0.7, 2));
+      return {box(frame, size), std::make_shared<oracle::BoxSolid>(frame, size)};
+    }
+    case 1:
+      return {frustum(frame, r, r, h), std::make_shared<oracle::FrustumSolid>(frame, r, r, h)};
+    case 2: {
+      const double top = r * views.number(0.2, 0.8);
+      return {frustum(frame, r, top, h), std::make_shared<oracle::FrustumSolid>(frame, r, top, h)};
+    }
+    case 3:
+      return {ball(frame, r), std::make_shared<oracle::BallSolid>(frame, r)};
+    default: {
+      const double minor = r * views.number(0.2, 0.7);
+      return {torus_body(frame, r, minor), std::make_shared<oracle::TorusSolid>(frame, r, minor)};
+    }
+  }
+}
+
+TEST(DrawingTruth, SingleSolids) {
+  constexpr const char* kNames[] = {"box", "cylinder", "cone", "ball", "torus"};
+  for (int kind = 0; kind < 5; ++kind) {
+    Views views(11 + static_cast<unsigned>(kind));
+    Found found;
+    for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+      SmallScene scene;
+      const Part part = random_part(views, kind, 0.5);
+      show(scene, std::make_shared<Body>(part.body), kAll, 5);
+      views.look(scene, k % 2);
+      Truth(*scene.world(), {part.solid}, views, found);
+    }
+    expect_right(found, kNames[kind]);
+  }
+}
+
+// Solids that pierce one another, each an object of its own.
+TEST(DrawingTruth, ManySolids) {
+  Views views(29);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+    SmallScene scene;
+    std::vector<SolidPtr> solids;
+    for (int i = 0; i < 4; ++i) {
+      const Part part = random_part(views, k + i, 1.2);
+      show(scene, std::make_shared<Body>(part.body), kAll, 2);
+      solids.push_back(part.solid);
+    }
+    views.look(scene, k % 2);
+    Truth(*scene.world(), solids, views, found);
+  }
+  expect_right(found, "many");
+}
+
+TEST(DrawingTruth, TwoCrossingTori) {
+  Views views(31);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+    SmallScene scene;
+    std::vector<SolidPtr> solids;
+    for (int i = 0; i < 2; ++i) {
+      const Part part = random_part(views, 4, 0.6);
+      show(scene, std::make_shared<Body>(part.body), {"silhouette", "parameter"}, 6);
+      solids.push_back(part.solid);
+    }
+    views.look(scene, k % 2);
+    Truth(*scene.world(), solids, views, found);
+  }
+  expect_right(found, "tori");
+}
+
+// A body minus one, and another united with it.
+TEST(DrawingTruth, Csg) {
+  Views views(37);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+    SmallScene scene;
+    const Part a = random_part(views, k, 0.3), b = random_part(views, k + 1 + k / 5, 0.7),
+               c = random_part(views, k / 3, 0.9);
+    const auto shape = [](const Part& part) -> ShapePtr {
+      return std::make_shared<BodyShape>(std::make_shared<Body>(part.body));
+    };
+    ShapePtr solid;
+    try {
+      const auto rest = std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{shape(a), shape(b)});
+      solid = std::make_shared<Csg>(Csg::Operation::unite, std::vector<ShapePtr>{rest, shape(c)});
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    show(scene, solid, {"sharp", "silhouette"});
+    using Kind = oracle::PairSolid::Kind;
+    const auto rest = std::make_shared<oracle::PairSolid>(Kind::subtract, a.solid, b.solid);
+    views.look(scene, k % 2);
+    Truth(*scene.world(), {std::make_shared<oracle::PairSolid>(Kind::unite, rest, c.solid)}, views, found);
+  }
+  expect_right(found, "csg");
+}
+
+}  // namespace
+}  // namespace lekalo::render

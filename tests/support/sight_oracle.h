@@ -1,0 +1,219 @@
+// The oracle of visibility: how often a line enters or leaves solids before a point, by closed forms in long double
+// that share nothing with the product. Solids are balls, boxes, frustums, tori, and what union and difference make of
+// them: the line's crossings with all parts, of which those count where inside and outside change.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "geometry/vectors.h"
+
+namespace lekalo::oracle {
+
+using geometry::Frame;
+using geometry::Vec3;
+using Real = long double;
+
+struct Real3 {
+  Real x, y, z;
+};
+inline Real dot(const Real3& a, const Real3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// Real roots of a polynomial c[0] + c[1] t + ..: between those of its derivative by halving.
+inline std::vector<Real> roots(const std::vector<Real>& c, Real lo, Real hi) {
+  std::vector<Real> result;
+  if (c.size() < 2) return result;
+  if (c.size() == 2) {
+    if (c[1] != 0 && -c[0] / c[1] >= lo && -c[0] / c[1] <= hi) result.push_back(-c[0] / c[1]);
+    return result;
+  }
+  std::vector<Real> slope;
+  for (size_t k = 1; k < c.size(); ++k) slope.push_back(c[k] * static_cast<Real>(k));
+  std::vector<Real> cuts = roots(slope, lo, hi);
+  cuts.insert(cuts.begin(), lo);
+  cuts.push_back(hi);
+  const auto value = [&](Real t) {
+    Real sum = 0;
+    for (size_t k = c.size(); k-- > 0;) sum = sum * t + c[k];
+    return sum;
+  };
+  for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+    Real a = cuts[k], b = cuts[k + 1];
+    const bool below = value(a) < 0;
+    if (below == (value(b) < 0)) continue;
+    for (int step = 0; step < 200 && a < b; ++step) {
+      const Real middle = (a + b) / 2;
+      if (middle == a || middle == b) break;
+      ((value(middle) < 0) == below ? a : b) = middle;
+    }
+    result.push_back((a + b) / 2);
+  }
+  return result;
+}
+
+class Solid {
+ public:
+  virtual ~Solid() = default;
+  // Where the line o + t d may cross the boundary, and whether the point lies inside. Two crossings of one part that
+  // both lie within `contact` of t = 1 are none: there the line only touches.
+  virtual void crossings(const Real3& o, const Real3& d, Real contact, std::vector<Real>& t) const = 0;
+  virtual bool contains(const Real3& p) const = 0;
+};
+using SolidPtr = std::shared_ptr<const Solid>;
+
+// A solid in a frame of its own.
+class Placed : public Solid {
+ public:
+  explicit Placed(const Frame& frame) : frame_(frame) {}
+  void crossings(const Real3& o, const Real3& d, Real contact, std::vector<Real>& t) const override {
+    std::vector<Real> own;
+    local_crossings(local(o, true), local(d, false), own);
+    const auto near = [&](Real at) { return std::abs(at - 1) < contact; };
+    const bool touches = std::count_if(own.begin(), own.end(), near) > 1;
+    for (const Real at : own)
+      if (!touches || !near(at)) t.push_back(at);
+  }
+  bool contains(const Real3& p) const override { return local_contains(local(p, true)); }
+
+ protected:
+  virtual void local_crossings(const Real3& o, const Real3& d, std::vector<Real>& t) const = 0;
+  virtual bool local_contains(const Real3& p) const = 0;
+  static constexpr Real kFar = 1e6L;
+
+ private:
+  static Real3 wide(const Vec3& v) { return {v.x, v.y, v.z}; }
+  Real3 local(const Real3& p, bool point) const {
+    Real3 q = p;
+    if (point) q = {p.x - frame_.origin.x, p.y - frame_.origin.y, p.z - frame_.origin.z};
+    return {dot(q, wide(frame_.x)), dot(q, wide(frame_.y)), dot(q, wide(frame_.z))};
+  }
+  Frame frame_;
+};
+
+class BallSolid final : public Placed {
+ public:
+  BallSolid(const Frame& frame, double radius) : Placed(frame), radius_(radius) {}
+
+ protected:
+  void local_crossings(const Real3& o, const Real3& d, std::vector<Real>& t) const override {
+    for (const Real root : roots({dot(o, o) - radius_ * radius_, 2 * dot(o, d), dot(d, d)}, -kFar, kFar))
+      t.push_back(root);
+  }
+  bool local_contains(const Real3& p) const override { return dot(p, p) < radius_ * radius_; }
+
+ private:
+  Real radius_;
+};
+
+// From the frame's origin to `size`.
+class BoxSolid final : public Placed {
+ public:
+  BoxSolid(const Frame& frame, const Vec3& size) : Placed(frame), size_{size.x, size.y, size.z} {}
+
+ protected:
+  void local_crossings(const Real3& o, const Real3& d, std::vector<Real>& t) const override {
+    const Real from[] = {o.x, o.y, o.z}, way[] = {d.x, d.y, d.z}, size[] = {size_.x, size_.y, size_.z};
+    for (int k = 0; k < 3; ++k)
+      if (way[k] != 0) t.push_back(-from[k] / way[k]), t.push_back((size[k] - from[k]) / way[k]);
+  }
+  bool local_contains(const Real3& p) const override {
+    return p.x > 0 && p.y > 0 && p.z > 0 && p.x < size_.x && p.y < size_.y && p.z < size_.z;
+  }
+
+ private:
+  Real3 size_;
+};
+
+// About z from 0 to the height; its radius goes from one to the other.
+class FrustumSolid final : public Placed {
+ public:
+  FrustumSolid(const Frame& frame, double radius, double top, double height)
+      : Placed(frame), radius_(radius), slope_((top - radius) / static_cast<Real>(height)), height_(height) {}
+
+ protected:
+  void local_crossings(const Real3& o, const Real3& d, std::vector<Real>& t) const override {
+    if (d.z != 0) t.push_back(-o.z / d.z), t.push_back((height_ - o.z) / d.z);
+    const Real r0 = radius_ + slope_ * o.z, r1 = slope_ * d.z;
+    for (const Real root : roots(
+             {o.x * o.x + o.y * o.y - r0 * r0, 2 * (o.x * d.x + o.y * d.y - r0 * r1), d.x * d.x + d.y * d.y - r1 * r1},
+             -kFar, kFar))
+      t.push_back(root);
+  }
+  bool local_contains(const Real3& p) const override {
+    const Real r = radius_ + slope_ * p.z;
+    return p.z > 0 && p.z < height_ && p.x * p.x + p.y * p.y < r * r;
+  }
+
+ private:
+  Real radius_, slope_, height_;
+};
+
+class TorusSolid final : public Placed {
+ public:
+  TorusSolid(const Frame& frame, double major, double minor) : Placed(frame), major_(major), minor_(minor) {}
+
+ protected:
+  // (|p|^2 + R^2 - r^2)^2 = 4 R^2 (x^2 + y^2), from the line's point nearest to the centre.
+  void local_crossings(const Real3& start, const Real3& d, std::vector<Real>& t) const override {
+    const Real dd = dot(d, d), near = -dot(start, d) / dd;
+    const Real3 o{start.x + near * d.x, start.y + near * d.y, start.z + near * d.z};
+    const Real a0 = dot(o, o) + major_ * major_ - minor_ * minor_, a1 = 2 * dot(o, d);
+    const Real q = 4 * major_ * major_;
+    const std::vector<Real> c{a0 * a0 - q * (o.x * o.x + o.y * o.y), 2 * a0 * a1 - 2 * q * (o.x * d.x + o.y * d.y),
+                              2 * a0 * dd + a1 * a1 - q * (d.x * d.x + d.y * d.y), 2 * a1 * dd, dd * dd};
+    const Real reach = 2 * (major_ + minor_) / std::sqrt(dd);
+    for (const Real root : roots(c, -reach, reach)) t.push_back(root + near);
+  }
+  bool local_contains(const Real3& p) const override {
+    const Real rho = std::sqrt(p.x * p.x + p.y * p.y) - major_;
+    return rho * rho + p.z * p.z < minor_ * minor_;
+  }
+
+ private:
+  Real major_, minor_;
+};
+
+// What lies in the first of two, and in the second too, or not.
+class PairSolid final : public Solid {
+ public:
+  enum class Kind { unite, subtract };
+  PairSolid(Kind kind, SolidPtr a, SolidPtr b) : kind_(kind), a_(std::move(a)), b_(std::move(b)) {}
+  void crossings(const Real3& o, const Real3& d, Real contact, std::vector<Real>& t) const override {
+    a_->crossings(o, d, contact, t), b_->crossings(o, d, contact, t);
+  }
+  bool contains(const Real3& p) const override {
+    return kind_ == Kind::unite ? a_->contains(p) || b_->contains(p) : a_->contains(p) && !b_->contains(p);
+  }
+
+ private:
+  Kind kind_;
+  SolidPtr a_, b_;
+};
+
+// How many sheets of the solids lie before the point on the line from `from` to it, nearer ones than `free` left out,
+// and contacts as near as `contact`.
+inline int layers_before(const std::vector<SolidPtr>& solids, const Vec3& from, const Vec3& point, double free,
+                         double contact) {
+  const Real3 o{from.x, from.y, from.z};
+  const Real3 d{Real(point.x) - o.x, Real(point.y) - o.y, Real(point.z) - o.z};
+  const Real length = std::sqrt(dot(d, d)), end = 1 - free / length;
+  int layers = 0;
+  for (const SolidPtr& solid : solids) {
+    std::vector<Real> t;
+    solid->crossings(o, d, contact / length, t);
+    std::sort(t.begin(), t.end());
+    const auto inside = [&](Real at) { return solid->contains({o.x + at * d.x, o.y + at * d.y, o.z + at * d.z}); };
+    for (size_t k = 0; k < t.size(); ++k) {
+      if (!(t[k] > 0 && t[k] < end)) continue;
+      const Real before = k > 0 ? (t[k - 1] + t[k]) / 2 : t[k] - 1,
+                 behind = k + 1 < t.size() ? (t[k] + t[k + 1]) / 2 : t[k] + 1;
+      if (inside(before) != inside(behind)) ++layers;
+    }
+  }
+  return layers;
+}
+
+}  // namespace lekalo::oracle
