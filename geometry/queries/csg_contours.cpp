@@ -58,7 +58,16 @@ class Lines {
     for (const ShapePtr& operand : solid.operands()) collect(operand, Affine(), leaves_, result_.complete);
   }
 
-  CsgLines edges() {
+  CsgLines find(const ViewOf& view) {
+    add_edges();
+    for (size_t k = 0; k < leaves_.size(); ++k)
+      if (leaves_[k].body)
+        add(silhouette(*leaves_[k].body, view), *leaves_[k].body, nullptr, {static_cast<int>(k)}, false);
+    return std::move(result_);
+  }
+
+ private:
+  void add_edges() {
     for (size_t k = 0; k < leaves_.size(); ++k) {
       if (!leaves_[k].body) continue;
       const Body& body = *leaves_[k].body;
@@ -76,17 +85,8 @@ class Lines {
     for (size_t k = 0; k < leaves_.size(); ++k)
       for (size_t m = k + 1; m < leaves_.size(); ++m)
         if (!leaves_[k].body) add_meeting(static_cast<int>(m), static_cast<int>(k));
-    return std::move(result_);
   }
 
-  CsgLines silhouettes(const ViewOf& view) {
-    for (size_t k = 0; k < leaves_.size(); ++k)
-      if (leaves_[k].body)
-        add(silhouette(*leaves_[k].body, view), *leaves_[k].body, nullptr, {static_cast<int>(k)}, false);
-    return std::move(result_);
-  }
-
- private:
   static bool apart(const Box3& a, const Box3& b) {
     for (int axis = 0; axis < 3; ++axis)
       if (a.lo[axis] > b.hi[axis] || b.lo[axis] > a.hi[axis]) return true;
@@ -226,7 +226,6 @@ class Lines {
 
 }  // namespace
 
-CsgLines csg_edges(const Csg& solid) { return Lines(solid).edges(); }
-CsgLines csg_silhouette(const Csg& solid, const ViewOf& view) { return Lines(solid).silhouettes(view); }
+CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid).find(view); }
 
 }  // namespace lekalo::geometry

@@ -30,7 +30,7 @@ struct CsgLines {
   bool complete = true;  // false with leaves that are no bodies (tubes, implicit surfaces), or where a search was not
 };
 
-CsgLines csg_edges(const Csg& solid);
-CsgLines csg_silhouette(const Csg& solid, const ViewOf& view);
+// Edges first; hosts of one leaf's face are one surface in all lines.
+CsgLines csg_lines(const Csg& solid, const ViewOf& view);
 
 }  // namespace lekalo::geometry

@@ -19,13 +19,17 @@ namespace {
 
 // A sheet that passes nearer than this to a point of a line, of the scene's radius, is that on which the line lies.
 constexpr double kTouch = 1e-9;
+// The same of a line that is known to lie on a surface, as exactly as lines are found: where it goes round the surface
+// another sheet comes near.
+constexpr double kOnHost = 2e-12;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
 constexpr double kSameTurn = 0.01;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
-constexpr double kAside = 1e-6, kBends = 1e-9;
+constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
+constexpr double kShareAside = 1e-3;  // of a stretch's length
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -168,7 +172,25 @@ class Drawing {
         options.most_boxes = 2000;
         const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
         for (const auto& root : found.isolated) events.push_back(root[0]);
+        // Where the bounds of a searched curve are too wide to tell: by changes of sign.
+        for (const auto& open : found.open) add_sign_changes(system, open[0], events);
       }
+    }
+  }
+
+  static void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<double>& events) {
+    constexpr int kPlaces = 64;
+    const auto value = [&](double x) { return system.evaluate({x}).value[0]; };
+    double lo = t.lo, at_lo = value(lo);
+    for (int k = 1; k <= kPlaces; ++k) {
+      const double hi = k == kPlaces ? t.hi : t.lo + t.width() * k / kPlaces, at_hi = value(hi);
+      if ((at_lo < 0) != (at_hi < 0)) {
+        double a = lo, b = hi;
+        for (double middle = 0.5 * (a + b); a < middle && middle < b; middle = 0.5 * (a + b))
+          ((value(middle) < 0) == (at_lo < 0) ? a : b) = middle;
+        events.push_back(a);
+      }
+      lo = hi, at_lo = at_hi;
     }
   }
 
@@ -209,12 +231,21 @@ class Drawing {
       }
   }
 
-  int layers_at(int line, double t) { return layers_before(probe(line, t)); }
+  int layers_at(int line, double t, double aside) {
+    return layers_before(probe(line, t, aside), strokes_[line].hosts.empty() ? kTouch : kOnHost);
+  }
+
+  // How far beside a stretch of a line rays may be aimed: what is seen there is to be seen on the stretch too.
+  double room_beside(int line, const Interval& t) const {
+    const Vec2 chord = curves_[line]->place(t.hi).p - curves_[line]->place(t.lo).p;
+    const double length = glm::length(chord) * camera_.pixel_size(curves_[line]->tangent(t.middle()).origin);
+    return std::clamp(kShareAside * length / world_.radius(), kLeastAside, kAside);
+  }
 
   // The point at which a ray is aimed for a point of a line. Rays along an outline touch its surface, and rays to a
   // border of a surface meet it or not: both are found slowly, so that they are aimed a little outside of the outline,
   // where its surface does not go, and a little inside of the border.
-  Vec3 probe(int line, double t) const {
+  Vec3 probe(int line, double t, double aside) const {
     const Stroke& stroke = strokes_[line];
     const Vec3 exact = curves_[line]->tangent(t).origin;
     if (stroke.hosts.size() != 1) return exact;
@@ -234,18 +265,18 @@ class Drawing {
       const double size = world_.radius();
       if (!(std::abs(bend) * size > kBends)) return exact;
       const Vec3 out = stroke.to_world.direction(bend > 0 ? -normal : normal);
-      return exact + kAside * size / glm::length(out) * out;
+      return exact + aside * size / glm::length(out) * out;
     }
     if (stroke.kind != "boundary" || std::holds_alternative<BodyPtr>(world_.objects()[stroke.object]->shape))
       return exact;
     const Rectangle domain = surface.domain();
-    uv.x += kAside * (domain.u.middle() - uv.x), uv.y += kAside * (domain.v.middle() - uv.y);
+    uv.x += aside * (domain.u.middle() - uv.x), uv.y += aside * (domain.v.middle() - uv.y);
     return stroke.to_world.point(surface.point(uv.x, uv.y));
   }
   Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }
 
-  // How many sheets a point lies behind.
-  int layers_before(const Vec3& point) {
+  // How many sheets a point lies behind; those nearer than `touch` are its own.
+  int layers_before(const Vec3& point, double touch = kTouch) {
     ++result_.statistics.rays;
     const PicturePoint at = camera_.project(point);
     const Ray ray = camera_.ray(at.x, at.y);
@@ -254,7 +285,7 @@ class Drawing {
       if (!(hit.t < at.depth)) continue;
       const SurfacePoint met = world_.surface_point(ray, hit);
       const double across = std::abs((hit.t - at.depth) * glm::dot(ray.direction, met.geometric_normal));
-      if (across > kTouch * world_.radius() + 4 * met.error) ++layers;
+      if (across > touch * world_.radius() + 4 * met.error) ++layers;
     }
     return layers;
   }
@@ -290,9 +321,10 @@ class Drawing {
   void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
     constexpr double kShares[] = {0.5, 0.17, 0.83};
     std::vector<std::pair<double, int>> seen;
+    const double aside = room_beside(line, t);
     for (const double share : kShares) {
       const double at = t.lo + share * t.width();
-      seen.emplace_back(at, layers_at(line, at));
+      seen.emplace_back(at, layers_at(line, at, aside));
     }
     std::sort(seen.begin(), seen.end());
     double from = t.lo;
@@ -301,7 +333,7 @@ class Drawing {
       double lo = seen[k].first, hi = seen[k + 1].first;
       while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
         const double middle = 0.5 * (lo + hi);
-        (layers_at(line, middle) == seen[k].second ? lo : hi) = middle;
+        (layers_at(line, middle, aside) == seen[k].second ? lo : hi) = middle;
       }
       add_piece({from, hi}, seen[k].second, pieces);
       from = hi;

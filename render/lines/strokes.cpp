@@ -154,6 +154,7 @@ class Collector {
       if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
       object_ = &object;
       to_world_ = map;
+      solid_ = nullptr;
       const bool is_point = std::holds_alternative<Vec3>(object.shape),
                  is_curve = std::holds_alternative<CurvePtr>(object.shape);
       const bool says = object.look && object.look->lines;
@@ -294,8 +295,7 @@ class Collector {
     } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
       add_edges(**body, kind, style, lines.hidden);
     } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
-      if (kind == "sharp")
-        each_csg(*shape, [](const Csg& solid, const Affine&) { return csg_edges(solid); }, style, lines.hidden);
+      if (kind == "sharp") add_solid(*shape, true, style, lines.hidden);
     } else {
       each_surface([&](const SurfacePtr& surface) {
         if (kind == "boundary") add_boundary(surface, style, lines.hidden);
@@ -403,46 +403,45 @@ class Collector {
 
   // As seen from the object's own coordinates.
   void add_silhouettes(const Style& style, const HiddenLines& hidden) {
-    const Affine back = to_world_.inverse();
-    ViewOf view = view_;
-    view.direction_or_eye =
-        view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
+    const ViewOf view = view_from(to_world_.inverse());
     if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
-    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
-      const auto outlines = [&](const Csg& solid, const Affine& map) {
-        ViewOf own = view;
-        const Affine inverse = map.inverse();
-        own.direction_or_eye = view.central ? inverse.point(view.direction_or_eye)
-                                            : glm::normalize(inverse.direction(view.direction_or_eye));
-        return csg_silhouette(solid, own);
-      };
-      each_csg(*shape, outlines, style, hidden);
-    }
+    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, false, style, hidden);
     each_surface([&](const SurfacePtr& surface) {
       if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
       add(silhouette(surface, view), {surface}, style, hidden);
     });
   }
 
-  // The lines of a solid put together of others, which may have been moved as a whole.
-  template <class Find>
-  void each_csg(const ShapePtr& shape, const Find& find, const Style& style, const HiddenLines& hidden) {
+  // The edges or outlines of a solid put together of others, which may have been moved as a whole.
+  void add_solid(const ShapePtr& shape, bool edges, const Style& style, const HiddenLines& hidden) {
     const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
     const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape.get());
     if (!solid) {
-      ++work_.incomplete;
+      if (!edges) ++work_.incomplete;
       return;
     }
-    const Affine map = moved ? moved->map() : Affine(), to_world = to_world_;
-    to_world_ = to_world * map;
-    CsgLines found = find(*solid, map);
-    if (!found.complete) ++work_.incomplete;
-    for (CsgLine& line : found.lines) {
-      for (CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
-      cusps_ = std::move(line.cusps);
+    const Affine to_world = to_world_;
+    if (moved) to_world_ = to_world * moved->map();
+    if (solid_ != shape) {
+      solid_ = shape;
+      solid_lines_ = csg_lines(*solid, view_from(to_world_.inverse()));
+      if (!solid_lines_.complete) ++work_.incomplete;
+    }
+    for (const CsgLine& line : solid_lines_.lines) {
+      if (line.edge != edges) continue;
+      for (const CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
+      cusps_ = line.cusps;
       stroke(line.curve, style, hidden);
     }
     to_world_ = to_world;
+  }
+
+  // The view from the coordinates to which the map leads.
+  ViewOf view_from(const Affine& map) const {
+    ViewOf view = view_;
+    view.direction_or_eye =
+        view.central ? map.point(view.direction_or_eye) : glm::normalize(map.direction(view.direction_or_eye));
+    return view;
   }
 
   void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
@@ -650,6 +649,8 @@ class Collector {
   bool undrawn_ = false, outlines_ = false;
   std::vector<Stroke::Host> hosts_;  // of the next stroke
   std::vector<double> cusps_;        // likewise
+  ShapePtr solid_;                   // the last one, and its lines
+  CsgLines solid_lines_;
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ namespace {
 using namespace geometry;
 using oracle::SolidPtr;
 
-constexpr double kBisected = 1e-7;  // of a line's domain
+constexpr double kBisected = 1e-7;   // of a line's domain
+constexpr double kInPicture = 1e-4;  // pixels: or a transition is so near to the true one in the picture
 // Sheets nearer than this before a point are its own; where the two bounds tell apart, a nearly touching sheet is near,
 // and the oracle does not know. Of outlines, where rounding of 1e-16 makes two crossings 1e-8
 // apart of the one contact, also two so near as that; so an outline can be told from its surface only so far (part of
@@ -28,6 +29,7 @@ constexpr double kOwn = 3e-9, kOwnToo = 3e-8, kContact = 3e-6, kFromCusp = 1e-4;
 struct Found {
   int views = 0, lines = 0, places = 0, transitions = 0, incomplete = 0;
   int unclear = 0, wrong_places = 0, wrong_transitions = 0;
+  double largest_off = 0;  // pixels
 };
 
 class Truth {
@@ -79,9 +81,24 @@ class Truth {
                 behind = layers(line, next.t.lo + std::min(away, 0.5 * next.t.width()));
       if (before < 0 || behind < 0) ++found_.unclear;
       if ((before < 0 || before == piece.layers) && (behind < 0 || behind == next.layers)) continue;
+      if (const double off = distance_from_truth(line, piece, next); off <= kInPicture) {
+        found_.largest_off = std::max(found_.largest_off, off);
+        continue;
+      }
       ++found_.wrong_transitions;
       if (found_.wrong_transitions <= 5) report(line, piece, piece.t.hi, "transition");
     }
+  }
+
+  // In pixels, of a transition whose true place is found by halving with the oracle.
+  double distance_from_truth(const VisibleLine& line, const VisiblePiece& piece, const VisiblePiece& next) const {
+    double lo = piece.t.middle(), hi = next.t.middle();
+    if (layers(line, lo) != piece.layers || layers(line, hi) != next.layers) return kInfinity;
+    while (hi - lo > 1e-12 * line.stroke.curve->domain().width()) {
+      const double middle = 0.5 * (lo + hi);
+      (layers(line, middle) == piece.layers ? lo : hi) = middle;
+    }
+    return glm::length(line.curve->place(lo).p - line.curve->place(piece.t.hi).p);
   }
 
   static bool near_cusp(const VisibleLine& line, double t) {
@@ -119,6 +136,7 @@ void expect_right(const Found& found, const char* name) {
   EXPECT_EQ(found.wrong_transitions, 0);
   EXPECT_EQ(found.incomplete, 0);
   EXPECT_LE(found.unclear, 1 + (found.places + found.transitions) / 100);
+  tests::report_figure(std::string(name) + " off_in_pixels", found.largest_off);
   tests::report_figure(std::string(name) + " unclear", found.unclear);
   tests::report_figure(std::string(name) + " views", found.views);
   tests::report_figure(std::string(name) + " lines", found.lines);
