@@ -10,6 +10,8 @@ class CurvePart final : public Curve {
   // The range is finite, not empty, and lies in the curve's domain; throws std::invalid_argument.
   CurvePart(CurvePtr of, const Interval& range);
 
+  const CurvePtr& of() const { return of_; }
+
   Interval domain() const override { return range_; }
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override { return of_->evaluate(t, order); }

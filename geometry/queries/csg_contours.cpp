@@ -7,6 +7,7 @@
 #include "geometry/curves/curve_part.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/body_contours.h"
+#include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/half_space.h"
@@ -154,6 +155,9 @@ class Lines {
   void add(CsgLine line, const std::vector<int>& own) {
     const Interval domain = line.curve->domain();
     std::vector<double> cuts{domain.lo, domain.hi};
+    for (CsgLine::Host& host : line.hosts)
+      if (host.image) host.image = contour_approximation(line.curve, *host.surface, host.image);
+    line.curve = contour_approximation(line.curve);
     const Box3 box = bounds(*line.curve);
     for (size_t k = 0; k < leaves_.size(); ++k) {
       if (std::find(own.begin(), own.end(), static_cast<int>(k)) != own.end() || apart(leaves_[k].box, box)) continue;

@@ -7,6 +7,7 @@
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/numerics/triple.h"
+#include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
@@ -85,6 +86,7 @@ class Drawing {
     auto begin = std::chrono::steady_clock::now();
     result_.incomplete = work.incomplete;
     for (Stroke& stroke : work.strokes) {
+      simplify(stroke);
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
       strokes_.push_back(std::move(stroke));
     }
@@ -119,6 +121,13 @@ class Drawing {
   }
 
  private:
+  // Contours that solve their equations at every point are asked too often for that.
+  static void simplify(Stroke& stroke) {
+    for (Stroke::Host& host : stroke.hosts)
+      host.image = contour_approximation(stroke.curve, *host.surface, host.image);
+    stroke.curve = contour_approximation(stroke.curve);
+  }
+
   double depth_at(int line, double t) const { return camera_.project(curves_[line]->tangent(t).origin).depth; }
 
   std::vector<double> events_of(int line, const PictureCrossings& crossings) {

@@ -1,0 +1,58 @@
+#include "geometry/curves/polynomial_approximation.h"
+
+#include <cmath>
+
+#include "geometry/numerics/chebyshev.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr int kNodes = static_cast<int>(PolynomialCurve::kTerms);
+constexpr size_t kMostParts = 4096;
+constexpr int kMostHalvings = 16;  // of a piece
+
+class Fitting {
+ public:
+  Fitting(const Curve& curve, double tolerance) : curve_(curve), tolerance_(tolerance) {}
+
+  bool add(const Interval& t, int depth) {
+    PolynomialCurve::Part part;
+    std::array<Vec3, kNodes> values;
+    // At a break the curve's own point is that from the right.
+    const double last = next_down(t.hi);
+    const auto point = [&](double x) {
+      return curve_.point(std::min(t.middle() + 0.5 * t.width() * x, last));
+    };
+    for (int j = 0; j < kNodes; ++j) values[j] = point(chebyshev_point(j, kNodes));
+    part = {t, 2 / t.width(), powers_of_chebyshev(chebyshev_coefficients(values))};
+    bool good = true;
+    for (const double x : {-1.0, -0.97, -0.6, -0.1, 0.3, 0.85, 1.0})
+      good = good && glm::length(part.value(x) - point(x)) <= tolerance_;
+    if (good) {
+      parts.push_back(part);
+      return parts.size() <= kMostParts;
+    }
+    return depth < kMostHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
+  }
+
+  std::vector<PolynomialCurve::Part> parts;
+
+ private:
+  const Curve& curve_;
+  double tolerance_;
+};
+
+}  // namespace
+
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
+  Fitting fitting(curve, tolerance);
+  const Interval domain = curve.domain();
+  for (const CurvePiece& piece : curve.pieces()) {
+    const Interval t = intersect(piece.domain, domain);
+    if (!t.empty() && t.width() > 0 && !fitting.add(t, 0)) return nullptr;
+  }
+  return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,16 @@
+// Curves that are slow to evaluate and to enclose (contours that solve their equations anew at every point) as
+// piecewise polynomials that agree with them to rounding: for whoever asks thousands of questions of one curve.
+#pragma once
+
+#include <memory>
+
+#include "geometry/curves/polynomial_curve.h"
+
+namespace lekalo::geometry {
+
+// Interpolates in Chebyshev's points and halves until points between them agree within `tolerance` (a length), checked,
+// not proven. Null where the curve is not smooth enough for that in a reasonable number of parts. The domain must be
+// finite; the parameter is the curve's.
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,36 @@
+#include "geometry/queries/contour_approximation.h"
+
+#include <algorithm>
+
+#include "geometry/curves/curve_part.h"
+#include "geometry/curves/polynomial_approximation.h"
+#include "geometry/queries/contour_curve.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kAgree = 1e-13;
+
+bool is_part_of_searched(const Curve& curve) {
+  const auto* part = dynamic_cast<const CurvePart*>(&curve);
+  return is_searched(part ? *part->of() : curve);
+}
+
+}  // namespace
+
+CurvePtr contour_approximation(const CurvePtr& curve) {
+  if (!is_part_of_searched(*curve)) return curve;
+  auto simple = polynomial_approximation(*curve, kAgree * bounds(*curve).diameter());
+  return simple ? simple : curve;
+}
+
+Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {
+  const Rectangle domain = surface.domain();
+  const double size = std::max(domain.u.width(), domain.v.width());
+  if (!is_part_of_searched(*curve) || !(size < kInfinity)) return image;
+  auto simple = polynomial_approximation(CurvePart(image, curve->domain()), kAgree * size);
+  return simple ? simple : image;
+}
+
+}  // namespace lekalo::geometry
