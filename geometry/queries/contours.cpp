@@ -152,9 +152,25 @@ Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3
   return contours_of(surface, height_over(triple(origin), triple(n)));
 }
 
+// Whether the way of sight runs in the surface everywhere: a cylinder along its axis, a cone from its tip. All that is
+// seen of it are its borders.
+static bool is_edge_on(const Surface& surface, const ViewOf& view) {
+  constexpr int kSteps = 5;
+  constexpr double kFlat = 1e-12;
+  const Rectangle domain = surface.domain();
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const double u = domain.u.lo + domain.u.width() * i / kSteps, v = domain.v.lo + domain.v.width() * j / kSteps;
+      const Vec3 sight = view.central ? surface.point(u, v) - view.direction_or_eye : view.direction_or_eye;
+      if (std::abs(glm::dot(surface.normal(u, v), sight)) > kFlat * glm::length(sight)) return false;
+    }
+  return true;
+}
+
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   demand_bounded(*surface);
   const ViewOf view = checked(given);
+  if (is_edge_on(*surface, view)) return {};
   Contours found = contours_of(surface, outline(view));
   for (Contour& contour : found.branches) contour.cusps = picture_cusps(*surface, contour, view);
   return found;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/body.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/segment.h"
@@ -29,7 +30,11 @@ Circle circle_of(const Fields& f) {
   if (f.holds<CurvePtr>("of")) {
     curve = f.curve("of");
   } else {
-    const SurfacePtr surface = f.surface("of");
+    SurfacePtr surface;
+    if (f.holds<SurfacePtr>("of")) surface = f.surface("of");
+    if (f.holds<BodyPtr>("of"))
+      for (const Face& face : f.body("of")->faces)
+        if (!surface && is_round(*face.surface)) surface = face.surface;
     const Rectangle domain = surface->domain();
     const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
     for (const HeldParameter held : {HeldParameter::v, HeldParameter::u}) {

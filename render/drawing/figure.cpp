@@ -12,6 +12,7 @@
 #include "render/drawing/annotations.h"
 #include "render/drawing/graph_axes.h"
 #include "render/drawing/label_placement.h"
+#include "render/drawing/overlaps.h"
 #include "render/drawing/panel_layout.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
@@ -72,7 +73,10 @@ class ViewDrawing {
     if (model_->drawing.ground == Ground::shaded) add_ground();
     GraphWork graph = graph_axes(view_, legend);
     append(std::move(graph.under));
-    for (const bool hidden : {true, false}) add_lines(lines, hidden);
+    // What is hidden lies under what is seen, which is known first.
+    SheetGroup seen = line_paths(lines, false), hidden = line_paths(lines, true);
+    for (SheetGroup* group : {&hidden, &seen})
+      if (!group->items.empty()) figure_.sheet.items.push_back(std::move(*group));
     append(std::move(graph.over));
     add_marks(lines);
     append(std::move(page.shapes));
@@ -142,13 +146,17 @@ class ViewDrawing {
     return far;
   }
 
-  void add_lines(const VisibleLines& lines, bool hidden) {
+  SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
     SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
     if (clipped_) {
       all.clip_at = view_.at - Vec2(kClipFree);
       all.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
     }
-    for (const VisibleLine& line : lines.lines) {
+    // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
+    // lines along them.
+    std::vector<SheetGroup> of_lines;
+    for (auto found = lines.lines.rbegin(); found != lines.lines.rend(); ++found) {
+      const VisibleLine& line = *found;
       const Stroke& stroke = line.stroke;
       const LineLook* look = hidden ? stroke.hidden ? &*stroke.hidden : nullptr : &stroke.look;
       if (!look) continue;
@@ -172,14 +180,23 @@ class ViewDrawing {
         };
         if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
         if (stroke.arrow_at_start && piece.t.lo == domain.lo) head(false);
-        Path path = placed(fitted_path(*line.curve, t, breaks, kFitted));
-        add_obstacles(path);
-        SheetGroup& group = group_of(all, hidden ? stroke.kind + " hidden" : stroke.kind, name_of(stroke.object));
-        group.items.push_back(drawn(std::move(path), *look));
+        const Path whole = placed(fitted_path(*line.curve, t, breaks, kFitted));
+        std::vector<Path> paths = overlaps_.left_of(whole);
+        if (paths.empty() && heads.empty()) continue;
+        SheetGroup group{hidden ? stroke.kind + " hidden" : stroke.kind, name_of(stroke.object), {}, {}, {}};
+        for (Path& path : paths) {
+          add_obstacles(path);
+          group.items.push_back(drawn(std::move(path), *look));
+        }
         for (SheetItem& item : heads) group.items.push_back(std::move(item));
+        of_lines.push_back(std::move(group));
       }
     }
-    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+    for (auto one = of_lines.rbegin(); one != of_lines.rend(); ++one) {
+      SheetGroup& group = group_of(all, one->kind, one->object);
+      for (SheetItem& item : one->items) group.items.push_back(std::move(item));
+    }
+    return all;
   }
 
   // The last group, if it is of this kind and object, or a new one.
@@ -252,10 +269,11 @@ class ViewDrawing {
   World world_;
   std::vector<std::string> names_;
   LabelObstacles obstacles_;
+  Overlaps overlaps_;
 };
 
 // The view of a model into a rectangle of the sheet, less the room that its axes and legend take.
-void add_view(Model model, const Vec2& at, const Vec2& size, bool panel, const FigureOptions& options, Figure& figure) {
+void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOptions& options, Figure& figure) {
   const double per_pixel = millimetres_of_pixel(model);
   const auto camera_for = [&](const Vec2& millimetres) {
     const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
@@ -276,6 +294,12 @@ void add_view(Model model, const Vec2& at, const Vec2& size, bool panel, const F
           "axes, numbers and legend leave no room for the graph: they take {:.1f} x {:.1f} mm of {:.1f} x {:.1f} mm",
           insets.left + insets.right, insets.top + insets.bottom, size.x, size.y));
     model.camera = camera_for(room);
+  }
+  if (!graph && !panel && model.camera_frames && !model.drawing.annotations.empty()) {
+    const double free = figure.sheet.height - size.y;
+    model.camera = camera_with_room(model, room, model.paper.auto_height && !model.drawing.legend, per_pixel);
+    size.y = room.y;
+    figure.sheet.height = size.y + free;
   }
   const auto shared = std::make_shared<const Model>(std::move(model));
   const View view{*shared, *shared->camera, corner, per_pixel, {at.x, at.y + size.y}};

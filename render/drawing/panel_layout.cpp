@@ -30,12 +30,6 @@ double millimetres_of(const std::string& unit) {
   return 1;
 }
 
-struct Rect {
-  Vec2 lo{kInfinity}, hi{-kInfinity};
-  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  Vec2 size() const { return hi - lo; }
-};
-
 Model model_of(const Model& page, const Panel& panel) {
   Model model = page;
   model.panels.clear();
@@ -46,18 +40,7 @@ Model model_of(const Model& page, const Panel& panel) {
   return model;
 }
 
-// What of the picture the objects take.
-Rect shown_part(const Model& model, const Camera& camera) {
-  Rect part;
-  for (const Vec3& point : Shown(model.objects).points()) {
-    const PicturePoint p = camera.project(point);
-    if (p.visible_side) part.include({p.x, p.y});
-  }
-  if (!(part.lo.x < kInfinity)) part.include(Vec2(0)), part.include(Vec2(camera.width(), camera.height()));
-  return part;
-}
-
-void include(const SheetItem& item, Rect& part) {
+void include(const SheetItem& item, SheetBox& part) {
   if (const auto* group = std::get_if<SheetGroup>(&item))
     for (const SheetItem& one : group->items) include(one, part);
   if (const auto* path = std::get_if<SheetPath>(&item))
@@ -73,32 +56,8 @@ struct Extent {
   Vec2 before{0}, after{0};  // left and above, right and below of it
   CameraPtr camera;          // a picture whose pixels are as large as `millimetres` says
   double millimetres = 1;
-  Rect shown;  // in its pixels
+  SheetBox shown;
 };
-
-void add_annotation_room(const Model& model, Extent& extent) {
-  Model trial = model;
-  trial.camera = extent.camera;
-  const View view{trial, *trial.camera, Vec2(0), extent.millimetres, Vec2(0)};
-  LineWork work;
-  PageWork page;
-  add_annotations(view, work, page);
-  Rect all;
-  all.include(extent.millimetres * extent.shown.lo), all.include(extent.millimetres * extent.shown.hi);
-  for (const SheetItem& item : page.shapes) include(item, all);
-  for (Label& label : page.labels) {
-    std::vector<Label> one{label};
-    LabelObstacles free;
-    free.width = free.height = kInfinity;
-    if (label.side != "here") place_labels(one, free);
-    const SheetText& text = one[0].text;
-    const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
-    for (const double x : {0.0, text.width})
-      for (const double y : {text.ascent, -text.descent}) all.include(text.at + x * along + y * up);
-  }
-  extent.before = extent.millimetres * extent.shown.lo - all.lo + Vec2(kFree);
-  extent.after = all.hi - extent.millimetres * extent.shown.hi + Vec2(kFree);
-}
 
 // At a scale: millimetres for one scene unit.
 Extent extent_at(const Model& model, double scale, const std::string& name) {
@@ -108,9 +67,11 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
     throw std::runtime_error(
         fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name));
   extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
-  extent.shown = shown_part(model, *extent.camera);
-  extent.half = 0.5 * extent.millimetres * extent.shown.size();
-  add_annotation_room(model, extent);
+  extent.shown = shown_box(model, *extent.camera, extent.millimetres);
+  extent.half = 0.5 * extent.shown.size();
+  const SheetBox all = annotated_box(model, *extent.camera, extent.millimetres);
+  extent.before = extent.shown.lo - all.lo + Vec2(kFree);
+  extent.after = all.hi - extent.shown.hi + Vec2(kFree);
   return extent;
 }
 
@@ -121,6 +82,86 @@ struct Track {
 };
 
 }  // namespace
+
+SheetBox shown_box(const Model& model, const Camera& camera, double millimetres) {
+  SheetBox part;
+  const Shown shown(model.objects);
+  for (const Vec3& point : shown.points()) {
+    const PicturePoint p = camera.project(point);
+    if (p.visible_side) part.include(millimetres * Vec2(p.x, p.y));
+  }
+  if (!(part.lo.x < kInfinity))
+    part.include(Vec2(0)), part.include(millimetres * Vec2(camera.width(), camera.height()));
+  return part;
+}
+
+SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres) {
+  // Places on the page stay where they are.
+  Model trial = model;
+  std::erase_if(trial.drawing.annotations, [](const Annotation& one) {
+    return one.values.holds<Anchor>("at") && one.values.get<Anchor>("at").on_page;
+  });
+  const View view{trial, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
+  LineWork work;
+  PageWork page;
+  add_annotations(view, work, page);
+  SheetBox all = shown_box(model, camera, millimetres);
+  for (const SheetItem& item : page.shapes) include(item, all);
+  for (const Stroke& stroke : work.strokes)
+    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Interval t = stroke.curve->domain();
+      all.include(view.place(stroke.curve->point(t.lo + x * t.width())));
+    }
+  std::vector<Label> labels = std::move(page.labels);
+  for (const PointText& text : work.texts) {
+    if (text.side.empty()) continue;  // finds a place on the paper
+    Label label;
+    label.text = text_in(text.style, text.text);
+    label.at = view.place(text.point), label.side = text.side, label.distance = text.distance;
+    labels.push_back(std::move(label));
+  }
+  LabelObstacles free;
+  free.width = free.height = kInfinity;
+  for (Label& label : labels) {
+    std::vector<Label> one{label};
+    place_labels(one, free);
+    const SheetText& text = one[0].text;
+    const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+    for (const double x : {0.0, text.width})
+      for (const double y : {text.ascent, -text.descent}) all.include(text.at + x * along + y * up);
+  }
+  return all;
+}
+
+CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
+  CameraPtr camera = model.camera;
+  double zoom = 1;
+  Vec2 corner(0);
+  const auto window = [&] {
+    return window_of(model.camera, corner.x, corner.y, zoom, static_cast<int>(std::lround(size.x / millimetres)),
+                     std::max(1, static_cast<int>(std::lround(size.y / millimetres))));
+  };
+  // What annotations take hardly depends on the scale: it is soon found.
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    const SheetBox shown = shown_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
+    if (all.lo.x >= 0 && all.lo.y >= 0 && all.hi.x <= size.x && all.hi.y <= size.y) break;
+    const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - shown.hi + Vec2(kFree);
+    const Vec2 room = size - before - after, content = shown.size();
+    double grow = content.x > 0 ? room.x / content.x : kInfinity;
+    if (!auto_height && content.y > 0) grow = std::min(grow, room.y / content.y);
+    if (!(grow > 0.05)) break;  // no room for both: the scene keeps its place
+    grow = std::min(grow, 1.0);
+    if (auto_height) size.y = before.y + after.y + grow * content.y;
+    // Of the model's own picture: the middle of what is shown comes to the middle of its room.
+    const SheetBox own = shown_box(model, *model.camera, millimetres);
+    zoom *= grow;
+    const Vec2 middle = before + 0.5 * (size - before - after);
+    corner = (0.5 * (own.lo + own.hi) - middle / zoom) / millimetres;
+    camera = window();
+  }
+  return camera;
+}
 
 PanelLayout panel_layout(const Model& page, const std::string& only) {
   const std::vector<std::vector<std::string>> rows =
@@ -172,7 +213,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
           // A window of the trial's picture, its middle on the lines of row and column.
           const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
           const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
-          const Vec2 corner = middle - Vec2(across[j].before, down[i].before) / extent.millimetres;
+          const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
           model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
             return window_of(camera, corner.x, corner.y, zoom, w, h);
           };
@@ -194,7 +235,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const std::string& name : row) {
       if (name.empty()) continue;
       const Model model = model_of(page, *panels.at(name));
-      const Vec2 size = shown_part(model, *model.make_camera(kTrial, kTrial)).size();
+      const Vec2 size = shown_box(model, *model.make_camera(kTrial, kTrial), 1).size();
       tallest = std::max(tallest, size.x > 0 ? std::clamp(size.y / size.x, 0.1, 3.0) * width : width);
     }
     heights.push_back(page.paper.auto_height || !only.empty()

@@ -12,6 +12,21 @@
 
 namespace lekalo::render {
 
+// A rectangle on the sheet, millimetres.
+struct SheetBox {
+  Vec2 lo{geometry::kInfinity}, hi{-geometry::kInfinity};
+  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  Vec2 size() const { return hi - lo; }
+};
+
+// What the objects take of a picture whose pixels have so many millimetres, and what their annotations take with them.
+SheetBox shown_box(const Model& model, const Camera& camera, double millimetres);
+SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres);
+
+// A camera that frames the scene so that its annotations have room too: `size` is that of the picture in millimetres,
+// whose height is made to fit where it is automatic. The model's own camera where they have.
+CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres);
+
 struct PlacedPanel {
   Model model;  // with the panel's camera, objects and drawing, without panels
   Vec2 at{0};   // upper left corner on the sheet, millimetres

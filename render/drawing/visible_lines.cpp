@@ -9,6 +9,7 @@
 #include "geometry/numerics/triple.h"
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/projection.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
 
@@ -26,7 +27,7 @@ constexpr double kOnHost = 2e-12;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
-constexpr double kSameTurn = 0.01;
+constexpr double kSameTurn = 5e-4;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
@@ -123,8 +124,7 @@ class Drawing {
  private:
   // Contours that solve their equations at every point are asked too often for that.
   static void simplify(Stroke& stroke) {
-    for (Stroke::Host& host : stroke.hosts)
-      host.image = contour_approximation(stroke.curve, *host.surface, host.image);
+    for (Stroke::Host& host : stroke.hosts) host.image = contour_approximation(stroke.curve, *host.surface, host.image);
     stroke.curve = contour_approximation(stroke.curve);
   }
 
@@ -216,9 +216,21 @@ class Drawing {
       const bool own = std::any_of(stroke.hosts.begin(), stroke.hosts.end(), [&](const Stroke::Host& host) {
         return host.surface == other.original && stroke.object == other.object;
       });
-      if (own) continue;
+      if (own || (stroke.hosts.empty() && lies_on(*curve, *other.surface))) continue;
       for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
     }
+  }
+
+  // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.
+  bool lies_on(const Curve& curve, const Surface& surface) const {
+    const Interval domain = curve.domain();
+    for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58}) {
+      const Vec3 p = curve.point(domain.lo + x * domain.width());
+      double nearest = kInfinity;
+      for (const SurfaceFoot& foot : project(p, surface).feet) nearest = std::min(nearest, foot.distance);
+      if (nearest > kTouch * world_.radius()) return false;
+    }
+    return true;
   }
 
   struct WorldSurface {

@@ -13,7 +13,9 @@
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/contours.h"
 #include "geometry/queries/csg_contours.h"
+#include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
+#include "geometry/queries/trim.h"
 #include "geometry/surfaces/plane.h"
 #include "render/lines/curve_helpers.h"
 #include "render/scene/color_names.h"
@@ -293,7 +295,10 @@ class Collector {
         add(self_intersection(surface), {surface, surface}, style, lines.hidden);
       });
     } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
-      add_edges(**body, kind, style, lines.hidden);
+      if (kind == "parameter")
+        add_parameter_lines(**body, lines, style);
+      else
+        add_edges(**body, kind, style, lines.hidden);
     } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
       if (kind == "sharp") add_solid(*shape, true, style, lines.hidden);
     } else {
@@ -346,6 +351,44 @@ class Collector {
     }
   }
 
+  // Of a body's faces, as far as the faces go.
+  void add_parameter_lines(const Body& body, const Lines& lines, const Style& style) {
+    for (size_t index = 0; index < body.faces.size(); ++index) {
+      const Face& face = body.faces[index];
+      const auto region = trim_of(body, static_cast<int>(index));
+      if (!region) {
+        for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
+          add_parameter_lines(face.surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style,
+                              lines.hidden);
+        continue;
+      }
+      std::vector<Curve2Ptr> borders;
+      for (const int loop : face.loops)
+        for (const int coedge : body.loops[loop].coedges) borders.push_back(body.coedges[coedge].image);
+      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
+        const bool u = held == HeldParameter::u;
+        const Interval range = u ? region->u_range() : region->v_range(),
+                       along = u ? region->v_range() : region->u_range();
+        for (const double at : values_in(u ? lines.at_u : lines.at_v, range, false)) {
+          const auto place = [&](double t) { return u ? Vec3(at, t, 0) : Vec3(t, at, 0); };
+          const Segment line(place(along.lo), place(along.hi));
+          std::vector<double> cuts{along.lo, along.hi};
+          for (const Curve2Ptr& border : borders)
+            for (const CurveMeeting& meeting : intersect(line, *border).points)
+              cuts.push_back(along.lo + meeting.s * along.width());
+          std::sort(cuts.begin(), cuts.end());
+          for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+            const Interval t{cuts[k], cuts[k + 1]};
+            const Vec3 middle = place(t.middle());
+            if (t.width() <= 1e-9 * along.width() || !region->contains(middle.x, middle.y)) continue;
+            lies_on_line(face.surface, held, at, t);
+            stroke(std::make_shared<ParameterLine>(face.surface, held, at, t), style, lines.hidden);
+          }
+        }
+      }
+    }
+  }
+
   void add_edges(const Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden) {
     for (const Edge& edge : body.edges)
       if (edge.kind == EdgeKind::regular && edge.curve && kind_of(body, edge) == kind) {
@@ -360,10 +403,11 @@ class Collector {
 
   // The line of a surface on which its parameter is held.
   void lies_on_line(const SurfacePtr& surface, HeldParameter held, double at) {
+    lies_on_line(surface, held, at, held == HeldParameter::u ? surface->domain().v : surface->domain().u);
+  }
+  void lies_on_line(const SurfacePtr& surface, HeldParameter held, double at, const Interval& along) {
     if (!drawing_) return;
-    const Rectangle domain = surface->domain();
     const bool u = held == HeldParameter::u;
-    const Interval& along = u ? domain.v : domain.u;
     const Vec3 from = u ? Vec3(at, along.lo, 0) : Vec3(along.lo, at, 0),
                to = u ? Vec3(at, along.hi, 0) : Vec3(along.hi, at, 0);
     NurbsCurveForm form;

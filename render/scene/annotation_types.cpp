@@ -1,5 +1,6 @@
 // Annotations of drawings: labels, marks, arrows, dimensions. Lengths and sides are those of the page; points may be
 // given on it too ({ page: [5 mm, 8 mm] }).
+#include "geometry/body.h"
 #include "geometry/describe.h"
 #include "geometry/queries/roundness.h"
 #include "render/scene/page.h"
@@ -157,12 +158,15 @@ TypeDeclaration linear_dimension() {
 
 TypeDeclaration round_dimension(const char* name, const char* description) {
   TypeDeclaration type = dimension(name, description);
-  type.field("of", reference({Category::curve, Category::surface}), "a circle, an arc, or a surface of revolution")
+  type.field("of", reference({Category::curve, Category::surface, Category::body}),
+             "a circle, an arc, or a surface or body of revolution")
       .field("leader", angle(), "direction of the dimension line on the page, from the right upwards", "45");
   return finish(type, [](const Fields& f) {
     one_text(f);
-    const bool round =
+    bool round =
         f.holds<CurvePtr>("of") ? is_round(*f.curve("of")) : f.holds<SurfacePtr>("of") && is_round(*f.surface("of"));
+    if (f.holds<BodyPtr>("of"))
+      for (const Face& face : f.body("of")->faces) round = round || is_round(*face.surface);
     if (!round)
       throw FieldError("of", "this is not round: it has no radius",
                        "name a circle, an arc, or a sphere, cylinder, torus or other surface of revolution; a distance "

@@ -104,6 +104,7 @@ void Builder::build_camera(Model& model) {
   if (image) build_film(*image, model);
   if (!image || !factory) return;
   const auto make = std::any_cast<CameraFactory>(factory->value);
+  model.camera_frames = !camera || !camera->find("from");
   model.make_camera = [make, all](int w, int h) { return make(w, h, all); };
   attempt(camera ? *camera : scene_.root, "'camera'", [&] {
     PictureSize size = image->get<PictureSize>("size");

@@ -104,6 +104,7 @@ struct Model {
   CameraPtr camera;
   // The same view for a picture of another size; set where the camera frames the scene or keeps an aspect ratio.
   std::function<CameraPtr(int width, int height)> make_camera;
+  bool camera_frames = false;  // it stands where the scene fills the picture, not at a place of its own
   Film film;
   IntegratorPtr integrator;
   std::vector<OutputFile> outputs;

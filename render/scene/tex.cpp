@@ -356,6 +356,7 @@ class Parser {
         return row;
       }
       if (c == '}') fail(i_, "this brace closes nothing", "a brace as a character is \\}");
+      if (c == '$' && end == 'R') fail(begin, "\\left without \\right", "\\right. closes with nothing");
       if (c == '$') fail(i_, "a dollar sign within braces of a formula", "text in a formula is \\text{..}");
       if (end == 'R' && text_.substr(i_, 6) == "\\right") {
         i_ += 6;

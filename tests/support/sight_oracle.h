@@ -11,7 +11,7 @@
 
 #include "geometry/vectors.h"
 
-namespace lekalo::oracle {
+namespace lekalo::oracle::sight {
 
 using geometry::Frame;
 using geometry::Vec3;
@@ -216,4 +216,4 @@ inline int layers_before(const std::vector<SolidPtr>& solids, const Vec3& from, 
   return layers;
 }
 
-}  // namespace lekalo::oracle
+}  // namespace lekalo::oracle::sight

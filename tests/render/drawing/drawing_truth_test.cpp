@@ -16,10 +16,10 @@ namespace lekalo::render {
 namespace {
 
 using namespace geometry;
-using oracle::SolidPtr;
+using oracle::sight::SolidPtr;
 
 constexpr double kBisected = 1e-7;   // of a line's domain
-constexpr double kInPicture = 1e-4;  // pixels: or a transition is so near to the true one in the picture
+constexpr double kInPicture = 0.01;  // pixels: else no piece is wrong for longer than that
 // Sheets nearer than this before a point are its own; where the two bounds tell apart, a nearly touching sheet is near,
 // and the oracle does not know. Of outlines, where rounding of 1e-16 makes two crossings 1e-8
 // apart of the one contact, also two so near as that; so an outline can be told from its surface only so far (part of
@@ -29,7 +29,7 @@ constexpr double kOwn = 3e-9, kOwnToo = 3e-8, kContact = 3e-6, kFromCusp = 1e-4;
 struct Found {
   int views = 0, lines = 0, places = 0, transitions = 0, incomplete = 0;
   int unclear = 0, wrong_places = 0, wrong_transitions = 0;
-  double largest_off = 0;  // pixels
+  int near = 0;  // transitions that are right beside kInPicture alone
 };
 
 class Truth {
@@ -53,8 +53,8 @@ class Truth {
     const Ray ray = camera_.ray(at.x, at.y);
     const Vec3 from = camera_.is_parallel() ? p - (at.depth + 5) * ray.direction : ray.origin;
     const double contact = line.stroke.kind == "silhouette" ? kContact : 0;
-    const int layers = oracle::layers_before(solids_, from, p, kOwn, contact);
-    return layers == oracle::layers_before(solids_, from, p, kOwnToo, contact) ? layers : -1;
+    const int layers = oracle::sight::layers_before(solids_, from, p, kOwn, contact);
+    return layers == oracle::sight::layers_before(solids_, from, p, kOwnToo, contact) ? layers : -1;
   }
 
   void check(const VisibleLine& line) {
@@ -81,8 +81,8 @@ class Truth {
                 behind = layers(line, next.t.lo + std::min(away, 0.5 * next.t.width()));
       if (before < 0 || behind < 0) ++found_.unclear;
       if ((before < 0 || before == piece.layers) && (behind < 0 || behind == next.layers)) continue;
-      if (const double off = distance_from_truth(line, piece, next); off <= kInPicture) {
-        found_.largest_off = std::max(found_.largest_off, off);
+      if (is_right_beside(line, piece, next, kInPicture)) {
+        ++found_.near;
         continue;
       }
       ++found_.wrong_transitions;
@@ -90,15 +90,22 @@ class Truth {
     }
   }
 
-  // In pixels, of a transition whose true place is found by halving with the oracle.
-  double distance_from_truth(const VisibleLine& line, const VisiblePiece& piece, const VisiblePiece& next) const {
-    double lo = piece.t.middle(), hi = next.t.middle();
-    if (layers(line, lo) != piece.layers || layers(line, hi) != next.layers) return kInfinity;
-    while (hi - lo > 1e-12 * line.stroke.curve->domain().width()) {
-      const double middle = 0.5 * (lo + hi);
-      (layers(line, middle) == piece.layers ? lo : hi) = middle;
-    }
-    return glm::length(line.curve->place(lo).p - line.curve->place(piece.t.hi).p);
+  // Whether both pieces are right from so many pixels away on.
+  bool is_right_beside(const VisibleLine& line, const VisiblePiece& piece, const VisiblePiece& next, double off) const {
+    const Vec2 place = line.curve->place(piece.t.hi).p;
+    const auto right = [&](const VisiblePiece& one, double other) {
+      // Towards the piece's middle, to where the picture has moved on so far.
+      double lo = 0, hi = 0.5;
+      const auto at = [&](double x) { return piece.t.hi + x * (other - piece.t.hi); };
+      if (glm::length(line.curve->place(at(hi)).p - place) < off) return true;  // shorter than that
+      for (int k = 0; k < 60; ++k) {
+        const double x = 0.5 * (lo + hi);
+        (glm::length(line.curve->place(at(x)).p - place) < off ? lo : hi) = x;
+      }
+      const int truth = layers(line, at(hi));
+      return truth < 0 || truth == one.layers;
+    };
+    return right(piece, piece.t.lo) && right(next, next.t.hi);
   }
 
   static bool near_cusp(const VisibleLine& line, double t) {
@@ -136,7 +143,8 @@ void expect_right(const Found& found, const char* name) {
   EXPECT_EQ(found.wrong_transitions, 0);
   EXPECT_EQ(found.incomplete, 0);
   EXPECT_LE(found.unclear, 1 + (found.places + found.transitions) / 100);
-  tests::report_figure(std::string(name) + " off_in_pixels", found.largest_off);
+  EXPECT_LE(found.near, 1 + found.transitions / 100);
+  tests::report_figure(std::string(name) + " right_within_a_hundredth_of_a_pixel", found.near);
   tests::report_figure(std::string(name) + " unclear", found.unclear);
   tests::report_figure(std::string(name) + " views", found.views);
   tests::report_figure(std::string(name) + " lines", found.lines);
@@ -156,19 +164,19 @@ Part random_part(Views& views, int kind, double reach) {
   switch (kind % 5) {
     case 0: {
       const Vec3 size(r, h, views.number(0.7, 2));
-      return {box(frame, size), std::make_shared<oracle::BoxSolid>(frame, size)};
+      return {box(frame, size), std::make_shared<oracle::sight::BoxSolid>(frame, size)};
     }
     case 1:
-      return {frustum(frame, r, r, h), std::make_shared<oracle::FrustumSolid>(frame, r, r, h)};
+      return {frustum(frame, r, r, h), std::make_shared<oracle::sight::FrustumSolid>(frame, r, r, h)};
     case 2: {
       const double top = r * views.number(0.2, 0.8);
-      return {frustum(frame, r, top, h), std::make_shared<oracle::FrustumSolid>(frame, r, top, h)};
+      return {frustum(frame, r, top, h), std::make_shared<oracle::sight::FrustumSolid>(frame, r, top, h)};
     }
     case 3:
-      return {ball(frame, r), std::make_shared<oracle::BallSolid>(frame, r)};
+      return {ball(frame, r), std::make_shared<oracle::sight::BallSolid>(frame, r)};
     default: {
       const double minor = r * views.number(0.2, 0.7);
-      return {torus_body(frame, r, minor), std::make_shared<oracle::TorusSolid>(frame, r, minor)};
+      return {torus_body(frame, r, minor), std::make_shared<oracle::sight::TorusSolid>(frame, r, minor)};
     }
   }
 }
@@ -243,10 +251,10 @@ TEST(DrawingTruth, Csg) {
       continue;
     }
     show(scene, solid, {"sharp", "silhouette"});
-    using Kind = oracle::PairSolid::Kind;
-    const auto rest = std::make_shared<oracle::PairSolid>(Kind::subtract, a.solid, b.solid);
+    using Kind = oracle::sight::PairSolid::Kind;
+    const auto rest = std::make_shared<oracle::sight::PairSolid>(Kind::subtract, a.solid, b.solid);
     views.look(scene, k % 2);
-    Truth(*scene.world(), {std::make_shared<oracle::PairSolid>(Kind::unite, rest, c.solid)}, views, found);
+    Truth(*scene.world(), {std::make_shared<oracle::sight::PairSolid>(Kind::unite, rest, c.solid)}, views, found);
   }
   expect_right(found, "csg");
 }

@@ -151,8 +151,7 @@ TEST(Annotations, Errors) {
             "6:39 a dimension measures the model, not the page\n");
   EXPECT_EQ(about("{ type: linear_dimension, from: [0, 0], to: [1, 0], offset: 5 }"),
             "6:67 the length '5' on the page has no unit\n");
-  EXPECT_EQ(about("{ type: radius_dimension, of: b }"),
-            "6:37 'b' is a body, but a curve or a surface is wanted here\n");
+  EXPECT_EQ(about("{ type: radius_dimension, of: b }"), "");  // a ball is round
   EXPECT_EQ(about("{ type: radius_dimension, of: c, text: a, prefix: b }"),
             "6:57 'text' stands instead of the number: there is nothing for 'prefix'\n");
   EXPECT_EQ(about("{ type: light_path, from: [0, 0], along: x, wavelength: 0.589 }"),

@@ -1,0 +1,60 @@
+"""The figures of scenes/figures: each is listed, draws without a word of warning, and independent readers take it."""
+
+import pathlib
+import subprocess
+import unittest
+import xml.etree.ElementTree as tree
+
+import yaml
+
+from program import ProgramTest
+
+FIGURES = pathlib.Path(__file__).resolve().parents[2] / "scenes/figures"
+
+
+class Figures(ProgramTest):
+    def test_index(self):
+        listed = [figure["file"] for figure in yaml.safe_load((FIGURES / "index.yaml").read_text())["figures"]]
+        self.assertEqual(sorted(listed), sorted(path.name for path in FIGURES.glob("*.yaml") if path.name != "index.yaml"))
+
+    def test_all(self):
+        for path in sorted(FIGURES.glob("*.yaml")):
+            if path.name == "index.yaml":
+                continue
+            with self.subTest(path.name):
+                name = path.stem
+                _, errors = self.run_program("draw", str(path), "-o", f"{name}.svg", "-o", f"{name}.pdf")
+                self.assertNotIn("warning", errors)
+                self.assertNotIn("note", errors)
+                root = tree.fromstring(self.bytes_of(f"{name}.svg"))
+                paths = [one for one in root.iter("{http://www.w3.org/2000/svg}path")]
+                self.assertGreater(len(paths), 3)
+                for command in (["rsvg-convert", f"{name}.svg", "-o", f"{name}.png"],
+                                ["pdftoppm", "-r", "50", "-png", f"{name}.pdf", name]):
+                    done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_bezier_construction(self):
+        """The words of the figure can be found in its PDF."""
+        self.run_program("draw", str(FIGURES / "bezier_construction.yaml"), "-o", "b.pdf", "--quiet")
+        words = subprocess.run(["pdftotext", "b.pdf", "-"], cwd=self.folder, capture_output=True, text=True).stdout
+        self.assertIn("r(0.4)", words)
+        fonts = subprocess.run(["pdffonts", "b.pdf"], cwd=self.folder, capture_output=True, text=True).stdout
+        self.assertIn("CMUSerif-Bold", fonts)
+
+    def test_latex(self):
+        """pdflatex takes the texts of a drawing, where it is installed."""
+        try:
+            subprocess.run(["pdflatex", "--version"], capture_output=True, check=True)
+        except FileNotFoundError:
+            self.skipTest("pdflatex is not installed")
+        self.run_program("draw", str(FIGURES / "basis_functions.yaml"), "-o", "basis.pdf", "--latex", "--quiet")
+        self.write("document.tex", "\\documentclass{article}\\usepackage{graphicx,color}\\begin{document}"
+                   "\\input{basis.tex}\\end{document}\n")
+        done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "document.tex"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,161 @@
+// Texts of drawings: what they are read as, where their parts stand, where labels find room; numbers of dimensions and
+// axes. Facts of TeX's own layout (The TeXbook, appendix G) and of plain arithmetic.
+#include <gtest/gtest.h>
+
+#include "render/drawing/annotations.h"
+#include "render/drawing/cairo_output.h"
+#include "render/drawing/fonts.h"
+#include "render/drawing/graph_axes.h"
+#include "render/drawing/label_placement.h"
+#include "render/drawing/latex.h"
+#include "render/drawing/overlaps.h"
+#include "render/drawing/svg.h"
+#include "render/drawing/text_layout.h"
+#include "render/scene/tex.h"
+
+namespace lekalo::render {
+namespace {
+
+std::string characters(const SheetText& text) {
+  std::string all;
+  for (const TextRun& run : text.runs) all += run.text;
+  return all;
+}
+
+std::string slip_of(const std::string& text) {
+  const auto parsed = parse_tex(text);
+  const auto* slip = std::get_if<TextSlip>(&parsed);
+  return slip ? std::to_string(slip->offset) + " " + slip->message : "none";
+}
+
+TEST(Tex, WhatItDoesNotKnow) {
+  EXPECT_EQ(slip_of("$\\alpha_{i+1}^{(k)} \\le \\frac{a}{b}$"), "none");
+  EXPECT_EQ(slip_of("$\\aplha$"), "1 labels do not know '\\aplha' (did you mean 'alpha'?)");
+  EXPECT_EQ(slip_of("\\alpha"), "0 '\\alpha' stands in formulas only");
+  EXPECT_EQ(slip_of("$x_i_j$"), "4 two subscripts at one place");
+  EXPECT_EQ(slip_of("$x_$"), "2 something is missing behind this");
+  EXPECT_EQ(slip_of("$\\frac{a}$"), "1 something is missing behind this");
+  EXPECT_EQ(slip_of("$\\left( a$"), "1 \\left without \\right");
+}
+
+TEST(TextLayout, CharactersAndTheirFonts) {
+  const SheetText text = laid_out("Кривая $\\mathbf{r}(t) = x_{12}'$, \\textbf{да}", "serif", 10);
+  EXPECT_EQ(characters(text), "Кривая r(t)=x12′, да");
+  for (const TextRun& run : text.runs) {
+    EXPECT_EQ(run.font.italic, run.text == "t" || run.text == "x") << run.text;
+    EXPECT_EQ(run.font.bold, run.text == "r" || run.text == "да") << run.text;
+    EXPECT_EQ(run.size, run.text == "12" || run.text == "′" ? 7 : 10) << run.text;
+    EXPECT_TRUE(run.font.family == "CMU Serif" || run.font.family == "DejaVu Serif") << run.font.family;
+  }
+  // Signs that Computer Modern Unicode lacks.
+  EXPECT_EQ(laid_out("$\\partial$", "serif", 10).runs.at(0).font.family, "DejaVu Serif");
+}
+
+TEST(TextLayout, Places) {
+  const double em = 10;
+  const SheetText one = laid_out("$a$", "serif", em), two = laid_out("$aa$", "serif", em);
+  EXPECT_NEAR(two.width, 2 * one.width, 1e-9);
+  const SheetText sum = laid_out("$a+a$", "serif", em), minus = laid_out("$-a$", "serif", em);
+  const double plus = text_extent({"CMU Serif"}, "+").advance * em;
+  EXPECT_NEAR(sum.width, 2 * one.width + plus + 4.0 / 9 * em, 1e-9);  // 2/9 em on each side
+  EXPECT_NEAR(minus.width, one.width + text_extent({"CMU Serif"}, "−").advance * em, 1e-9);
+  const SheetText scripts = laid_out("$a_1^2$", "serif", em);
+  ASSERT_EQ(scripts.runs.size(), 3u);
+  EXPECT_GT(scripts.runs[1].at.y, 0);  // below the line; y runs downwards
+  EXPECT_LT(scripts.runs[2].at.y, -3);
+  EXPECT_EQ(scripts.runs[1].size, 7);
+  const SheetText fraction = laid_out("$\\frac{1}{2}$", "serif", em);
+  ASSERT_EQ(fraction.strokes.size(), 1u);
+  EXPECT_NEAR(fraction.strokes[0].from.y, -2.5, 1e-9);  // the axis, a quarter em high
+  EXPECT_LT(fraction.runs[0].at.y, -2.5);
+  EXPECT_GT(fraction.runs[1].at.y, 0);
+  EXPECT_EQ(laid_out("$\\sqrt{2}$", "serif", em).strokes.size(), 1u);
+  EXPECT_EQ(laid_out("$\\vec{a}$", "serif", em).strokes.size(), 2u);
+}
+
+TEST(Labels, KeepApart) {
+  std::vector<Label> labels(6);
+  for (Label& label : labels) label.text = laid_out("label", "serif", 3), label.at = {20, 20};
+  labels[0].side = "below";
+  LabelObstacles obstacles;
+  obstacles.width = obstacles.height = 40;
+  place_labels(labels, obstacles);
+  EXPECT_NEAR(labels[0].text.at.x + 0.5 * labels[0].text.width, 20, 1e-9);
+  EXPECT_GT(labels[0].text.at.y, 20);
+  for (size_t i = 0; i < labels.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const auto &a = labels[i].text, &b = labels[j].text;
+      const bool apart = a.at.x + a.width <= b.at.x || b.at.x + b.width <= a.at.x ||
+                         a.at.y + a.descent <= b.at.y - b.ascent || b.at.y + b.descent <= a.at.y - a.ascent;
+      EXPECT_TRUE(apart) << i << " " << j;
+    }
+}
+
+TEST(Labels, AvoidLines) {
+  std::vector<Label> labels(1);
+  labels[0].text = laid_out("label", "serif", 3), labels[0].at = {20, 20};
+  LabelObstacles obstacles;
+  obstacles.width = obstacles.height = 40;
+  obstacles.segments = {{{20, 20}, {40, 0}}, {{20, 20}, {0, 0}}, {{20, 20}, {20, 0}}};  // everywhere above
+  place_labels(labels, obstacles);
+  const auto& text = labels[0].text;
+  EXPECT_GE(text.at.y - text.ascent, 15);
+}
+
+TEST(Drawing, Numbers) {
+  EXPECT_EQ(dimension_number(2.5, 2), "2.5");
+  EXPECT_EQ(dimension_number(10, 2), "10");
+  EXPECT_EQ(dimension_number(-0.001, 2), "0");
+  EXPECT_EQ(dimension_number(100, 0), "100");
+  EXPECT_EQ(round_values({0, 6}, 6), (std::vector<double>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(round_values({0.1, 1.05}, 5).size(), 5u);  // 0.2, 0.4, .., 1
+  EXPECT_EQ(round_values({-3, 7}, 3), (std::vector<double>{0, 5}));
+}
+
+Path straight(const Vec2& from, const Vec2& to) {
+  Path path;
+  path.from = from;
+  path.steps.push_back({true, {}, {}, to});
+  return path;
+}
+
+TEST(Overlaps, DrawnOnce) {
+  Overlaps overlaps;
+  EXPECT_EQ(overlaps.left_of(straight({0, 0}, {10, 0})).size(), 1u);
+  EXPECT_EQ(overlaps.left_of(straight({9, 0}, {1, 0})).size(), 0u);
+  const auto beyond = overlaps.left_of(straight({-5, 0}, {15, 0}));
+  ASSERT_EQ(beyond.size(), 2u);
+  EXPECT_EQ(beyond[0].steps[0].to.x, 0);
+  EXPECT_EQ(beyond[1].from.x, 10);
+  EXPECT_EQ(overlaps.left_of(straight({0, 0}, {10, 5})).size(), 1u);
+  Path curve;
+  curve.steps.push_back({false, {3, 4}, {7, 4}, {10, 0}});
+  EXPECT_EQ(overlaps.left_of(curve).size(), 1u);
+  EXPECT_EQ(overlaps.left_of(curve).size(), 0u);
+}
+
+TEST(Sheets, Formats) {
+  Sheet sheet;
+  sheet.width = 40, sheet.height = 30;
+  sheet.paper = Spectrum(1, 1, 1);
+  sheet.title = "a < b";
+  SheetText text = laid_out("$x_1 \\le 50\\,\\%$", "serif", 4);
+  text.at = {10, 20};
+  sheet.items.push_back(SheetGroup{"label", "", {}, {}, {text}});
+  const std::string svg = svg_of(sheet), pdf = pdf_of(sheet);
+  EXPECT_NE(svg.find("<title>a &lt; b</title>"), std::string::npos);
+  EXPECT_NE(svg.find(">≤</tspan>"), std::string::npos);
+  EXPECT_EQ(svg, svg_of(sheet));
+  EXPECT_EQ(pdf, pdf_of(sheet));
+  EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
+  const DisplayImage image = pixels_of(sheet, 80, 60);
+  EXPECT_EQ(image.samples.size(), 80u * 60 * 3);
+  EXPECT_LT(*std::min_element(image.samples.begin(), image.samples.end()), 100);
+  EXPECT_TRUE(without_texts(sheet).items.empty());
+  const std::string overlay = latex_overlay(sheet, "a.pdf");
+  EXPECT_NE(overlay.find("\\put(0.250000,0.250000)"), std::string::npos) << overlay;
+  EXPECT_NE(overlay.find("50\\,\\%"), std::string::npos) << overlay;
+}
+
+}  // namespace
+}  // namespace lekalo::render
