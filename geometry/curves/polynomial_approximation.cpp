@@ -21,9 +21,7 @@ class Fitting {
     std::array<Vec3, kNodes> values;
     // At a break the curve's own point is that from the right.
     const double last = next_down(t.hi);
-    const auto point = [&](double x) {
-      return curve_.point(std::min(t.middle() + 0.5 * t.width() * x, last));
-    };
+    const auto point = [&](double x) { return curve_.point(std::min(t.middle() + 0.5 * t.width() * x, last)); };
     for (int j = 0; j < kNodes; ++j) values[j] = point(chebyshev_point(j, kNodes));
     part = {t, 2 / t.width(), powers_of_chebyshev(chebyshev_coefficients(values))};
     bool good = true;

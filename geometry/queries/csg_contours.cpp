@@ -46,7 +46,8 @@ void collect(const ShapePtr& shape, const Affine& map, std::vector<Leaf>& leaves
   } else if (const auto* half = dynamic_cast<const HalfSpaceShape*>(shape.get())) {
     const Frame& frame = half->frame();
     const Vec3 normal = glm::normalize(glm::cross(map.direction(frame.x), map.direction(frame.y)));
-    leaves.push_back({nullptr, std::make_shared<Plane>(frame_from(map.point(frame.origin), normal, map.direction(frame.x))),
+    leaves.push_back({nullptr,
+                      std::make_shared<Plane>(frame_from(map.point(frame.origin), normal, map.direction(frame.x))),
                       Box3::everything()});
   } else {
     complete = false;
@@ -103,8 +104,8 @@ class Lines {
       if (b.body)
         add(intersect(*a.body, *b.body), *a.body, b.body.get(), {first, second}, true);
       else
-        add(plane_section(*a.body, b.plane->frame().origin, b.plane->frame().z), *a.body, nullptr, {first, second}, true,
-            b.plane);
+        add(plane_section(*a.body, b.plane->frame().origin, b.plane->frame().z), *a.body, nullptr, {first, second},
+            true, b.plane);
     } catch (const std::invalid_argument&) {
       result_.complete = false;
     }
@@ -135,8 +136,8 @@ class Lines {
         const auto add_part = [&](const Interval& t) {
           if (!(t.width() > kShortest * all.width())) return;
           CsgLine line;
-          line.curve = t.width() == all.width() ? part.contour.curve
-                                                : std::make_shared<CurvePart>(part.contour.curve, t);
+          line.curve =
+              t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t);
           line.edge = edge;
           line.hosts.push_back({body.faces[part.face].surface, part.contour.images[0]});
           if (other && part.other_face >= 0 && part.contour.images.size() > 1)

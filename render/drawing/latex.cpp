@@ -69,9 +69,10 @@ void add_texts(const std::vector<SheetItem>& items, const Sheet& sheet, std::str
     // The points of scenes are those of PostScript; LaTeX has its fonts at whole ones of its own, by a 270th smaller.
     const double points = std::round(text->size / 25.4 * 72 * 100) / 100;
     result += fmt::format(
-        "  \\put({:.6f},{:.6f}){{\\color[rgb]{{{:.4f},{:.4f},{:.4f}}}\\fontsize{{{:.3f}}}{{{:.3f}}}\\selectfont {}}}%\n",
-        at.x / sheet.width, (sheet.height - at.y) / sheet.width, encoded(0), encoded(1), encoded(2), points, 1.2 * points,
-        box);
+        "  \\put({:.6f},{:.6f}){{\\color[rgb]{{{:.4f},{:.4f},{:.4f}}}\\fontsize{{{:.3f}}}{{{:.3f}}}\\selectfont "
+        "{}}}%\n",
+        at.x / sheet.width, (sheet.height - at.y) / sheet.width, encoded(0), encoded(1), encoded(2), points,
+        1.2 * points, box);
   }
 }
 

@@ -43,7 +43,9 @@ int draw(const Options& options) {
     for (const render::OutputFile& file : scene.model->outputs)
       if (file.kind == "drawing" && !(options.settings.latex && file.path.ends_with(".svg"))) outputs.push_back(file);
   if (outputs.empty())
-    outputs.push_back({std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"), "drawing"});
+    outputs.push_back(
+        {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
+         "drawing"});
   draw_files(scene.model, outputs, options.settings);
   return kDone;
 }
