@@ -11,6 +11,7 @@ namespace {
 constexpr int kNodes = static_cast<int>(PolynomialCurve::kTerms);
 constexpr size_t kMostParts = 4096;
 constexpr int kMostHalvings = 16;  // of a piece
+constexpr double kLeftOut = 0.1;   // of the tolerance: terms as small together
 
 class Fitting {
  public:
@@ -23,7 +24,13 @@ class Fitting {
     const double last = next_down(t.hi);
     const auto point = [&](double x) { return curve_.point(std::min(t.middle() + 0.5 * t.width() * x, last)); };
     for (int j = 0; j < kNodes; ++j) values[j] = point(chebyshev_point(j, kNodes));
-    part = {t, 2 / t.width(), powers_of_chebyshev(chebyshev_coefficients(values))};
+    auto coefficients = chebyshev_coefficients(values);
+    // A cubic is one again: what is rounding, or as little, is left out.
+    double left_out = 0;
+    int terms = kNodes;
+    while (terms > 1 && left_out + glm::length(coefficients[terms - 1]) <= kLeftOut * tolerance_)
+      left_out += glm::length(coefficients[--terms]), coefficients[terms] = Vec3(0);
+    part = {t, 2 / t.width(), powers_of_chebyshev(coefficients), terms};
     bool good = true;
     for (const double x : {-1.0, -0.97, -0.6, -0.1, 0.3, 0.85, 1.0})
       good = good && glm::length(part.value(x) - point(x)) <= tolerance_;

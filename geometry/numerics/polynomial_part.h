@@ -21,19 +21,20 @@ struct PolynomialPart {
   Interval t;
   double scale = 1;
   std::array<Vec3, Terms> powers;
+  int terms = static_cast<int>(Terms);  // the powers from here on are zero
 
   double local(double at) const { return (at - t.middle()) * scale; }
 
   Vec3 value(double x) const {
     Vec3 sum(0);
-    for (std::size_t i = Terms; i-- > 0;) sum = sum * x + powers[i];
+    for (int i = terms; i-- > 0;) sum = sum * x + powers[i];
     return sum;
   }
 
   // The k-th derivative by t at x.
   Vec3 derivative(int k, double x) const {
     Vec3 sum(0);
-    for (int i = static_cast<int>(Terms); i-- > k;) sum = sum * x + falling(i, k) * powers[i];
+    for (int i = terms; i-- > k;) sum = sum * x + falling(i, k) * powers[i];
     return sum * scale_to(k);
   }
 
@@ -42,9 +43,9 @@ struct PolynomialPart {
     const double middle = local(over.middle()), h = 0.5 * over.width() * scale * (1 + 1e-12);
     Vec3 center(0), reach(0);
     double power = 1, factorial = 1;  // h^(m - k), (m - k)!
-    for (int m = k; m < static_cast<int>(Terms); ++m) {
+    for (int m = k; m < terms; ++m) {
       Vec3 sum(0), size(0);
-      for (int i = static_cast<int>(Terms); i-- > m;) {
+      for (int i = terms; i-- > m;) {
         const double factor = falling(i, m);
         sum = sum * middle + factor * powers[i];
         size = size + factor * glm::abs(powers[i]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/curves/curve_part.h"
+#include "geometry/curves/parameter_line.h"
 #include "geometry/curves/polynomial_approximation.h"
 #include "geometry/queries/contour_curve.h"
 
@@ -20,7 +21,7 @@ bool is_part_of_searched(const Curve& curve) {
 }  // namespace
 
 CurvePtr contour_approximation(const CurvePtr& curve) {
-  if (!is_part_of_searched(*curve)) return curve;
+  if (!dynamic_cast<const ParameterLine*>(curve.get()) && !is_part_of_searched(*curve)) return curve;
   auto simple = polynomial_approximation(*curve, kAgree * bounds(*curve).diameter());
   return simple ? simple : curve;
 }

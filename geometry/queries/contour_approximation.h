@@ -1,15 +1,16 @@
-// Contours for whoever asks many questions of one.
+// Contours and parameter lines for whoever asks many questions of one.
 #pragma once
 
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
 
-// A contour that was searched, or a part of one, as a piecewise polynomial that agrees with it to 1e-13 of its size
-// (curves/polynomial_approximation.h); any other curve, and a contour too crooked for that, itself.
+// A contour that was searched, a part of one, or a parameter line, which evaluate surfaces for every point, as a
+// piecewise polynomial that agrees with it to 1e-13 of its size (curves/polynomial_approximation.h); any other curve,
+// and one too crooked for that, itself.
 CurvePtr contour_approximation(const CurvePtr& curve);
 
-// The image of such a curve on a surface, to 1e-13 of the surface's domain; itself where that is unbounded.
+// The image of such a contour on a surface, to 1e-13 of the surface's domain; itself where that is unbounded.
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image);
 
 }  // namespace lekalo::geometry

@@ -65,7 +65,12 @@ class ViewDrawing {
     const std::vector<LegendEntry> legend = std::move(work.legend);
     PageWork page;
     add_annotations(view_, work, page);
-    figure_.left_out.insert(figure_.left_out.end(), page.left_out.begin(), page.left_out.end());
+    std::vector<std::string> left_out = std::move(work.left_out);
+    left_out.insert(left_out.end(), page.left_out.begin(), page.left_out.end());
+    if (model_->drawing.ground == Ground::fill) left_out.emplace_back("ground: fill");
+    for (std::string& what : left_out)
+      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
+        figure_.left_out.push_back(std::move(what));
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
     add_statistics(lines);
     const auto begin = std::chrono::steady_clock::now();
@@ -295,9 +300,9 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
           insets.left + insets.right, insets.top + insets.bottom, size.x, size.y));
     model.camera = camera_for(room);
   }
-  if (!graph && !panel && model.camera_frames && !model.drawing.annotations.empty()) {
+  if (!graph && model.camera_frames && !model.drawing.annotations.empty()) {
     const double free = figure.sheet.height - size.y;
-    model.camera = camera_with_room(model, room, model.paper.auto_height && !model.drawing.legend, per_pixel);
+    model.camera = camera_with_room(model, room, !panel && model.paper.auto_height && !model.drawing.legend, per_pixel);
     size.y = room.y;
     figure.sheet.height = size.y + free;
   }

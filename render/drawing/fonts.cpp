@@ -20,6 +20,7 @@ constexpr double kMeasured = 1000;  // size at which extents are taken
 
 // Families by what they are for, and their packages.
 constexpr const char* kSerif = "CMU Serif";
+constexpr const char* kFormulaGreek = "CMU Classical Serif";  // Greek as TeX has it in formulas: in italics only
 constexpr const char* kSans = "CMU Sans Serif";
 constexpr const char* kMono = "CMU Typewriter Text";
 constexpr const char* kSigns[] = {"DejaVu Serif", "DejaVu Sans"};
@@ -65,6 +66,12 @@ const FontFile& file_of(const Font& font) {
   return files.emplace(font, file).first->second;
 }
 
+// CMU Serif's italics are those of Greek texts: its theta is a vartheta, its rho a varrho.
+bool is_formula_greek(const Font& font, char32_t character) {
+  return font.family == kSerif && font.italic && !font.bold && character >= U'α' && character <= U'ω' &&
+         character != U'ε';  // which is a lunate one there
+}
+
 // The next character of UTF-8 text, which is known to be well formed.
 char32_t next(std::string_view text, size_t& i) {
   FcChar32 character = 0;
@@ -85,7 +92,9 @@ std::vector<FontRun> font_runs(const Font& font, std::string_view text) {
   for (size_t i = 0; i < text.size();) {
     const size_t begin = i;
     const char32_t character = next(text, i);
-    std::vector<Font> choices{font};
+    std::vector<Font> choices;
+    if (is_formula_greek(font, character)) choices.push_back({kFormulaGreek, true, false});
+    choices.push_back(font);
     for (const char* signs : kSigns) choices.push_back({signs, false, font.bold});
     const Font* chosen = nullptr;
     for (const Font& one : choices)

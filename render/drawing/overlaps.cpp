@@ -10,6 +10,7 @@ namespace {
 constexpr double kSame = 1e-3;      // millimetres between lines that are one
 constexpr double kShortest = 1e-2;  // of what is left
 constexpr int kPlaces = 32;         // on each step of a curve
+constexpr int kPlacesOnSide = 7;    // of a path with corners: others may touch it where a construction says so
 
 double distance_from(const Vec2& place, const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
@@ -24,10 +25,10 @@ std::vector<Vec2> Overlaps::places_on(const Path& path) {
   std::vector<Vec2> places{path.from};
   for (const PathStep& step : path.steps) {
     const Vec2 begin = places.back();
-    const int parts = step.straight ? 1 : kPlaces;
+    const int parts = !step.straight ? kPlaces : path.steps.size() == 1 ? 1 : kPlacesOnSide;
     for (int k = 1; k <= parts; ++k) {
       const double s = static_cast<double>(k) / parts, r = 1 - s;
-      places.push_back(step.straight ? step.to
+      places.push_back(step.straight ? begin + s * (step.to - begin)
                                      : r * r * r * begin + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
                                            s * s * s * step.to);
     }

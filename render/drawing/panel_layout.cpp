@@ -37,6 +37,7 @@ Model model_of(const Model& page, const Panel& panel) {
   model.drawing = panel.drawing;
   model.camera = panel.camera;
   model.make_camera = panel.make_camera;
+  model.camera_frames = panel.camera_frames;
   return model;
 }
 
@@ -214,6 +215,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
           const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
           const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
           const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
+          model.camera_frames = false;  // all has its room
           model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
             return window_of(camera, corner.x, corner.y, zoom, w, h);
           };
@@ -234,9 +236,14 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     double tallest = 0;
     for (const std::string& name : row) {
       if (name.empty()) continue;
-      const Model model = model_of(page, *panels.at(name));
-      const Vec2 size = shown_box(model, *model.make_camera(kTrial, kTrial), 1).size();
-      tallest = std::max(tallest, size.x > 0 ? std::clamp(size.y / size.x, 0.1, 3.0) * width : width);
+      Model model = model_of(page, *panels.at(name));
+      const Vec2 shown = shown_box(model, *model.make_camera(kTrial, kTrial), 1).size();
+      Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, 3.0) * width : width);
+      const double per_pixel = millimetres_of_pixel(page);
+      const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
+      model.camera = model.make_camera(pixels(size.x), pixels(size.y));
+      if (model.camera_frames) camera_with_room(model, size, true, per_pixel);
+      tallest = std::max(tallest, size.y);
     }
     heights.push_back(page.paper.auto_height || !only.empty()
                           ? tallest

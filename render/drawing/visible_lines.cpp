@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
 
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/numerics/triple.h"
+#include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/passages.h"
 #include "geometry/queries/projection.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
@@ -36,6 +41,8 @@ constexpr double kShareAside = 1e-3;  // of a stretch's length
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
+// After so many pairs of cells a line may run along a surface; after so many it does.
+constexpr int kFewPairs = 500, kManyPairs = 20000;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -207,49 +214,56 @@ class Drawing {
   void add_piercings(const Stroke& stroke, std::vector<double>& events) {
     prepare_surfaces();
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
-    const Box3 box = bounds(*curve);
-    for (const WorldSurface& other : surfaces_) {
-      bool apart = false;
-      for (int axis = 0; axis < 3; ++axis)
-        apart = apart || box.lo[axis] > other.box.hi[axis] || other.box.lo[axis] > box.hi[axis];
-      if (apart) continue;
+    std::optional<CurveCells> cells;
+    tree_.around(bounds(*curve), [&](int number) {
+      WorldSurface& other = surfaces_[number];
       const bool own = std::any_of(stroke.hosts.begin(), stroke.hosts.end(), [&](const Stroke::Host& host) {
         return host.surface == other.original && stroke.object == other.object;
       });
-      if (own || (stroke.hosts.empty() && lies_on(*curve, *other.surface))) continue;
+      if (own) return;
+      if (!cells) cells.emplace(*curve);
+      if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
+      const double touch = kTouch * world_.radius();
+      if (add_passages(*cells, *other.cells, touch, kFewPairs, events) || lies_on(*curve, other) ||
+          add_passages(*cells, *other.cells, touch, kManyPairs, events))
+        return;
       for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
-    }
+    });
   }
 
+  struct WorldSurface {
+    SurfacePtr surface, original;
+    int object;
+    std::unique_ptr<SurfaceCells> cells;  // both when they are first asked for
+    std::optional<SurfaceProjector> projector;
+  };
+
   // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.
-  bool lies_on(const Curve& curve, const Surface& surface) const {
+  bool lies_on(const Curve& curve, WorldSurface& other) const {
+    if (!other.projector) other.projector.emplace(other.surface);
     const Interval domain = curve.domain();
     for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58}) {
       const Vec3 p = curve.point(domain.lo + x * domain.width());
       double nearest = kInfinity;
-      for (const SurfaceFoot& foot : project(p, surface).feet) nearest = std::min(nearest, foot.distance);
+      for (const SurfaceFoot& foot : other.projector->feet(p).feet) nearest = std::min(nearest, foot.distance);
       if (nearest > kTouch * world_.radius()) return false;
     }
     return true;
   }
 
-  struct WorldSurface {
-    SurfacePtr surface, original;
-    Box3 box;
-    int object;
-  };
   void prepare_surfaces() {
     if (prepared_) return;
     prepared_ = true;
+    std::vector<Box3> boxes;
+    std::set<std::pair<const Surface*, int>> known;
     for (size_t k = 0; k < strokes_.size(); ++k)
       for (const Stroke::Host& host : strokes_[k].hosts) {
-        const bool known = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const WorldSurface& one) {
-          return one.original == host.surface && one.object == strokes_[k].object;
-        });
-        if (known || !host.surface->bounded()) continue;
+        if (!host.surface->bounded() || !known.insert({host.surface.get(), strokes_[k].object}).second) continue;
         const SurfacePtr placed = transformed(host.surface, strokes_[k].to_world);
-        surfaces_.push_back({placed, host.surface, bounds(*placed), strokes_[k].object});
+        boxes.push_back(bounds(*placed));
+        surfaces_.push_back({placed, host.surface, strokes_[k].object, nullptr});
       }
+    tree_ = BoxTree(boxes);
   }
 
   int layers_at(int line, double t, double aside) {
@@ -369,6 +383,7 @@ class Drawing {
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> outline_of_;
   std::vector<WorldSurface> surfaces_;
+  BoxTree tree_;  // of their boxes
   bool prepared_ = false;
   VisibleLines result_;
 };

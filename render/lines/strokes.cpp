@@ -157,6 +157,7 @@ class Collector {
       object_ = &object;
       to_world_ = map;
       solid_ = nullptr;
+      if (drawing_ && std::holds_alternative<MeshPtr>(object.shape)) leave_out("lines of meshes");
       const bool is_point = std::holds_alternative<Vec3>(object.shape),
                  is_curve = std::holds_alternative<CurvePtr>(object.shape);
       const bool says = object.look && object.look->lines;
@@ -168,6 +169,11 @@ class Collector {
         }
       if (drawing_ && !object.legend.empty()) add_legend(object);
     }
+  }
+
+  void leave_out(const std::string& what) {
+    if (std::find(work_.left_out.begin(), work_.left_out.end(), what) == work_.left_out.end())
+      work_.left_out.push_back(what);
   }
 
   // The line or the sign that stands for an object: what there is of it first.
@@ -461,7 +467,7 @@ class Collector {
     const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
     const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape.get());
     if (!solid) {
-      if (!edges) ++work_.incomplete;
+      leave_out("outlines of implicit surfaces, tubes and balls");
       return;
     }
     const Affine to_world = to_world_;

@@ -82,6 +82,7 @@ struct LineWork {
   std::vector<PointText> texts;  // of drawings, as the legend
   std::vector<LegendEntry> legend;
   int incomplete = 0;
+  std::vector<std::string> left_out;  // of drawings: what has no lines of its own yet, in words
 };
 
 // How a style's lines look in a drawing, widths in millimetres; and what lies behind something (none: not drawn), with

@@ -79,9 +79,12 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
       panel.objects = std::move(read.objects);
     }
     panel.make_camera = model.make_camera;
+    panel.camera_frames = model.camera_frames;
     if (read.camera) {
       Shown all(panel.objects ? *panel.objects : model.objects);
       all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
+      const Value* camera = place.find("camera");
+      panel.camera_frames = camera && camera->is_map() && !camera->find("from");
       panel.make_camera = [make = *read.camera, all](int w, int h) { return make(w, h, all); };
     }
     if (panel.make_camera)

@@ -7,7 +7,7 @@ namespace {
 
 // Dashes of ISO 128-2: 12 widths drawn, 3 left out; chains 24, 3, 0.5, 3. Shortened by half for small figures.
 constexpr std::string_view kBuiltIn = R"(
-thick:        { width: 0.5 mm }
+thick:        { width: 0.5 mm, arrow_size: 3 mm }
 thin:         { width: 0.25 mm }
 hairline:     { width: 0.13 mm }
 hidden:       { width: 0.25 mm, dash: [1.5 mm, 0.75 mm] }

@@ -91,6 +91,7 @@ struct Panel {
   std::string name;
   CameraPtr camera;  // for a picture of the whole page's size
   std::function<CameraPtr(int width, int height)> make_camera;
+  bool camera_frames = false;  // as Model::camera_frames
   DrawingChoices drawing;
   std::optional<std::vector<Object>> objects;  // none: those of the scene
 };

@@ -1,5 +1,6 @@
 // lekalo check: all errors of a scene, nothing made.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "command.h"
 

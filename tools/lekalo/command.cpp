@@ -1,6 +1,7 @@
 #include "command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "geometry/expression/expression.h"
 #include "geometry/expression/nearest_name.h"

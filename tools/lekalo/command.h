@@ -1,13 +1,18 @@
 // What the commands share: options, exit codes, messages.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "render/scene/load.h"
 #include "render/scene/table.h"
+
+// Its header takes as long to parse as all of a command: only what declares options includes it.
+namespace CLI {
+class App;
+}
 
 namespace lekalo::command {
 

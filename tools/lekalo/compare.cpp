@@ -2,6 +2,7 @@
 #include "render/image/compare.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,11 @@
 // Options of every command that traces many rays: how many threads, which instruction set.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace lekalo::command {
 

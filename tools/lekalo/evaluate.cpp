@@ -1,5 +1,6 @@
 // lekalo evaluate: a point of a curve or surface with derivatives, normal and curvatures.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "command.h"
 #include "geometry/queries/curvature.h"

@@ -1,5 +1,6 @@
 // lekalo export: what a scene shows as one triangle mesh for another program, or the whole scene for POV-Ray.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <set>

@@ -1,5 +1,6 @@
 // The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

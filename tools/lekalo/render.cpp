@@ -1,6 +1,7 @@
 // lekalo render and make: a scene's pictures, once, as a sequence, or again whenever the scene changes.
 #include <fmt/format.h>
 #include <signal.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <atomic>

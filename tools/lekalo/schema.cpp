@@ -1,6 +1,7 @@
 // lekalo schema: the JSON Schema of scene files and suites, for editors and validators.
 #include "render/scene/schema.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "command.h"

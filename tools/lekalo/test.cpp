@@ -1,6 +1,7 @@
 // lekalo test: a regression suite of pictures and numbers.
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <system_error>

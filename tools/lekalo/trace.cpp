@@ -1,5 +1,6 @@
 // lekalo trace: everything that rays meet, in order.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "command.h"
 #include "json.h"

@@ -1,5 +1,6 @@
 // lekalo types: what scene files can name, from the declarations.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,0 +1,261 @@
+#include "geometry/queries/passages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Second derivatives are bounded anew for so many levels; below, those of the cell above do.
+constexpr int kBoundedLevels = 4;
+// Rounding of corners, and of what is computed from them, of the coordinates.
+constexpr double kRounding = 1e-14;
+// A Newton iteration's place counts for a cell from so far outside of it, of its width.
+constexpr double kOutside = 1e-6;
+// Columns of a Jacobian whose components are taken at different places: their bounds are those of components.
+constexpr double kComponents = 1.8;
+
+double magnitude(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
+
+double largest(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+double det(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::dot(a, glm::cross(b, c)); }
+
+}  // namespace
+
+CurveCells::CurveCells(const Curve& curve, double end_share) : curve_(curve) {
+  const Interval domain = curve.domain();
+  const Interval inner{domain.lo + end_share * domain.width(), domain.hi - end_share * domain.width()};
+  for (const CurvePiece& piece : curve.pieces()) {
+    const Interval t = intersect(piece.domain, inner);
+    if (!(t.hi > t.lo)) continue;
+    const double second = magnitude(curve.enclose(t, 2).d[2]);
+    cells_.push_back(make(t, curve.point(t.lo), curve.point(t.hi), second, 0));
+  }
+  roots_ = static_cast<int>(cells_.size());
+}
+
+CurveCells::Cell CurveCells::make(const Interval& t, const Vec3& begin, const Vec3& end, double second,
+                                  int depth) const {
+  Cell cell{t, begin, end, second};
+  cell.depth = depth;
+  cell.bulge = second * t.width() * t.width() / 8 + kRounding * std::max(largest(begin), largest(end));
+  if (std::isfinite(cell.bulge)) {
+    cell.box.include(begin), cell.box.include(end);
+    cell.box = cell.box.inflated(cell.bulge);
+  } else {
+    cell.box = curve_.enclose(t, 0).d[0];
+  }
+  return cell;
+}
+
+int CurveCells::children(int index) {
+  if (cells_[index].children >= 0) return cells_[index].children;
+  const Cell cell = cells_[index];
+  const double middle = cell.t.middle();
+  const Vec3 at = curve_.point(middle);
+  const Interval halves[] = {{cell.t.lo, middle}, {middle, cell.t.hi}};
+  const bool anew = cell.depth < kBoundedLevels || !std::isfinite(cell.second);
+  cells_[index].children = static_cast<int>(cells_.size());
+  for (int k = 0; k < 2; ++k) {
+    const double second = anew ? std::min(cell.second, magnitude(curve_.enclose(halves[k], 2).d[2])) : cell.second;
+    cells_.push_back(make(halves[k], k == 0 ? cell.begin : at, k == 0 ? at : cell.end, second, cell.depth + 1));
+  }
+  return cells_[index].children;
+}
+
+SurfaceCells::SurfaceCells(const Surface& surface) : surface_(surface) {
+  for (const SurfacePiece& piece : surface.pieces()) {
+    Cell cell;
+    cell.domain = piece.domain;
+    for (int k = 0; k < 4; ++k)
+      cell.corners[k] =
+          surface.point(k % 2 ? cell.domain.u.hi : cell.domain.u.lo, k / 2 ? cell.domain.v.hi : cell.domain.v.lo);
+    cell.second_uu = cell.second_uv = cell.second_vv = kInfinity;
+    complete(cell);
+    cells_.push_back(cell);
+  }
+  roots_ = static_cast<int>(cells_.size());
+}
+
+void SurfaceCells::complete(Cell& cell) const {
+  if (cell.depth <= kBoundedLevels || !std::isfinite(cell.second_uu + cell.second_uv + cell.second_vv)) {
+    const SurfaceEnclosure bounds = surface_.enclose(cell.domain, 2);
+    cell.second_uu = std::min(cell.second_uu, magnitude(bounds.d(2, 0)));
+    cell.second_uv = std::min(cell.second_uv, magnitude(bounds.d(1, 1)));
+    cell.second_vv = std::min(cell.second_vv, magnitude(bounds.d(0, 2)));
+  }
+  const double hu = cell.domain.u.width(), hv = cell.domain.v.width();
+  double rounding = 0;
+  for (const Vec3& corner : cell.corners) rounding = std::max(rounding, kRounding * largest(corner));
+  // The bilinear patch of the corners differs from the surface as interpolation along u and along v does.
+  cell.bulge = (hu * hu * cell.second_uu + hv * hv * cell.second_vv) / 8 + rounding;
+  if (std::isfinite(cell.bulge)) {
+    for (const Vec3& corner : cell.corners) cell.box.include(corner);
+    cell.box = cell.box.inflated(cell.bulge);
+  } else {
+    cell.box = surface_.enclose(cell.domain, 0).d(0, 0);
+  }
+}
+
+int SurfaceCells::children(int index) {
+  if (cells_[index].children >= 0) return cells_[index].children;
+  const Cell cell = cells_[index];
+  // Across the longer way, as far as that is known.
+  const double along_u = std::max(glm::length(cell.corners[1] - cell.corners[0]),
+                                  glm::length(cell.corners[3] - cell.corners[2])) +
+                         std::min(cell.domain.u.width() * cell.domain.u.width() * cell.second_uu, 1e300) / 8,
+               along_v = std::max(glm::length(cell.corners[2] - cell.corners[0]),
+                                  glm::length(cell.corners[3] - cell.corners[1])) +
+                         std::min(cell.domain.v.width() * cell.domain.v.width() * cell.second_vv, 1e300) / 8;
+  const bool by_u = along_u == along_v ? cell.depth % 2 == 0 : along_u > along_v;
+  const double middle = by_u ? cell.domain.u.middle() : cell.domain.v.middle();
+  const Vec3 at[2] = {by_u ? surface_.point(middle, cell.domain.v.lo) : surface_.point(cell.domain.u.lo, middle),
+                      by_u ? surface_.point(middle, cell.domain.v.hi) : surface_.point(cell.domain.u.hi, middle)};
+  cells_[index].children = static_cast<int>(cells_.size());
+  for (int k = 0; k < 2; ++k) {
+    Cell half = cell;
+    half.depth = cell.depth + 1;
+    half.children = -1;
+    half.box = {};
+    (by_u ? half.domain.u : half.domain.v) = k == 0 ? Interval((by_u ? cell.domain.u : cell.domain.v).lo, middle)
+                                                    : Interval(middle, (by_u ? cell.domain.u : cell.domain.v).hi);
+    // Corners on the cut: of the first half those at its upper end.
+    for (int j = 0; j < 2; ++j) half.corners[by_u ? (k == 0 ? 1 : 0) + 2 * j : (k == 0 ? 2 : 0) + j] = at[j];
+    complete(half);
+    cells_.push_back(half);
+  }
+  return cells_[index].children;
+}
+
+namespace {
+
+class Passages {
+ public:
+  Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places)
+      : curve_(curve), surface_(surface), touch_(touch), most_pairs_(most_pairs), places_(places) {}
+
+  bool run() {
+    const size_t before = places_.size();
+    for (int i = 0; i < curve_.roots(); ++i)
+      for (int j = 0; j < surface_.roots(); ++j)
+        if (!meet(i, j)) {
+          places_.resize(before);
+          return false;
+        }
+    return true;
+  }
+
+ private:
+  static bool is_apart(const CurveCells::Cell& c, const SurfaceCells::Cell& s) {
+    for (int k = 0; k < 3; ++k)
+      if (c.box.lo[k] > s.box.hi[k] || s.box.lo[k] > c.box.hi[k]) return true;
+    const double reach = c.bulge + s.bulge;
+    if (!std::isfinite(reach)) return false;
+    const Vec3 along_u = s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
+               along_v = s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1];
+    const Vec3 normal = glm::cross(along_u, along_v), chord = c.end - c.begin;
+    for (const Vec3& axis : {normal, chord, glm::cross(normal, along_u), glm::cross(normal, along_v)}) {
+      const double length = glm::length(axis);
+      if (!(length > 0)) continue;
+      double lo = kInfinity, hi = -kInfinity;
+      for (const Vec3& corner : s.corners) {
+        const double x = glm::dot(axis, corner - c.begin);
+        lo = std::min(lo, x), hi = std::max(hi, x);
+      }
+      const double end = glm::dot(axis, chord), more = length * reach;
+      if (lo > std::max(0.0, end) + more || hi < std::min(0.0, end) - more) return true;
+    }
+    return false;
+  }
+
+  // Whether all of the curve's cell is so near to the surface's, which are not apart, or both are as small.
+  bool touches(const CurveCells::Cell& c, const SurfaceCells::Cell& s) const {
+    if (!(c.bulge + s.bulge <= 0.5 * touch_)) return false;
+    if (glm::length(c.end - c.begin) <= touch_) return glm::length(s.box.hi - s.box.lo) <= touch_;
+    const Vec3 normal = glm::cross(s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
+                                   s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1]);
+    const double most = 0.5 * touch_ * glm::length(normal);
+    for (const Vec3& end : {c.begin, c.end})
+      for (const Vec3& corner : s.corners)
+        if (!(std::abs(glm::dot(normal, end - corner)) <= most)) return false;
+    return true;
+  }
+
+  // Whether r(t) = s(u, v) has at most one solution in the cells.
+  static bool meets_once(const CurveCells::Cell& c, const SurfaceCells::Cell& s) {
+    const double ht = c.t.width(), hu = s.domain.u.width(), hv = s.domain.v.width();
+    const Vec3 r = (c.end - c.begin) / ht;
+    const Vec3 su = (s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2]) / (2 * hu),
+               sv = (s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1]) / (2 * hv);
+    const double of_r = kComponents * ht * c.second, of_u = kComponents * (hu * s.second_uu + hv * s.second_uv),
+                 of_v = kComponents * (hu * s.second_uv + hv * s.second_vv);
+    const double a = glm::length(r), b = glm::length(su), d = glm::length(sv);
+    return std::abs(det(r, su, sv)) > (a + of_r) * (b + of_u) * (d + of_v) - a * b * d;
+  }
+
+  // Newton's iteration from the middle of the cells.
+  bool solve(const CurveCells::Cell& c, const SurfaceCells::Cell& s, double& t) const {
+    t = c.t.middle();
+    double u = s.domain.u.middle(), v = s.domain.v.middle();
+    constexpr int kSteps = 12;
+    for (int step = 0; step < kSteps; ++step) {
+      const CurveJet r = curve_.curve().evaluate(t, 1);
+      const SurfaceJet at = surface_.surface().evaluate(u, v, 1);
+      const Vec3 off = at.point() - r.d[0];
+      const double volume = det(r.d[1], at.du(), at.dv());
+      if (volume == 0 || !std::isfinite(volume)) return false;
+      // r' dt - s_u du - s_v dv = s - r.
+      const double dt = det(off, at.du(), at.dv()) / volume, du = -det(r.d[1], off, at.dv()) / volume,
+                   dv = -det(r.d[1], at.du(), off) / volume;
+      t += dt, u += du, v += dv;
+      const auto near = [](const Interval& range, double x, double by) {
+        return x >= range.lo - by * range.width() && x <= range.hi + by * range.width();
+      };
+      if (!near(c.t, t, 1) || !near(s.domain.u, u, 1) || !near(s.domain.v, v, 1)) return false;
+      if (std::abs(dt) <= 1e-12 * c.t.width() || step + 1 == kSteps)
+        return near(c.t, t, kOutside) && near(s.domain.u, u, kOutside) && near(s.domain.v, v, kOutside) &&
+               std::abs(dt) <= 1e-6 * c.t.width();
+    }
+    return false;
+  }
+
+  bool meet(int i, int j) {
+    if (++pairs_ > most_pairs_) return false;
+    const CurveCells::Cell c = curve_.cell(i);
+    const SurfaceCells::Cell s = surface_.cell(j);
+    if (is_apart(c, s)) return true;
+    if (meets_once(c, s)) {
+      if (double t = 0; solve(c, s, t)) {
+        places_.push_back(c.t.clamp(t));
+        return true;
+      }
+    }
+    if (touches(c, s)) {
+      places_.push_back(c.t.lo), places_.push_back(c.t.hi);
+      return true;
+    }
+    const double of_curve = glm::length(c.end - c.begin) + 2 * c.bulge, of_surface = glm::length(s.box.hi - s.box.lo);
+    if (of_curve > of_surface || of_surface <= touch_) {
+      const int first = curve_.children(i);
+      return meet(first, j) && meet(first + 1, j);
+    }
+    const int first = surface_.children(j);
+    return meet(i, first) && meet(i, first + 1);
+  }
+
+  CurveCells& curve_;
+  SurfaceCells& surface_;
+  double touch_;
+  int most_pairs_, pairs_ = 0;
+  std::vector<double>& places_;
+};
+
+}  // namespace
+
+bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places) {
+  return Passages(curve, surface, touch, most_pairs, places).run();
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,76 @@
+// Where curves may pass through surfaces: no passage is lost, a few places may be none.
+//
+// Both are cut into cells: chords of a curve and four corners of a surface, with how far the true thing is from these
+// at most (h^2 max|second derivative| / 8). Two cells are apart if one of a few directions parts them; they meet once
+// if no Jacobian of r(t) - s(u, v) between the bounds of its columns is singular, and then Newton's iteration finds the
+// place. Cells are made when they are first asked for and kept: a picture asks for many curves against the same
+// surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings with
+// their kinds.
+#pragma once
+
+#include <vector>
+
+#include "geometry/curve.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+class CurveCells {
+ public:
+  // Without the ends, which are `end_share` of the domain long: there a curve may touch a surface that begins at it.
+  // The curve must stay.
+  explicit CurveCells(const Curve& curve, double end_share = 1e-6);
+
+  struct Cell {
+    Interval t;
+    Vec3 begin{0}, end{0};
+    double second = 0;  // bound of |r''|
+    double bulge = 0;   // of the distance from the chord
+    Box3 box;
+    int depth = 0;
+    int children = -1;  // the first of two
+  };
+  const Curve& curve() const { return curve_; }
+  int roots() const { return roots_; }
+  const Cell& cell(int index) const { return cells_[index]; }
+  int children(int index);  // of the cell: this and the next
+
+ private:
+  Cell make(const Interval& t, const Vec3& begin, const Vec3& end, double second, int depth) const;
+  const Curve& curve_;
+  int roots_ = 0;
+  std::vector<Cell> cells_;
+};
+
+class SurfaceCells {
+ public:
+  // Of a bounded surface, which must stay.
+  explicit SurfaceCells(const Surface& surface);
+
+  struct Cell {
+    Rectangle domain;
+    Vec3 corners[4];                                     // at (lo, lo), (hi, lo), (lo, hi), (hi, hi)
+    double second_uu = 0, second_uv = 0, second_vv = 0;  // bounds of the lengths of second derivatives
+    double bulge = 0;                                    // of the distance from the corners' bilinear patch
+    Box3 box;
+    int depth = 0;
+    int children = -1;
+  };
+  const Surface& surface() const { return surface_; }
+  int roots() const { return roots_; }
+  const Cell& cell(int index) const { return cells_[index]; }
+  int children(int index);
+
+ private:
+  void complete(Cell& cell) const;
+  const Surface& surface_;
+  int roots_ = 0;
+  std::vector<Cell> cells_;
+};
+
+// Adds the parameters of the curve where it may pass through the surface to `places`. Where it is nearer to the surface
+// than `touch`, a length, along a stretch, it touches it: the ends of such stretches are places. False if there were more than `most_pairs` pairs of cells: the curve
+// runs along the surface; `places` is then as before.
+bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places);
+
+}  // namespace lekalo::geometry
