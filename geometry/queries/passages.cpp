@@ -129,12 +129,54 @@ int SurfaceCells::children(int index) {
   return cells_[index].children;
 }
 
+bool SurfaceCells::holds(const Vec3& point, double tolerance) {
+  // Cells that may hold it; Newton's iteration finds it from those that are nearly flat.
+  constexpr double kFlat = 0.02;
+  constexpr int kDeep = 40;
+  std::vector<int> left;
+  for (int i = 0; i < roots_; ++i) left.push_back(i);
+  while (!left.empty()) {
+    const int index = left.back();
+    left.pop_back();
+    const Cell cell = cells_[index];
+    if (!cell.box.inflated(tolerance).contains(point)) continue;
+    const bool flat = cell.bulge <= kFlat * glm::length(cell.box.hi - cell.box.lo);
+    if (flat && is_foot_near(cell, point, tolerance)) return true;
+    if (cell.depth >= kDeep || (flat && cell.depth >= 2 * kBoundedLevels)) continue;
+    const int first = children(index);
+    left.push_back(first), left.push_back(first + 1);
+  }
+  return false;
+}
+
+bool SurfaceCells::is_foot_near(const Cell& cell, const Vec3& point, double tolerance) const {
+  constexpr int kSteps = 8;
+  double u = cell.domain.u.middle(), v = cell.domain.v.middle();
+  for (int step = 0; step < kSteps; ++step) {
+    const SurfaceJet s = surface_.evaluate(u, v, 1);
+    const Vec3 off = point - s.point();
+    if (glm::length(off) <= tolerance) return true;
+    const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
+    const double x = glm::dot(off, s.du()), y = glm::dot(off, s.dv()), area = e * g - f * f;
+    if (!(area > 0)) return false;
+    u = cell.domain.u.clamp(u + (g * x - f * y) / area);
+    v = cell.domain.v.clamp(v + (e * y - f * x) / area);
+  }
+  return false;
+}
+
 namespace {
 
 class Passages {
  public:
-  Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places)
-      : curve_(curve), surface_(surface), touch_(touch), most_pairs_(most_pairs), places_(places) {}
+  Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
+           std::vector<double>& places)
+      : curve_(curve),
+        surface_(surface),
+        touch_(touch),
+        most_touches_(most_touches),
+        most_pairs_(most_pairs),
+        places_(places) {}
 
   bool run() {
     const size_t before = places_.size();
@@ -144,6 +186,14 @@ class Passages {
           places_.resize(before);
           return false;
         }
+    // Stretches that go on in one another are one.
+    std::sort(touching_.begin(), touching_.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+    for (size_t first = 0, last = 0; first < touching_.size(); first = last) {
+      double end = touching_[first].hi;
+      for (last = first + 1; last < touching_.size() && touching_[last].lo <= end; ++last)
+        end = std::max(end, touching_[last].hi);
+      places_.push_back(touching_[first].lo), places_.push_back(end);
+    }
     return true;
   }
 
@@ -233,8 +283,8 @@ class Passages {
       }
     }
     if (touches(c, s)) {
-      places_.push_back(c.t.lo), places_.push_back(c.t.hi);
-      return true;
+      touching_.push_back(c.t);
+      return static_cast<int>(touching_.size()) <= most_touches_;
     }
     const double of_curve = glm::length(c.end - c.begin) + 2 * c.bulge, of_surface = glm::length(s.box.hi - s.box.lo);
     if (of_curve > of_surface || of_surface <= touch_) {
@@ -248,14 +298,16 @@ class Passages {
   CurveCells& curve_;
   SurfaceCells& surface_;
   double touch_;
-  int most_pairs_, pairs_ = 0;
+  int most_touches_, most_pairs_, pairs_ = 0;
+  std::vector<Interval> touching_;
   std::vector<double>& places_;
 };
 
 }  // namespace
 
-bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places) {
-  return Passages(curve, surface, touch, most_pairs, places).run();
+bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
+                  std::vector<double>& places) {
+  return Passages(curve, surface, touch, most_touches, most_pairs, places).run();
 }
 
 }  // namespace lekalo::geometry

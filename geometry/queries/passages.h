@@ -60,8 +60,11 @@ class SurfaceCells {
   int roots() const { return roots_; }
   const Cell& cell(int index) const { return cells_[index]; }
   int children(int index);
+  // Whether a point of the surface is found this near.
+  bool holds(const Vec3& point, double tolerance);
 
  private:
+  bool is_foot_near(const Cell& cell, const Vec3& point, double tolerance) const;
   void complete(Cell& cell) const;
   const Surface& surface_;
   int roots_ = 0;
@@ -69,8 +72,10 @@ class SurfaceCells {
 };
 
 // Adds the parameters of the curve where it may pass through the surface to `places`. Where it is nearer to the surface
-// than `touch`, a length, along a stretch, it touches it: the ends of such stretches are places. False if there were more than `most_pairs` pairs of cells: the curve
-// runs along the surface; `places` is then as before.
-bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_pairs, std::vector<double>& places);
+// than `touch`, a length, along a stretch, it touches it: the stretch's ends are places. False if there are more
+// than `most_touches` of them or `most_pairs` pairs of cells: the curve runs along the surface, or nearly; `places` is
+// then as before.
+bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
+                  std::vector<double>& places);
 
 }  // namespace lekalo::geometry

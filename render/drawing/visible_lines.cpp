@@ -14,7 +14,6 @@
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/passages.h"
-#include "geometry/queries/projection.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
 
@@ -41,8 +40,10 @@ constexpr double kShareAside = 1e-3;  // of a stretch's length
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
-// After so many pairs of cells a line may run along a surface; after so many it does.
-constexpr int kFewPairs = 500, kManyPairs = 20000;
+// A stretch of a line as near to a surface, of the scene's radius, is told by rays; after a few of them it may run
+// along the surface.
+constexpr double kNear = 1e-7;
+constexpr int kFewTouches = 6, kManyPairs = 400000;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -223,9 +224,9 @@ class Drawing {
       if (own) return;
       if (!cells) cells.emplace(*curve);
       if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
-      const double touch = kTouch * world_.radius();
-      if (add_passages(*cells, *other.cells, touch, kFewPairs, events) || lies_on(*curve, other) ||
-          add_passages(*cells, *other.cells, touch, kManyPairs, events))
+      const double near = kNear * world_.radius();
+      if (add_passages(*cells, *other.cells, near, kFewTouches, kManyPairs, events) || lies_on(*curve, other) ||
+          add_passages(*cells, *other.cells, near, kManyPairs, kManyPairs, events))
         return;
       for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
     });
@@ -234,20 +235,14 @@ class Drawing {
   struct WorldSurface {
     SurfacePtr surface, original;
     int object;
-    std::unique_ptr<SurfaceCells> cells;  // both when they are first asked for
-    std::optional<SurfaceProjector> projector;
+    std::unique_ptr<SurfaceCells> cells;  // when they are first asked for
   };
 
   // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.
   bool lies_on(const Curve& curve, WorldSurface& other) const {
-    if (!other.projector) other.projector.emplace(other.surface);
     const Interval domain = curve.domain();
-    for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58}) {
-      const Vec3 p = curve.point(domain.lo + x * domain.width());
-      double nearest = kInfinity;
-      for (const SurfaceFoot& foot : other.projector->feet(p).feet) nearest = std::min(nearest, foot.distance);
-      if (nearest > kTouch * world_.radius()) return false;
-    }
+    for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58})
+      if (!other.cells->holds(curve.point(domain.lo + x * domain.width()), kTouch * world_.radius())) return false;
     return true;
   }
 

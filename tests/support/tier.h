@@ -20,6 +20,15 @@ inline int tier_count(int full, int least = 1) {
   return is_full_tier() ? full : std::min(full, std::max(least, full / 100));
 }
 
+// Sanitizers look for faults of memory, which need no statistics: of slow tests a few cases are enough for them.
+inline int least_of_slow(int least) {
+#ifdef __SANITIZE_ADDRESS__
+  return std::min(least, 10);
+#else
+  return least;
+#endif
+}
+
 // Reports a figure of the running test to the verification report. `key` names quantity and unit in words without
 // spaces
 // ("missing_hits", "largest_error_ulp") and is unique within the test. Figures must not depend on time or machine.

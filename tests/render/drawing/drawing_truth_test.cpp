@@ -186,7 +186,7 @@ TEST(DrawingTruth, SingleSolids) {
   for (int kind = 0; kind < 5; ++kind) {
     Views views(11 + static_cast<unsigned>(kind));
     Found found;
-    for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
       SmallScene scene;
       const Part part = random_part(views, kind, 0.5);
       show(scene, std::make_shared<Body>(part.body), kAll, 5);
@@ -201,7 +201,7 @@ TEST(DrawingTruth, SingleSolids) {
 TEST(DrawingTruth, ManySolids) {
   Views views(29);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 4; ++i) {
@@ -218,7 +218,7 @@ TEST(DrawingTruth, ManySolids) {
 TEST(DrawingTruth, TwoCrossingTori) {
   Views views(31);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 2; ++i) {
@@ -236,7 +236,7 @@ TEST(DrawingTruth, TwoCrossingTori) {
 TEST(DrawingTruth, Csg) {
   Views views(37);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, 25); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
     SmallScene scene;
     const Part a = random_part(views, k, 0.3), b = random_part(views, k + 1 + k / 5, 0.7),
                c = random_part(views, k / 3, 0.9);

@@ -27,7 +27,7 @@ Vec3 towards(const Camera& camera, const Vec3& p) {
 // faces look away.
 TEST(VisibleLines, EdgesOfBoxes) {
   Views views(3);
-  for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     const Vec3 size(views.number(1, 3), views.number(1, 3), views.number(1, 3));
     Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
@@ -59,7 +59,7 @@ TEST(VisibleLines, EdgesOfBoxes) {
 TEST(VisibleLines, ParameterLinesOfSpheres) {
   Views views(5);
   int changes = 0;
-  for (int k = 0; k < tests::tier_count(500, 50); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     const double radius = views.number(1, 2.5);
     const auto ball =
