@@ -374,4 +374,24 @@ std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& or
   return closed_form({*first, std::nullopt, plane, box.center(), {box.diameter(), tolerance}});
 }
 
+// Where (a p + b) . i = 0 for the way of sight i; of an eye, i = p - e, with the surface's own p . a p + 2 b . p + c =
+// 0: (a e + b) . p + b . e + c = 0.
+std::optional<Contours> closed_silhouette(const SurfacePtr& surface, const ViewOf& view, double tolerance) {
+  const auto known = canonical(surface);
+  if (!known) return std::nullopt;
+  const Box3 box = bounds(*surface);
+  const auto form = known->quadric(box.center(), box.diameter());
+  if (!form) return std::nullopt;
+  const Vec3 from = view.central ? view.direction_or_eye - box.center() : view.direction_or_eye;
+  const Vec3 normal = view.central ? form->a * from + form->b : form->a * from;
+  const double height = view.central ? -(glm::dot(form->b, from) + form->c) : -glm::dot(form->b, from);
+  // Far from the surface the plane is ill known: the search tells that there is none, or finds it.
+  const double length = glm::length(normal);
+  if (!(std::abs(height) <= length * box.diameter())) return std::nullopt;
+  const PlaneEquation plane{normal / length, height / length};
+  auto found = closed_form({*known, std::nullopt, plane, box.center(), {box.diameter(), tolerance}});
+  if (found && !found->points.empty()) return std::nullopt;
+  return found;
+}
+
 }  // namespace lekalo::geometry

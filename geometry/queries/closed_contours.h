@@ -1,9 +1,10 @@
-// Intersections of surfaces that have a closed form: conics, straight lines, profiles, exact to rounding, with images
+// Intersections and silhouettes of surfaces that have a closed form: conics, straight lines, profiles, exact to rounding, with images
 // by the surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They are
 //
 //   planes with planes and quadrics, also under affine maps;
 //   planes with extrusions and surfaces of revolution (geometry/queries/profile_sections.h): the profile, moved;
 //   quadrics that meet in planes (geometry/queries/quadric_sections.h);
+//   silhouettes of quadrics: sections by the polar plane of the eye, or of the way of sight;
 //   tori with planes across or through the axis and those that touch them twice (Villarceau), with planes, spheres,
 //   cylinders, cones and tori about the same axis, with the spheres that fill their tube.
 //
@@ -24,5 +25,8 @@ std::optional<Contours> closed_intersection(const SurfacePtr& a, const SurfacePt
 // The plane is unbounded, its normal of unit length; contours have one image.
 std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal,
                                        double tolerance);
+
+// The view as checked by silhouette().
+std::optional<Contours> closed_silhouette(const SurfacePtr& surface, const ViewOf& view, double tolerance);
 
 }  // namespace lekalo::geometry

@@ -22,7 +22,12 @@ bool is_part_of_searched(const Curve& curve) {
 
 CurvePtr contour_approximation(const CurvePtr& curve) {
   if (!dynamic_cast<const ParameterLine*>(curve.get()) && !is_part_of_searched(*curve)) return curve;
-  auto simple = polynomial_approximation(*curve, kAgree * bounds(*curve).diameter());
+  // Its box from a few points: bounds of a searched curve take as long as all else.
+  Box3 box;
+  constexpr int kPlaces = 8;
+  for (int k = 0; k <= kPlaces; ++k)
+    box.include(curve->point(curve->domain().lo + curve->domain().width() * k / kPlaces));
+  auto simple = polynomial_approximation(*curve, kAgree * box.diameter());
   return simple ? simple : curve;
 }
 

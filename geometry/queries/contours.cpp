@@ -171,6 +171,7 @@ Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   demand_bounded(*surface);
   const ViewOf view = checked(given);
   if (is_edge_on(*surface, view)) return {};
+  if (auto exact = closed_silhouette(surface, view, kSamePoint * bounds(*surface).diameter())) return *exact;
   Contours found = contours_of(surface, outline(view));
   for (Contour& contour : found.branches) contour.cusps = picture_cusps(*surface, contour, view);
   return found;

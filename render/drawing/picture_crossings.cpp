@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lekalo::render {
 
@@ -9,8 +10,9 @@ using geometry::Interval;
 
 namespace {
 
-constexpr double kBin = 16;         // pixels
-constexpr double kTouching = 1e-4;  // pixels
+constexpr double kLargestBin = 16, kLeastBin = 2;  // pixels
+constexpr double kCellsOfBin = 2;                  // about
+constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
@@ -91,6 +93,11 @@ class CellPair {
       if (PictureCrossing crossing; solve(a, b, crossing)) found_.push_back(crossing);
       return;
     }
+    if (!asked_) {
+      asked_ = true;
+      runs_along_ = run_along(a, b);
+      if (runs_along_) return;
+    }
     if (std::max(a.length() + a.bulge, b.length() + b.bulge) < kTouching) {
       found_.push_back({a.t.middle(), b.t.middle(), true});
       ++touching_;
@@ -116,52 +123,91 @@ class CellPair {
   }
 
  private:
+  // The parameter of the place of a part nearest to q, if that is at q.
+  static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
+    constexpr int kSteps = 6;
+    const Vec2 chord = part.chord();
+    const double square = glm::dot(chord, chord);
+    double t = part.t.lo + part.t.width() * (square > 0 ? glm::dot(q - part.begin, chord) / square : 0.5);
+    for (int step = 0; step < kSteps; ++step) {
+      t = part.t.clamp(t);
+      const auto at = part.curve->place(t);
+      const Vec2 off = q - at.p;
+      if (glm::length(off) <= kOneLine) return t;
+      const double speed = glm::dot(at.tangent, at.tangent);
+      if (!(speed > 0)) break;
+      t += glm::dot(off, at.tangent) / speed;
+    }
+    return std::nullopt;
+  }
+
+  // Whether a stretch of one part lies on the other: its ends, which are ends of either, and its middle do.
+  static bool run_along(const Part& a, const Part& b) {
+    Interval common{geometry::kInfinity, -geometry::kInfinity};
+    if (parameter_at(b, a.begin)) common = hull(common, Interval(a.t.lo));
+    if (parameter_at(b, a.end)) common = hull(common, Interval(a.t.hi));
+    for (const Vec2& end : {b.begin, b.end})
+      if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
+    return common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->place(common.middle()).p);
+  }
+
   static constexpr int kMostTouching = 16, kMostSteps = 4000;
+  static constexpr double kOneLine = 1e-7;  // pixels
+  static constexpr double kLeastCommon = 1e-3;
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
-  bool runs_along_ = false;
+  bool asked_ = false, runs_along_ = false;
 };
 
 }  // namespace
 
 PictureCrossings::PictureCrossings(std::vector<const ProjectedCurve*> curves, double width, double height)
-    : curves_(std::move(curves)),
-      columns_(std::max(1, static_cast<int>(std::ceil(width / kBin)))),
-      rows_(std::max(1, static_cast<int>(std::ceil(height / kBin)))),
-      bins_(static_cast<size_t>(columns_) * rows_) {
+    : curves_(std::move(curves)) {
+  size_t cells = 0;
+  for (const ProjectedCurve* curve : curves_) cells += curve->cells().size();
+  bin_ = std::clamp(std::sqrt(kCellsOfBin * width * height / static_cast<double>(std::max<size_t>(cells, 1))),
+                    kLeastBin, kLargestBin);
+  columns_ = std::max(1, static_cast<int>(std::ceil(width / bin_)));
+  rows_ = std::max(1, static_cast<int>(std::ceil(height / bin_)));
+  bins_.resize(static_cast<size_t>(columns_) * rows_);
   for (size_t k = 0; k < curves_.size(); ++k)
-    for (size_t i = 0; i < curves_[k]->cells().size(); ++i)
-      each_bin(curves_[k]->cells()[i], [&](size_t bin) {
-        bins_[bin].push_back({static_cast<int>(k), static_cast<int>(i)});
-      });
+    for (size_t i = 0; i < curves_[k]->cells().size(); ++i) {
+      const ProjectedCurve::Cell& cell = curves_[k]->cells()[i];
+      const Item item{static_cast<int>(k), static_cast<int>(i), glm::min(cell.begin, cell.end) - cell.bulge,
+                      glm::max(cell.begin, cell.end) + cell.bulge};
+      each_bin(item.lo, item.hi, [&](size_t bin) { bins_[bin].push_back(item); });
+    }
+}
+
+size_t PictureCrossings::bin_of(const Vec2& place) const {
+  const int i = std::clamp(static_cast<int>(std::floor(place.x / bin_)), 0, columns_ - 1),
+            j = std::clamp(static_cast<int>(std::floor(place.y / bin_)), 0, rows_ - 1);
+  return static_cast<size_t>(j) * columns_ + i;
 }
 
 template <class Visit>
-void PictureCrossings::each_bin(const ProjectedCurve::Cell& cell, Visit&& visit) const {
-  const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge, hi = glm::max(cell.begin, cell.end) + cell.bulge;
-  const auto column = [&](double x) { return std::clamp(static_cast<int>(std::floor(x / kBin)), 0, columns_ - 1); };
-  const auto row = [&](double y) { return std::clamp(static_cast<int>(std::floor(y / kBin)), 0, rows_ - 1); };
-  for (int j = row(lo.y); j <= row(hi.y); ++j)
-    for (int i = column(lo.x); i <= column(hi.x); ++i) visit(static_cast<size_t>(j) * columns_ + i);
+void PictureCrossings::each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) const {
+  const size_t first = bin_of(lo), last = bin_of(hi);
+  for (size_t j = first / columns_; j <= last / columns_; ++j)
+    for (size_t i = first % columns_; i <= last % columns_; ++i) visit(j * columns_ + i);
 }
 
 void PictureCrossings::collect(const ProjectedCurve& curve, std::vector<Hit>& hits) const {
-  std::vector<std::pair<int, int>> near;  // curve and cell, each once
   for (const ProjectedCurve::Cell& cell : curve.cells()) {
-    near.clear();
-    each_bin(cell, [&](size_t bin) {
-      for (const Item& item : bins_[bin]) near.emplace_back(item.curve, item.cell);
+    const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge, hi = glm::max(cell.begin, cell.end) + cell.bulge;
+    each_bin(lo, hi, [&](size_t bin) {
+      for (const Item& item : bins_[bin]) {
+        if (item.lo.x > hi.x || lo.x > item.hi.x || item.lo.y > hi.y || lo.y > item.hi.y) continue;
+        if (bin_of(glm::max(lo, item.lo)) != bin) continue;  // both are in several bins: once is enough
+        const ProjectedCurve::Cell& of_other = curves_[item.curve]->cells()[item.cell];
+        if (curves_[item.curve] == &curve &&
+            (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
+          continue;
+        CellPair pair;
+        pair.cross_parts(part_of(curve, cell), part_of(*curves_[item.curve], of_other));
+        for (const PictureCrossing& crossing : pair.found()) hits.push_back({item.curve, crossing});
+      }
     });
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const auto& [other, index] : near) {
-      const ProjectedCurve::Cell& of_other = curves_[other]->cells()[index];
-      if (curves_[other] == &curve && (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
-        continue;
-      CellPair pair;
-      pair.cross_parts(part_of(curve, cell), part_of(*curves_[other], of_other));
-      for (const PictureCrossing& crossing : pair.found()) hits.push_back({other, crossing});
-    }
   }
 }
 

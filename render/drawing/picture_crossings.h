@@ -40,12 +40,15 @@ class PictureCrossings {
   struct Item {
     int curve;
     int cell;
+    Vec2 lo, hi;  // of the cell's box
   };
   void collect(const ProjectedCurve& curve, std::vector<Hit>& hits) const;
+  size_t bin_of(const Vec2& place) const;
   template <class Visit>
-  void each_bin(const ProjectedCurve::Cell& cell, Visit&& visit) const;
+  void each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) const;
 
   std::vector<const ProjectedCurve*> curves_;
+  double bin_;  // pixels
   int columns_, rows_;
   std::vector<std::vector<Item>> bins_;
 };

@@ -1,6 +1,7 @@
 #include "render/drawing/visible_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -99,6 +100,7 @@ class Drawing {
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
       strokes_.push_back(std::move(stroke));
     }
+    drop_repeated_outlines();
     std::vector<const ProjectedCurve*> outlines;
     for (size_t k = 0; k < strokes_.size(); ++k)
       if (strokes_[k].outlines) outlines.push_back(curves_[k].get()), outline_of_.push_back(static_cast<int>(k));
@@ -134,6 +136,41 @@ class Drawing {
   static void simplify(Stroke& stroke) {
     for (Stroke::Host& host : stroke.hosts) host.image = contour_approximation(stroke.curve, *host.surface, host.image);
     stroke.curve = contour_approximation(stroke.curve);
+  }
+
+  // The border at which two surfaces join is one of each: one is enough to hide what lies behind it.
+  void drop_repeated_outlines() {
+    constexpr int kPlaces = 4;
+    const double same = kOnHost * world_.radius();
+    using Places = std::array<Vec3, kPlaces + 1>;
+    std::vector<std::pair<Places, int>> borders;
+    for (size_t k = 0; k < strokes_.size(); ++k) {
+      const Stroke& stroke = strokes_[k];
+      if (!stroke.outlines || stroke.kind == "silhouette") continue;
+      const Interval domain = stroke.curve->domain();
+      Places places;
+      for (int i = 0; i <= kPlaces; ++i)
+        places[i] = stroke.to_world.point(stroke.curve->point(domain.lo + domain.width() * i / kPlaces));
+      if (places.back().x < places.front().x) std::reverse(places.begin(), places.end());
+      borders.emplace_back(places, static_cast<int>(k));
+    }
+    std::sort(borders.begin(), borders.end(), [](const auto& a, const auto& b) {
+      return a.first[kPlaces / 2].x != b.first[kPlaces / 2].x ? a.first[kPlaces / 2].x < b.first[kPlaces / 2].x
+                                                              : a.second < b.second;
+    });
+    const auto agree = [&](const Places& a, const Places& b) {
+      const auto near = [&](int of_b) {
+        for (int i = 0; i <= kPlaces; ++i)
+          if (glm::length(a[i] - b[of_b < 0 ? kPlaces - i : i]) > same) return false;
+        return true;
+      };
+      return near(1) || near(-1);
+    };
+    for (size_t k = 0; k < borders.size(); ++k)
+      for (size_t j = k + 1; j < borders.size(); ++j) {
+        if (borders[j].first[kPlaces / 2].x > borders[k].first[kPlaces / 2].x + same) break;
+        if (agree(borders[k].first, borders[j].first)) strokes_[borders[j].second].outlines = false;
+      }
   }
 
   double depth_at(int line, double t) const { return camera_.project(curves_[line]->tangent(t).origin).depth; }
