@@ -22,15 +22,25 @@ void demand_bounded(const Surface& surface) {
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 // Whether the surface goes on beyond the upper borders of a piece, by u and v.
+// Periods over which the surface goes on in itself: a part of a turn has borders.
+Periods closed_periods(const Surface& surface) {
+  constexpr double kWhole = 1 - 1e-12;
+  const Rectangle all = surface.domain();
+  Periods periods = surface.periods();
+  if (all.u.width() < kWhole * periods.u) periods.u = 0;
+  if (all.v.width() < kWhole * periods.v) periods.v = 0;
+  return periods;
+}
+
 std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
   const Rectangle all = surface.domain();
-  const Periods periods = surface.periods();
+  const Periods periods = closed_periods(surface);
   return {piece.u.hi < all.u.hi || periods.u > 0, piece.v.hi < all.v.hi || periods.v > 0};
 }
 
 Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function) {
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
-  const Periods periods = surface->periods();
+  const Periods periods = closed_periods(*surface);
   ContourAssembly<2> assembly(size, kSamePoint * size, {periods.u, periods.v});
   for (const SurfacePiece& piece : surface->pieces()) {
     PieceSearch<2> search;
@@ -95,7 +105,7 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   all.include(bounds(*b));
   const double size = std::max(all.diameter(), 1e-300);
   if (auto exact = closed_intersection(a, b, tolerance * size)) return *exact;
-  const Periods of_a = a->periods(), of_b = b->periods();
+  const Periods of_a = closed_periods(*a), of_b = closed_periods(*b);
   ContourAssembly<4> assembly(size, tolerance * size, {of_a.u, of_a.v, of_b.u, of_b.v});
   const std::vector<SurfacePiece> pieces_a = a->pieces(), pieces_b = b->pieces();
   std::vector<Box3> boxes_b;

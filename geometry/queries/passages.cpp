@@ -7,8 +7,10 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Second derivatives are bounded anew for so many levels; below, those of the cell above do.
+// Second derivatives are bounded anew for so many levels; below, those of the cell above do as long as the bulge is a
+// small part of the cell (near poles they fall with it).
 constexpr int kBoundedLevels = 4;
+constexpr double kCrooked = 0.05;
 // Rounding of corners, and of what is computed from them, of the coordinates.
 constexpr double kRounding = 1e-14;
 // A Newton iteration's place counts for a cell from so far outside of it, of its width.
@@ -56,7 +58,7 @@ int CurveCells::children(int index) {
   const double middle = cell.t.middle();
   const Vec3 at = curve_.point(middle);
   const Interval halves[] = {{cell.t.lo, middle}, {middle, cell.t.hi}};
-  const bool anew = cell.depth < kBoundedLevels || !std::isfinite(cell.second);
+  const bool anew = cell.depth < kBoundedLevels || !(cell.bulge <= kCrooked * glm::length(cell.end - cell.begin));
   cells_[index].children = static_cast<int>(cells_.size());
   for (int k = 0; k < 2; ++k) {
     const double second = anew ? std::min(cell.second, magnitude(curve_.enclose(halves[k], 2).d[2])) : cell.second;
@@ -80,20 +82,22 @@ SurfaceCells::SurfaceCells(const Surface& surface) : surface_(surface) {
 }
 
 void SurfaceCells::complete(Cell& cell) const {
-  if (cell.depth <= kBoundedLevels || !std::isfinite(cell.second_uu + cell.second_uv + cell.second_vv)) {
+  const double hu = cell.domain.u.width(), hv = cell.domain.v.width();
+  Box3 corners;
+  for (const Vec3& corner : cell.corners) corners.include(corner);
+  const auto bulge = [&] { return (hu * hu * cell.second_uu + hv * hv * cell.second_vv) / 8; };
+  if (cell.depth <= kBoundedLevels || !(bulge() <= kCrooked * corners.diameter())) {
     const SurfaceEnclosure bounds = surface_.enclose(cell.domain, 2);
     cell.second_uu = std::min(cell.second_uu, magnitude(bounds.d(2, 0)));
     cell.second_uv = std::min(cell.second_uv, magnitude(bounds.d(1, 1)));
     cell.second_vv = std::min(cell.second_vv, magnitude(bounds.d(0, 2)));
   }
-  const double hu = cell.domain.u.width(), hv = cell.domain.v.width();
   double rounding = 0;
   for (const Vec3& corner : cell.corners) rounding = std::max(rounding, kRounding * largest(corner));
   // The bilinear patch of the corners differs from the surface as interpolation along u and along v does.
-  cell.bulge = (hu * hu * cell.second_uu + hv * hv * cell.second_vv) / 8 + rounding;
+  cell.bulge = bulge() + rounding;
   if (std::isfinite(cell.bulge)) {
-    for (const Vec3& corner : cell.corners) cell.box.include(corner);
-    cell.box = cell.box.inflated(cell.bulge);
+    cell.box = corners.inflated(cell.bulge);
   } else {
     cell.box = surface_.enclose(cell.domain, 0).d(0, 0);
   }

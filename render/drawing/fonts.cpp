@@ -21,6 +21,7 @@ constexpr double kMeasured = 1000;  // size at which extents are taken
 // Families by what they are for, and their packages.
 constexpr const char* kSerif = "CMU Serif";
 constexpr const char* kFormulaGreek = "CMU Classical Serif";  // Greek as TeX has it in formulas: in italics only
+constexpr const char* kTheta = "CMU Bright";                  // the only one whose theta is none
 constexpr const char* kSans = "CMU Sans Serif";
 constexpr const char* kMono = "CMU Typewriter Text";
 constexpr const char* kSigns[] = {"DejaVu Serif", "DejaVu Sans"};
@@ -66,7 +67,7 @@ const FontFile& file_of(const Font& font) {
   return files.emplace(font, file).first->second;
 }
 
-// CMU Serif's italics are those of Greek texts: its theta is a vartheta, its rho a varrho.
+// CMU Serif's italics are those of Greek texts: its rho is a varrho, its kappa a varkappa.
 bool is_formula_greek(const Font& font, char32_t character) {
   return font.family == kSerif && font.italic && !font.bold && character >= U'α' && character <= U'ω' &&
          character != U'ε';  // which is a lunate one there
@@ -93,7 +94,7 @@ std::vector<FontRun> font_runs(const Font& font, std::string_view text) {
     const size_t begin = i;
     const char32_t character = next(text, i);
     std::vector<Font> choices;
-    if (is_formula_greek(font, character)) choices.push_back({kFormulaGreek, true, false});
+    if (is_formula_greek(font, character)) choices.push_back({character == U'θ' ? kTheta : kFormulaGreek, true, false});
     choices.push_back(font);
     for (const char* signs : kSigns) choices.push_back({signs, false, font.bold});
     const Font* chosen = nullptr;

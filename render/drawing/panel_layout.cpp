@@ -51,6 +51,14 @@ void include(const SheetItem& item, SheetBox& part) {
     }
 }
 
+void include(const std::vector<Stroke>& strokes, const View& view, SheetBox& part) {
+  for (const Stroke& stroke : strokes)
+    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Interval t = stroke.curve->domain();
+      part.include(view.place(stroke.curve->point(t.lo + x * t.width())));
+    }
+}
+
 // What the panel shows in millimetres, and the room that annotations take around it.
 struct Extent {
   Vec2 half{0};              // of what is shown
@@ -108,11 +116,7 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   add_annotations(view, work, page);
   SheetBox all = shown_box(model, camera, millimetres);
   for (const SheetItem& item : page.shapes) include(item, all);
-  for (const Stroke& stroke : work.strokes)
-    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Interval t = stroke.curve->domain();
-      all.include(view.place(stroke.curve->point(t.lo + x * t.width())));
-    }
+  include(work.strokes, view, all);
   std::vector<Label> labels = std::move(page.labels);
   for (const PointText& text : work.texts) {
     if (text.side.empty()) continue;  // finds a place on the paper
@@ -134,6 +138,21 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   return all;
 }
 
+namespace {
+
+// What grows with the scene: the objects, and the lines of annotations in space.
+SheetBox content_box(const Model& model, const Camera& camera, double millimetres) {
+  const View view{model, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
+  LineWork work;
+  PageWork page;
+  add_annotations(view, work, page);
+  SheetBox all = shown_box(model, camera, millimetres);
+  include(work.strokes, view, all);
+  return all;
+}
+
+}  // namespace
+
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
   CameraPtr camera = model.camera;
   double zoom = 1;
@@ -145,7 +164,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
   // What annotations take hardly depends on the scale: it is soon found.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    const SheetBox shown = shown_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
+    const SheetBox shown = content_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
     if (all.lo.x >= 0 && all.lo.y >= 0 && all.hi.x <= size.x && all.hi.y <= size.y) break;
     const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - shown.hi + Vec2(kFree);
     const Vec2 room = size - before - after, content = shown.size();
@@ -155,7 +174,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
     grow = std::min(grow, 1.0);
     if (auto_height) size.y = before.y + after.y + grow * content.y;
     // Of the model's own picture: the middle of what is shown comes to the middle of its room.
-    const SheetBox own = shown_box(model, *model.camera, millimetres);
+    const SheetBox own = content_box(model, *model.camera, millimetres);
     zoom *= grow;
     const Vec2 middle = before + 0.5 * (size - before - after);
     corner = (0.5 * (own.lo + own.hi) - middle / zoom) / millimetres;

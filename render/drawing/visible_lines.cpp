@@ -223,6 +223,7 @@ class Drawing {
         const SightAlong system{*host.surface, *host.image, central, from};
         RootSearchOptions<1, 1> options;
         options.slack = {1e-12 * domain.width()};
+        options.least = {kSameEvent * domain.width()};
         options.most_boxes = 2000;
         const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
         for (const auto& root : found.isolated) events.push_back(root[0]);

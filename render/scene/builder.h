@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/describe.h"
+#include "render/cameras/cameras.h"
 #include "render/scene/external_note.h"
 #include "render/scene/include.h"
 #include "render/scene/model.h"
@@ -229,6 +230,7 @@ class Builder {
   std::deque<Value> made_;                         // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   std::vector<std::string> defaults_;
+  CameraFactory scene_view_;  // of what it is given
   std::vector<ExternalNote> external_notes_;
   std::vector<std::filesystem::path> files_named_;
   MaterialPtr default_material_;

@@ -106,6 +106,7 @@ void Builder::build_camera(Model& model) {
   const auto make = std::any_cast<CameraFactory>(factory->value);
   model.camera_frames = !camera || !camera->find("from");
   model.make_camera = [make, all](int w, int h) { return make(w, h, all); };
+  scene_view_ = make;
   attempt(camera ? *camera : scene_.root, "'camera'", [&] {
     PictureSize size = image->get<PictureSize>("size");
     const double scale = size.on_paper ? image->number("dpi") / kMillimetresPerInch : 1;

@@ -45,7 +45,7 @@ constexpr Symbol kSymbols[] = {
     {"varsigma", "ς"},
     {"tau", "τ"},
     {"upsilon", "υ"},
-    {"phi", "ϕ"},
+    {"phi", "φ"},
     {"varphi", "φ"},
     {"chi", "χ"},
     {"psi", "ψ"},

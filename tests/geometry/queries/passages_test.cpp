@@ -28,6 +28,9 @@ std::vector<double> passages(const Curve& curve, const Surface& surface, double 
   std::vector<double> places;
   EXPECT_TRUE(add_passages(cells, of_surface, kTouch, kMany, kMany, places));
   std::sort(places.begin(), places.end());
+  // A place on a border of cells comes from each of them.
+  places.erase(std::unique(places.begin(), places.end(), [](double a, double b) { return b - a < 1e-8; }),
+               places.end());
   return places;
 }
 
@@ -44,7 +47,7 @@ TEST(Passages, OfASegmentThroughASphere) {
 TEST(Passages, AtBordersOfCells) {
   const SphereSurface sphere(Frame(), 1);
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
-    std::vector<double> places = passages(Segment(-2.0 * glm::normalize(way), 2.0 * glm::normalize(way)), sphere);
+    const std::vector<double> places = passages(Segment(-2.0 * glm::normalize(way), 2.0 * glm::normalize(way)), sphere);
     for (const double expected : {0.25, 0.75})
       EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - expected) < 1e-9; }))
           << way.x << way.y << way.z;
