@@ -36,6 +36,9 @@ constexpr double kSameTurn = 5e-4;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
+// Inside of a border, of the domain: enough that a ray meets the surface, and less than kTouch, as another surface that
+// joins it there may lie before it.
+constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
@@ -300,7 +303,8 @@ class Drawing {
   }
 
   int layers_at(int line, double t, double aside) {
-    return layers_before(probe(line, t, aside), strokes_[line].hosts.empty() ? kTouch : kOnHost);
+    return layers_before(probe(line, t, aside),
+                         strokes_[line].hosts.empty() || strokes_[line].kind == "boundary" ? kTouch : kOnHost);
   }
 
   // How far beside a stretch of a line rays may be aimed: what is seen there is to be seen on the stretch too.
@@ -338,7 +342,8 @@ class Drawing {
     if (stroke.kind != "boundary" || std::holds_alternative<BodyPtr>(world_.objects()[stroke.object]->shape))
       return exact;
     const Rectangle domain = surface.domain();
-    uv.x += aside * (domain.u.middle() - uv.x), uv.y += aside * (domain.v.middle() - uv.y);
+    const double inside = std::min(aside, kInside);
+    uv.x += inside * (domain.u.middle() - uv.x), uv.y += inside * (domain.v.middle() - uv.y);
     return stroke.to_world.point(surface.point(uv.x, uv.y));
   }
   Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }

@@ -1,6 +1,7 @@
 """The figures of scenes/figures: each is listed, draws without a word of warning, and independent readers take it."""
 
 import pathlib
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree as tree
@@ -41,6 +42,26 @@ class Figures(ProgramTest):
         self.assertIn("r(0.4)", words)
         fonts = subprocess.run(["pdffonts", "b.pdf"], cwd=self.folder, capture_output=True, text=True).stdout
         self.assertIn("CMUSerif-Bold", fonts)
+
+    def test_chromium(self):
+        """A browser opens the drawings without complaint, where it is installed, and shows something of each."""
+        if not shutil.which("chromium"):
+            self.skipTest("chromium is not installed")
+        blank = None
+        self.write("blank.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm"/>')
+        for path in [self.folder / "blank.svg", *sorted(FIGURES.glob("*.yaml"))[:40:8]]:
+            with self.subTest(path.name):
+                if path.suffix == ".yaml":
+                    self.run_program("draw", str(path), "-o", f"{path.stem}.svg", "--quiet")
+                done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                                       "--window-size=900,900", "--enable-logging=stderr",
+                                       f"--screenshot={self.folder}/browser.png", f"file://{self.folder}/{path.stem}.svg"],
+                                      cwd=self.folder, capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertNotIn("CONSOLE", done.stderr)
+                picture = self.bytes_of("browser.png")
+                blank = blank or picture
+                self.assertTrue(path.suffix == ".svg" or len(picture) > 2 * len(blank))
 
     def test_latex(self):
         """pdflatex takes the texts of a drawing, where it is installed."""

@@ -608,5 +608,24 @@ TEST(RandomContours, Silhouettes) {
   tests::report_figure("cusps", cusps);
 }
 
+// Parts of surfaces that are closed when whole: branches end on their borders, and nothing is missing.
+TEST(Contours, OfPartsOfClosedSurfaces) {
+  const auto half = std::make_shared<TorusSurface>(Frame(), 2.0, 0.8, Rectangle{{0.2, 2.9}, {0, kTwoPi}});
+  const Contours seen = silhouette(half, {false, glm::normalize(Vec3(-0.2, 0.9, -0.4))});
+  EXPECT_TRUE(seen.complete);
+  ASSERT_EQ(seen.branches.size(), 2u);
+  for (const Contour& branch : seen.branches) {
+    EXPECT_FALSE(branch.closed);
+    const Interval domain = branch.curve->domain();
+    for (const double t : {domain.lo, domain.hi}) {
+      const double u = branch.images[0]->point(t).x;
+      EXPECT_LT(std::min(std::abs(u - 0.2), std::abs(u - 2.9)), 1e-9);
+    }
+  }
+  const auto shell = std::make_shared<CylinderSurface>(Frame(), 1.0, 3.0, Rectangle{{0.3, 4.0}, {0, 3}});
+  const auto across = std::make_shared<TorusSurface>(Frame(), 2.0, 1.4);
+  EXPECT_TRUE(intersect(shell, across).complete);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry
