@@ -1,5 +1,6 @@
-// Intersections and silhouettes of surfaces that have a closed form: conics, straight lines, profiles, exact to rounding, with images
-// by the surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They are
+// Intersections and silhouettes of surfaces that have a closed form: conics, straight lines, profiles, exact to
+// rounding, with images by the surfaces' own inverse formulas (Golovanov 2016, 4.7; capabilities 4.7a to 4.7c). They
+// are
 //
 //   planes with planes and quadrics, also under affine maps;
 //   planes with extrusions and surfaces of revolution (geometry/queries/profile_sections.h): the profile, moved;
