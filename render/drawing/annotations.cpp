@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "geometry/body.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/roundness.h"
+#include "render/drawing/light_path.h"
 
 namespace lekalo::render {
 
@@ -22,6 +24,7 @@ constexpr double kGap = 0.8;          // between a point and the line that leads
 constexpr double kBeyond = 1.5;       // by which these lines pass the dimension line
 constexpr double kTextOff = 0.7;      // between a line and the text upon it
 constexpr double kShelf = 6;          // from a circle to the number of its radius
+constexpr double kLastPart = 0.4;     // of a light path, of the scene's radius
 constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
 
 // The circle of a round curve or surface.
@@ -79,8 +82,8 @@ class Annotator {
       add_linear_dimension(f);
     else if (type == "radius_dimension" || type == "diameter_dimension")
       add_round_dimension(f, type == "diameter_dimension");
-    else if (type != "knots")  // a graph's axis has them
-      page_.left_out.push_back(type);
+    else if (type == "light_path")
+      add_light_path(f);  // knots are a graph's axis'
   }
 
  private:
@@ -182,6 +185,28 @@ class Annotator {
     const HiddenLines ways = hidden(f);
     stroke(std::make_shared<Segment>(from.point, to.point), ways, start, end);
     if (!words.empty()) text(to.point, words, side_of(f), 0.8, ways);
+  }
+
+  void add_light_path(const Fields& f) {
+    // Layouts ask several times for the same scene.
+    if (!world_) world_ = std::make_unique<const World>(std::make_shared<const Model>(view_.model), false);
+    LightPath path;
+    path.from = f.vec3("from");
+    const Vec3 way = f.has("to") ? f.vec3("to") - path.from : f.vec3("along");
+    if (!(glm::length(way) > 0)) return;
+    path.direction = glm::normalize(way);
+    path.wavelength = f.number("wavelength");
+    path.bounces = f.integer("bounces");
+    path.reflection = f.text("follow") == "reflection";
+    path.length = f.has("length") ? f.number("length") : kLastPart * world_->radius();
+    const std::vector<Vec3> corners = light_path(*world_, path);
+    HiddenLines ways;
+    ways.way = HiddenLines::Way::show;  // inside of glass, behind its surface
+    const auto [start, end] = heads();
+    for (size_t k = 0; k + 1 < corners.size(); ++k)
+      if (corners[k] != corners[k + 1])
+        stroke(std::make_shared<Segment>(corners[k], corners[k + 1]), ways, start && k == 0,
+               end && k + 2 == corners.size());
   }
 
   void add_triad(const Vec3& origin, const std::array<Vec3, 3>& axes, const Fields& f) {
@@ -455,6 +480,7 @@ class Annotator {
     page_.labels.push_back(std::move(label));
   }
 
+  std::unique_ptr<const World> world_;  // of light paths
   const View& view_;
   LineWork& work_;
   PageWork& page_;

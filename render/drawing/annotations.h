@@ -11,7 +11,6 @@ namespace lekalo::render {
 struct PageWork {
   std::vector<SheetItem> shapes;
   std::vector<Label> labels;
-  std::vector<std::string> left_out;  // types that drawings do not show
 };
 
 // Adds the annotations of the view's model.

@@ -66,7 +66,6 @@ class ViewDrawing {
     PageWork page;
     add_annotations(view_, work, page);
     std::vector<std::string> left_out = std::move(work.left_out);
-    left_out.insert(left_out.end(), page.left_out.begin(), page.left_out.end());
     if (model_->drawing.ground == Ground::fill) left_out.emplace_back("ground: fill");
     for (std::string& what : left_out)
       if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
