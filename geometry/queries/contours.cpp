@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/quadrature.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/closed_contours.h"
@@ -22,16 +23,6 @@ void demand_bounded(const Surface& surface) {
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 // Whether the surface goes on beyond the upper borders of a piece, by u and v.
-// Periods over which the surface goes on in itself: a part of a turn has borders.
-Periods closed_periods(const Surface& surface) {
-  constexpr double kWhole = 1 - 1e-12;
-  const Rectangle all = surface.domain();
-  Periods periods = surface.periods();
-  if (all.u.width() < kWhole * periods.u) periods.u = 0;
-  if (all.v.width() < kWhole * periods.v) periods.v = 0;
-  return periods;
-}
-
 std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
   const Rectangle all = surface.domain();
   const Periods periods = closed_periods(surface);

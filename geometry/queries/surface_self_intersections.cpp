@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "geometry/curves/surface_curve.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/curve_pair.h"
 #include "geometry/queries/self_intersections.h"
@@ -58,7 +59,8 @@ class SelfIntersection {
         tolerance_(tolerance * size_),
         joints_(*surface_, kJoined * size_),
         assembly_(size_, tolerance_,
-                  {surface_->periods().u, surface_->periods().v, surface_->periods().u, surface_->periods().v}) {}
+                  {closed_periods(*surface_).u, closed_periods(*surface_).v, closed_periods(*surface_).u,
+                   closed_periods(*surface_).v}) {}
 
   Contours run() {
     std::vector<Cell> cells;
@@ -259,7 +261,7 @@ class SelfIntersection {
   Contour with_steady_images(const Contour& contour, const std::vector<ContourPoint>& points) {
     const auto* curve = dynamic_cast<const ContourCurve<4>*>(contour.curve.get());
     std::vector<ContourSegment<4>> segments = curve->solution().segments();
-    const std::array<double, 2> periods{surface_->periods().u, surface_->periods().v};
+    const std::array<double, 2> periods{closed_periods(*surface_).u, closed_periods(*surface_).v};
     const auto steps = [&](const ParameterPlace<4>& from, const ParameterPlace<4>& to) {
       return joints_.apart({from[0], from[1]}, {to[0], to[1]}) + joints_.apart({from[2], from[3]}, {to[2], to[3]});
     };

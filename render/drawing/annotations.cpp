@@ -188,7 +188,6 @@ class Annotator {
   }
 
   void add_light_path(const Fields& f) {
-    // Layouts ask several times for the same scene.
     if (!world_) world_ = std::make_unique<const World>(std::make_shared<const Model>(view_.model), false);
     LightPath path;
     path.from = f.vec3("from");
@@ -480,7 +479,7 @@ class Annotator {
     page_.labels.push_back(std::move(label));
   }
 
-  std::unique_ptr<const World> world_;  // of light paths
+  std::unique_ptr<const World> world_;  // one for all light paths
   const View& view_;
   LineWork& work_;
   PageWork& page_;

@@ -21,7 +21,7 @@ constexpr double kMeasured = 1000;  // size at which extents are taken
 // Families by what they are for, and their packages.
 constexpr const char* kSerif = "CMU Serif";
 constexpr const char* kFormulaGreek = "CMU Classical Serif";  // Greek as TeX has it in formulas: in italics only
-constexpr const char* kTheta = "CMU Bright";                  // the only one whose theta is none
+constexpr const char* kTheta = "CMU Bright";  // the only one with a theta in italics; the others have a vartheta
 constexpr const char* kSans = "CMU Sans Serif";
 constexpr const char* kMono = "CMU Typewriter Text";
 constexpr const char* kSigns[] = {"DejaVu Serif", "DejaVu Sans"};

@@ -154,7 +154,6 @@ class Drawing {
       Places places;
       for (int i = 0; i <= kPlaces; ++i)
         places[i] = stroke.to_world.point(stroke.curve->point(domain.lo + domain.width() * i / kPlaces));
-      if (places.back().x < places.front().x) std::reverse(places.begin(), places.end());
       borders.emplace_back(places, static_cast<int>(k));
     }
     std::sort(borders.begin(), borders.end(), [](const auto& a, const auto& b) {
@@ -162,12 +161,12 @@ class Drawing {
                                                               : a.second < b.second;
     });
     const auto agree = [&](const Places& a, const Places& b) {
-      const auto near = [&](int of_b) {
+      const auto near = [&](bool backwards) {
         for (int i = 0; i <= kPlaces; ++i)
-          if (glm::length(a[i] - b[of_b < 0 ? kPlaces - i : i]) > same) return false;
+          if (glm::length(a[i] - b[backwards ? kPlaces - i : i]) > same) return false;
         return true;
       };
-      return near(1) || near(-1);
+      return near(false) || near(true);
     };
     for (size_t k = 0; k < borders.size(); ++k)
       for (size_t j = k + 1; j < borders.size(); ++j) {
