@@ -33,6 +33,10 @@ struct ContextEnd {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
 };
 using ContextPtr = std::unique_ptr<cairo_t, ContextEnd>;
+struct PatternEnd {
+  void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
+};
+using PatternPtr = std::unique_ptr<cairo_pattern_t, PatternEnd>;
 
 cairo_status_t append(void* text, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
@@ -108,6 +112,18 @@ class Painter {
     for (const Path& part : path.parts) add(part);
     if (path.brush) {
       set_color(path.brush->color, path.brush->opacity);
+      cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_EVEN_ODD);
+      cairo_fill_preserve(cairo_);
+    } else if (path.gradient) {
+      const Gradient& given = *path.gradient;
+      const PatternPtr pattern(given.radial
+                                   ? cairo_pattern_create_radial(given.from.x, given.from.y, 0, given.from.x,
+                                                                 given.from.y, glm::length(given.to - given.from))
+                                   : cairo_pattern_create_linear(given.from.x, given.from.y, given.to.x, given.to.y));
+      for (const Gradient::Stop& stop : given.stops)
+        cairo_pattern_add_color_stop_rgb(pattern.get(), stop.offset, srgb_encode(stop.color[0]),
+                                         srgb_encode(stop.color[1]), srgb_encode(stop.color[2]));
+      cairo_set_source(cairo_, pattern.get());
       cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_EVEN_ODD);
       cairo_fill_preserve(cairo_);
     }

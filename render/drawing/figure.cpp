@@ -10,6 +10,7 @@
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
+#include "render/drawing/fills.h"
 #include "render/drawing/graph_axes.h"
 #include "render/drawing/label_placement.h"
 #include "render/drawing/overlaps.h"
@@ -66,7 +67,6 @@ class ViewDrawing {
     PageWork page;
     add_annotations(view_, work, page);
     std::vector<std::string> left_out = std::move(work.left_out);
-    if (model_->drawing.ground == Ground::fill) left_out.emplace_back("ground: fill");
     for (std::string& what : left_out)
       if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
         figure_.left_out.push_back(std::move(what));
@@ -75,6 +75,7 @@ class ViewDrawing {
     const auto begin = std::chrono::steady_clock::now();
     for (const Object* object : world_.objects()) names_.push_back(object->name);
     if (model_->drawing.ground == Ground::shaded) add_ground();
+    if (model_->drawing.ground == Ground::fill) add_fills(lines);
     GraphWork graph = graph_axes(view_, legend);
     append(std::move(graph.under));
     // What is hidden lies under what is seen, which is known first.
@@ -129,14 +130,23 @@ class ViewDrawing {
     figure_.seconds_of_ground += seconds_since(begin);
   }
 
-  std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
-
-  Path placed(Path path) const {
-    path.from = view_.place(path.from);
-    for (PathStep& step : path.steps)
-      step.first = view_.place(step.first), step.second = view_.place(step.second), step.to = view_.place(step.to);
-    return path;
+  void add_fills(const VisibleLines& lines) {
+    const auto begin = std::chrono::steady_clock::now();
+    Fills fills = fills_of(world_, view_, lines, kFitted);
+    figure_.open_areas += fills.open;
+    SheetGroup all{"fills", "", {}, {}, std::move(fills.items)};
+    clip(all);
+    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+    figure_.seconds_of_ground += seconds_since(begin);
   }
+
+  void clip(SheetGroup& group) const {
+    if (!clipped_) return;
+    group.clip_at = view_.at - Vec2(kClipFree);
+    group.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
+  }
+
+  std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
 
   // Where, on the way from the piece's end to its middle, the line is so far from the end's place.
   static double shortened(const VisibleLine& line, double end, double other, double distance) {
@@ -152,16 +162,14 @@ class ViewDrawing {
 
   SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
     SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
-    if (clipped_) {
-      all.clip_at = view_.at - Vec2(kClipFree);
-      all.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
-    }
+    clip(all);
     // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
     // lines along them.
     std::vector<SheetGroup> of_lines;
     for (auto found = lines.lines.rbegin(); found != lines.lines.rend(); ++found) {
       const VisibleLine& line = *found;
       const Stroke& stroke = line.stroke;
+      if (!stroke.drawn) continue;
       const LineLook* look = hidden ? stroke.hidden ? &*stroke.hidden : nullptr : &stroke.look;
       if (!look) continue;
       std::vector<double> breaks;
@@ -184,7 +192,7 @@ class ViewDrawing {
         };
         if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
         if (stroke.arrow_at_start && piece.t.lo == domain.lo) head(false);
-        const Path whole = placed(fitted_path(*line.curve, t, breaks, kFitted));
+        const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
         std::vector<Path> paths = overlaps_.left_of(whole);
         if (paths.empty() && heads.empty()) continue;
         SheetGroup group{hidden ? stroke.kind + " hidden" : stroke.kind, name_of(stroke.object), {}, {}, {}};

@@ -24,6 +24,7 @@ struct Figure {
   LineStatistics statistics;
   double seconds_of_ground = 0, seconds_of_layout = 0;
   int incomplete = 0;                 // surfaces of which not all lines are known
+  int open_areas = 0;                 // areas of fills whose border is not known all around
   std::vector<std::string> left_out;  // what the scene asks for and drawings do not show
 };
 

@@ -90,4 +90,17 @@ Path fitted_path(const ProjectedCurve& curve, const Interval& t, const std::vect
   return path;
 }
 
+Path reversed(const Path& path) {
+  Path result;
+  result.closed = path.closed;
+  result.from = path.steps.empty() ? path.from : path.steps.back().to;
+  for (size_t k = path.steps.size(); k-- > 0;) {
+    PathStep step = path.steps[k];
+    std::swap(step.first, step.second);
+    step.to = k > 0 ? path.steps[k - 1].to : path.from;
+    result.steps.push_back(step);
+  }
+  return result;
+}
+
 }  // namespace lekalo::render

@@ -23,4 +23,7 @@ struct Path {
 Path fitted_path(const ProjectedCurve& curve, const geometry::Interval& t, const std::vector<double>& breaks,
                  double tolerance);
 
+// The same the other way.
+Path reversed(const Path& path);
+
 }  // namespace lekalo::render

@@ -19,11 +19,23 @@ struct Brush {
   double opacity = 1;
 };
 
+// Colours along a line of the paper, or by the distance from a point of it.
+struct Gradient {
+  bool radial = false;
+  Vec2 from{0}, to{0};  // radial: the centre, and a point at the distance of the last colour
+  struct Stop {
+    double offset;  // 0 at `from`, 1 at `to`; growing
+    Spectrum color;
+  };
+  std::vector<Stop> stops;
+};
+
 // Filled by the even-odd rule, then drawn.
 struct SheetPath {
   std::vector<Path> parts;
   std::optional<LineLook> pen;  // widths in millimetres
   std::optional<Brush> brush;
+  std::optional<Gradient> gradient;  // instead of the brush
 };
 
 // Which file of the font families that drawings use (fonts.h).

@@ -86,7 +86,7 @@ class Writer {
         number(sheet_.width), number(sheet_.height));
     if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(sheet_.title));
     write_fonts();
-    text_ += clips_;
+    text_ += definitions_;
     text_ += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(sheet_.width),
                          number(sheet_.height), color_text(sheet_.paper));
     text_ += "<g fill=\"none\" stroke-linejoin=\"round\">\n" + body + "</g>\n</svg>\n";
@@ -104,9 +104,9 @@ class Writer {
     if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", escaped(group.object));
     if (group.clip_at) {
       const int id = ++clip_count_;
-      clips_ += fmt::format("<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
-                            id, number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x),
-                            number(group.clip_size.y));
+      definitions_ += fmt::format(
+          "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", id,
+          number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x), number(group.clip_size.y));
       text_ += fmt::format(" clip-path=\"url(#clip{})\"", id);
     }
     text_ += ">\n";
@@ -121,10 +121,28 @@ class Writer {
     if (path.brush) {
       text_ += fmt::format(" fill=\"{}\"", color_text(path.brush->color));
       if (path.brush->opacity < 1) text_ += fmt::format(" fill-opacity=\"{}\"", number(path.brush->opacity));
-      if (path.parts.size() > 1) text_ += " fill-rule=\"evenodd\"";
+    } else if (path.gradient) {
+      text_ += fmt::format(" fill=\"url(#gradient{})\"", define(*path.gradient));
     }
+    if ((path.brush || path.gradient) && path.parts.size() > 1) text_ += " fill-rule=\"evenodd\"";
     if (path.pen) text_ += pen_text(*path.pen);
     text_ += "/>\n";
+  }
+
+  int define(const Gradient& gradient) {
+    const int id = ++gradient_count_;
+    const char* const kind = gradient.radial ? "radialGradient" : "linearGradient";
+    definitions_ += fmt::format("<{} id=\"gradient{}\" gradientUnits=\"userSpaceOnUse\"", kind, id);
+    const Vec2 &a = gradient.from, &b = gradient.to;
+    definitions_ += gradient.radial ? fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\">", number(a.x), number(a.y),
+                                                  number(glm::length(b - a)))
+                                    : fmt::format(" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\">", number(a.x), number(a.y),
+                                                  number(b.x), number(b.y));
+    for (const Gradient::Stop& stop : gradient.stops)
+      definitions_ +=
+          fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", number(stop.offset), color_text(stop.color));
+    definitions_ += fmt::format("</{}>\n", kind);
+    return id;
   }
 
   static std::string pen_text(const LineLook& pen) {
@@ -196,9 +214,9 @@ class Writer {
 
   const Sheet& sheet_;
   const SvgOptions& options_;
-  std::string text_, clips_;
+  std::string text_, definitions_;
   std::map<Font, std::string> used_;  // characters
-  int clip_count_ = 0;
+  int clip_count_ = 0, gradient_count_ = 0;
 };
 
 }  // namespace

@@ -111,7 +111,8 @@ class Drawing {
     result_.statistics.seconds_of_lines = seconds_since(begin);
     for (size_t k = 0; k < strokes_.size(); ++k) {
       if (progress_) progress_(static_cast<double>(k) / strokes_.size());
-      if (!strokes_[k].drawn || curves_[k]->cells().empty()) continue;
+      const bool is_border = work.fills && (strokes_[k].outlines || strokes_[k].borders);
+      if (!(strokes_[k].drawn || is_border) || curves_[k]->cells().empty()) continue;
       begin = std::chrono::steady_clock::now();
       const std::vector<double> events = events_of(static_cast<int>(k), crossings);
       result_.statistics.seconds_of_crossings += seconds_since(begin);

@@ -45,7 +45,7 @@ struct LineStatistics {
   double seconds_of_lines = 0, seconds_of_crossings = 0, seconds_of_rays = 0;
 };
 struct VisibleLines {
-  std::vector<VisibleLine> lines;  // drawn ones, in their order
+  std::vector<VisibleLine> lines;  // drawn ones and borders of fills, in their order
   std::vector<VisibleMark> marks;
   std::vector<VisibleText> texts;
   int incomplete = 0;  // surfaces whose outlines are not all known

@@ -11,12 +11,14 @@
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/body_contours.h"
+#include "geometry/queries/box_tree.h"
 #include "geometry/queries/contours.h"
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/queries/trim.h"
 #include "geometry/surfaces/plane.h"
+#include "geometry/transformed.h"
 #include "render/lines/curve_helpers.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
@@ -30,6 +32,8 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of pictures without a size on paper
+// Where drawings have their light from, for one of the way to the viewer.
+constexpr double kLightFromLeft = 0.7, kLightFromAbove = 0.9;
 // Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
 constexpr double kSmoothEdge = 1e-3;
 // The colours of color: cycle; told apart with any kind of colour vision (Okabe, Ito 2008).
@@ -141,7 +145,9 @@ class Collector {
           view_.central ? camera.ray(0.5 * camera.width(), 0.5 * camera.height()).origin : camera.view_direction();
     }
     for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
+    work_.fills = drawing && model_.camera && model_.drawing.ground == Ground::fill;
     add(model_.objects, Affine());
+    if (work_.fills) add_meetings();
   }
   LineWork take() { return std::move(work_); }
 
@@ -155,6 +161,7 @@ class Collector {
       }
       if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
       object_ = &object;
+      object_number_ = numbers_.at(&object);
       to_world_ = map;
       solid_ = nullptr;
       if (drawing_ && std::holds_alternative<MeshPtr>(object.shape)) leave_out("lines of meshes");
@@ -162,6 +169,7 @@ class Collector {
                  is_curve = std::holds_alternative<CurvePtr>(object.shape);
       const bool says = object.look && object.look->lines;
       if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
+      if (work_.fills) add_borders_of_fill(fill_of(model_, object));
       if (object.look)
         for (const Helper& helper : object.look->helpers) {
           kind_ = helper.type;
@@ -209,11 +217,12 @@ class Collector {
     stroke.to_world = to_world_;
     stroke.look = look_of(style);
     stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, least_width_);
-    stroke.object = numbers_.at(object_);
+    stroke.object = object_number_;
     stroke.order = order_++;
     stroke.kind = kind_;
     stroke.drawn = !undrawn_;
     stroke.outlines = outlines_;
+    stroke.borders = borders_;
     stroke.hosts = std::move(hosts_);
     stroke.cusps = std::move(cusps_);
     hosts_.clear(), cusps_.clear();
@@ -242,7 +251,7 @@ class Collector {
     if (style.fill) mark.fill = rgb(*style.fill);
     if (hidden.way != HiddenLines::Way::drop)
       mark.hidden_opacity = mark.line.opacity * (hidden.way == HiddenLines::Way::faded ? 1.0 / 3 : 1.0);
-    mark.object = numbers_.at(object_);
+    mark.object = object_number_;
     mark.order = order_++;
     work_.marks.push_back(mark);
   }
@@ -262,7 +271,7 @@ class Collector {
     text.distance = 0.6 + (marked ? 0.5 * helper.style.marker_size : 0);
     if (helper.hidden.way == HiddenLines::Way::drop) text.hidden_opacity = 0;
     if (helper.hidden.way == HiddenLines::Way::faded) text.hidden_opacity = 1.0 / 3;
-    text.object = numbers_.at(object_);
+    text.object = object_number_;
     work_.texts.push_back(std::move(text));
   }
 
@@ -291,7 +300,7 @@ class Collector {
       if (const auto* point = std::get_if<Vec3>(&object_->shape))
         mark(*point, style.marker == "none" ? "dot" : style.marker, style, lines.hidden);
     } else if (kind == "silhouette") {
-      add_silhouettes(style, lines.hidden);
+      add_silhouettes(view_from(to_world_.inverse()), style, lines.hidden);
     } else if (kind == "section") {
       for (const SectionPlane& plane : lines.planes) add_section(plane, style, lines.hidden);
     } else if (kind == "intersection") {
@@ -306,7 +315,7 @@ class Collector {
       else
         add_edges(**body, kind, style, lines.hidden);
     } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
-      if (kind == "sharp") add_solid(*shape, true, style, lines.hidden);
+      if (kind == "sharp") add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
     } else {
       each_surface([&](const SurfacePtr& surface) {
         if (kind == "boundary") add_boundary(surface, style, lines.hidden);
@@ -322,6 +331,13 @@ class Collector {
     if (const auto* surface = std::get_if<SurfacePtr>(&object_->shape)) visit(*surface);
     if (const auto* set = std::get_if<SurfaceSet>(&object_->shape))
       for (const SurfacePtr& surface : *set) visit(surface);
+  }
+  // Those of bodies too.
+  template <class Visit>
+  void each_face(const Visit& visit) const {
+    each_surface(visit);
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
+      for (const Face& face : (*body)->faces) visit(face.surface);
   }
 
   void add_boundary(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
@@ -451,11 +467,10 @@ class Collector {
       }
   }
 
-  // As seen from the object's own coordinates.
-  void add_silhouettes(const Style& style, const HiddenLines& hidden) {
-    const ViewOf view = view_from(to_world_.inverse());
+  // The view is one of the object's own coordinates.
+  void add_silhouettes(const ViewOf& view, const Style& style, const HiddenLines& hidden) {
     if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
-    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, false, style, hidden);
+    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
     each_surface([&](const SurfacePtr& surface) {
       if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
       add(silhouette(surface, view), {surface}, style, hidden);
@@ -463,7 +478,7 @@ class Collector {
   }
 
   // The edges or outlines of a solid put together of others, which may have been moved as a whole.
-  void add_solid(const ShapePtr& shape, bool edges, const Style& style, const HiddenLines& hidden) {
+  void add_solid(const ShapePtr& shape, ViewOf view, bool edges, const Style& style, const HiddenLines& hidden) {
     const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
     const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape.get());
     if (!solid) {
@@ -471,10 +486,10 @@ class Collector {
       return;
     }
     const Affine to_world = to_world_;
-    if (moved) to_world_ = to_world * moved->map();
-    if (solid_ != shape) {
-      solid_ = shape;
-      solid_lines_ = csg_lines(*solid, view_from(to_world_.inverse()));
+    if (moved) to_world_ = to_world * moved->map(), view = seen_through(view, moved->map().inverse());
+    if (solid_ != shape || solid_view_ != view.direction_or_eye) {
+      solid_ = shape, solid_view_ = view.direction_or_eye;
+      solid_lines_ = csg_lines(*solid, view);
       if (!solid_lines_.complete) ++work_.incomplete;
     }
     for (const CsgLine& line : solid_lines_.lines) {
@@ -486,13 +501,49 @@ class Collector {
     to_world_ = to_world;
   }
 
-  // The view from the coordinates to which the map leads.
-  ViewOf view_from(const Affine& map) const {
-    ViewOf view = view_;
+  // What ends areas of a fill besides outlines, drawn or not: where the surface turns away from the light, which is its
+  // outline as seen from there, and where one face goes on smoothly as another.
+  void add_borders_of_fill(const Fill& fill) {
+    undrawn_ = borders_ = true;
+    if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only)) {
+      kind_ = "terminator";
+      add_silhouettes(seen_through({false, light_of(fill, *model_.camera)}, to_world_.inverse()), Style(), {});
+    }
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && fill.shading == Fill::Shading::gradient) {
+      kind_ = "smooth";
+      add_edges(**body, kind_, Style(), {});
+    }
+    undrawn_ = borders_ = false;
+    each_face([&](const SurfacePtr& surface) {
+      if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
+    });
+  }
+
+  // Where different objects go through one another.
+  void add_meetings() {
+    undrawn_ = borders_ = true;
+    kind_ = "intersection";
+    to_world_ = Affine();
+    std::vector<Box3> boxes;
+    for (const PlacedFace& face : faces_) boxes.push_back(bounds(*face.surface));
+    const BoxTree tree(boxes);
+    for (size_t k = 0; k < faces_.size(); ++k)
+      tree.around(boxes[k], [&](int other) {
+        const PlacedFace &a = faces_[k], &b = faces_[static_cast<size_t>(other)];
+        if (static_cast<size_t>(other) <= k || a.object == b.object) return;
+        object_number_ = a.object;
+        add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
+      });
+    undrawn_ = borders_ = false;
+  }
+
+  // A view in the coordinates to which the map leads.
+  static ViewOf seen_through(ViewOf view, const Affine& map) {
     view.direction_or_eye =
         view.central ? map.point(view.direction_or_eye) : glm::normalize(map.direction(view.direction_or_eye));
     return view;
   }
+  ViewOf view_from(const Affine& map) const { return seen_through(view_, map); }
 
   void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
     // A plane of the world in the object's coordinates.
@@ -694,13 +745,21 @@ class Collector {
   int order_ = 0;
   // What is being added.
   const Object* object_ = nullptr;
+  int object_number_ = 0;
   Affine to_world_;
   std::string kind_;
-  bool undrawn_ = false, outlines_ = false;
+  bool undrawn_ = false, outlines_ = false, borders_ = false;
   std::vector<Stroke::Host> hosts_;  // of the next stroke
   std::vector<double> cusps_;        // likewise
-  ShapePtr solid_;                   // the last one, and its lines
+  ShapePtr solid_;                   // the last one, and its lines as seen so
+  Vec3 solid_view_{0};
   CsgLines solid_lines_;
+  // Of fills: all faces in the world.
+  struct PlacedFace {
+    SurfacePtr surface;
+    int object;
+  };
+  std::vector<PlacedFace> faces_;
 };
 
 }  // namespace
@@ -718,6 +777,21 @@ std::optional<Mark::Sign> mark_sign(std::string_view name) {
 
 double millimetres_of_pixel(const Model& model) {
   return model.paper.width > 0 ? model.paper.width / model.film.width : kMillimetresPerInch / kPixelsPerInch;
+}
+
+const Fill& fill_of(const Model& model, const Object& object) {
+  return object.look && object.look->fill ? *object.look->fill : model.drawing.fill;
+}
+
+Vec3 light_of(const Fill& fill, const Camera& camera) {
+  if (fill.light) return *fill.light;
+  const auto before = [&](double x, double y) {
+    const Ray ray = camera.ray(0.5 * camera.width() + x, 0.5 * camera.height() + y);
+    return ray.origin + ray.direction;
+  };
+  const Vec3 middle = before(0, 0), right = glm::normalize(before(1, 0) - middle),
+             up = glm::normalize(before(0, -1) - middle);
+  return glm::normalize(-camera.view_direction() - kLightFromLeft * right + kLightFromAbove * up);
 }
 
 LineWork line_work(const World& world) { return Collector(world, false).take(); }

@@ -36,6 +36,7 @@ struct Stroke {
   std::vector<double> cusps;  // of silhouettes, by t: the picture turns back there
   bool drawn = true;          // else it is only there for what it hides: the outlines of all surfaces
   bool outlines = false;      // where surfaces end as seen: what others are hidden by ends there
+  bool borders = false;       // where areas of fills may end, as they do at outlines
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
@@ -82,6 +83,7 @@ struct LineWork {
   std::vector<PointText> texts;  // of drawings, as the legend
   std::vector<LegendEntry> legend;
   int incomplete = 0;
+  bool fills = false;                 // areas are filled: their borders are among the strokes
   std::vector<std::string> left_out;  // of drawings: what has no lines of its own yet, in words
 };
 
@@ -91,6 +93,10 @@ LineLook drawn_look(const Style& style);
 std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden);
 // The sign at points that a scene calls so.
 std::optional<Mark::Sign> mark_sign(std::string_view name);
+
+// How the areas of an object are filled, and where the light for it comes from: a unit vector towards it.
+const Fill& fill_of(const Model& model, const Object& object);
+Vec3 light_of(const Fill& fill, const Camera& camera);
 
 // Millimetres on the page for one pixel of the picture.
 double millimetres_of_pixel(const Model& model);

@@ -92,4 +92,40 @@ Lines lines_of(const Fields& fields) {
   return lines;
 }
 
+std::vector<Field> fill_fields() {
+  return {
+      {"shading", choice({"none", "flat", "two_tone", "gradient"}),
+       "one colour, two by the side that looks to the light, or one that fades by Lambert's law", false, "flat"},
+      {"color", color().between(0, 1), "the material's by default", false, {}},
+      {"shade", number().between(0, 1), "brightness of what is turned away from the light", false, "0.75"},
+      {"light", direction(), "towards the light; above the viewer and to the left by default", false, {}},
+      {"hatching",
+       group({{"angle", angle(), "from the page's horizontal", false, "45 deg"},
+              {"spacing", number().at_least(0.1), "between lines, in mm", false, "1.2"},
+              {"crossed", boolean(), "with lines across these", false, "false"},
+              {"of", choice({"all", "shade"}), "the whole area, or what is turned away from the light", false, "all"},
+              {"style", reference({Category::style}), "of the lines", false, "hairline"}}),
+       "parallel lines over the area",
+       false,
+       {}}};
+}
+
+Fill fill_of(const Fields& fields) {
+  Fill fill;
+  const std::string& shading = fields.text("shading");
+  fill.shading = shading == "none"       ? Fill::Shading::none
+                 : shading == "two_tone" ? Fill::Shading::two_tone
+                 : shading == "gradient" ? Fill::Shading::gradient
+                                         : Fill::Shading::flat;
+  if (fields.has("color")) fill.color = fields.vec3("color");
+  fill.shade = fields.number("shade");
+  if (fields.has("light")) fill.light = glm::normalize(fields.vec3("light"));
+  if (fields.has("hatching")) {
+    const Fields& given = fields.group("hatching");
+    fill.hatching = Hatching{given.number("angle"), given.number("spacing"), given.boolean("crossed"),
+                             given.text("of") == "shade", style_of(given, "style")};
+  }
+  return fill;
+}
+
 }  // namespace lekalo::render

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/describe.h"
+#include "geometry/vectors.h"
 #include "render/scene/styles.h"
 #include "render/scene/text_template.h"
 
@@ -49,9 +50,34 @@ struct Helper {
   geometry::Fields values;  // its other fields as declared
 };
 
+// Parallel lines on the page over an area.
+struct Hatching {
+  double angle = geometry::kPi / 4;  // from the horizontal, radians
+  double spacing = 1.2;              // millimetres
+  bool crossed = false;              // a second family across the first
+  bool shade_only = false;           // only where the surface is turned away from the light
+  Style style;
+};
+
+// How the areas in which an object is seen are filled under the lines (`ground: fill`).
+struct Fill {
+  enum class Shading {
+    none,      // no colour: hatching alone
+    flat,      // one colour
+    two_tone,  // darker where the surface is turned away from the light; without cast shadows
+    gradient   // Lambert's law along one direction of the page, or about a point, of each smooth face
+  };
+  Shading shading = Shading::flat;
+  std::optional<geometry::Vec3> color;  // none: the material's
+  double shade = 0.75;                  // brightness of what is turned away from the light
+  std::optional<geometry::Vec3> light;  // unit, towards it; none: above the viewer, to the left
+  std::optional<Hatching> hatching;
+};
+
 struct Look {
   std::optional<Lines> lines;  // none: those of the drawing
   std::vector<Helper> helpers;
+  std::optional<Fill> fill;  // none: that of the drawing
 };
 
 // Fields of `lines`, of objects and of `drawing`.
@@ -59,6 +85,10 @@ std::vector<geometry::Field> lines_fields();
 Lines lines_of(const geometry::Fields& fields);
 // The lines of an object where nobody says which.
 constexpr const char* kUsualLines = "{ boundary: thick, sharp: thick, silhouette: thick, curve: thick }";
+
+// Fields of `fill`, of objects and of `drawing`.
+std::vector<geometry::Field> fill_fields();
+Fill fill_of(const geometry::Fields& fields);
 
 // The field `hidden`, wherever one is declared.
 geometry::FieldType hidden_lines();

@@ -74,12 +74,13 @@ Objects objects_of(const Fields& fields) {
     for (const Fields& plane : fields.groups("clip"))
       object.clips.push_back({plane.vec3("through"), plane.vec3("normal"), plane.boolean("cap")});
   if (fields.has("transform")) object.transform = fields.transform("transform");
-  if (fields.has("lines") || fields.has("show")) {
+  if (fields.has("lines") || fields.has("show") || fields.has("fill")) {
     Look look;
     if (fields.has("lines")) look.lines = lines_of(fields.group("lines"));
     if (fields.has("show"))
       for (const std::any& helper : fields.references("show"))
         look.helpers.push_back(std::any_cast<const Helper&>(helper));
+    if (fields.has("fill")) look.fill = fill_of(fields.group("fill"));
     object.look = std::make_shared<const Look>(std::move(look));
   }
   Objects all;
@@ -88,7 +89,7 @@ Objects objects_of(const Fields& fields) {
     check_caps(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
       for (const char* field :
-           {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show"})
+           {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show", "fill"})
         if (fields.given(field))
           throw FieldError(field, "'" + std::string(field) + "' is for single shapes, and this is a group",
                            "give it to the objects inside the group");
@@ -137,6 +138,7 @@ TypeDeclaration object_type() {
                 "lines that are seen of it: only those given; without it pictures show curves and points, drawings "
                 "what `drawing` says")
       .optional("show", helpers(), "helpers beside it: those that the shape's type offers")
+      .optional("fill", group(fill_fields()), "of the areas in which it is seen, in drawings with `ground: fill`")
       .optional("legend", label({"i"}), "text in the legend of a drawing; %i is the number of a family's member")
       .built_by(objects_of);
 }

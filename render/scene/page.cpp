@@ -29,7 +29,7 @@ std::vector<Field> drawing_fields() {
   return {
       {"ground", choice({"none", "fill", "shaded"}),
        "under the lines: nothing, plain areas, or the picture as rendered", false, "none"},
-      {"fill", color().between(0, 1), "of areas of `ground: fill`", false, "'#e6e6e6'"},
+      {"fill", group(fill_fields()), "of the areas of `ground: fill`, of objects that do not say", false, "{}"},
       {"paper", color().between(0, 1), "of the sheet", false, "white"},
       {"lines", group(lines_fields()), "of objects that do not say which lines they have", false, kUsualLines},
       {"axes",
@@ -56,7 +56,7 @@ DrawingChoices drawing_of(const Fields& fields) {
   DrawingChoices drawing;
   const std::string& ground = fields.text("ground");
   drawing.ground = ground == "fill" ? Ground::fill : ground == "shaded" ? Ground::shaded : Ground::none;
-  drawing.fill = fields.vec3("fill");
+  drawing.fill = fill_of(fields.group("fill"));
   drawing.paper = fields.vec3("paper");
   drawing.lines = lines_of(fields.group("lines"));
   if (fields.has("axes")) {

@@ -40,7 +40,7 @@ enum class Ground { none, fill, shaded };
 
 struct DrawingChoices {
   Ground ground = Ground::none;
-  geometry::Vec3 fill{0.85};  // of ground fill, where an object's material has no colour of its own
+  Fill fill;  // of ground fill, for objects without their own
   geometry::Vec3 paper{1};
   Lines lines;  // of objects without their own
   std::optional<GraphAxes> axes;

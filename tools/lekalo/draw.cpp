@@ -103,6 +103,10 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       if (figure.incomplete > 0)
         fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide\n",
                    figure.incomplete, figure.incomplete == 1 ? "" : "s");
+      if (figure.open_areas > 0)
+        fmt::print(stderr,
+                   "warning: the borders of {} filled area{} are not known all around; straight lines close them\n",
+                   figure.open_areas, figure.open_areas == 1 ? "" : "s");
       if (settings.stats)
         print_statistics(figure, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }

@@ -1,0 +1,273 @@
+// Areas of `ground: fill` against what rays see at random places of the picture, and hatching against areas.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/surfaces/bezier_surface.h"
+#include "render/drawing/figure.h"
+#include "render/drawing/random_views.h"
+#include "render/scene/load.h"
+#include "support/tier.h"
+
+namespace lekalo::render {
+namespace {
+
+using namespace geometry;
+
+constexpr double kNearBorder = 0.05;  // pixels: places so near to another area are not judged
+
+struct Area {
+  std::string object;
+  std::vector<Path> whole, shade;
+};
+
+void collect(const std::vector<SheetItem>& items, std::vector<Area>& areas) {
+  for (const SheetItem& item : items) {
+    const auto* group = std::get_if<SheetGroup>(&item);
+    if (!group) continue;
+    if (group->kind == "fill") {
+      Area area{group->object, {}, {}};
+      for (const SheetItem& one : group->items)
+        if (const auto* path = std::get_if<SheetPath>(&one); path && path->brush)
+          (area.whole.empty() ? area.whole : area.shade) = path->parts;
+      areas.push_back(std::move(area));
+    } else {
+      collect(group->items, areas);
+    }
+  }
+}
+
+// By the even-odd rule, of paths as fine polygons.
+bool contains(const std::vector<Path>& paths, const Vec2& p) {
+  constexpr int kChords = 64;
+  bool inside = false;
+  for (const Path& path : paths) {
+    Vec2 from = path.from;
+    const auto chord = [&](const Vec2& a, const Vec2& b) {
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+    };
+    for (const PathStep& step : path.steps) {
+      Vec2 last = from;
+      for (int k = 1; k <= (step.straight ? 1 : kChords); ++k) {
+        const double s = static_cast<double>(k) / kChords, r = 1 - s;
+        const Vec2 next = step.straight ? step.to
+                                        : r * r * r * from + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
+                                              s * s * s * step.to;
+        chord(last, next);
+        last = next;
+      }
+      from = step.to;
+    }
+    chord(from, path.from);
+  }
+  return inside;
+}
+
+struct Judged {
+  int places = 0, wrong = 0, open = 0, views = 0, left = 0;
+};
+
+void judge(SmallScene& scene, Views& random, Judged& found, bool two_tone) {
+  scene.model.drawing.ground = Ground::fill;
+  if (two_tone) scene.model.drawing.fill.shading = Fill::Shading::two_tone;
+  for (size_t k = 0; k < scene.model.objects.size(); ++k) scene.model.objects[k].name = std::to_string(k);
+  const auto world = scene.world();
+  const Camera& camera = *world->model().camera;
+  const Vec3 light = light_of(scene.model.drawing.fill, camera);
+  const Figure figure = figure_of(std::make_shared<const Model>(world->model()), {});
+  ++found.views;
+  if (figure.incomplete > 0) {
+    ++found.left;
+    return;
+  }
+  found.open += figure.open_areas;
+  std::vector<Area> areas;
+  collect(figure.sheet.items, areas);
+  const double millimetres = figure.sheet.width / camera.width();
+  for (int k = 0; k < 400; ++k) {
+    const Vec2 p(random.number(0, camera.width()), random.number(0, camera.height()));
+    const auto seen = [&](const Vec2& at) {
+      const Ray ray = camera.ray(at.x, at.y);
+      Hit hit;
+      if (!world->nearest(ray, hit)) return std::pair(-1, false);
+      const SurfacePoint point = world->surface_point(ray, hit);
+      const double facing = glm::dot(point.geometric_normal, ray.direction) < 0 ? 1 : -1;
+      return std::pair(point.object, two_tone && facing * glm::dot(point.geometric_normal, light) < 0);
+    };
+    const auto here = seen(p);
+    bool clear = true;
+    for (int i = 0; i < 8 && clear; ++i)
+      clear = seen(p + kNearBorder * Vec2(std::cos(kPi / 4 * i), std::sin(kPi / 4 * i))) == here;
+    if (!clear) continue;
+    ++found.places;
+    for (const Area& area : areas) {
+      const bool own = area.object == std::to_string(here.first);
+      if (contains(area.whole, millimetres * p) != own || contains(area.shade, millimetres * p) != (own && here.second))
+        ++found.wrong;
+    }
+    const bool drawn = std::any_of(areas.begin(), areas.end(),
+                                   [&](const Area& area) { return area.object == std::to_string(here.first); });
+    if (here.first >= 0 && !drawn) ++found.wrong;
+  }
+}
+
+void expect_right(const Judged& found, const char* name) {
+  EXPECT_EQ(found.wrong, 0) << name;
+  EXPECT_EQ(found.open, 0) << name;
+  EXPECT_LE(found.left, found.views / 20) << name;
+  EXPECT_GT(found.places, 300 * (found.views - found.left)) << name;
+  tests::report_figure(std::string(name) + " views", found.views);
+  tests::report_figure(std::string(name) + " places", found.places);
+}
+
+Body random_body(Views& views, int kind, double reach) {
+  Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
+  frame.origin = reach * Vec3(views.number(-1, 1), views.number(-1, 1), views.number(-1, 1));
+  const double r = views.number(0.6, 1.4), h = views.number(0.8, 2.5);
+  switch (kind % 5) {
+    case 0:
+      return box(frame, {r, h, views.number(0.7, 2)});
+    case 1:
+      return frustum(frame, r, r, h);
+    case 2:
+      return frustum(frame, r, r * views.number(0.2, 0.8), h);
+    case 3:
+      return ball(frame, r);
+    default:
+      return torus_body(frame, r, r * views.number(0.2, 0.7));
+  }
+}
+
+// Bodies that hide and pierce one another.
+TEST(Fills, OfManySolids) {
+  for (const bool two_tone : {false, true}) {
+    Views views(71);
+    Judged found;
+    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+      SmallScene scene;
+      for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_body(views, k + i, 1.5)), {"sharp"});
+      views.look(scene, k % 2);
+      judge(scene, views, found, two_tone);
+    }
+    expect_right(found, two_tone ? "solids in two tones" : "solids");
+  }
+}
+
+TEST(Fills, OfCsg) {
+  Views views(73);
+  Judged found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(15)); ++k) {
+    SmallScene scene;
+    const auto shape = [&](int kind) -> ShapePtr {
+      return std::make_shared<BodyShape>(std::make_shared<Body>(random_body(views, kind, 0.5)));
+    };
+    try {
+      show(scene,
+           ShapePtr(std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{shape(k), shape(k / 3 + 1)})),
+           {"sharp"});
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    views.look(scene, k % 2);
+    judge(scene, views, found, true);
+  }
+  expect_right(found, "csg");
+}
+
+TEST(Fills, OfSheetsThatPierceOneAnother) {
+  Views views(79);
+  Judged found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
+    SmallScene scene;
+    for (int n = 0; n < 2; ++n) {
+      Grid<Vec3> net{4, 3, {}};
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 3; ++j) {
+          const Vec3 p(i - 1.5, j - 1.0, views.number(-1, 1));
+          net.values.push_back(n == 0 ? p : Vec3(p.z, p.x, p.y));
+        }
+      show(scene, SurfacePtr(std::make_shared<NurbsSurface>(bezier_surface(net))), {"boundary"});
+    }
+    views.look(scene, k % 2);
+    judge(scene, views, found, true);
+  }
+  expect_right(found, "sheets");
+}
+
+TEST(Fills, OfTheTeapot) {
+  const auto loaded =
+      load_scene(std::filesystem::path(LEKALO_SOURCE_DIR) / "tools/benchmarks/scenes/teapot_lines.yaml");
+  const SurfaceSet teapot = std::get<SurfaceSet>(loaded.model->objects.front().shape);
+  Views views(83);
+  Judged found;
+  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(4)); ++k) {
+    SmallScene scene;
+    show(scene, teapot, {"silhouette"});
+    views.look(scene, k % 2);
+    judge(scene, views, found, false);
+  }
+  expect_right(found, "teapot");
+}
+
+// Boxes that stand on one another: their edges lie on one another in the picture.
+TEST(Fills, OfBoxesInPlainViews) {
+  Views views(89);
+  Judged found;
+  const Vec3 kWays[] = {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {1, 1, 1}, {1, 1, 0}};
+  for (const Vec3& way : kWays) {
+    SmallScene scene;
+    for (int i = 0; i < 3; ++i)
+      show(scene,
+           std::make_shared<Body>(
+               box(frame_from({0.5 * i, 0, 1.0 * i}, {0, 0, 1}, {1, 0, 0}), {1.0, 1.0 + (i == 1), 1.0})),
+           {"sharp"});
+    scene.model.film.width = 600, scene.model.film.height = 500;
+    scene.model.camera = make_camera(
+        ParallelView{
+            Vec3(1, 1, 1) + 10.0 * way, {1, 1, 1}, way.z == 1 && way.x == 0 ? Vec3(0, 1, 0) : Vec3(0, 0, 1), 6},
+        600, 500);
+    judge(scene, views, found, false);
+  }
+  expect_right(found, "boxes");
+}
+
+// The lines are as long as the area is large: length times spacing, to a spacing of its border.
+TEST(Fills, Hatching) {
+  SmallScene scene;
+  show(scene, std::make_shared<Body>(ball(Frame(), 1)), {"silhouette"});
+  scene.model.film.width = scene.model.film.height = 500;
+  scene.model.camera = make_camera(ParallelView{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 4}, 500, 500);
+  scene.model.drawing.ground = Ground::fill;
+  scene.model.drawing.fill.shading = Fill::Shading::none;
+  scene.model.drawing.fill.hatching = Hatching{0.3, 0.2, false, false, Style()};
+  const Figure figure = figure_of(std::make_shared<const Model>(scene.world()->model()), {});
+  double length = 0;
+  int lines = 0;
+  const Vec2 along(std::cos(0.3), -std::sin(0.3));
+  const auto visit = [&](const auto& self, const std::vector<SheetItem>& items) -> void {
+    for (const SheetItem& item : items)
+      if (const auto* group = std::get_if<SheetGroup>(&item)) {
+        if (group->kind != "hatching") {
+          self(self, group->items);
+          continue;
+        }
+        for (const SheetItem& line : group->items) {
+          const Path& path = std::get<SheetPath>(line).parts.front();
+          const Vec2 chord = path.steps.front().to - path.from;
+          EXPECT_NEAR(glm::dot(chord, along), glm::length(chord), 1e-9);
+          length += glm::length(chord), ++lines;
+        }
+      }
+  };
+  visit(visit, figure.sheet.items);
+  const double radius = figure.sheet.width / 4;  // millimetres
+  EXPECT_NEAR(lines, 2 * radius / 0.2, 1);
+  EXPECT_NEAR(length * 0.2, kPi * radius * radius, 1e-3 * kPi * radius * radius);
+}
+
+}  // namespace
+}  // namespace lekalo::render
