@@ -132,7 +132,8 @@ class Joining {
     }
     for (size_t k = 0; k + 1 < places.size(); ++k) {
       const Interval t{places[k], places[k + 1]};
-      if (!(t.width() > same) || !holds(t.middle())) continue;
+      const double middle = t.middle() > domain.hi ? t.middle() - domain.width() : t.middle();
+      if (!(t.width() > same) || !holds(middle)) continue;
       parts_.push_back({contour, t, false, face, other_face, contour.curve->point(t.lo), contour.curve->point(t.hi)});
     }
   }

@@ -21,10 +21,13 @@ namespace {
 // Ends of parts nearer than this are one place, and a part that ends so near to another ends on it; pixels.
 constexpr double kSamePlace = 2e-3;
 // How far beside a part is asked what is seen there: of its length, and in pixels.
-constexpr double kBeside = 1e-3, kLeastBeside = 1e-5, kMostBeside = 1e-2;
+// Less than what tells two curves apart, so that an area between them is not passed over.
+constexpr double kBeside = 1e-3, kLeastBeside = 1e-5, kMostBeside = 0.25 * kSamePlace;
 // Where what is seen changes along a part without a cut is found to so many pixels.
 constexpr double kChange = 1e-4;
-constexpr double kCorner = 0.5;  // pixels: loops that end so near to one another are joined
+// Loops that end so near to one another are joined, pixels. Curves that touch, with radii up to R, part by kMostBeside
+// only sqrt(2 R kMostBeside) from there.
+constexpr double kCorner = 2;
 
 Box3 box_of(const ProjectedCurve::Cell& cell, double slack) {
   const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge - slack,
@@ -251,11 +254,12 @@ void Regions::drop_repeated() {
   std::iota(order.begin(), order.end(), 0);
   const auto length = [&](size_t k) { return glm::length(parts_[k].end - parts_[k].begin); };
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return length(a) > length(b); });
-  std::vector<std::vector<Interval>> kept(borders_.size());  // of each border
+  std::vector<std::vector<const Part*>> kept(borders_.size());  // of each border
   std::vector<bool> dropped(parts_.size());
   for (const size_t k : order) {
     const Part& part = parts_[k];
     if (part.border < 0) continue;
+    const auto sides = std::minmax(part.left, part.right);
     const auto is_covered = [&](double share) {
       const Vec2 q = borders_[part.border].curve->place(part.t.lo + share * part.t.width()).p;
       bool found = false;
@@ -264,13 +268,14 @@ void Regions::drop_repeated() {
         const auto near = curve->nearest(cell, q);
         if (!near || !(near->distance < kSamePlace)) return;
         for (const int border : cells_.borders_of(curve))
-          for (const Interval& t : kept[border]) found = found || t.contains(near->t);
+          for (const Part* other : kept[border])
+            found = found || (other->t.contains(near->t) && std::minmax(other->left, other->right) == sides);
       });
       return found;
     };
     constexpr double kShares[] = {0.5, 0.05, 0.26, 0.71, 0.95};
     dropped[k] = std::all_of(std::begin(kShares), std::end(kShares), is_covered);
-    if (!dropped[k]) kept[part.border].push_back(part.t);
+    if (!dropped[k]) kept[part.border].push_back(&part);
   }
   std::vector<Part> rest;
   for (size_t k = 0; k < parts_.size(); ++k)

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "geometry/bodies/primitives.h"
+#include "support/tier.h"
 
 namespace lekalo::geometry {
 namespace {
@@ -74,6 +76,47 @@ TEST(BodyContours, GeneratorsOfACone) {
     EXPECT_FALSE(one.closed);
     EXPECT_NEAR(length_of(one), std::hypot(2, 0.5), 1e-13);
   }
+}
+
+// The boundaries of two solids meet in loops.
+TEST(BodyContours, SolidsMeetInLoops) {
+  std::mt19937 random(5);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  const auto direction = [&] { return glm::normalize(Vec3(number(-1, 1), number(-1, 1), number(-1, 1))); };
+  const auto solid = [&](int kind) {
+    Frame frame = frame_from({0, 0, 0}, direction(), direction());
+    frame.origin = 0.5 * Vec3(number(-1, 1), number(-1, 1), number(-1, 1));
+    const double r = number(0.6, 1.4), h = number(0.8, 2.5);
+    switch (kind % 5) {
+      case 0:
+        return box(frame, {r, h, number(0.7, 2)});
+      case 1:
+        return frustum(frame, r, r, h);
+      case 2:
+        return frustum(frame, r, r * number(0.2, 0.8), h);
+      case 3:
+        return ball(frame, r);
+      default:
+        return torus_body(frame, r, r * number(0.2, 0.7));
+    }
+  };
+  int loops = 0, incomplete = 0, pairs = 0;
+  for (int k = 0; k < tests::tier_count(2000, tests::least_of_slow(100)); ++k, ++pairs) {
+    const BodyContours found = intersect(solid(k), solid(k / 5));
+    if (!found.complete) {
+      ++incomplete;
+      continue;
+    }
+    for (const BodyContour& branch : found.branches) {
+      ++loops;
+      EXPECT_TRUE(branch.closed) << "pair " << k;
+      check_chain(branch);
+    }
+  }
+  EXPECT_LE(incomplete, pairs / 50);
+  EXPECT_GT(loops, pairs / 2);
+  tests::report_figure("loops", loops);
+  tests::report_figure("incomplete", incomplete);
 }
 
 }  // namespace
