@@ -15,14 +15,14 @@ constexpr double kLeftOut = 0.1;   // of the tolerance: terms as small together
 
 class Fitting {
  public:
-  Fitting(const Curve& curve, double tolerance) : curve_(curve), tolerance_(tolerance) {}
+  Fitting(const std::function<Vec3(double)>& point, double tolerance) : point_(point), tolerance_(tolerance) {}
 
   bool add(const Interval& t, int depth) {
     PolynomialCurve::Part part;
     std::array<Vec3, kNodes> values;
     // At a break the curve's own point is that from the right.
     const double last = next_down(t.hi);
-    const auto point = [&](double x) { return curve_.point(std::min(t.middle() + 0.5 * t.width() * x, last)); };
+    const auto point = [&](double x) { return point_(std::min(t.middle() + 0.5 * t.width() * x, last)); };
     for (int j = 0; j < kNodes; ++j) values[j] = point(chebyshev_point(j, kNodes));
     auto coefficients = chebyshev_coefficients(values);
     // A cubic is one again: what is rounding, or as little, is left out.
@@ -44,20 +44,24 @@ class Fitting {
   std::vector<PolynomialCurve::Part> parts;
 
  private:
-  const Curve& curve_;
+  const std::function<Vec3(double)>& point_;
   double tolerance_;
 };
 
 }  // namespace
 
-std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
-  Fitting fitting(curve, tolerance);
-  const Interval domain = curve.domain();
-  for (const CurvePiece& piece : curve.pieces()) {
-    const Interval t = intersect(piece.domain, domain);
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::function<Vec3(double)>& point,
+                                                                std::span<const Interval> pieces, double tolerance) {
+  Fitting fitting(point, tolerance);
+  for (const Interval& t : pieces)
     if (!t.empty() && t.width() > 0 && !fitting.add(t, 0)) return nullptr;
-  }
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
+}
+
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
+  std::vector<Interval> pieces;
+  for (const CurvePiece& piece : curve.pieces()) pieces.push_back(intersect(piece.domain, curve.domain()));
+  return polynomial_approximation([&](double t) { return curve.point(t); }, pieces, tolerance);
 }
 
 }  // namespace lekalo::geometry

@@ -2,7 +2,9 @@
 // piecewise polynomials that agree with them to rounding: for whoever asks thousands of questions of one curve.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 
 #include "geometry/curves/polynomial_curve.h"
 
@@ -12,5 +14,9 @@ namespace lekalo::geometry {
 // not proven. Null where the curve is not smooth enough for that in a reasonable number of parts. The domain must be
 // finite; the parameter is the curve's.
 std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance);
+
+// The same of a function over smooth stretches that follow one another.
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::function<Vec3(double)>& point,
+                                                                std::span<const Interval> pieces, double tolerance);
 
 }  // namespace lekalo::geometry

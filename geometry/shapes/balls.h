@@ -21,11 +21,19 @@ class Balls final : public Shape {
   bool is_closed() const override { return true; }
   LineMethod method() const override { return {"closed form", balls_.size(), balls_.size() * sizeof(Ball)}; }
 
- private:
   struct Ball {
     Vec3 center;
     double radius;
   };
+  const std::vector<Ball>& balls() const { return balls_; }
+  // Calls visit(k) for the balls whose boxes meet that of ball i, itself too.
+  template <class Visit>
+  void near(size_t i, const Visit& visit) const {
+    tree_.around(Box3{balls_[i].center, balls_[i].center}.inflated(balls_[i].radius),
+                 [&](int k) { visit(static_cast<size_t>(k)); });
+  }
+
+ private:
   std::vector<Ball> balls_;
   Box3 box_;
   BoxTree tree_;

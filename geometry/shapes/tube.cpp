@@ -119,6 +119,24 @@ void Tube::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>
   }
 }
 
+bool Tube::holds(const Vec3& p) const {
+  static thread_local LineSpans spans;
+  spans.clear();
+  const Line line{p, glm::normalize(Vec3(0.5377, -0.7391, 0.4057))};  // along which no curve runs, most likely
+  tree_.along(line, {-kInfinity, kInfinity}, [&](int cell) { sweep_.add_spans(cell, line, limit(cell, line), spans); });
+  return std::any_of(spans.begin(), spans.end(), [](const Span& span) { return span.in.s < 0 && span.out.s > 0; });
+}
+
+bool Tube::is_cut_off(const Vec3& p, double t) const {
+  if (caps_ == Caps::round) return false;
+  const auto& cells = sweep_.cells();
+  for (const End& end : ends_)
+    if (end.begin < end.end && t >= cells[end.begin].t.lo && t <= cells[end.end - 1].t.hi &&
+        glm::dot(p - end.point, end.inward) < 0)
+      return true;
+  return false;
+}
+
 Vec3 Tube::reference(int cell, double t, const Vec3& tangent) const {
   const Start& start = starts_[cell];
   return carried(start.reference, start.tangent, sweep_.curve().point(t) - start.point, tangent);

@@ -30,16 +30,25 @@ class Tube final : public Shape {
   // du is zero on ends, and so is dv on flat ones.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return caps_ != Caps::none; }
-  LineMethod method() const override {
-    return {"ball sweep", sweep_.cells().size(), sweep_.cells().size() * sizeof(BallSweep::Cell)};
-  }
 
- private:
+  const BallSweep& sweep() const { return sweep_; }
+  Caps caps() const { return caps_; }  // round for closed curves
+  // The flat or open ends.
   struct End {
     Vec3 point{0};
     Vec3 inward{0};
     int begin = 0, end = 0;  // the cells that its plane cuts
   };
+  const End& end(int side) const { return ends_[side]; }
+  // True if the point is inside of the tube, for open ends as if they were closed.
+  bool holds(const Vec3& p) const;
+  // True if an end's plane cuts off this point of the ball at t.
+  bool is_cut_off(const Vec3& p, double t) const;
+  LineMethod method() const override {
+    return {"ball sweep", sweep_.cells().size(), sweep_.cells().size() * sizeof(BallSweep::Cell)};
+  }
+
+ private:
   void find_ends();
   SpanLimit limit(int cell, const Line& line) const;
   Vec3 reference(int cell, double t, const Vec3& tangent) const;

@@ -15,6 +15,7 @@
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/passages.h"
+#include "geometry/shapes/csg.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
 
@@ -256,8 +257,10 @@ class Drawing {
   void add_piercings(const Stroke& stroke, std::vector<double>& events) {
     prepare_surfaces();
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
+    const Box3 box = bounds(*curve);
+    if (!shapes_.empty() && stroke.drawn) add_entries(*curve, box, stroke.object, events);
     std::optional<CurveCells> cells;
-    tree_.around(bounds(*curve), [&](int number) {
+    tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
       const bool own = std::any_of(stroke.hosts.begin(), stroke.hosts.end(), [&](const Stroke::Host& host) {
         return host.surface == other.original && stroke.object == other.object;
@@ -272,6 +275,52 @@ class Drawing {
       for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
     });
   }
+
+  // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.
+  void add_entries(const Curve& curve, const Box3& box, int object, std::vector<double>& events) const {
+    constexpr double kFlat = 1e-11, kBowed = 1e-5;  // of the radius, how far a part is from its chord
+    constexpr int kMostHalvings = 40;
+    for (const WorldShape& other : shapes_) {
+      if (other.object == object || !BoxTree::meets(other.box, box)) continue;
+      std::vector<SurfaceHit> hits;
+      const auto part = [&](const auto& self, double lo, const Vec3& from, double hi, const Vec3& to,
+                            int depth) -> void {
+        const double middle = 0.5 * (lo + hi);
+        const Vec3 between = curve.point(middle);
+        Box3 around{from, from};
+        around.include(to), around.include(between);
+        const double bow = glm::length(between - 0.5 * (from + to));
+        if (!BoxTree::meets(around.inflated(2 * bow), other.box)) return;
+        hits.clear();
+        if (from != to) other.shape->all_hits({from, to - from}, {0, 1}, hits);
+        if (hits.empty() && bow < kBowed * world_.radius()) return;
+        if (bow < kFlat * world_.radius() || depth >= kMostHalvings || !(lo < middle && middle < hi)) {
+          for (const SurfaceHit& hit : hits) events.push_back(lo + hit.t * (hi - lo));
+          return;
+        }
+        self(self, lo, from, middle, between, depth + 1);
+        self(self, middle, between, hi, to, depth + 1);
+      };
+      for (const CurvePiece& piece : curve.pieces()) {
+        const Interval t = intersect(piece.domain, curve.domain());
+        if (!(t.width() > 0)) continue;
+        const double last = next_down(t.hi);
+        constexpr int kParts = 8;  // a bow between two places may be none in the middle
+        for (int k = 0; k < kParts; ++k) {
+          const double lo = t.lo + k * t.width() / kParts,
+                       hi = k + 1 == kParts ? last : t.lo + (k + 1) * t.width() / kParts;
+          part(part, lo, curve.point(lo), hi, curve.point(hi), 0);
+        }
+      }
+    }
+  }
+
+  // Shapes whose boundary is not made of parametric surfaces.
+  struct WorldShape {
+    ShapePtr shape;
+    Box3 box;
+    int object;
+  };
 
   struct WorldSurface {
     SurfacePtr surface, original;
@@ -300,6 +349,25 @@ class Drawing {
         surfaces_.push_back({placed, host.surface, strokes_[k].object, nullptr});
       }
     tree_ = BoxTree(boxes);
+    const auto visit = [&](const auto& self, const std::vector<Object>& objects, const Affine& to_world) -> void {
+      for (const Object& object : objects) {
+        const Affine map = to_world * object.transform;
+        if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
+        const auto* shape = std::get_if<ShapePtr>(&object.shape);
+        if (!shape || !(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
+        const auto& all = world_.objects();
+        const auto number = std::find(all.begin(), all.end(), &object) - all.begin();
+        const ShapePtr placed = transformed(*shape, map);
+        if (has_surfaces(**shape)) continue;
+        shapes_.push_back({placed, placed->bounds(), static_cast<int>(number)});
+      }
+    };
+    visit(visit, world_.model().objects, Affine());
+  }
+
+  static bool has_surfaces(const Shape& shape) {
+    const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
+    return dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape) != nullptr;
   }
 
   int layers_at(int line, double t, double aside) {
@@ -320,6 +388,10 @@ class Drawing {
   Vec3 probe(int line, double t, double aside) const {
     const Stroke& stroke = strokes_[line];
     const Vec3 exact = curves_[line]->tangent(t).origin;
+    if (stroke.aside) {
+      const Vec3 out = stroke.to_world.direction(stroke.aside->point(t));
+      return exact + aside * world_.radius() / glm::length(out) * out;
+    }
     if (stroke.hosts.size() != 1) return exact;
     const Surface& surface = *stroke.hosts[0].surface;
     Vec3 uv = stroke.hosts[0].image->point(t);
@@ -422,6 +494,7 @@ class Drawing {
   std::vector<int> outline_of_;
   std::vector<WorldSurface> surfaces_;
   BoxTree tree_;  // of their boxes
+  std::vector<WorldShape> shapes_;
   bool prepared_ = false;
   VisibleLines result_;
 };

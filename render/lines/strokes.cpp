@@ -10,6 +10,7 @@
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
+#include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/contours.h"
@@ -225,6 +226,7 @@ class Collector {
     stroke.borders = borders_;
     stroke.hosts = std::move(hosts_);
     stroke.cusps = std::move(cusps_);
+    stroke.aside = std::move(aside_);
     hosts_.clear(), cusps_.clear();
     stroke.arrow_at_start = style.arrows == "start" || style.arrows == "both";
     stroke.arrow_at_end = style.arrows == "end" || style.arrows == "both";
@@ -477,16 +479,31 @@ class Collector {
     });
   }
 
-  // The edges or outlines of a solid put together of others, which may have been moved as a whole.
+  // The edges or outlines of a shape, which may have been moved as a whole: of balls, tubes, and of solids put together
+  // of others.
   void add_solid(const ShapePtr& shape, ViewOf view, bool edges, const Style& style, const HiddenLines& hidden) {
     const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
-    const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape.get());
-    if (!solid) {
-      leave_out("outlines of implicit surfaces, tubes and balls");
+    const Shape& original = moved ? *moved->original() : *shape;
+    const auto* solid = dynamic_cast<const Csg*>(&original);
+    const auto* tube = dynamic_cast<const Tube*>(&original);
+    const auto* balls = dynamic_cast<const Balls*>(&original);
+    if (!solid && !tube && !balls) {
+      leave_out("outlines of implicit surfaces");
       return;
     }
     const Affine to_world = to_world_;
     if (moved) to_world_ = to_world * moved->map(), view = seen_through(view, moved->map().inverse());
+    if (!solid) {
+      const ShapeOutlines found = tube ? outlines(*tube, view) : outlines(*balls, view);
+      if (!found.complete && !edges) ++work_.incomplete;
+      for (const ShapeOutline& line : found.lines) {
+        if (line.edge != edges) continue;
+        aside_ = line.aside;
+        stroke(line.curve, style, hidden);
+      }
+      to_world_ = to_world;
+      return;
+    }
     if (solid_ != shape || solid_view_ != view.direction_or_eye) {
       solid_ = shape, solid_view_ = view.direction_or_eye;
       solid_lines_ = csg_lines(*solid, view);
@@ -751,6 +768,7 @@ class Collector {
   bool undrawn_ = false, outlines_ = false, borders_ = false;
   std::vector<Stroke::Host> hosts_;  // of the next stroke
   std::vector<double> cusps_;        // likewise
+  CurvePtr aside_;                   // likewise
   ShapePtr solid_;                   // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   CsgLines solid_lines_;

@@ -34,6 +34,7 @@ struct Stroke {
   std::string kind;           // boundary, sharp, ...; control_polygon, ... of helpers
   std::vector<Host> hosts;    // of drawings
   std::vector<double> cusps;  // of silhouettes, by t: the picture turns back there
+  geometry::CurvePtr aside;   // of silhouettes without hosts: vectors along which rays beside them miss their shape
   bool drawn = true;          // else it is only there for what it hides: the outlines of all surfaces
   bool outlines = false;      // where surfaces end as seen: what others are hidden by ends there
   bool borders = false;       // where areas of fills may end, as they do at outlines

@@ -1,0 +1,431 @@
+#include "geometry/queries/ball_outlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "geometry/curves/circle.h"
+#include "geometry/curves/ellipse.h"
+#include "geometry/curves/polynomial_approximation.h"
+#include "geometry/numerics/interval.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kAgree = 1e-10, kLeastAgree = 1e-8;  // of the size: of curves that are approximated
+constexpr double kAgreeAside = 1e-4;
+// Of h, relative: less is the end-on view, where n is not determined.
+constexpr double kEndOn = 1e-13;
+// How far outside of the tube a point of it is asked about, of the size.
+constexpr double kBeside = 1e-7;
+// Directions of a curve that differ by less go on smoothly.
+constexpr double kCorner = 1e-6;
+constexpr double kSame = 1e-12;  // of parameters: parts as short are none
+
+// The circle of the points c + R n of a ball at which the way of sight touches it: n = k axis + s (cos x + sin y).
+struct BallCircle {
+  Vec3 center;
+  double radius;
+  Frame frame;  // origin 0, z the axis
+  double k, s;
+
+  Vec3 normal(double t) const { return k * frame.z + s * (std::cos(t) * frame.x + std::sin(t) * frame.y); }
+  CurvePtr curve(const Interval& t) const {
+    Frame at = frame;
+    at.origin = center + radius * k * frame.z;
+    return std::make_shared<Circle>(at, radius * s, t);
+  }
+  CurvePtr aside(const Interval& t) const {
+    Frame at = frame;
+    at.origin = k * frame.z;
+    return std::make_shared<Circle>(at, s, t);
+  }
+};
+
+std::optional<BallCircle> circle_of(const Vec3& center, double radius, const ViewOf& view) {
+  if (!view.central) return BallCircle{center, radius, frame_about(Vec3(0), view.direction_or_eye), 0, 1};
+  const Vec3 away = center - view.direction_or_eye;
+  const double distance = glm::length(away);
+  if (!(distance > radius)) return std::nullopt;  // the eye is inside
+  const double k = -radius / distance;
+  return BallCircle{center, radius, frame_about(Vec3(0), away / distance), k, std::sqrt(1 - k * k)};
+}
+
+// What is kept of a circle: where a cos t + b sin t + c >= 0 for all of these.
+struct Condition {
+  double a, b, c;
+  double at(double t) const { return a * std::cos(t) + b * std::sin(t) + c; }
+};
+
+// `value` is linear in the point of the circle, or in the normal.
+Condition condition(const std::function<double(double)>& value) {
+  const double at_0 = value(0), at_half = value(kPi), at_quarter = value(0.5 * kPi);
+  const double c = 0.5 * (at_0 + at_half);
+  return {at_0 - c, at_quarter - c, c};
+}
+
+std::vector<Interval> kept(const std::vector<Condition>& conditions) {
+  std::vector<double> cuts;
+  for (const Condition& one : conditions) {
+    const double size = std::hypot(one.a, one.b);
+    if (!(std::abs(one.c) < size)) {
+      if (one.c < 0) return {};
+      continue;
+    }
+    const double middle = std::atan2(one.b, one.a), half = std::acos(-one.c / size);
+    for (double t : {middle - half, middle + half}) {
+      t -= kTwoPi * std::floor(t / kTwoPi);
+      cuts.push_back(t);
+    }
+  }
+  if (cuts.empty()) return {{0, kTwoPi}};
+  std::sort(cuts.begin(), cuts.end());
+  cuts.push_back(cuts.front() + kTwoPi);
+  std::vector<Interval> result;
+  for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+    const Interval t{cuts[k], cuts[k + 1]};
+    const auto holds = [&](const Condition& one) { return one.at(t.middle()) >= 0; };
+    if (t.width() > kSame && std::all_of(conditions.begin(), conditions.end(), holds)) result.push_back(t);
+  }
+  return result;
+}
+
+class TubeOutlines {
+ public:
+  TubeOutlines(const Tube& tube, const ViewOf& view) : tube_(tube), sweep_(tube.sweep()), view_(view) {
+    size_ = tube.bounds().diameter();
+  }
+
+  ShapeOutlines find() {
+    const Curve& curve = sweep_.curve();
+    const std::vector<CurvePiece> pieces = curve.pieces();
+    for (const CurvePiece& piece : pieces) add_walls(intersect(piece.domain, curve.domain()));
+    // Balls between pieces, and at the ends.
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      const bool first = k == 0;
+      if (first && !curve.is_closed()) continue;
+      const double before = pieces[first ? pieces.size() - 1 : k - 1].domain.hi, after = pieces[k].domain.lo;
+      add_ball(before_end(before), after);
+      add_crease(before_end(before), after);
+    }
+    if (!curve.is_closed()) {
+      add_ball(std::nullopt, curve.domain().lo);
+      add_ball(before_end(curve.domain().hi), std::nullopt);
+      if (tube_.caps() != Caps::round) add_ends();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static double before_end(double t) { return next_down(t); }
+
+  // The planes that n is in, and how much of it is left across them.
+  struct Balance {
+    Vec3 a, b;
+    double x, y, z_square, h;  // h: relative, negative where there is no outline
+  };
+  Balance balance(double t) const {
+    const BallJet ball = sweep_.ball(t);
+    Balance result;
+    result.a = ball.center[1];
+    result.b = view_.central ? ball.center[0] - view_.direction_or_eye : view_.direction_or_eye;
+    const double alpha = -ball.radius[1], beta = view_.central ? -ball.radius[0] : 0;
+    const double aa = glm::dot(result.a, result.a), ab = glm::dot(result.a, result.b),
+                 bb = glm::dot(result.b, result.b);
+    const Vec3 across = glm::cross(result.a, result.b);
+    const double det = glm::dot(across, across);
+    result.x = (alpha * bb - beta * ab) / det;
+    result.y = (beta * aa - alpha * ab) / det;
+    const double used = alpha * alpha * bb - 2 * alpha * beta * ab + beta * beta * aa;
+    result.h = (det - used) / (aa * bb);
+    result.z_square = (det - used) / (det * det);
+    return result;
+  }
+  double h(double t) const { return balance(t).h; }
+  Vec3 normal(double t, double sign) const {
+    const Balance b = balance(t);
+    return b.x * b.a + b.y * b.b + sign * std::sqrt(std::max(b.z_square, 0.0)) * glm::cross(b.a, b.b);
+  }
+  Vec3 point(double t, const Vec3& n) const {
+    const BallJet ball = sweep_.ball(t);
+    return ball.center[0] + ball.radius[0] * n;
+  }
+  // How the wall bends along the way of sight: below 0 away from it.
+  double bend(double t, const Vec3& n) const {
+    const BallJet ball = sweep_.ball(t);
+    const double R = ball.radius[0], way = glm::dot(n, ball.center[1]);
+    Vec3 sight = view_.central ? point(t, n) - view_.direction_or_eye : view_.direction_or_eye;
+    sight = glm::normalize(sight);
+    const double second =
+        ball.radius[2] + glm::dot(n, ball.center[2]) - (glm::dot(ball.center[1], ball.center[1]) - way * way) / R;
+    const double mixed = glm::dot(ball.center[1], sight) / R;
+    return -1 / R - mixed * mixed / second;
+  }
+
+  // A stretch of t between two ends, each of which is one of its own or one where the branches join.
+  void add_walls(const Interval& all) {
+    if (!(all.width() > 0)) return;
+    const double last = before_end(all.hi);
+    const auto at = [&](double t) { return std::min(t, last); };
+    constexpr int kPlaces = 256;
+    struct Cut {
+      double t;
+      bool end_on;
+    };
+    std::vector<Cut> cuts;
+    double before = h(all.lo), before_that = before;
+    for (int k = 1; k <= kPlaces; ++k) {
+      const auto place = [&](int i) { return at(all.lo + all.width() * i / kPlaces); };
+      const double here = h(place(k));
+      if ((here < 0) != (before < 0)) {
+        double lo = place(k - 1), hi = place(k);
+        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+          ((h(middle) < 0) == (before < 0) ? lo : hi) = middle;
+        cuts.push_back({before < 0 ? hi : lo, false});
+      } else if (k > 1 && before <= before_that && before <= here && before >= 0) {
+        // Perhaps it touches zero.
+        double lo = place(k - 2), hi = place(k);
+        for (int step = 0; step < 100; ++step) {
+          const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+          (h(a) < h(b) ? hi : lo) = h(a) < h(b) ? b : a;
+        }
+        const double lowest = 0.5 * (lo + hi);
+        if (h(lowest) < kEndOn) cuts.push_back({lowest, true});
+      }
+      before_that = before, before = here;
+    }
+    // A curve that begins or ends along the way of sight.
+    const auto is_end_on = [&](double t) { return std::abs(h(t)) < kEndOn; };
+    std::vector<Cut> ends{{all.lo, is_end_on(all.lo)}};
+    for (const Cut& cut : cuts)
+      if (cut.t > ends.back().t && cut.t < last) ends.push_back(cut);
+    ends.push_back({last, is_end_on(last)});
+    for (size_t k = 0; k < ends.size(); ++k) {
+      if (ends[k].end_on) add_ball(ends[k].t, ends[k].t);
+      if (k + 1 == ends.size() || !(h(0.5 * (ends[k].t + ends[k + 1].t)) > 0)) continue;
+      const bool joins_lo = k > 0 && !ends[k].end_on, joins_hi = k + 2 < ends.size() && !ends[k + 1].end_on;
+      Interval t{ends[k].t, ends[k + 1].t};
+      // There the directions have no limit that rounding leaves.
+      const double aside = 1e-7 * t.width();
+      if (ends[k].end_on) t.lo += aside;
+      if (ends[k + 1].end_on) t.hi -= aside;
+      add_wall(t, joins_lo, joins_hi);
+    }
+  }
+
+  // Both branches over t; where they join they are one smooth curve by the root of the distance from there.
+  void add_wall(const Interval& t, bool joins_lo, bool joins_hi) {
+    using Place = std::pair<double, double>;  // t and the sign of the branch
+    const auto clamp = [t](double x) { return t.clamp(x); };
+    if (joins_lo && joins_hi) {
+      add_branch({0, kTwoPi}, [=](double s) {
+        return Place(clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
+      });
+    } else if (joins_lo || joins_hi) {
+      add_branch({-1, 1}, [=](double s) {
+        return Place(clamp(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s), s >= 0 ? 1.0 : -1.0);
+      });
+    } else {
+      for (const double sign : {1.0, -1.0}) add_branch(t, [=](double s) { return Place(s, sign); });
+    }
+  }
+
+  void add_branch(const Interval& range, const std::function<std::pair<double, double>(double)>& place) {
+    const auto normal_at = [&](double s) {
+      const auto [t, sign] = place(s);
+      return normal(t, sign);
+    };
+    const auto point_at = [&](double s) { return point(place(s).first, normal_at(s)); };
+    const auto bends_away = [&](double s) { return bend(place(s).first, normal_at(s)) < 0; };
+    // Cut where it enters or leaves the tube itself or what its ends cut away, and at cusps.
+    const auto is_outside = [&](double s) {
+      const Vec3 p = point_at(s);
+      return !tube_.is_cut_off(p, place(s).first) && !tube_.holds(p + kBeside * size_ * normal_at(s));
+    };
+    const auto state = [&](double s) { return std::pair(is_outside(s), bends_away(s)); };
+    const int places = std::max(64, static_cast<int>(sweep_.cells().size()));
+    double from = range.lo;
+    auto here = state(range.lo + 1e-9 * range.width());
+    const auto finish = [&](double to) {
+      if (here.first && to - from > kSame * range.width()) put({from, to}, point_at, normal_at, here.second ? 1 : -1);
+    };
+    double last = range.lo + 1e-9 * range.width();
+    for (int k = 1; k <= places; ++k) {
+      const double s = range.lo + range.width() * (k == places ? 1 - 1e-9 : static_cast<double>(k) / places);
+      const auto next = state(s);
+      if (next != here) {
+        double lo = last, hi = s;
+        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+          (state(middle) == here ? lo : hi) = middle;
+        finish(hi);
+        from = hi, here = next;
+      }
+      last = s;
+    }
+    finish(range.hi);
+  }
+
+  void put(const Interval& range, const std::function<Vec3(double)>& point_at,
+           const std::function<Vec3(double)>& normal_at, double side) {
+    std::vector<Interval> parts{range};
+    CurvePtr curve = polynomial_approximation(point_at, parts, kAgree * size_);
+    if (!curve) {
+      curve = polynomial_approximation(point_at, parts, kLeastAgree * size_);
+      result_.complete = false;
+    }
+    const CurvePtr aside = polynomial_approximation([&](double s) { return side * normal_at(s); }, parts, kAgreeAside);
+    if (!curve || !aside) {
+      result_.complete = false;
+      return;
+    }
+    result_.lines.push_back({curve, false, aside});
+  }
+
+  // The circle of one ball, as far as neither the balls before it (the curve ends there at `before`) nor those after it
+  // hide it: n . c' >= -R' before, n . c' <= -R' after.
+  void add_ball(std::optional<double> before, std::optional<double> after) {
+    const double t = before ? *before : *after;
+    const BallJet ball = sweep_.ball(t);
+    if (before && after && *before != *after) {
+      // No corner: the wall goes on.
+      const Vec3 a = sweep_.ball(*before).center[1], b = sweep_.ball(*after).center[1];
+      if (glm::length(glm::normalize(a) - glm::normalize(b)) < kCorner) return;
+    }
+    const auto circle = circle_of(ball.center[0], ball.radius[0], view_);
+    if (!circle) return;
+    std::vector<Condition> conditions;
+    if (before != after) {
+      for (const auto& [end, sign] : {std::pair(before, 1.0), std::pair(after, -1.0)}) {
+        if (!end) continue;
+        const BallJet at = sweep_.ball(*end);
+        conditions.push_back(condition(
+            [&, sign = sign](double x) { return sign * (glm::dot(circle->normal(x), at.center[1]) + at.radius[1]); }));
+      }
+      for (int side = 0; side < 2; ++side)
+        if (tube_.caps() != Caps::round && (side == 0 ? !before : !after)) {
+          const Tube::End& end = tube_.end(side);
+          conditions.push_back(condition([&](double x) {
+            return glm::dot(circle->center + circle->radius * circle->normal(x) - end.point, end.inward);
+          }));
+        }
+    }
+    for (const Interval& arc : kept(conditions)) add_arc(*circle, arc);
+  }
+
+  // On the inner side of a corner two straight tubes of one radius meet in half an ellipse, in the plane half way
+  // between them.
+  void add_crease(double before, double after) {
+    const BallJet a = sweep_.ball(before), b = sweep_.ball(after);
+    const Vec3 first = glm::normalize(a.center[1]), second = glm::normalize(b.center[1]);
+    const double R = b.radius[0];
+    const Vec3 inward = second - first, across = glm::cross(first, second);
+    if (glm::length(inward) < kCorner) return;
+    const auto is_straight = [](const BallJet& at) {
+      return glm::length(glm::cross(at.center[1], at.center[2])) < kSame * glm::dot(at.center[1], at.center[1]) &&
+             at.radius[1] == 0;
+    };
+    const double cosine = glm::length(first + second) / 2;  // of half the turn
+    if (!is_straight(a) || !is_straight(b) || !(glm::length(across) > kCorner)) return;
+    Frame frame;
+    frame.origin = b.center[0];
+    frame.x = glm::normalize(across), frame.y = glm::normalize(inward), frame.z = glm::cross(frame.x, frame.y);
+    result_.lines.push_back({std::make_shared<Ellipse>(frame, R, R / cosine, Interval{0, kPi}), true, nullptr});
+  }
+
+  // What of it other parts of the tube do not hide.
+  void add_arc(const BallCircle& circle, const Interval& arc) {
+    const auto is_outside = [&](double x) {
+      const Vec3 n = circle.normal(x);
+      return !tube_.holds(circle.center + circle.radius * n + kBeside * size_ * n);
+    };
+    constexpr int kPlaces = 48;
+    double from = arc.lo;
+    bool here = is_outside(arc.lo + arc.width() * 0.5 / kPlaces);
+    double last = arc.lo + arc.width() * 0.5 / kPlaces;
+    const auto finish = [&](double to) {
+      if (here && to - from > kSame)
+        result_.lines.push_back({circle.curve({from, to}), false, circle.aside({from, to})});
+    };
+    for (int k = 1; k < kPlaces; ++k) {
+      const double x = arc.lo + arc.width() * (k + 0.5) / kPlaces;
+      if (const bool next = is_outside(x); next != here) {
+        double lo = last, hi = x;
+        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+          (is_outside(middle) == here ? lo : hi) = middle;
+        finish(hi);
+        from = hi, here = next;
+      }
+      last = x;
+    }
+    finish(arc.hi);
+  }
+
+  // The circles at flat and open ends.
+  void add_ends() {
+    for (int side = 0; side < 2; ++side) {
+      const Tube::End& end = tube_.end(side);
+      const Interval domain = sweep_.curve().domain();
+      const BallJet ball = sweep_.ball(side == 0 ? domain.lo : before_end(domain.hi));
+      // Inward the balls must not reach farther into the plane than the last one.
+      if ((side == 0 ? 1 : -1) * ball.radius[1] > kSame * glm::length(ball.center[1])) {
+        result_.complete = false;
+        continue;
+      }
+      Frame frame = frame_about(end.point, end.inward);
+      result_.lines.push_back({std::make_shared<Circle>(frame, ball.radius[0]), true, nullptr});
+    }
+  }
+
+  const Tube& tube_;
+  const BallSweep& sweep_;
+  const ViewOf& view_;
+  double size_;
+  ShapeOutlines result_;
+};
+
+}  // namespace
+
+ShapeOutlines outlines(const Tube& tube, const ViewOf& view) { return TubeOutlines(tube, view).find(); }
+
+ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
+  ShapeOutlines result;
+  const auto& all = balls.balls();
+  for (size_t i = 0; i < all.size(); ++i) {
+    // Outside of all others.
+    const auto add_parts = [&](const std::function<Vec3(double)>& point, size_t other, auto&& put) {
+      std::vector<Condition> conditions;
+      balls.near(i, [&](size_t k) {
+        if (k != i && k != other)
+          conditions.push_back(condition([&](double x) {
+            const Vec3 from = point(x) - all[k].center;
+            return glm::dot(from, from) - all[k].radius * all[k].radius;
+          }));
+      });
+      for (const Interval& arc : kept(conditions)) put(arc);
+    };
+    if (const auto circle = circle_of(all[i].center, all[i].radius, view))
+      add_parts([&](double x) { return circle->center + circle->radius * circle->normal(x); }, i,
+                [&](const Interval& arc) {
+                  result.lines.push_back({circle->curve(arc), false, circle->aside(arc)});
+                });
+    balls.near(i, [&](size_t k) {
+      if (k <= i) return;
+      // The circle of two balls.
+      const Vec3 way = all[k].center - all[i].center;
+      const double apart = glm::length(way), a = all[i].radius, b = all[k].radius;
+      const double height = 0.5 * (apart + (a * a - b * b) / apart), square = a * a - height * height;
+      if (!(apart > 0) || !(square > 0)) return;
+      const Circle meeting(frame_about(all[i].center + height / apart * way, way / apart), std::sqrt(square));
+      add_parts(
+          [&](double x) { return meeting.point(x); }, k,
+          [&](const Interval& arc) {
+            result.lines.push_back({std::make_shared<Circle>(meeting.frame(), meeting.radius(), arc), true, nullptr});
+          });
+    });
+  }
+  return result;
+}
+
+}  // namespace lekalo::geometry

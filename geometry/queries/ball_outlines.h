@@ -1,0 +1,41 @@
+// Outlines and edges of shapes that are made of balls, as seen: tubes (Golovanov 2016, 4.6 for the silhouettes of the
+// envelope) and balls.
+//
+// A point c(t) + R(t) n of the wall of a tube, |n| = 1, is on its outline if
+//
+//   n . c' = -R'          it is on the envelope of the balls,
+//   n . i = 0             the way of sight i touches there; from an eye at e, n . (c - e) = -R,
+//
+// two planes through which n = x a + y b +- z a x b is found in closed form, a = c' and b = i or c - e. Where
+// 1 - |x a + y b|^2 < 0 the balls hide one another altogether, and the two branches join at the ends of such stretches.
+// At ends, corners and where the tube is seen end-on the outline goes on along the circle of one ball.
+#pragma once
+
+#include <vector>
+
+#include "geometry/queries/contours.h"
+#include "geometry/shapes/balls.h"
+#include "geometry/shapes/tube.h"
+
+namespace lekalo::geometry {
+
+struct ShapeOutline {
+  CurvePtr curve;     // to 1e-10 of the size where it is no circle
+  bool edge = false;  // a sharp edge; else a silhouette, without cusps inside
+  // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the shape.
+  CurvePtr aside;
+};
+
+struct ShapeOutlines {
+  std::vector<ShapeOutline> lines;
+  bool complete = true;  // false where some were not found to that precision, or are not known (flat ends where the
+                         // radius grows inward)
+};
+
+// Where tubes go through themselves the edges are left out but for corners between straight parts, and outlines end
+// there to 1e-6 of the size.
+ShapeOutlines outlines(const Tube& tube, const ViewOf& view);
+// With the circles in which balls meet.
+ShapeOutlines outlines(const Balls& balls, const ViewOf& view);
+
+}  // namespace lekalo::geometry
