@@ -14,7 +14,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kAgree = 1e-10, kLeastAgree = 1e-8;  // of the size: of curves that are approximated
+constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves that are approximated
 constexpr double kAgreeAside = 1e-4;
 // Of h, relative: less is the end-on view, where n is not determined.
 constexpr double kEndOn = 1e-13;
@@ -57,6 +57,13 @@ std::optional<BallCircle> circle_of(const Vec3& center, double radius, const Vie
 struct Condition {
   double a, b, c;
   double at(double t) const { return a * std::cos(t) + b * std::sin(t) + c; }
+  // Where it is zero, in one turn.
+  void add_roots(std::vector<double>& roots) const {
+    const double size = std::hypot(a, b);
+    if (!(std::abs(c) < size)) return;
+    const double middle = std::atan2(b, a), half = std::acos(-c / size);
+    for (const double t : {middle - half, middle + half}) roots.push_back(t - kTwoPi * std::floor(t / kTwoPi));
+  }
 };
 
 // `value` is linear in the point of the circle, or in the normal.
@@ -69,16 +76,8 @@ Condition condition(const std::function<double(double)>& value) {
 std::vector<Interval> kept(const std::vector<Condition>& conditions) {
   std::vector<double> cuts;
   for (const Condition& one : conditions) {
-    const double size = std::hypot(one.a, one.b);
-    if (!(std::abs(one.c) < size)) {
-      if (one.c < 0) return {};
-      continue;
-    }
-    const double middle = std::atan2(one.b, one.a), half = std::acos(-one.c / size);
-    for (double t : {middle - half, middle + half}) {
-      t -= kTwoPi * std::floor(t / kTwoPi);
-      cuts.push_back(t);
-    }
+    if (!(std::abs(one.c) < std::hypot(one.a, one.b)) && one.c < 0) return {};
+    one.add_roots(cuts);
   }
   if (cuts.empty()) return {{0, kTwoPi}};
   std::sort(cuts.begin(), cuts.end());
@@ -90,6 +89,19 @@ std::vector<Interval> kept(const std::vector<Condition>& conditions) {
     if (t.width() > kSame && std::all_of(conditions.begin(), conditions.end(), holds)) result.push_back(t);
   }
   return result;
+}
+
+// The parameters in a range at which a surface with these unit normals along an edge turns away from the viewer. As all
+// of them are as far from their centre or axis, n . (p - e) is linear in cos t and sin t.
+void add_turns(const std::function<Vec3(double)>& normal, const std::function<Vec3(double)>& point, const ViewOf& view,
+               const Interval& range, std::vector<double>& turns) {
+  std::vector<double> roots;
+  condition([&](double t) {
+    return glm::dot(normal(t), view.central ? point(t) - view.direction_or_eye : view.direction_or_eye);
+  }).add_roots(roots);
+  for (const double root : roots)
+    for (const double t : {root, root + kTwoPi})
+      if (range.contains(t)) turns.push_back(t);
 }
 
 class TubeOutlines {
@@ -280,7 +292,7 @@ class TubeOutlines {
       result_.complete = false;
       return;
     }
-    result_.lines.push_back({curve, false, aside});
+    result_.lines.push_back({curve, false, aside, {}});
   }
 
   // The circle of one ball, as far as neither the balls before it (the curve ends there at `before`) nor those after it
@@ -331,7 +343,19 @@ class TubeOutlines {
     Frame frame;
     frame.origin = b.center[0];
     frame.x = glm::normalize(across), frame.y = glm::normalize(inward), frame.z = glm::cross(frame.x, frame.y);
-    result_.lines.push_back({std::make_shared<Ellipse>(frame, R, R / cosine, Interval{0, kPi}), true, nullptr});
+    const auto ellipse = std::make_shared<Ellipse>(frame, R, R / cosine, Interval{0, kPi});
+    ShapeOutline crease{ellipse, true, nullptr, {}};
+    const auto point = [&](double t) {
+      return frame.origin + std::cos(t) * R * frame.x + std::sin(t) * R / cosine * frame.y;
+    };
+    for (const Vec3& axis : {first, second})
+      add_turns(
+          [&](double t) {
+            const Vec3 from = point(t) - frame.origin;
+            return (from - glm::dot(from, axis) * axis) / R;
+          },
+          point, view_, {0, kPi}, crease.turns);
+    result_.lines.push_back(std::move(crease));
   }
 
   // What of it other parts of the tube do not hide.
@@ -346,7 +370,7 @@ class TubeOutlines {
     double last = arc.lo + arc.width() * 0.5 / kPlaces;
     const auto finish = [&](double to) {
       if (here && to - from > kSame)
-        result_.lines.push_back({circle.curve({from, to}), false, circle.aside({from, to})});
+        result_.lines.push_back({circle.curve({from, to}), false, circle.aside({from, to}), {}});
     };
     for (int k = 1; k < kPlaces; ++k) {
       const double x = arc.lo + arc.width() * (k + 0.5) / kPlaces;
@@ -374,7 +398,11 @@ class TubeOutlines {
         continue;
       }
       Frame frame = frame_about(end.point, end.inward);
-      result_.lines.push_back({std::make_shared<Circle>(frame, ball.radius[0]), true, nullptr});
+      ShapeOutline edge{std::make_shared<Circle>(frame, ball.radius[0]), true, nullptr, {}};
+      const auto normal = [&](double t) { return std::cos(t) * frame.x + std::sin(t) * frame.y; };
+      add_turns(
+          normal, [&](double t) { return frame.origin + ball.radius[0] * normal(t); }, view_, {0, kTwoPi}, edge.turns);
+      result_.lines.push_back(std::move(edge));
     }
   }
 
@@ -421,7 +449,11 @@ ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
       add_parts(
           [&](double x) { return meeting.point(x); }, k,
           [&](const Interval& arc) {
-            result.lines.push_back({std::make_shared<Circle>(meeting.frame(), meeting.radius(), arc), true, nullptr});
+            ShapeOutline edge{std::make_shared<Circle>(meeting.frame(), meeting.radius(), arc), true, nullptr, {}};
+            for (const size_t one : {i, k})
+              add_turns([&](double x) { return (meeting.point(x) - all[one].center) / all[one].radius; },
+                        [&](double x) { return meeting.point(x); }, view, arc, edge.turns);
+            result.lines.push_back(std::move(edge));
           });
     });
   }

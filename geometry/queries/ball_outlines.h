@@ -24,6 +24,7 @@ struct ShapeOutline {
   bool edge = false;  // a sharp edge; else a silhouette, without cusps inside
   // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the shape.
   CurvePtr aside;
+  std::vector<double> turns;  // of edges, by t: where a surface at the edge turns away from the viewer
 };
 
 struct ShapeOutlines {

@@ -208,6 +208,7 @@ class Drawing {
 
   static bool share_host(const Stroke& a, const Stroke& b) {
     if (a.object != b.object) return false;
+    if (a.hosts.empty() && b.hosts.empty() && (a.aside || b.aside)) return true;  // of one tube
     for (const Stroke::Host& one : a.hosts)
       for (const Stroke::Host& other : b.hosts)
         if (one.surface == other.surface) return true;

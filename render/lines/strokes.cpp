@@ -498,7 +498,7 @@ class Collector {
       if (!found.complete && !edges) ++work_.incomplete;
       for (const ShapeOutline& line : found.lines) {
         if (line.edge != edges) continue;
-        aside_ = line.aside;
+        aside_ = line.aside, cusps_ = line.turns;
         stroke(line.curve, style, hidden);
       }
       to_world_ = to_world;

@@ -31,13 +31,14 @@ struct Stroke {
   };
   geometry::CurvePtr curve;
   geometry::Affine to_world;
-  std::string kind;           // boundary, sharp, ...; control_polygon, ... of helpers
-  std::vector<Host> hosts;    // of drawings
-  std::vector<double> cusps;  // of silhouettes, by t: the picture turns back there
-  geometry::CurvePtr aside;   // of silhouettes without hosts: vectors along which rays beside them miss their shape
-  bool drawn = true;          // else it is only there for what it hides: the outlines of all surfaces
-  bool outlines = false;      // where surfaces end as seen: what others are hidden by ends there
-  bool borders = false;       // where areas of fills may end, as they do at outlines
+  std::string kind;         // boundary, sharp, ...; control_polygon, ... of helpers
+  std::vector<Host> hosts;  // of drawings
+  // By t: of silhouettes where the picture turns back, of edges without hosts where a surface there turns away.
+  std::vector<double> cusps;
+  geometry::CurvePtr aside;  // of silhouettes without hosts: vectors along which rays beside them miss their shape
+  bool drawn = true;         // else it is only there for what it hides: the outlines of all surfaces
+  bool outlines = false;     // where surfaces end as seen: what others are hidden by ends there
+  bool borders = false;      // where areas of fills may end, as they do at outlines
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's

@@ -176,6 +176,93 @@ class TorusSolid final : public Placed {
   Real major_, minor_;
 };
 
+// All balls of one radius about a curve: what they fill of a line is, for each stretch of the parameter on which they
+// meet it, one interval. Stretches are found at places close together, ends of intervals by parts of three.
+class TubeSolid final : public Solid {
+ public:
+  TubeSolid(std::function<Real3(Real)> curve, Real length, Real radius)
+      : curve_(std::move(curve)), length_(length), radius_(radius) {
+    for (int k = 0; k <= kPlaces; ++k) places_.push_back(curve_(length_ * k / kPlaces));
+  }
+  void crossings(const Real3& o, const Real3& d, Real contact, std::vector<Real>& t) const override {
+    const Real speed = std::sqrt(dot(d, d));
+    // The middle of a ball's part of the line, and the square of half of it.
+    const auto ball = [&](const Real3& c) {
+      const Real3 f{c.x - o.x, c.y - o.y, c.z - o.z};
+      const Real a = dot(f, d) / speed;
+      return std::pair(a, radius_ * radius_ - (dot(f, f) - a * a));
+    };
+    const auto at = [&](Real x) { return ball(curve_(length_ * x / kPlaces)); };
+    std::vector<std::pair<Real, Real>> all(kPlaces + 1);
+    for (int k = 0; k <= kPlaces; ++k) all[k] = ball(places_[k]);
+    const auto best = [](Real lo, Real hi, const auto& value) {
+      for (int step = 0; step < 90; ++step) {
+        const Real a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (value(a) > value(b) ? hi : lo) = value(a) > value(b) ? b : a;
+      }
+      return (lo + hi) / 2;
+    };
+    const auto g = [&](Real x) { return at(x).second; };
+    std::vector<Real> found;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const bool begins = all[k].second >= 0 && (k == 0 || all[k - 1].second < 0);
+      if (begins) {
+        int last = k;
+        while (last < kPlaces && all[last + 1].second >= 0) ++last;
+        for (const Real side : {-1.0L, 1.0L}) {
+          const auto end = [&](Real x) {
+            const auto [a, square] = at(x);
+            return square < 0 ? -1e3L + square : side * a + std::sqrt(square);  // uphill to where it meets
+          };
+          int nearest = k;
+          for (int i = k; i <= last; ++i)
+            if (end(i) > end(nearest)) nearest = i;
+          // Beside the first and last places of the stretch balls meet the line too.
+          const Real lo = std::max(nearest - 1, 0), hi = std::min(nearest + 1, kPlaces);
+          found.push_back(side * end(best(lo, hi, end)) / speed);
+        }
+        k = last;
+      } else if (k > 0 && k < kPlaces && all[k].second < 0 && all[k].second >= all[k - 1].second &&
+                 all[k].second >= all[k + 1].second && all[k].second > -1e-3L) {
+        // Between places a few may.
+        const Real x = best(k - 1, k + 1, g);
+        const auto [a, square] = at(x);
+        if (square > 0)
+          for (const Real side : {-1.0L, 1.0L}) found.push_back((a + side * std::sqrt(square)) / speed);
+      }
+    }
+    const auto near = [&](Real one) { return std::abs(one - 1) < contact; };
+    const bool touches = std::count_if(found.begin(), found.end(), near) > 1;
+    for (const Real one : found)
+      if (!touches || !near(one)) t.push_back(one);
+  }
+  bool contains(const Real3& p) const override {
+    for (int k = 0; k <= kPlaces; ++k) {
+      const auto off = [&](Real x) {
+        const Real3 c = curve_(length_ * x / kPlaces);
+        const Real3 f{c.x - p.x, c.y - p.y, c.z - p.z};
+        return dot(f, f);
+      };
+      const Real3 f{places_[k].x - p.x, places_[k].y - p.y, places_[k].z - p.z};
+      if (dot(f, f) < radius_ * radius_) return true;
+      if (dot(f, f) > radius_ * radius_ * 1.01L) continue;
+      Real lo = std::max(k - 1, 0), hi = std::min(k + 1, kPlaces);
+      for (int step = 0; step < 60; ++step) {
+        const Real a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (off(a) < off(b) ? hi : lo) = off(a) < off(b) ? b : a;
+      }
+      if (off((lo + hi) / 2) < radius_ * radius_) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int kPlaces = 600;
+  std::function<Real3(Real)> curve_;
+  Real length_, radius_;
+  std::vector<Real3> places_;
+};
+
 // What lies in the first of two, and in the second too, or not.
 class PairSolid final : public Solid {
  public:

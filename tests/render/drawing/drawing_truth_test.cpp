@@ -7,8 +7,12 @@
 #include <functional>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/curves/formula_curve.h"
+#include "geometry/point_formulas.h"
+#include "geometry/shapes/balls.h"
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/csg.h"
+#include "geometry/shapes/tube.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "render/drawing/random_views.h"
 #include "render/drawing/visible_lines.h"
@@ -165,7 +169,9 @@ class Truth {
   static bool near_cusp(const VisibleLine& line, double t) {
     for (const double cusp : line.stroke.cusps)
       if (std::abs(t - cusp) < kFromCusp * line.stroke.curve->domain().width()) return true;
-    return false;
+    // Outlines of tubes end at them.
+    const Interval domain = line.stroke.curve->domain();
+    return line.stroke.aside && std::min(t - domain.lo, domain.hi - t) < kFromCusp * domain.width();
   }
 
   void report(const VisibleLine& line, const VisiblePiece& piece, double t, const char* what) const {
@@ -317,6 +323,66 @@ TEST(DrawingTruth, Csg) {
           views, found);
   }
   expect_right(found, "csg");
+}
+
+// A tube about a helix that goes through the slot of a plate.
+TEST(DrawingTruth, HelixThroughASlottedPlate) {
+  Views views(53);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+    SmallScene scene;
+    const double radius = views.number(0.12, 0.25), pitch = views.number(0.09, 0.16), turns = 2;
+    const auto helix = std::make_shared<FormulaCurve>(
+        point_formulas({"cos(t)", "sin(t)", "(t - 2*pi)*" + std::to_string(pitch)}, {"t"}),
+        Interval{0, turns * kTwoPi});
+    const double law = std::stod(std::to_string(pitch));
+    show(scene, ShapePtr(std::make_shared<Tube>(helix, RadiusLaw(radius), Caps::round)), {"sharp", "silhouette"});
+    Frame plate = frame_from({-2, -1.8, -0.1}, {0, 0, 1}, {1, 0, 0}), slot = plate;
+    slot.origin = {-1.4, -0.4, -0.2};
+    const Vec3 size(4, 3.6, 0.2), hole(2.8, 0.8, 0.4);
+    const auto shape = [](const Body& body) -> ShapePtr {
+      return std::make_shared<BodyShape>(std::make_shared<Body>(body));
+    };
+    show(scene,
+         ShapePtr(std::make_shared<Csg>(Csg::Operation::subtract,
+                                        std::vector<ShapePtr>{shape(box(plate, size)), shape(box(slot, hole))})),
+         {"sharp", "silhouette"});
+    views.look(scene, k % 2);
+    using oracle::sight::Real;
+    const auto tube = std::make_shared<oracle::sight::TubeSolid>(
+        [law](Real t) {
+          return oracle::sight::Real3{std::cos(t), std::sin(t), (t - 2 * std::acos(-1.0L)) * Real(law)};
+        },
+        turns * kTwoPi, radius);
+    const auto cut = std::make_shared<oracle::sight::PairSolid>(oracle::sight::PairSolid::Kind::subtract,
+                                                                std::make_shared<oracle::sight::BoxSolid>(plate, size),
+                                                                std::make_shared<oracle::sight::BoxSolid>(slot, hole));
+    Truth(*scene.world(), sheets_of(std::vector<SolidPtr>{tube, cut}), views, found, 4);
+  }
+  expect_right(found, "helix");
+}
+
+// Balls in one shape.
+TEST(DrawingTruth, Balls) {
+  Views views(59);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+    SmallScene scene;
+    std::vector<Vec3> centers;
+    std::vector<double> radii;
+    SolidPtr all;
+    for (int i = 0; i < 5; ++i) {
+      const Frame frame = anywhere(views, 1.2);
+      centers.push_back(frame.origin), radii.push_back(views.number(0.4, 1));
+      const SolidPtr one = std::make_shared<oracle::sight::BallSolid>(frame, radii.back());
+      using oracle::sight::PairSolid;
+      all = all ? std::make_shared<PairSolid>(PairSolid::Kind::unite, all, one) : one;
+    }
+    show(scene, ShapePtr(std::make_shared<Balls>(centers, radii)), {"sharp", "silhouette"});
+    views.look(scene, k % 2);
+    Truth(*scene.world(), sheets_of(std::vector<SolidPtr>{all}), views, found);
+  }
+  expect_right(found, "balls");
 }
 
 // A bicubic sheet that hides parts of itself, with its net of parameter lines.
