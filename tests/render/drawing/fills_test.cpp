@@ -147,7 +147,7 @@ TEST(Fills, OfManySolids) {
   for (const bool two_tone : {false, true}) {
     Views views(71);
     Judged found;
-    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
       SmallScene scene;
       for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_body(views, k + i, 1.5)), {"sharp"});
       views.look(scene, k % 2);
@@ -160,7 +160,7 @@ TEST(Fills, OfManySolids) {
 TEST(Fills, OfCsg) {
   Views views(73);
   Judged found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(15)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
     SmallScene scene;
     const auto shape = [&](int kind) -> ShapePtr {
       return std::make_shared<BodyShape>(std::make_shared<Body>(random_body(views, kind, 0.5)));
@@ -204,7 +204,7 @@ TEST(Fills, OfTheTeapot) {
   const SurfaceSet teapot = std::get<SurfaceSet>(loaded.model->objects.front().shape);
   Views views(83);
   Judged found;
-  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(4)); ++k) {
+  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(2)); ++k) {
     SmallScene scene;
     show(scene, teapot, {"silhouette"});
     views.look(scene, k % 2);
