@@ -101,7 +101,7 @@ std::vector<Field> fill_fields() {
       {"light", direction(), "towards the light; above the viewer and to the left by default", false, {}},
       {"hatching",
        group({{"angle", angle(), "from the page's horizontal", false, "45 deg"},
-              {"spacing", number().at_least(0.1), "between lines, in mm", false, "1.2"},
+              {"spacing", page_length().at_least(0.1), "between lines, on the page", false, "1.2 mm"},
               {"crossed", boolean(), "with lines across these", false, "false"},
               {"of", choice({"all", "shade"}), "the whole area, or what is turned away from the light", false, "all"},
               {"style", reference({Category::style}), "of the lines", false, "hairline"}}),
