@@ -176,7 +176,9 @@ class ViewDrawing {
       for (const CurvePiece& piece : stroke.curve->pieces()) breaks.push_back(piece.domain.lo);
       const Interval domain = stroke.curve->domain();
       for (const VisiblePiece& piece : line.pieces) {
-        if ((piece.layers > 0) != hidden) continue;
+        if ((piece.layers > 0) != hidden || piece.layers > stroke.most_layers) continue;
+        LineLook pen = *look;
+        if (hidden) pen.opacity *= std::pow(stroke.fade, piece.layers - 1);
         Interval t = piece.t;
         std::vector<SheetItem> heads;
         const auto head = [&](bool at_end) {
@@ -187,7 +189,7 @@ class ViewDrawing {
           const double back = shortened(line, end, other, size / view_.millimetres);
           const Vec2 way = tip - view_.place(line.curve->place(back).p);
           if (!(glm::length(way) > 0)) return;
-          heads.push_back(arrow_head(tip, glm::normalize(way), size, *look));
+          heads.push_back(arrow_head(tip, glm::normalize(way), size, pen));
           (at_end ? t.hi : t.lo) = shortened(line, end, other, shortened_by(size) / view_.millimetres);
         };
         if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
@@ -195,10 +197,12 @@ class ViewDrawing {
         const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
         std::vector<Path> paths = overlaps_.left_of(whole);
         if (paths.empty() && heads.empty()) continue;
-        SheetGroup group{hidden ? stroke.kind + " hidden" : stroke.kind, name_of(stroke.object), {}, {}, {}};
+        // The number of layers before it is one of its classes.
+        const std::string kind = hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind;
+        SheetGroup group{kind, name_of(stroke.object), {}, {}, {}};
         for (Path& path : paths) {
           add_obstacles(path);
-          group.items.push_back(drawn(std::move(path), *look));
+          group.items.push_back(drawn(std::move(path), pen));
         }
         for (SheetItem& item : heads) group.items.push_back(std::move(item));
         of_lines.push_back(std::move(group));

@@ -33,6 +33,8 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of pictures without a size on paper
+// Faded lines lose so much of their opacity with each layer beyond the first.
+constexpr double kFadeOfLayer = 0.6;
 // Where drawings have their light from, for one of the way to the viewer.
 constexpr double kLightFromLeft = 0.7, kLightFromAbove = 0.9;
 // Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
@@ -218,6 +220,8 @@ class Collector {
     stroke.to_world = to_world_;
     stroke.look = look_of(style);
     stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, least_width_);
+    if (hidden.way == HiddenLines::Way::faded) stroke.fade = kFadeOfLayer;
+    stroke.most_layers = hidden.most_layers;
     stroke.object = object_number_;
     stroke.order = order_++;
     stroke.kind = kind_;

@@ -41,6 +41,8 @@ struct Stroke {
   bool borders = false;      // where areas of fills may end, as they do at outlines
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
+  double fade = 1;                 // of drawings: of its opacity for each layer beyond the first
+  int most_layers = 1 << 30;       // of drawings: what lies behind more is not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
   int order = 0;                   // of lines at the same depth the one of the higher order is seen
   bool arrow_at_start = false, arrow_at_end = false;  // of drawings

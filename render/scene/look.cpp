@@ -61,7 +61,12 @@ std::vector<Field> lines_fields() {
       {"self_intersection", style, "where a surface goes through itself", false, "thin"},
       {"curve", style, "the curve itself", false, "thick"},
       {"hidden", hidden_lines(), "what becomes of lines behind something: show, drop, dashed, thin, faded, or a style",
-       false, "drop"}};
+       false, "drop"},
+      {"hidden_layers",
+       integer().at_least(1),
+       "in drawings: lines behind more layers than this are dropped",
+       false,
+       {}}};
 }
 
 Lines lines_of(const Fields& fields) {
@@ -89,6 +94,7 @@ Lines lines_of(const Fields& fields) {
     lines.with = given.references("with");
   }
   lines.hidden = hidden_of(fields);
+  if (fields.has("hidden_layers")) lines.hidden.most_layers = fields.integer("hidden_layers");
   return lines;
 }
 

@@ -20,11 +20,12 @@ struct HiddenLines {
     drop,    // not drawn
     dashed,  // in their own style, with the dashes of the style `hidden`
     thin,    // in their own style at half the width
-    faded,   // in their own style at a third of the opacity
+    faded,   // in their own style at a third of the opacity; in drawings fainter with each further layer
     styled   // in `style`
   };
   Way way = Way::drop;
-  Style style;  // of the way styled
+  Style style;                // of the way styled
+  int most_layers = 1 << 30;  // of drawings: what lies behind more is dropped
 };
 
 // Where the object is cut by a plane.

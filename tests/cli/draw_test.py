@@ -34,10 +34,10 @@ class Draw(ProgramTest):
         root = tree.fromstring(self.bytes_of("block.svg"))
         self.assertEqual((root.get("width"), root.get("height"), root.get("viewBox")), ("60mm", "80mm", "0 0 60 80"))
         paths = self.paths("block.svg")
-        self.assertEqual({name: len(of) for name, of in paths.items()}, {"sharp": 9, "sharp hidden": 3})
-        for path in paths["sharp"] + paths["sharp hidden"]:
+        self.assertEqual({name: len(of) for name, of in paths.items()}, {"sharp": 9, "sharp hidden layers-1": 3})
+        for path in paths["sharp"] + paths["sharp hidden layers-1"]:
             self.assertRegex(path.get("d"), r"^M[-\d. ]+ L[-\d. ]+$")
-        self.assertTrue(all(path.get("stroke-dasharray") for path in paths["sharp hidden"]))
+        self.assertTrue(all(path.get("stroke-dasharray") for path in paths["sharp hidden layers-1"]))
         self.assertFalse(any(path.get("stroke-dasharray") for path in paths["sharp"]))
 
     def test_same_bytes(self):
