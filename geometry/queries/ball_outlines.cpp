@@ -91,6 +91,28 @@ std::vector<Interval> kept(const std::vector<Condition>& conditions) {
   return result;
 }
 
+// Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
+// ends of stretches by halving.
+template <class State, class Put>
+void each_stretch(const Interval& range, int places, const State& state, const Put& put) {
+  constexpr double kInside = 1e-9;  // of the range: its ends themselves are on borders
+  const auto place = [&](int k) {
+    return range.lo + range.width() * std::clamp(static_cast<double>(k) / places, kInside, 1 - kInside);
+  };
+  double from = range.lo;
+  auto here = state(place(0));
+  for (int k = 1; k <= places; ++k) {
+    const auto next = state(place(k));
+    if (next == here) continue;
+    double lo = place(k - 1), hi = place(k);
+    for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+      (state(middle) == here ? lo : hi) = middle;
+    if (hi - from > kSame * range.width()) put(Interval{from, hi}, here);
+    from = hi, here = next;
+  }
+  if (range.hi - from > kSame * range.width()) put(Interval{from, range.hi}, here);
+}
+
 // The parameters in a range at which a surface with these unit normals along an edge turns away from the viewer. As all
 // of them are as far from their centre or axis, n . (p - e) is linear in cos t and sin t.
 void add_turns(const std::function<Vec3(double)>& normal, const std::function<Vec3(double)>& point, const ViewOf& view,
@@ -256,27 +278,12 @@ class TubeOutlines {
       const Vec3 p = point_at(s);
       return !tube_.is_cut_off(p, place(s).first) && !tube_.holds(p + kBeside * size_ * normal_at(s));
     };
-    const auto state = [&](double s) { return std::pair(is_outside(s), bends_away(s)); };
-    const int places = std::max(64, static_cast<int>(sweep_.cells().size()));
-    double from = range.lo;
-    auto here = state(range.lo + 1e-9 * range.width());
-    const auto finish = [&](double to) {
-      if (here.first && to - from > kSame * range.width()) put({from, to}, point_at, normal_at, here.second ? 1 : -1);
-    };
-    double last = range.lo + 1e-9 * range.width();
-    for (int k = 1; k <= places; ++k) {
-      const double s = range.lo + range.width() * (k == places ? 1 - 1e-9 : static_cast<double>(k) / places);
-      const auto next = state(s);
-      if (next != here) {
-        double lo = last, hi = s;
-        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
-          (state(middle) == here ? lo : hi) = middle;
-        finish(hi);
-        from = hi, here = next;
-      }
-      last = s;
-    }
-    finish(range.hi);
+    each_stretch(
+        range, std::max(64, static_cast<int>(sweep_.cells().size())),
+        [&](double s) { return std::pair(is_outside(s), bends_away(s)); },
+        [&](const Interval& part, const std::pair<bool, bool>& state) {
+          if (state.first) put(part, point_at, normal_at, state.second ? 1 : -1);
+        });
   }
 
   void put(const Interval& range, const std::function<Vec3(double)>& point_at,
@@ -364,26 +371,9 @@ class TubeOutlines {
       const Vec3 n = circle.normal(x);
       return !tube_.holds(circle.center + circle.radius * n + kBeside * size_ * n);
     };
-    constexpr int kPlaces = 48;
-    double from = arc.lo;
-    bool here = is_outside(arc.lo + arc.width() * 0.5 / kPlaces);
-    double last = arc.lo + arc.width() * 0.5 / kPlaces;
-    const auto finish = [&](double to) {
-      if (here && to - from > kSame)
-        result_.lines.push_back({circle.curve({from, to}), false, circle.aside({from, to}), {}});
-    };
-    for (int k = 1; k < kPlaces; ++k) {
-      const double x = arc.lo + arc.width() * (k + 0.5) / kPlaces;
-      if (const bool next = is_outside(x); next != here) {
-        double lo = last, hi = x;
-        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
-          (is_outside(middle) == here ? lo : hi) = middle;
-        finish(hi);
-        from = hi, here = next;
-      }
-      last = x;
-    }
-    finish(arc.hi);
+    each_stretch(arc, 48, is_outside, [&](const Interval& part, bool outside) {
+      if (outside) result_.lines.push_back({circle.curve(part), false, circle.aside(part), {}});
+    });
   }
 
   // The circles at flat and open ends.

@@ -259,7 +259,7 @@ class Drawing {
     prepare_surfaces();
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Box3 box = bounds(*curve);
-    if (!shapes_.empty() && stroke.drawn) add_entries(*curve, box, stroke.object, events);
+    if (!shapes_.empty()) add_entries(*curve, box, stroke.object, events);
     std::optional<CurveCells> cells;
     tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
@@ -356,10 +356,10 @@ class Drawing {
         if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
         const auto* shape = std::get_if<ShapePtr>(&object.shape);
         if (!shape || !(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
+        if (has_surfaces(**shape)) continue;
         const auto& all = world_.objects();
         const auto number = std::find(all.begin(), all.end(), &object) - all.begin();
         const ShapePtr placed = transformed(*shape, map);
-        if (has_surfaces(**shape)) continue;
         shapes_.push_back({placed, placed->bounds(), static_cast<int>(number)});
       }
     };

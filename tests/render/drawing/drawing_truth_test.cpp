@@ -14,7 +14,7 @@
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/tube.h"
 #include "geometry/surfaces/bezier_surface.h"
-#include "render/drawing/random_views.h"
+#include "render/drawing/random_solids.h"
 #include "render/drawing/visible_lines.h"
 #include "render/scene/load.h"
 #include "support/line_oracle.h"
@@ -193,12 +193,6 @@ class Truth {
   int places_;  // asked for on each piece
 };
 
-Frame anywhere(Views& views, double reach) {
-  Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
-  frame.origin = {views.number(-reach, reach), views.number(-reach, reach), views.number(-reach, reach)};
-  return frame;
-}
-
 void expect_right(const Found& found, const char* name, bool by_halving = false) {
   EXPECT_EQ(found.wrong_places, 0);
   EXPECT_EQ(found.wrong_transitions, 0);
@@ -217,33 +211,6 @@ void expect_right(const Found& found, const char* name, bool by_halving = false)
 }
 
 const std::vector<std::string> kAll = {"sharp", "smooth", "silhouette", "parameter"};
-
-struct Part {
-  Body body;
-  SolidPtr solid;
-};
-Part random_part(Views& views, int kind, double reach) {
-  const Frame frame = anywhere(views, reach);
-  const double r = views.number(0.6, 1.4), h = views.number(0.8, 2.5);
-  switch (kind % 5) {
-    case 0: {
-      const Vec3 size(r, h, views.number(0.7, 2));
-      return {box(frame, size), std::make_shared<oracle::sight::BoxSolid>(frame, size)};
-    }
-    case 1:
-      return {frustum(frame, r, r, h), std::make_shared<oracle::sight::FrustumSolid>(frame, r, r, h)};
-    case 2: {
-      const double top = r * views.number(0.2, 0.8);
-      return {frustum(frame, r, top, h), std::make_shared<oracle::sight::FrustumSolid>(frame, r, top, h)};
-    }
-    case 3:
-      return {ball(frame, r), std::make_shared<oracle::sight::BallSolid>(frame, r)};
-    default: {
-      const double minor = r * views.number(0.2, 0.7);
-      return {torus_body(frame, r, minor), std::make_shared<oracle::sight::TorusSolid>(frame, r, minor)};
-    }
-  }
-}
 
 TEST(DrawingTruth, SingleSolids) {
   constexpr const char* kNames[] = {"box", "cylinder", "cone", "ball", "torus"};
@@ -413,13 +380,7 @@ TEST(DrawingTruth, CrossingSheets) {
     SmallScene scene;
     SurfaceSet all;
     for (int n = 0; n < 2; ++n) {
-      Grid<Vec3> net{4, 3, {}};
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) {
-          const Vec3 p(i - 1.5, j - 1.0, views.number(-1, 1));
-          net.values.push_back(n == 0 ? p : Vec3(p.z, p.x, p.y));
-        }
-      all.push_back(std::make_shared<NurbsSurface>(bezier_surface(net)));
+      all.push_back(sheet_through_the_middle(views, n == 0));
       show(scene, SurfaceSet{all.back()}, {"boundary", "silhouette", "parameter"}, 4);
     }
     views.look(scene, k % 2);

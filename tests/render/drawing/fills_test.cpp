@@ -9,7 +9,7 @@
 #include "geometry/shapes/csg.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "render/drawing/figure.h"
-#include "render/drawing/random_views.h"
+#include "render/drawing/random_solids.h"
 #include "render/scene/load.h"
 #include "support/tier.h"
 
@@ -124,24 +124,6 @@ void expect_right(const Judged& found, const char* name) {
   tests::report_figure(std::string(name) + " places", found.places);
 }
 
-Body random_body(Views& views, int kind, double reach) {
-  Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
-  frame.origin = reach * Vec3(views.number(-1, 1), views.number(-1, 1), views.number(-1, 1));
-  const double r = views.number(0.6, 1.4), h = views.number(0.8, 2.5);
-  switch (kind % 5) {
-    case 0:
-      return box(frame, {r, h, views.number(0.7, 2)});
-    case 1:
-      return frustum(frame, r, r, h);
-    case 2:
-      return frustum(frame, r, r * views.number(0.2, 0.8), h);
-    case 3:
-      return ball(frame, r);
-    default:
-      return torus_body(frame, r, r * views.number(0.2, 0.7));
-  }
-}
-
 // Bodies that hide and pierce one another.
 TEST(Fills, OfManySolids) {
   for (const bool two_tone : {false, true}) {
@@ -149,7 +131,7 @@ TEST(Fills, OfManySolids) {
     Judged found;
     for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
       SmallScene scene;
-      for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_body(views, k + i, 1.5)), {"sharp"});
+      for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_part(views, k + i, 1.5).body), {"sharp"});
       views.look(scene, k % 2);
       judge(scene, views, found, two_tone);
     }
@@ -163,7 +145,7 @@ TEST(Fills, OfCsg) {
   for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
     SmallScene scene;
     const auto shape = [&](int kind) -> ShapePtr {
-      return std::make_shared<BodyShape>(std::make_shared<Body>(random_body(views, kind, 0.5)));
+      return std::make_shared<BodyShape>(std::make_shared<Body>(random_part(views, kind, 0.5).body));
     };
     try {
       show(scene,
@@ -184,13 +166,7 @@ TEST(Fills, OfSheetsThatPierceOneAnother) {
   for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
     SmallScene scene;
     for (int n = 0; n < 2; ++n) {
-      Grid<Vec3> net{4, 3, {}};
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) {
-          const Vec3 p(i - 1.5, j - 1.0, views.number(-1, 1));
-          net.values.push_back(n == 0 ? p : Vec3(p.z, p.x, p.y));
-        }
-      show(scene, SurfacePtr(std::make_shared<NurbsSurface>(bezier_surface(net))), {"boundary"});
+      show(scene, sheet_through_the_middle(views, n == 0), {"boundary"});
     }
     views.look(scene, k % 2);
     judge(scene, views, found, true);
