@@ -68,6 +68,19 @@ class Lines {
     return std::move(result_);
   }
 
+  // Of each leaf, as far as its side of the section is the solid's.
+  CsgLines section(const Vec3& origin, const Vec3& normal) {
+    const auto plane = std::make_shared<Plane>(frame_about(origin, glm::normalize(normal)));
+    for (size_t k = 0; k < leaves_.size(); ++k) {
+      const int own = static_cast<int>(k);
+      if (leaves_[k].body)
+        add(plane_section(*leaves_[k].body, origin, normal), *leaves_[k].body, nullptr, {own}, false);
+      else
+        add_planes(leaves_[k].plane, plane, {own}, false);
+    }
+    return std::move(result_);
+  }
+
  private:
   void add_edges() {
     for (size_t k = 0; k < leaves_.size(); ++k) {
@@ -99,7 +112,7 @@ class Lines {
   void add_meeting(int first, int second) {
     const Leaf &a = leaves_[first], &b = leaves_[second];
     if (apart(a.box, b.box)) return;
-    if (!a.body) return add_planes(first, second);
+    if (!a.body) return add_planes(a.plane, b.plane, {first, second}, true);
     try {
       if (b.body)
         add(intersect(*a.body, *b.body), *a.body, b.body.get(), {first, second}, true);
@@ -112,8 +125,9 @@ class Lines {
   }
 
   // The line of two planes within the solid's box.
-  void add_planes(int first, int second) {
-    const Frame &a = leaves_[first].plane->frame(), &b = leaves_[second].plane->frame();
+  void add_planes(const std::shared_ptr<const Plane>& first, const std::shared_ptr<const Plane>& second,
+                  const std::vector<int>& own, bool edge) {
+    const Frame &a = first->frame(), &b = second->frame();
     const Vec3 along = glm::cross(a.z, b.z);
     const double square = glm::dot(along, along);
     if (!(square > kSmooth * kSmooth) || !box_.bounded()) return;
@@ -122,9 +136,9 @@ class Lines {
     const double da = glm::dot(a.origin - middle, a.z), db = glm::dot(b.origin - middle, b.z);
     const Vec3 through = middle + (da * glm::cross(b.z, along) + db * glm::cross(along, a.z)) / square;
     const Vec3 reach = 0.51 * size_ / std::sqrt(square) * along;
-    CsgLine line{std::make_shared<Segment>(through - reach, through + reach), true, {}, {}};
-    for (const int leaf : {first, second}) line.hosts.push_back({leaves_[leaf].plane, nullptr});
-    add(std::move(line), {first, second});
+    CsgLine line{std::make_shared<Segment>(through - reach, through + reach), edge, {{first, nullptr}}, {}};
+    if (edge) line.hosts.push_back({second, nullptr});
+    add(std::move(line), own);
   }
 
   void add(const BodyContours& contours, const Body& body, const Body* other, const std::vector<int>& own, bool edge,
@@ -232,5 +246,9 @@ class Lines {
 }  // namespace
 
 CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid).find(view); }
+
+CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal) {
+  return Lines(solid).section(origin, normal);
+}
 
 }  // namespace lekalo::geometry

@@ -33,4 +33,7 @@ struct CsgLines {
 // Edges first; hosts of one leaf's face are one surface in all lines.
 CsgLines csg_lines(const Csg& solid, const ViewOf& view);
 
+// Where a plane cuts the solid's boundary. The normal need not be a unit vector.
+CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal);
+
 }  // namespace lekalo::geometry

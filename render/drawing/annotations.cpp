@@ -333,17 +333,8 @@ class Annotator {
     double angle = std::atan2(y.y, y.x) - from;
     if (angle > kPi) angle -= kTwoPi;
     if (angle < -kPi) angle += kTwoPi;
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / 0.5)));
-    const double step = angle / parts, handle = 4.0 / 3 * std::tan(step / 4);
-    const auto at = [&](double a) { return apex + radius * Vec2(std::cos(a), -std::sin(a)); };
-    const auto way = [&](double a) { return radius * Vec2(-std::sin(a), -std::cos(a)); };
-    Path path;
-    path.from = at(from);
-    for (int k = 0; k < parts; ++k) {
-      const double a = from + k * step, b = a + step;
-      path.steps.push_back({false, at(a) + handle * way(a), at(b) - handle * way(b), at(b)});
-    }
-    shape({drawn(path, look_)});
+    const PictureEllipse circle{apex, {radius, 0}, {0, -radius}};
+    shape({drawn({circle.point(from), arcs_to(circle, from, from + angle), false}, look_)});
   }
 
   void add_leader(const Fields& f) {
@@ -375,12 +366,12 @@ class Annotator {
     const double half = 0.5 * depth, round = 0.55 * turn;
     Path path;
     path.from = from;
-    path.steps = {{false, place(from, 0, 0.55 * half), place(from, turn - round, half), place(from, turn, half)},
-                  {true, {}, {}, place(tip, -turn, -half)},
-                  {false, place(tip, -turn + round, -half), place(tip, 0, -0.55 * half), tip},
-                  {false, place(tip, 0, -0.55 * half), place(tip, turn - round, -half), place(tip, turn, -half)},
-                  {true, {}, {}, place(to, -turn, half)},
-                  {false, place(to, -turn + round, half), place(to, 0, 0.55 * half), to}};
+    path.steps = {curve_to(place(from, 0, 0.55 * half), place(from, turn - round, half), place(from, turn, half)),
+                  line_to(place(tip, -turn, -half)),
+                  curve_to(place(tip, -turn + round, -half), place(tip, 0, -0.55 * half), tip),
+                  curve_to(place(tip, 0, -0.55 * half), place(tip, turn - round, -half), place(tip, turn, -half)),
+                  line_to(place(to, -turn, half)),
+                  curve_to(place(to, -turn + round, half), place(to, 0, 0.55 * half), to)};
     shape({drawn(path, look_)});
     if (!f.has("label")) return;
     Label label = page_label(f.get<TextTemplate>("label").text(), tip);

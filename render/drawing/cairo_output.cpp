@@ -19,6 +19,8 @@ constexpr double kPointsPerMillimetre = 72 / 25.4;
 // Cairo rounds coordinates to 1/256 of a device unit. On a recording so many times larger than the page that is
 // 0.00008 mm, 0.0003 of a pixel.
 constexpr double kFiner = 16;
+// PDF has no arcs: cubic curves this near, in millimetres.
+constexpr double kArcTolerance = 1e-4;
 
 void check(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS)
@@ -97,10 +99,11 @@ class Painter {
     cairo_set_source_rgba(cairo_, srgb_encode(color[0]), srgb_encode(color[1]), srgb_encode(color[2]), opacity);
   }
 
-  void add(const Path& path) {
+  void add(const Path& given) {
+    const Path path = without_arcs(given, kArcTolerance);
     cairo_move_to(cairo_, path.from.x, path.from.y);
     for (const PathStep& step : path.steps) {
-      if (step.straight)
+      if (step.kind == PathStep::Kind::line)
         cairo_line_to(cairo_, step.to.x, step.to.y);
       else
         cairo_curve_to(cairo_, step.first.x, step.first.y, step.second.x, step.second.y, step.to.x, step.to.y);
@@ -256,10 +259,10 @@ std::vector<Path> text_outlines(const TextRun& run) {
         paths.back().from = place(data[1]);
         break;
       case CAIRO_PATH_LINE_TO:
-        paths.back().steps.push_back({true, {}, {}, place(data[1])});
+        paths.back().steps.push_back(line_to(place(data[1])));
         break;
       case CAIRO_PATH_CURVE_TO:
-        paths.back().steps.push_back({false, place(data[1]), place(data[2]), place(data[3])});
+        paths.back().steps.push_back(curve_to(place(data[1]), place(data[2]), place(data[3])));
         break;
       case CAIRO_PATH_CLOSE_PATH:
         paths.back().closed = true;

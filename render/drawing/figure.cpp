@@ -12,6 +12,7 @@
 #include "render/drawing/annotations.h"
 #include "render/drawing/fills.h"
 #include "render/drawing/graph_axes.h"
+#include "render/drawing/joined_paths.h"
 #include "render/drawing/label_placement.h"
 #include "render/drawing/overlaps.h"
 #include "render/drawing/panel_layout.h"
@@ -25,6 +26,8 @@ using namespace geometry;
 namespace {
 
 constexpr double kFitted = 0.01;  // pixels: how far a path may be from its curve
+// Ends of lines nearer in space than this, of the scene's radius, are one.
+constexpr double kJoined = 1e-8;
 // Lines are cut so far outside of a graph or a panel, for their own width.
 constexpr double kClipFree = 0.35;
 
@@ -160,59 +163,96 @@ class ViewDrawing {
     return far;
   }
 
+  // What one pen draws of an object's lines of one kind.
+  struct DrawnLines {
+    std::string kind;  // with classes of hidden ones
+    const Stroke* stroke;
+    LineLook pen;
+    std::vector<PathInSpace> paths;
+    std::vector<SheetItem> heads;
+  };
+
   SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
     SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
     clip(all);
     // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
     // lines along them.
-    std::vector<SheetGroup> of_lines;
-    for (auto found = lines.lines.rbegin(); found != lines.lines.rend(); ++found) {
-      const VisibleLine& line = *found;
-      const Stroke& stroke = line.stroke;
-      if (!stroke.drawn) continue;
-      const LineLook* look = hidden ? stroke.hidden ? &*stroke.hidden : nullptr : &stroke.look;
-      if (!look) continue;
-      std::vector<double> breaks;
-      for (const CurvePiece& piece : stroke.curve->pieces()) breaks.push_back(piece.domain.lo);
-      const Interval domain = stroke.curve->domain();
-      for (const VisiblePiece& piece : line.pieces) {
-        if ((piece.layers > 0) != hidden || piece.layers > stroke.most_layers) continue;
-        LineLook pen = *look;
-        if (hidden) pen.opacity *= std::pow(stroke.fade, piece.layers - 1);
-        Interval t = piece.t;
-        std::vector<SheetItem> heads;
-        const auto head = [&](bool at_end) {
-          const double end = at_end ? t.hi : t.lo, other = at_end ? t.lo : t.hi;
-          const Vec2 tip = view_.place(line.curve->place(end).p), rest = view_.place(line.curve->place(other).p);
-          const double size = std::min(stroke.arrow_size, 0.6 * glm::length(tip - rest));
-          if (!(size > 0.05)) return;
-          const double back = shortened(line, end, other, size / view_.millimetres);
-          const Vec2 way = tip - view_.place(line.curve->place(back).p);
-          if (!(glm::length(way) > 0)) return;
-          heads.push_back(arrow_head(tip, glm::normalize(way), size, pen));
-          (at_end ? t.hi : t.lo) = shortened(line, end, other, shortened_by(size) / view_.millimetres);
-        };
-        if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
-        if (stroke.arrow_at_start && piece.t.lo == domain.lo) head(false);
-        const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
-        std::vector<Path> paths = overlaps_.left_of(whole);
-        if (paths.empty() && heads.empty()) continue;
-        // The number of layers before it is one of its classes.
-        const std::string kind = hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind;
-        SheetGroup group{kind, name_of(stroke.object), {}, {}, {}};
-        for (Path& path : paths) {
-          add_obstacles(path);
-          group.items.push_back(drawn(std::move(path), pen));
-        }
-        for (SheetItem& item : heads) group.items.push_back(std::move(item));
-        of_lines.push_back(std::move(group));
-      }
+    std::vector<DrawnLines> found;
+    for (auto line = lines.lines.rbegin(); line != lines.lines.rend(); ++line) {
+      if (!line->stroke.drawn || (hidden && !line->stroke.hidden)) continue;
+      for (const VisiblePiece& piece : line->pieces)
+        if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers) add_piece(*line, piece, found);
     }
-    for (auto one = of_lines.rbegin(); one != of_lines.rend(); ++one) {
-      SheetGroup& group = group_of(all, one->kind, one->object);
-      for (SheetItem& item : one->items) group.items.push_back(std::move(item));
+    // Lines of one kind that follow one another go on in one another.
+    for (size_t last = found.size(); last > 0;) {
+      size_t first = last - 1;
+      const auto same_kind = [&](const DrawnLines& one) {
+        return one.stroke->object == found[last - 1].stroke->object && one.stroke->kind == found[last - 1].stroke->kind;
+      };
+      while (first > 0 && same_kind(found[first - 1])) --first;
+      std::vector<DrawnLines> by_pen;
+      for (size_t k = last; k-- > first;) {
+        DrawnLines& one = found[k];
+        const auto same = std::find_if(by_pen.begin(), by_pen.end(), [&](const DrawnLines& other) {
+          return other.kind == one.kind && other.pen == one.pen;
+        });
+        if (same == by_pen.end()) {
+          by_pen.push_back(std::move(one));
+          continue;
+        }
+        same->paths.insert(same->paths.end(), one.paths.begin(), one.paths.end());
+        same->heads.insert(same->heads.end(), one.heads.begin(), one.heads.end());
+      }
+      for (DrawnLines& one : by_pen) {
+        SheetGroup& group = group_of(all, one.kind, name_of(one.stroke->object));
+        for (Path& path : joined(one.paths, kJoined * world_.radius()))
+          group.items.emplace_back(drawn(std::move(path), one.pen));
+        for (SheetItem& head : one.heads) group.items.push_back(std::move(head));
+      }
+      last = first;
     }
     return all;
+  }
+
+  // A stretch of a line as far as nothing that has been drawn lies over it, with arrow heads.
+  void add_piece(const VisibleLine& line, const VisiblePiece& piece, std::vector<DrawnLines>& found) {
+    const Stroke& stroke = line.stroke;
+    const bool hidden = piece.layers > 0;
+    // The number of layers before it is one of its classes.
+    DrawnLines drawn{hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind,
+                     &stroke,
+                     hidden ? *stroke.hidden : stroke.look,
+                     {},
+                     {}};
+    if (hidden) drawn.pen.opacity *= std::pow(stroke.fade, piece.layers - 1);
+    const Interval domain = stroke.curve->domain();
+    Interval t = piece.t;
+    const auto head = [&](bool at_end) {
+      const double end = at_end ? t.hi : t.lo, other = at_end ? t.lo : t.hi;
+      const Vec2 tip = view_.place(line.curve->place(end).p), rest = view_.place(line.curve->place(other).p);
+      const double size = std::min(stroke.arrow_size, 0.6 * glm::length(tip - rest));
+      if (!(size > 0.05)) return;
+      const double back = shortened(line, end, other, size / view_.millimetres);
+      const Vec2 way = tip - view_.place(line.curve->place(back).p);
+      if (!(glm::length(way) > 0)) return;
+      drawn.heads.push_back(arrow_head(tip, glm::normalize(way), size, drawn.pen));
+      (at_end ? t.hi : t.lo) = shortened(line, end, other, shortened_by(size) / view_.millimetres);
+    };
+    if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
+    if (stroke.arrow_at_start && piece.t.lo == domain.lo) head(false);
+    std::vector<double> breaks;
+    for (const CurvePiece& one : stroke.curve->pieces()) breaks.push_back(one.domain.lo);
+    const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
+    for (Path& path : overlaps_.left_of(whole)) {
+      add_obstacles(path);
+      // Where it is cut, or has a head, nothing goes on.
+      PathInSpace part;
+      if (t.lo == piece.t.lo && path.from == whole.from) part.begin = line.curve->tangent(t.lo).origin;
+      if (t.hi == piece.t.hi && path.end() == whole.end()) part.end = line.curve->tangent(t.hi).origin;
+      part.path = std::move(path);
+      drawn.paths.push_back(std::move(part));
+    }
+    if (!drawn.paths.empty() || !drawn.heads.empty()) found.push_back(std::move(drawn));
   }
 
   // The last group, if it is of this kind and object, or a new one.
@@ -228,13 +268,10 @@ class ViewDrawing {
   void add_obstacles(const Path& path) {
     Vec2 at = path.from;
     for (const PathStep& step : path.steps) {
-      const int parts = step.straight ? 1 : 8;
+      const int parts = step.kind == PathStep::Kind::line ? 1 : 8;
       const Vec2 begin = at;
       for (int k = 1; k <= parts; ++k) {
-        const double s = static_cast<double>(k) / parts, r = 1 - s;
-        const Vec2 next = step.straight ? step.to
-                                        : r * r * r * begin + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
-                                              s * s * s * step.to;
+        const Vec2 next = point_on(begin, step, static_cast<double>(k) / parts);
         obstacles_.segments.emplace_back(at, next);
         at = next;
       }

@@ -49,8 +49,11 @@ std::vector<double> roots_in_unit(const std::array<double, 4>& c) {
 
 // Parallel lines over the inside of loops, at multiples of the spacing from the page's corner so that neighbouring
 // areas agree.
-void add_hatching(const std::vector<Path>& loops, double angle, double spacing, const LineLook& pen,
+void add_hatching(const std::vector<Path>& given, double angle, double spacing, const LineLook& pen,
                   std::vector<SheetItem>& items) {
+  constexpr double kArcTolerance = 1e-3;  // millimetres
+  std::vector<Path> loops;
+  for (const Path& loop : given) loops.push_back(without_arcs(loop, kArcTolerance));
   const Vec2 along(std::cos(angle), -std::sin(angle)), across(-along.y, along.x);
   double lo = kInfinity, hi = -kInfinity;
   const auto include = [&](const Vec2& p) {
@@ -60,7 +63,7 @@ void add_hatching(const std::vector<Path>& loops, double angle, double spacing, 
     include(loop.from);
     for (const PathStep& step : loop.steps) {
       include(step.to);
-      if (!step.straight) include(step.first), include(step.second);
+      if (step.kind == PathStep::Kind::curve) include(step.first), include(step.second);
     }
   }
   for (double k = std::ceil(lo / spacing); k * spacing < hi; ++k) {
@@ -69,8 +72,9 @@ void add_hatching(const std::vector<Path>& loops, double angle, double spacing, 
     for (const Path& loop : loops) {
       Vec2 begin = loop.from;
       const auto cross_step = [&](const PathStep& step) {
-        const Vec2 third = (step.to - begin) / 3.0, p1 = step.straight ? begin + third : step.first,
-                   p2 = step.straight ? step.to - third : step.second;
+        const bool is_line = step.kind == PathStep::Kind::line;
+        const Vec2 third = (step.to - begin) / 3.0, p1 = is_line ? begin + third : step.first,
+                   p2 = is_line ? step.to - third : step.second;
         const auto coefficients = [&](const Vec2& axis) {
           const double a = glm::dot(axis, begin), b = glm::dot(axis, p1), c = glm::dot(axis, p2),
                        d = glm::dot(axis, step.to);
@@ -83,7 +87,7 @@ void add_hatching(const std::vector<Path>& loops, double angle, double spacing, 
         begin = step.to;
       };
       for (const PathStep& step : loop.steps) cross_step(step);
-      if (begin != loop.from) cross_step({true, {}, {}, loop.from});
+      if (begin != loop.from) cross_step(line_to(loop.from));
     }
     std::sort(places.begin(), places.end());
     for (size_t i = 0; i + 1 < places.size(); i += 2)

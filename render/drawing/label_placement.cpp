@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/drawing/view.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -162,22 +164,14 @@ SheetGroup drawn_label(const Label& label) {
   if (label.leader) {
     // To the nearest point of the text's box.
     const Vec2 near(std::clamp(label.at.x, box.lo.x, box.hi.x), std::clamp(label.at.y, box.lo.y, box.hi.y));
-    Path line;
-    line.from = near;
-    line.steps.push_back({true, {}, {}, label.at});
     SheetPath path;
-    path.parts = {line};
+    path.parts = {straight_path({near, label.at})};
     path.pen = label.leader;
     group.items.push_back(path);
   }
   if (label.box && label.text.angle == 0) {
-    Path rectangle;
-    rectangle.from = box.lo;
-    rectangle.steps = {
-        {true, {}, {}, {box.hi.x, box.lo.y}}, {true, {}, {}, box.hi}, {true, {}, {}, {box.lo.x, box.hi.y}}};
-    rectangle.closed = true;
     SheetPath path;
-    path.parts = {rectangle};
+    path.parts = {straight_path({box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}}, true)};
     path.brush = label.box;
     group.items.push_back(path);
   }

@@ -25,13 +25,8 @@ std::vector<Vec2> Overlaps::places_on(const Path& path) {
   std::vector<Vec2> places{path.from};
   for (const PathStep& step : path.steps) {
     const Vec2 begin = places.back();
-    const int parts = !step.straight ? kPlaces : path.steps.size() == 1 ? 1 : kPlacesOnSide;
-    for (int k = 1; k <= parts; ++k) {
-      const double s = static_cast<double>(k) / parts, r = 1 - s;
-      places.push_back(step.straight ? begin + s * (step.to - begin)
-                                     : r * r * r * begin + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
-                                           s * s * s * step.to);
-    }
+    const int parts = step.kind != PathStep::Kind::line ? kPlaces : path.steps.size() == 1 ? 1 : kPlacesOnSide;
+    for (int k = 1; k <= parts; ++k) places.push_back(point_on(begin, step, static_cast<double>(k) / parts));
   }
   return places;
 }
@@ -48,7 +43,7 @@ bool Overlaps::is_covered(const Vec2& place) const {
 }
 
 std::vector<Path> Overlaps::left_of(const Path& path) {
-  const bool straight = path.steps.size() == 1 && path.steps[0].straight;
+  const bool straight = path.steps.size() == 1 && path.steps[0].kind == PathStep::Kind::line;
   Drawn own{path.from, path.from, straight, places_on(path), path.from, path.from};
   for (const Vec2& place : own.places) own.lo = glm::min(own.lo, place), own.hi = glm::max(own.hi, place);
   std::vector<Path> left;
@@ -82,7 +77,7 @@ std::vector<Path> Overlaps::left_of(const Path& path) {
       if (to - from < (covered.empty() ? 0 : kShortest)) return;
       Path part;
       part.from = own.from + from * along;
-      part.steps.push_back({true, {}, {}, own.from + to * along});
+      part.steps.push_back(line_to(own.from + to * along));
       left.push_back(std::move(part));
     };
     for (const auto& [from, to] : covered) {

@@ -369,7 +369,7 @@ std::vector<Path> Regions::loops(const std::function<bool(const RegionLabel&)>& 
       Path piece;
       if (part.border < 0) {
         piece.from = begin_of(chain[k]);
-        piece.steps.push_back({true, {}, {}, end_of(chain[k])});
+        piece.steps.push_back(line_to(end_of(chain[k])));
         ++k;
       } else {
         // Parts of one curve that follow one another are one stretch of it.
@@ -389,7 +389,7 @@ std::vector<Path> Regions::loops(const std::function<bool(const RegionLabel&)>& 
       if (loop.steps.empty())
         loop.from = piece.from;
       else if (glm::length(piece.from - loop.steps.back().to) > kCorner)
-        loop.steps.push_back({true, {}, {}, piece.from});
+        loop.steps.push_back(line_to(piece.from));
       loop.steps.insert(loop.steps.end(), piece.steps.begin(), piece.steps.end());
     }
     loop.closed = true;

@@ -61,12 +61,29 @@ std::string base64(std::string_view bytes) {
   return result;
 }
 
+std::string step_text(const PathStep& step) {
+  switch (step.kind) {
+    case PathStep::Kind::line:
+      return fmt::format(" L{}", point(step.to));
+    case PathStep::Kind::curve:
+      return fmt::format(" C{} {} {}", point(step.first), point(step.second), point(step.to));
+    case PathStep::Kind::arc: {
+      const Vec2 &x = step.ellipse.x, &y = step.ellipse.y;
+      const bool clockwise = (x.x * y.y - x.y * y.x) * (step.end - step.begin) > 0;  // as seen: y downwards
+      const double rx = glm::length(x), ry = glm::length(y);
+      const bool round = std::abs(rx - ry) < 1e-5;
+      return fmt::format(" A{} {} {} 0 {} {}", number(rx), number(ry),
+                         round ? "0" : number(std::atan2(x.y, x.x) * 180 / geometry::kPi), clockwise ? 1 : 0,
+                         point(step.to));
+    }
+  }
+  return {};
+}
+
 // Behind what is there already.
 void append(std::string& data, const Path& path) {
   data += fmt::format("{}M{}", data.empty() ? "" : " ", point(path.from));
-  for (const PathStep& step : path.steps)
-    data += step.straight ? fmt::format(" L{}", point(step.to))
-                          : fmt::format(" C{} {} {}", point(step.first), point(step.second), point(step.to));
+  for (const PathStep& step : path.steps) data += step_text(step);
   if (path.closed) data += " Z";
 }
 

@@ -29,11 +29,7 @@ struct Box {
 
   void put(const Box& other, double x, double y) {
     for (TextRun run : other.runs) run.at += Vec2(x, y), runs.push_back(std::move(run));
-    for (Path path : other.strokes) {
-      path.from += Vec2(x, y);
-      for (PathStep& step : path.steps) step.first += Vec2(x, y), step.second += Vec2(x, y), step.to += Vec2(x, y);
-      strokes.push_back(std::move(path));
-    }
+    for (const Path& path : other.strokes) strokes.push_back(moved(path, {x, y}));
     ascent = std::max(ascent, other.ascent - y);
     descent = std::max(descent, other.descent + y);
   }
@@ -42,7 +38,7 @@ struct Box {
 Path line(std::initializer_list<Vec2> points) {
   Path path;
   path.from = *points.begin();
-  for (const Vec2* p = points.begin() + 1; p != points.end(); ++p) path.steps.push_back({true, {}, {}, *p});
+  for (const Vec2* p = points.begin() + 1; p != points.end(); ++p) path.steps.push_back(line_to(*p));
   return path;
 }
 
@@ -249,10 +245,8 @@ class Setter {
       Path wave;
       const double half = 0.22 * unit, rise = 0.1 * unit, at = y - 0.05 * unit;
       wave.from = {middle - half, at + 0.3 * rise};
-      wave.steps.push_back({false,
-                            {middle - 0.3 * half, at - 1.6 * rise},
-                            {middle + 0.3 * half, at + 1.6 * rise},
-                            {middle + half, at - 0.3 * rise}});
+      wave.steps.push_back(curve_to({middle - 0.3 * half, at - 1.6 * rise}, {middle + 0.3 * half, at + 1.6 * rise},
+                                    {middle + half, at - 0.3 * rise}));
       result.strokes.push_back(wave);
       height = 0.15 * unit;
     } else {

@@ -15,7 +15,7 @@ constexpr double kLeastHead = 3;  // half widths of its line: heads of thick lin
 Path straight_path(std::initializer_list<Vec2> points, bool closed) {
   Path path;
   path.from = *points.begin();
-  for (const Vec2* p = points.begin() + 1; p != points.end(); ++p) path.steps.push_back({true, {}, {}, *p});
+  for (const Vec2* p = points.begin() + 1; p != points.end(); ++p) path.steps.push_back(line_to(*p));
   path.closed = closed;
   return path;
 }
@@ -51,7 +51,7 @@ std::vector<SheetItem> drawn_mark(const Mark& mark, const Vec2& at, double opaci
       if (corners.begin() == &corner)
         result.from = at + r * corner;
       else
-        result.steps.push_back({true, {}, {}, at + r * corner});
+        result.steps.push_back(line_to(at + r * corner));
     result.closed = closed;
     return result;
   };
@@ -61,16 +61,7 @@ std::vector<SheetItem> drawn_mark(const Mark& mark, const Vec2& at, double opaci
     sign.brush = brush;
   };
   const auto round = [&] {
-    constexpr double kHandle = 0.5522847498307936;  // 4/3 tan(pi/8): a quarter circle
-    const auto to = [&](double x, double y) { return at + r * Vec2(x, y); };
-    Path circle;
-    circle.from = to(1, 0);
-    circle.steps = {{false, to(1, kHandle), to(kHandle, 1), to(0, 1)},
-                    {false, to(-kHandle, 1), to(-1, kHandle), to(-1, 0)},
-                    {false, to(-1, -kHandle), to(-kHandle, -1), to(0, -1)},
-                    {false, to(kHandle, -1), to(1, -kHandle), to(1, 0)}};
-    circle.closed = true;
-    sign.parts = {circle};
+    sign.parts = {{at + Vec2(r, 0), arcs_to({at, {r, 0}, {0, r}}, 0, geometry::kTwoPi), true}};
   };
   switch (mark.sign) {
     case Mark::Sign::dot:

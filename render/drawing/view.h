@@ -22,12 +22,7 @@ struct View {
   Vec2 place(const geometry::Anchor& anchor) const {
     return anchor.on_page ? Vec2(page_at.x + anchor.point.x, page_at.y - anchor.point.y) : place(anchor.point);
   }
-  Path placed(Path path) const {
-    path.from = place(path.from);
-    for (PathStep& step : path.steps)
-      step.first = place(step.first), step.second = place(step.second), step.to = place(step.to);
-    return path;
-  }
+  Path placed(Path path) const { return moved(std::move(path), at, millimetres); }
   double width() const { return millimetres * camera.width(); }
   double height() const { return millimetres * camera.height(); }
 };

@@ -14,6 +14,7 @@
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/mesh_contours.h"
 #include "geometry/queries/passages.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/transformed.h"
@@ -283,7 +284,7 @@ class Drawing {
     constexpr int kMostHalvings = 40;
     for (const WorldShape& other : shapes_) {
       if (other.object == object || !BoxTree::meets(other.box, box)) continue;
-      std::vector<SurfaceHit> hits;
+      std::vector<double> hits;
       const auto part = [&](const auto& self, double lo, const Vec3& from, double hi, const Vec3& to,
                             int depth) -> void {
         const double middle = 0.5 * (lo + hi);
@@ -293,10 +294,10 @@ class Drawing {
         const double bow = glm::length(between - 0.5 * (from + to));
         if (!BoxTree::meets(around.inflated(2 * bow), other.box)) return;
         hits.clear();
-        if (from != to) other.shape->all_hits({from, to - from}, {0, 1}, hits);
+        if (from != to) other.add_hits({from, to - from}, hits);
         if (hits.empty() && bow < kBowed * world_.radius()) return;
         if (bow < kFlat * world_.radius() || depth >= kMostHalvings || !(lo < middle && middle < hi)) {
-          for (const SurfaceHit& hit : hits) events.push_back(lo + hit.t * (hi - lo));
+          for (const double hit : hits) events.push_back(lo + hit * (hi - lo));
           return;
         }
         self(self, lo, from, middle, between, depth + 1);
@@ -318,9 +319,10 @@ class Drawing {
 
   // Shapes whose boundary is not made of parametric surfaces.
   struct WorldShape {
-    ShapePtr shape;
     Box3 box;
     int object;
+    // Adds where a chord meets it, 0 to 1.
+    std::function<void(const Line& chord, std::vector<double>& hits)> add_hits;
   };
 
   struct WorldSurface {
@@ -354,13 +356,23 @@ class Drawing {
       for (const Object& object : objects) {
         const Affine map = to_world * object.transform;
         if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
-        const auto* shape = std::get_if<ShapePtr>(&object.shape);
-        if (!shape || !(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
-        if (has_surfaces(**shape)) continue;
+        if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
         const auto& all = world_.objects();
-        const auto number = std::find(all.begin(), all.end(), &object) - all.begin();
-        const ShapePtr placed = transformed(*shape, map);
-        shapes_.push_back({placed, placed->bounds(), static_cast<int>(number)});
+        const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
+        if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
+          const ShapePtr placed = transformed(*shape, map);
+          shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
+                               std::vector<SurfaceHit> found;
+                               placed->all_hits(chord, {0, 1}, found);
+                               for (const SurfaceHit& hit : found) hits.push_back(hit.t);
+                             }});
+        }
+        if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
+          const auto placed = std::make_shared<MeshTriangles>(std::make_shared<Mesh>(transformed(**mesh, map)));
+          shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
+                               placed->add_crossings(chord, {0, 1}, hits);
+                             }});
+        }
       }
     };
     visit(visit, world_.model().objects, Affine());

@@ -21,6 +21,8 @@ struct LineLook {
   std::vector<double> dash;  // pixels drawn and left out in turn; empty: solid
   enum class Cap { butt, round, square } cap = Cap::butt;
   enum class Join { round, miter, bevel } join = Join::round;  // of drawings
+
+  bool operator==(const LineLook&) const = default;
 };
 
 struct Stroke {

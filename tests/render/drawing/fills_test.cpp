@@ -43,7 +43,7 @@ void collect(const std::vector<SheetItem>& items, std::vector<Area>& areas) {
 
 // By the even-odd rule, of paths as fine polygons.
 bool contains(const std::vector<Path>& paths, const Vec2& p) {
-  constexpr int kChords = 64;
+  constexpr int kChords = 256;
   bool inside = false;
   for (const Path& path : paths) {
     Vec2 from = path.from;
@@ -52,11 +52,9 @@ bool contains(const std::vector<Path>& paths, const Vec2& p) {
     };
     for (const PathStep& step : path.steps) {
       Vec2 last = from;
-      for (int k = 1; k <= (step.straight ? 1 : kChords); ++k) {
-        const double s = static_cast<double>(k) / kChords, r = 1 - s;
-        const Vec2 next = step.straight ? step.to
-                                        : r * r * r * from + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
-                                              s * s * s * step.to;
+      const int chords = step.kind == PathStep::Kind::line ? 1 : kChords;
+      for (int k = 1; k <= chords; ++k) {
+        const Vec2 next = point_on(from, step, static_cast<double>(k) / chords);
         chord(last, next);
         last = next;
       }

@@ -115,7 +115,7 @@ TEST(Drawing, Numbers) {
 Path straight(const Vec2& from, const Vec2& to) {
   Path path;
   path.from = from;
-  path.steps.push_back({true, {}, {}, to});
+  path.steps.push_back(line_to(to));
   return path;
 }
 
@@ -129,7 +129,7 @@ TEST(Overlaps, DrawnOnce) {
   EXPECT_EQ(beyond[1].from.x, 10);
   EXPECT_EQ(overlaps.left_of(straight({0, 0}, {10, 5})).size(), 1u);
   Path curve;
-  curve.steps.push_back({false, {3, 4}, {7, 4}, {10, 0}});
+  curve.steps.push_back(curve_to({3, 4}, {7, 4}, {10, 0}));
   EXPECT_EQ(overlaps.left_of(curve).size(), 1u);
   EXPECT_EQ(overlaps.left_of(curve).size(), 0u);
 }

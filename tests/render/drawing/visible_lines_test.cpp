@@ -131,10 +131,7 @@ TEST(FittedPaths, LieOnThePictures) {
       Vec2 from = path.from;
       for (const PathStep& step : path.steps) {
         for (const double s : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-          const double r = 1 - s;
-          const Vec2 p = step.straight ? r * from + s * step.to
-                                       : r * r * r * from + 3 * r * r * s * step.first + 3 * r * s * s * step.second +
-                                             s * s * s * step.to;
+          const Vec2 p = point_on(from, step, s);
           double nearest = kInfinity;
           for (size_t cell = 0; cell < line.curve->cells().size(); ++cell) {
             const auto& of = line.curve->cells()[cell];

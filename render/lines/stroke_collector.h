@@ -1,0 +1,169 @@
+// How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
+// looks, stroke_shapes.cpp the lines of curves, surfaces, bodies and solids, stroke_helpers.cpp the helpers.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "geometry/curves/parameter_line.h"
+#include "geometry/queries/body_contours.h"
+#include "geometry/queries/csg_contours.h"
+#include "geometry/queries/mesh_contours.h"
+#include "render/lines/strokes.h"
+
+namespace lekalo::render {
+
+// Evenly spaced values with both ends of the range, or without the second where it is the first again.
+std::vector<double> values_in(const geometry::ParameterValues& asked, const geometry::Interval& range, bool periodic);
+
+// True if the opposite edges of the domain are one line of space, which may run the other way there (a Moebius band).
+bool is_closed_in(const geometry::Surface& surface, geometry::HeldParameter held);
+
+// De Casteljau's and de Boor's triangles, which are shown of curves.
+bool is_triangle(const Helper& helper);
+
+class StrokeCollector {
+ public:
+  StrokeCollector(const World& world, bool drawing);
+  LineWork take() { return std::move(work_); }
+
+ private:
+  void add(const std::vector<Object>& objects, const geometry::Affine& to_world);
+
+  void leave_out(const std::string& what);
+
+  // The line or the sign that stands for an object: what there is of it first.
+  void add_legend(const Object& object);
+
+  LineLook look_of(const Style& style);
+
+  // Of the palette, the next colour for each object that is drawn in the style.
+  Vec3 color_of(const Style& style);
+
+  void stroke(geometry::CurvePtr curve, const Style& style, const HiddenLines& hidden);
+
+  void polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden);
+
+  void mark(const Vec3& point, const std::string& sign, const Style& style, const HiddenLines& hidden);
+
+  // The label of a helper's point, for these counters.
+  void label(const Vec3& point, std::initializer_list<double> counters, const Helper& helper);
+  void text(const Vec3& point, std::string words, const Helper& helper, bool marked);
+
+  void add_lines(const Lines& lines);
+
+  void add_kind(std::string_view kind, const Style& style, const Lines& lines);
+
+  template <class Visit>
+  void each_surface(const Visit& visit) const {
+    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&object_->shape)) visit(*surface);
+    if (const auto* set = std::get_if<SurfaceSet>(&object_->shape))
+      for (const geometry::SurfacePtr& surface : *set) visit(surface);
+  }
+  // Those of bodies too.
+  template <class Visit>
+  void each_face(const Visit& visit) const {
+    each_surface(visit);
+    if (const auto* body = std::get_if<geometry::BodyPtr>(&object_->shape))
+      for (const geometry::Face& face : (*body)->faces) visit(face.surface);
+  }
+
+  void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
+
+  void add_parameter_lines(const geometry::SurfacePtr& surface, geometry::HeldParameter held,
+                           const geometry::ParameterValues& asked, const Style& style, const HiddenLines& hidden);
+
+  // Of a body's faces, as far as the faces go.
+  void add_parameter_lines(const geometry::Body& body, const Lines& lines, const Style& style);
+
+  void add_edges(const geometry::Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden);
+
+  // The line of a surface on which its parameter is held.
+  void lies_on_line(const geometry::SurfacePtr& surface, geometry::HeldParameter held, double at);
+  void lies_on_line(const geometry::SurfacePtr& surface, geometry::HeldParameter held, double at,
+                    const geometry::Interval& along);
+
+  void add(const geometry::Contours& contours, const std::vector<geometry::SurfacePtr>& surfaces, const Style& style,
+           const HiddenLines& hidden);
+  void add(const geometry::BodyContours& contours, const geometry::Body& body, const Style& style,
+           const HiddenLines& hidden);
+
+  // The view is one of the object's own coordinates.
+  void add_silhouettes(const geometry::ViewOf& view, const Style& style, const HiddenLines& hidden);
+
+  // The edges or outlines of balls, tubes, and solids put together of others.
+  void add_solid(const geometry::ShapePtr& shape, const geometry::ViewOf& view, bool edges, const Style& style,
+                 const HiddenLines& hidden);
+  void add(const geometry::CsgLine& line, const Style& style, const HiddenLines& hidden);
+  // Adds what the visitor adds of the shape as it is before it was moved as a whole; the map leads back to there.
+  void in_own_coordinates(const geometry::ShapePtr& shape,
+                          const std::function<void(const geometry::Shape&, const geometry::Affine&)>& visit);
+
+  void add_mesh_lines(geometry::MeshLineKind kind, const Style& style, const HiddenLines& hidden);
+
+  // What ends areas of a fill besides outlines, drawn or not: where the surface turns away from the light, which is its
+  // outline as seen from there, and where one face goes on smoothly as another.
+  void add_borders_of_fill(const Fill& fill);
+
+  // Where different objects go through one another.
+  void add_meetings();
+
+  // A view in the coordinates to which the map leads.
+  static geometry::ViewOf seen_through(geometry::ViewOf view, const geometry::Affine& map);
+  geometry::ViewOf view_from(const geometry::Affine& map) const { return seen_through(view_, map); }
+
+  void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
+
+  void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden);
+
+  static std::string_view kind_of(const geometry::Body& body, const geometry::Edge& edge);
+
+  void add_helper(const Helper& helper);
+
+  void add_triangle(const geometry::NurbsCurveForm& form, const std::string& sign, const Helper& helper);
+
+  // A periodic direction repeats its first points, as many as the degree.
+  static int distinct(size_t count, int degree, bool periodic);
+
+  static std::vector<Vec3> control_points(const std::vector<geometry::Vec4>& points, int first, int step, int count);
+
+  void add_net(const geometry::NurbsSurfaceForm& form, const geometry::Periods& periods, const std::string& sign,
+               const Helper& helper);
+
+  void add_comb(const geometry::Curve& curve, const Helper& helper);
+
+  void add_frames(const geometry::Curve& curve, const Helper& helper);
+
+  void add_normals(const geometry::Surface& surface, const Helper& helper);
+
+  const Model& model_;
+  bool drawing_;
+  double pixels_ = 1;       // of a millimetre on the page
+  double least_width_ = 1;  // of lines
+  geometry::ViewOf view_;
+  std::map<const Object*, int> numbers_;
+  std::map<std::string, std::map<const Object*, size_t>> cycles_;
+  LineWork work_;
+  int order_ = 0;
+  // What is being added.
+  const Object* object_ = nullptr;
+  int object_number_ = 0;
+  geometry::Affine to_world_;
+  std::string kind_;
+  bool undrawn_ = false, outlines_ = false, borders_ = false;
+  std::vector<Stroke::Host> hosts_;  // of the next stroke
+  std::vector<double> cusps_;        // likewise
+  geometry::CurvePtr aside_;         // likewise
+  geometry::ShapePtr solid_;         // the last one, and its lines as seen so
+  Vec3 solid_view_{0};
+  geometry::CsgLines solid_lines_;
+  std::vector<geometry::MeshLine> mesh_lines_;  // of the object
+  // Of fills: all faces in the world.
+  struct PlacedFace {
+    geometry::SurfacePtr surface;
+    int object;
+  };
+  std::vector<PlacedFace> faces_;
+};
+
+}  // namespace lekalo::render

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <set>
+
+#include "geometry/curves/nurbs_curve.h"
+#include "geometry/curves/segment.h"
+#include "render/lines/curve_helpers.h"
+#include "render/lines/stroke_collector.h"
+#include "render/scene/look.h"
+#include "render/scene/objects.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+bool is_triangle(const Helper& helper) { return helper.type == "de_casteljau" || helper.type == "de_boor"; }
+
+void StrokeCollector::add_helper(const Helper& helper) {
+  const auto* curve = std::get_if<CurvePtr>(&object_->shape);
+  const std::string sign = helper.values.has("marker") ? helper.values.text("marker") : "none";
+  const auto marks = [&](const std::vector<Vec3>& points) {
+    for (const Vec3& point : points) mark(point, sign, helper.style, helper.hidden);
+  };
+  if (helper.type == "control_polygon" && curve) {
+    if (const auto form = (*curve)->as_nurbs()) {
+      const bool closed = (*curve)->period() > 0;
+      const std::vector<Vec3> points =
+          control_points(form->points, 0, 1, distinct(form->points.size(), form->degree, closed));
+      polygon(points, closed, helper.style, helper.hidden);
+      marks(points);
+      for (size_t i = 0; i < points.size(); ++i)
+        if (helper.values.text("label_points") == "all" || i == 0 || i + 1 == points.size())
+          label(points[i], {static_cast<double>(i)}, helper);
+    }
+  } else if (is_triangle(helper) && curve) {
+    if (const auto form = (*curve)->as_nurbs()) add_triangle(*form, sign, helper);
+  } else if (helper.type == "knots" && curve) {
+    if (const auto form = (*curve)->as_nurbs()) {
+      std::vector<Vec3> points;
+      for (size_t i = 0; i < form->knots.size(); ++i) {
+        const double knot = form->knots[i];
+        if ((i > 0 && form->knots[i - 1] == knot) || !(*curve)->domain().contains(knot)) continue;
+        points.push_back((*curve)->point(knot));
+        label(points.back(), {static_cast<double>(i)}, helper);
+      }
+      marks(points);
+    }
+  } else if (helper.type == "comb" && curve && drawing_) {
+    add_comb(**curve, helper);
+  } else if (helper.type == "frames" && curve && drawing_) {
+    add_frames(**curve, helper);
+  }
+  each_surface([&](const SurfacePtr& surface) {
+    const auto form = surface->as_nurbs();
+    if (helper.type == "control_net" && form) add_net(*form, surface->periods(), sign, helper);
+    if (helper.type == "knots" && form)
+      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
+        const auto& list = held == HeldParameter::u ? form->knots_u : form->knots_v;
+        const std::set<double> knots(list.begin(), list.end());
+        add_parameter_lines(surface, held, {0, {knots.begin(), knots.end()}}, helper.style, helper.hidden);
+      }
+    if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
+  });
+}
+
+// De Boor's points of each level (Golovanov 2016, 2.9), which for a Bezier curve are de Casteljau's:
+//
+//   d_i^r = (1 - a) d_(i-1)^(r-1) + a d_i^(r-1),   a = (t - t_i)/(t_(i+p-r+1) - t_i)
+void StrokeCollector::add_triangle(const NurbsCurveForm& form, const std::string& sign, const Helper& helper) {
+  const int p = form.degree, last = static_cast<int>(form.points.size()) - 1;
+  const double t = helper.values.number("t");
+  int span = p;
+  while (span < last && form.knots[span + 1] <= t) ++span;
+  std::vector<Vec4> points(form.points.begin() + (span - p), form.points.begin() + (span + 1));
+  for (int level = 1; level <= p; ++level) {
+    for (int k = p; k >= level; --k) {
+      const int i = span - p + k;
+      const double a = (t - form.knots[i]) / (form.knots[i + p - level + 1] - form.knots[i]);
+      points[k] = (1 - a) * points[k - 1] + a * points[k];
+    }
+    if (helper.values.has("levels")) {
+      const std::vector<double>& levels = helper.values.numbers("levels");
+      if (std::find(levels.begin(), levels.end(), level) == levels.end()) continue;
+    }
+    const std::vector<Vec3> shown = control_points(points, level, 1, p + 1 - level);
+    polygon(shown, false, helper.style, helper.hidden);
+    for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
+    for (size_t i = 0; i < shown.size(); ++i)
+      label(shown[i],
+            {static_cast<double>(i + (form.degree + 1 == static_cast<int>(form.points.size()) ? 0 : span - p)),
+             static_cast<double>(level)},
+            helper);
+  }
+}
+
+int StrokeCollector::distinct(size_t count, int degree, bool periodic) {
+  return static_cast<int>(count) - (periodic ? degree : 0);
+}
+
+std::vector<Vec3> StrokeCollector::control_points(const std::vector<Vec4>& points, int first, int step, int count) {
+  std::vector<Vec3> result;
+  for (int i = 0; i < count; ++i) {
+    const Vec4& p = points[first + static_cast<size_t>(i) * step];
+    if (p.w != 0) result.push_back(Vec3(p) / p.w);  // else at infinity
+  }
+  return result;
+}
+
+void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& periods, const std::string& sign,
+                              const Helper& helper) {
+  const bool closed_u = periods.u > 0, closed_v = periods.v > 0;
+  const int rows = distinct(form.count_u(), form.degree_u, closed_u),
+            columns = distinct(form.count_v(), form.degree_v, closed_v);
+  std::vector<std::vector<Vec3>> all;
+  for (int i = 0; i < rows; ++i) {
+    all.push_back(control_points(form.points, i * form.count_v(), 1, columns));
+    polygon(all.back(), closed_v, helper.style, helper.hidden);
+  }
+  for (int j = 0; j < columns; ++j)
+    polygon(control_points(form.points, j, form.count_v(), rows), closed_u, helper.style, helper.hidden);
+  const bool corners = helper.values.text("label_points") == "corners";
+  for (size_t i = 0; i < all.size(); ++i)
+    for (size_t j = 0; j < all[i].size(); ++j) {
+      mark(all[i][j], sign, helper.style, helper.hidden);
+      const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
+      if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j)}, helper);
+    }
+}
+
+void StrokeCollector::add_comb(const Curve& curve, const Helper& helper) {
+  const CurvatureComb comb = curvature_comb(curve, helper.values.integer("count"), helper.values.number("scale"));
+  for (size_t k = 0; k < comb.feet.size(); ++k)
+    if (comb.tips[k] != comb.feet[k])
+      stroke(std::make_shared<Segment>(comb.feet[k], comb.tips[k]), helper.style, helper.hidden);
+  if (helper.values.boolean("envelope")) polygon(comb.tips, false, helper.style, helper.hidden);
+}
+
+void StrokeCollector::add_frames(const Curve& curve, const Helper& helper) {
+  const std::vector<Frame> frames = helper_frames(curve, helper);
+  Style style = helper.style;
+  style.arrows = "end";
+  const double length = helper.values.number("length");
+  const std::string& named = helper.values.text("label");
+  for (size_t k = 0; k < frames.size(); ++k) {
+    const bool names = named == "all" || (named == "first" && k == 0) || (named == "last" && k + 1 == frames.size());
+    const auto arrow = [&](const Vec3& axis, const char* name) {
+      const Vec3 tip = frames[k].origin + length * axis;
+      stroke(std::make_shared<Segment>(frames[k].origin, tip), style, helper.hidden);
+      if (names) text(tip, name, helper, false);
+    };
+    arrow(frames[k].z, "$\\mathbf{t}$");
+    arrow(frames[k].x, "$\\mathbf{n}$");
+    arrow(frames[k].y, "$\\mathbf{b}$");
+  }
+}
+
+void StrokeCollector::add_normals(const Surface& surface, const Helper& helper) {
+  const Rectangle domain = surface.domain();
+  const double length = helper.values.number("length");
+  for (const double u :
+       values_in(helper.values.get<ParameterValues>("at_u"), domain.u, is_closed_in(surface, HeldParameter::u)))
+    for (const double v :
+         values_in(helper.values.get<ParameterValues>("at_v"), domain.v, is_closed_in(surface, HeldParameter::v))) {
+      const Vec3 foot = surface.point(u, v);
+      stroke(std::make_shared<Segment>(foot, foot + length * surface.normal(u, v)), helper.style, helper.hidden);
+    }
+}
+
+}  // namespace lekalo::render

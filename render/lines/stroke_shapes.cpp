@@ -1,0 +1,329 @@
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/curves/curve_part.h"
+#include "geometry/curves/nurbs_curve.h"
+#include "geometry/curves/segment.h"
+#include "geometry/queries/ball_outlines.h"
+#include "geometry/queries/box_tree.h"
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/self_intersections.h"
+#include "geometry/queries/trim.h"
+#include "geometry/surfaces/plane.h"
+#include "geometry/transformed.h"
+#include "render/lines/stroke_collector.h"
+#include "render/scene/look.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
+constexpr double kSmoothEdge = 1e-3;
+
+}  // namespace
+
+std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
+  std::vector<double> values;
+  if (asked.count == 1 && !periodic) return {range.middle()};
+  for (int i = 0; i < asked.count; ++i)
+    values.push_back(range.clamp(range.lo + range.width() * i / (periodic ? asked.count : asked.count - 1)));
+  for (const double value : asked.values)
+    if (range.contains(value)) values.push_back(value);
+  return values;
+}
+
+bool is_closed_in(const Surface& surface, HeldParameter held) {
+  const Rectangle domain = surface.domain();
+  const bool u = held == HeldParameter::u;
+  if (const double period = u ? surface.periods().u : surface.periods().v; period > 0)
+    return std::abs((u ? domain.u : domain.v).width() - period) <= 1e-9 * period;
+  const Interval &range = u ? domain.u : domain.v, &along = u ? domain.v : domain.u;
+  const auto at = [&](double held_at, double x) {
+    const double t = along.clamp(along.lo + x * along.width());
+    return u ? surface.point(held_at, t) : surface.point(t, held_at);
+  };
+  const double same = 1e-9 * bounds(surface).diameter();
+  bool meets = true, meets_turned = true;
+  for (const double x : {0.0, 0.25, 0.55, 0.8, 1.0}) {
+    const Vec3 first = at(range.lo, x);
+    meets = meets && glm::length(first - at(range.hi, x)) <= same;
+    meets_turned = meets_turned && glm::length(first - at(range.hi, 1 - x)) <= same;
+  }
+  return meets || meets_turned;
+}
+
+void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
+  if (!surface->bounded()) return;
+  const Rectangle domain = surface->domain();
+  const DegenerateEdges edges = surface->degenerate_edges();
+  const auto edge = [&](HeldParameter held, double at) {
+    lies_on_line(surface, held, at);
+    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+  };
+  if (!is_closed_in(*surface, HeldParameter::u)) {
+    if (!edges.u_min) edge(HeldParameter::u, domain.u.lo);
+    if (!edges.u_max) edge(HeldParameter::u, domain.u.hi);
+  }
+  if (!is_closed_in(*surface, HeldParameter::v)) {
+    if (!edges.v_min) edge(HeldParameter::v, domain.v.lo);
+    if (!edges.v_max) edge(HeldParameter::v, domain.v.hi);
+  }
+}
+
+void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParameter held, const ParameterValues& asked,
+                                          const Style& style, const HiddenLines& hidden) {
+  if (!surface->bounded()) return;
+  const Rectangle domain = surface->domain();
+  const bool u = held == HeldParameter::u;
+  const DegenerateEdges edges = surface->degenerate_edges();
+  const Interval& range = u ? domain.u : domain.v;
+  for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
+    if ((at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max)))
+      continue;
+    lies_on_line(surface, held, at);
+    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+  }
+}
+
+void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, const Style& style) {
+  for (size_t index = 0; index < body.faces.size(); ++index) {
+    const Face& face = body.faces[index];
+    const auto region = trim_of(body, static_cast<int>(index));
+    if (!region) {
+      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
+        add_parameter_lines(face.surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style,
+                            lines.hidden);
+      continue;
+    }
+    std::vector<Curve2Ptr> borders;
+    for (const int loop : face.loops)
+      for (const int coedge : body.loops[loop].coedges) borders.push_back(body.coedges[coedge].image);
+    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
+      const bool u = held == HeldParameter::u;
+      const Interval range = u ? region->u_range() : region->v_range(),
+                     along = u ? region->v_range() : region->u_range();
+      for (const double at : values_in(u ? lines.at_u : lines.at_v, range, false)) {
+        const auto place = [&](double t) { return u ? Vec3(at, t, 0) : Vec3(t, at, 0); };
+        const Segment line(place(along.lo), place(along.hi));
+        std::vector<double> cuts{along.lo, along.hi};
+        for (const Curve2Ptr& border : borders)
+          for (const CurveMeeting& meeting : intersect(line, *border).points)
+            cuts.push_back(along.lo + meeting.s * along.width());
+        std::sort(cuts.begin(), cuts.end());
+        for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+          const Interval t{cuts[k], cuts[k + 1]};
+          const Vec3 middle = place(t.middle());
+          if (t.width() <= 1e-9 * along.width() || !region->contains(middle.x, middle.y)) continue;
+          lies_on_line(face.surface, held, at, t);
+          stroke(std::make_shared<ParameterLine>(face.surface, held, at, t), style, lines.hidden);
+        }
+      }
+    }
+  }
+}
+
+void StrokeCollector::add_edges(const Body& body, std::string_view kind, const Style& style,
+                                const HiddenLines& hidden) {
+  for (const Edge& edge : body.edges)
+    if (edge.kind == EdgeKind::regular && edge.curve && kind_of(body, edge) == kind) {
+      if (drawing_)
+        for (const int c : edge.coedges) {
+          const Coedge& coedge = body.coedges[c];
+          hosts_.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
+        }
+      stroke(edge.curve, style, hidden);
+    }
+}
+
+void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held, double at) {
+  lies_on_line(surface, held, at, held == HeldParameter::u ? surface->domain().v : surface->domain().u);
+}
+
+void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held, double at, const Interval& along) {
+  if (!drawing_) return;
+  const bool u = held == HeldParameter::u;
+  const Vec3 from = u ? Vec3(at, along.lo, 0) : Vec3(along.lo, at, 0),
+             to = u ? Vec3(at, along.hi, 0) : Vec3(along.hi, at, 0);
+  NurbsCurveForm form;
+  form.degree = 1;
+  form.knots = {along.lo, along.lo, along.hi, along.hi};
+  form.points = {Vec4(from, 1), Vec4(to, 1)};
+  hosts_.push_back({surface, std::make_shared<NurbsCurve>(form)});
+}
+
+void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr>& surfaces, const Style& style,
+                          const HiddenLines& hidden) {
+  if (!contours.complete) ++work_.incomplete;
+  for (const Contour& contour : contours.branches) {
+    for (size_t k = 0; k < contour.images.size() && k < surfaces.size(); ++k)
+      hosts_.push_back({surfaces[k], contour.images[k]});
+    cusps_ = contour.cusps;
+    stroke(contour.curve, style, hidden);
+  }
+}
+
+void StrokeCollector::add(const BodyContours& contours, const Body& body, const Style& style,
+                          const HiddenLines& hidden) {
+  if (!contours.complete) ++work_.incomplete;
+  for (const BodyContour& branch : contours.branches)
+    for (const BodyContourPart& part : branch.parts) {
+      const Interval all = part.contour.curve->domain();
+      const auto add_part = [&](const Interval& t) {
+        if (!(t.width() > 0)) return;
+        hosts_.push_back({body.faces[part.face].surface, part.contour.images[0]});
+        for (const double cusp : part.contour.cusps)
+          if (t.contains(cusp)) cusps_.push_back(cusp);
+        stroke(t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t),
+               style, hidden);
+      };
+      add_part({part.t.lo, std::min(part.t.hi, all.hi)});
+      if (part.t.hi > all.hi) add_part({all.lo, part.t.hi - all.width()});
+    }
+}
+
+void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, const HiddenLines& hidden) {
+  if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
+  if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
+  each_surface([&](const SurfacePtr& surface) {
+    if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
+    add(silhouette(surface, view), {surface}, style, hidden);
+  });
+}
+
+void StrokeCollector::in_own_coordinates(const ShapePtr& shape,
+                                         const std::function<void(const Shape&, const Affine&)>& visit) {
+  const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
+  if (!moved) return visit(*shape, Affine());
+  const Affine to_world = to_world_;
+  to_world_ = to_world * moved->map();
+  visit(*moved->original(), moved->map().inverse());
+  to_world_ = to_world;
+}
+
+void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool edges, const Style& style,
+                                const HiddenLines& hidden) {
+  in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
+    const ViewOf own_view = seen_through(view, back);
+    const auto* tube = dynamic_cast<const Tube*>(&original);
+    const auto* balls = dynamic_cast<const Balls*>(&original);
+    if (const auto* solid = dynamic_cast<const Csg*>(&original)) {
+      if (solid_ != shape || solid_view_ != own_view.direction_or_eye) {
+        solid_ = shape, solid_view_ = own_view.direction_or_eye;
+        solid_lines_ = csg_lines(*solid, own_view);
+        if (!solid_lines_.complete) ++work_.incomplete;
+      }
+      for (const CsgLine& line : solid_lines_.lines)
+        if (line.edge == edges) add(line, style, hidden);
+    } else if (tube || balls) {
+      const ShapeOutlines found = tube ? outlines(*tube, own_view) : outlines(*balls, own_view);
+      if (!found.complete && !edges) ++work_.incomplete;
+      for (const ShapeOutline& line : found.lines) {
+        if (line.edge != edges) continue;
+        aside_ = line.aside, cusps_ = line.turns;
+        stroke(line.curve, style, hidden);
+      }
+    } else {
+      leave_out("outlines of implicit surfaces");
+    }
+  });
+}
+
+void StrokeCollector::add(const CsgLine& line, const Style& style, const HiddenLines& hidden) {
+  for (const CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
+  cusps_ = line.cusps;
+  stroke(line.curve, style, hidden);
+}
+
+void StrokeCollector::add_mesh_lines(MeshLineKind kind, const Style& style, const HiddenLines& hidden) {
+  for (const MeshLine& line : mesh_lines_)
+    if (line.kind == kind) stroke(line.curve, style, hidden);
+}
+
+void StrokeCollector::add_borders_of_fill(const Fill& fill) {
+  undrawn_ = borders_ = true;
+  if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only)) {
+    kind_ = "terminator";
+    const ViewOf from_light = seen_through({false, light_of(fill, *model_.camera)}, to_world_.inverse());
+    add_silhouettes(from_light, Style(), {});
+    if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape))
+      for (const MeshLine& line : mesh_lines(**mesh, from_light))
+        if (line.kind == MeshLineKind::silhouette) stroke(line.curve, Style(), {});
+  }
+  if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && fill.shading == Fill::Shading::gradient) {
+    kind_ = "smooth";
+    add_edges(**body, kind_, Style(), {});
+  }
+  undrawn_ = borders_ = false;
+  each_face([&](const SurfacePtr& surface) {
+    if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
+  });
+}
+
+void StrokeCollector::add_meetings() {
+  undrawn_ = borders_ = true;
+  kind_ = "intersection";
+  to_world_ = Affine();
+  std::vector<Box3> boxes;
+  for (const PlacedFace& face : faces_) boxes.push_back(bounds(*face.surface));
+  const BoxTree tree(boxes);
+  for (size_t k = 0; k < faces_.size(); ++k)
+    tree.around(boxes[k], [&](int other) {
+      const PlacedFace &a = faces_[k], &b = faces_[static_cast<size_t>(other)];
+      if (static_cast<size_t>(other) <= k || a.object == b.object) return;
+      object_number_ = a.object;
+      add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
+    });
+  undrawn_ = borders_ = false;
+}
+
+void StrokeCollector::add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
+  // A plane of the world in the object's coordinates.
+  const Affine back = to_world_.inverse();
+  const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
+  if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
+    add(plane_section(**body, through, normal), **body, style, hidden);
+  each_surface(
+      [&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
+  if (const auto* shape = std::get_if<ShapePtr>(&object_->shape))
+    in_own_coordinates(*shape, [&](const Shape& original, const Affine& own) {
+      const auto* solid = dynamic_cast<const Csg*>(&original);
+      if (!solid) return leave_out("sections of tubes, balls and implicit surfaces");
+      const CsgLines found = csg_section(*solid, own.point(through), glm::transpose(own.inverse().linear) * normal);
+      if (!found.complete) ++work_.incomplete;
+      for (const CsgLine& line : found.lines) add(line, style, hidden);
+    });
+  if (std::holds_alternative<MeshPtr>(object_->shape)) leave_out("sections of meshes");
+}
+
+void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
+  const auto* body = std::get_if<BodyPtr>(&object_->shape);
+  if (const auto* with = std::get_if<BodyPtr>(&other)) {
+    if (body) add(intersect(**body, **with), **body, style, hidden);
+    each_surface([&](const SurfacePtr& surface) { add(intersect(**with, surface), **with, style, hidden); });
+  } else if (const auto* with_surface = std::get_if<SurfacePtr>(&other)) {
+    if (body) add(intersect(**body, *with_surface), **body, style, hidden);
+    each_surface([&](const SurfacePtr& surface) {
+      add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
+    });
+  }
+}
+
+std::string_view StrokeCollector::kind_of(const Body& body, const Edge& edge) {
+  if (edge.coedges.size() < 2) return "boundary";
+  const Interval domain = edge.curve->domain();
+  for (const double x : {0.23, 0.5, 0.81}) {
+    const double t = domain.lo + x * domain.width();
+    const auto normal = [&](int which) {
+      const Coedge& coedge = body.coedges[edge.coedges[which]];
+      const Vec3 uv = coedge.image->point(t);
+      return body.normal(body.loops[coedge.loop].face, uv.x, uv.y);
+    };
+    if (glm::length(normal(0) - normal(1)) > kSmoothEdge) return "sharp";
+  }
+  return "smooth";
+}
+
+}  // namespace lekalo::render
