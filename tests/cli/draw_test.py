@@ -1,5 +1,6 @@
 """Drawings: which lines an SVG holds, how hidden ones look, the same bytes again, formats, errors."""
 
+import re
 import unittest
 import xml.etree.ElementTree as tree
 
@@ -34,9 +35,13 @@ class Draw(ProgramTest):
         root = tree.fromstring(self.bytes_of("block.svg"))
         self.assertEqual((root.get("width"), root.get("height"), root.get("viewBox")), ("60mm", "80mm", "0 0 60 80"))
         paths = self.paths("block.svg")
-        self.assertEqual({name: len(of) for name, of in paths.items()}, {"sharp": 9, "sharp hidden layers-1": 3})
+        edges = {name: sum(path.get("d").count(" L") for path in of) for name, of in paths.items()}
+        self.assertEqual(edges, {"sharp": 9, "sharp hidden layers-1": 3})
+        # At three corners just two of the edges seen meet: they are one path there. The hidden ones meet in one corner.
+        self.assertEqual(len(paths["sharp"]), 6)
+        self.assertEqual(len(paths["sharp hidden layers-1"]), 3)
         for path in paths["sharp"] + paths["sharp hidden layers-1"]:
-            self.assertRegex(path.get("d"), r"^M[-\d. ]+ L[-\d. ]+$")
+            self.assertRegex(path.get("d"), r"^M[-\d. ]+( L[-\d. ]+)+$")
         self.assertTrue(all(path.get("stroke-dasharray") for path in paths["sharp hidden layers-1"]))
         self.assertFalse(any(path.get("stroke-dasharray") for path in paths["sharp"]))
 
@@ -48,7 +53,7 @@ class Draw(ProgramTest):
         self.assertEqual(self.bytes_of("one.svg"), self.bytes_of("block.svg"))
 
     def test_a_ring(self):
-        """Two closed outlines seen from above, curved."""
+        """Two closed outlines seen from above, circles."""
         self.write("ring.yaml", """lekalo: 1
 geometry: { ring: { type: torus_surface, major_radius: 3, minor_radius: 1 } }
 objects: [{ shape: ring, lines: { silhouette: thick } }]
@@ -57,9 +62,16 @@ camera: { view: top }
         self.run_program("draw", "ring.yaml", "--quiet")
         outlines = self.paths("ring.svg")["silhouette"]
         self.assertEqual(len(outlines), 2)
+        sizes = []
         for path in outlines:
             self.assertTrue(path.get("d").endswith(" Z"))
-            self.assertIn(" C", path.get("d"))
+            self.assertNotIn(" C", path.get("d"))
+            radii = re.findall(r" A([\d.]+) ([\d.]+) ", path.get("d"))
+            self.assertEqual(len(radii), 4)
+            sizes.append(float(radii[0][0]))
+            for x, y in radii:
+                self.assertEqual(x, y)
+        self.assertAlmostEqual(max(sizes) / min(sizes), 2, places=4)  # (3 + 1) / (3 - 1)
 
     def test_formats(self):
         """PDF and PNG of the same drawing: page size, text as text, fonts embedded, no clock."""
