@@ -12,6 +12,8 @@ namespace {
 // Of the region's diameter: ends of arcs from the place at which they end, the shortest arc, and how well polynomials
 // agree with it.
 constexpr double kNearSingular = 1e-4, kShortest = 1e-9;
+constexpr double kTimesRounding = 4;
+constexpr double kSolvedToNode = 0.95;  // of the way to a node that is known
 constexpr double kAgree[] = {1e-13, 1e-11, 1e-9};
 
 // Solves F = level, the second equation, and n . (p - q) = 0 near q, n a unit vector; none where Newton's iteration
@@ -19,6 +21,7 @@ constexpr double kAgree[] = {1e-13, 1e-11, 1e-9};
 std::optional<Vec3> solved(const ImplicitFormula& formula, const ImplicitCondition& condition, const Vec3& q,
                            const Vec3& n, double reach) {
   constexpr int kMostSteps = 20;
+  constexpr double kRounding = 1e-6;  // Newton's steps as short would be followed by much shorter ones
   Vec3 p = q;
   double before = kInfinity;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -37,10 +40,10 @@ std::optional<Vec3> solved(const ImplicitFormula& formula, const ImplicitConditi
     const double length = glm::length(by);
     if (!(glm::length(p - q) <= reach)) return std::nullopt;
     // Until the steps are rounding and no longer get shorter.
-    if (length == 0 || (length < 1e-9 * reach && length >= 0.5 * before)) return p;
+    if (length == 0 || (length < kRounding * reach && length >= 0.5 * before)) return p;
     before = length;
   }
-  return before < 1e-9 * reach ? std::optional(p) : std::nullopt;
+  return before < kRounding * reach ? std::optional(p) : std::nullopt;
 }
 
 }  // namespace
@@ -60,15 +63,21 @@ double rounding_in(const Box3& box, const std::function<double(const Vec3&)>& wi
   return 2 * most;
 }
 
-Collector::Collector(const ImplicitSurface& surface, const ImplicitCondition& condition)
-    : formula_(surface.formula()), region_(surface.region()), condition_(condition), size_(region_.box.diameter()) {}
+Collector::Collector(const ImplicitSurface& surface, const ImplicitCondition& condition,
+                     std::span<const ImplicitNode> nodes)
+    : formula_(surface.formula()),
+      region_(surface.region()),
+      condition_(condition),
+      nodes_(nodes),
+      size_(region_.box.diameter()) {}
 
 void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, bool ends_singular) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   if (nodes.size() < 2) return;
-  bool leads_on_at_end = ends_singular && lead_on(nodes);
+  std::optional<LastBit> at_end, at_begin;
+  if (ends_singular) at_end = lead_on(nodes);
   std::reverse(nodes.begin(), nodes.end());
-  const bool leads_on_at_begin = begins_singular && lead_on(nodes);
+  if (begins_singular) at_begin = lead_on(nodes);
   std::reverse(nodes.begin(), nodes.end());
   std::vector<Interval> pieces;
   double length = 0;
@@ -80,29 +89,48 @@ void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, 
   if (length < kShortest * size_) return;
   ImplicitArc arc;
   arc.closed = closed;
-  arc.regular = {leads_on_at_begin ? pieces.front().hi : 0, leads_on_at_end ? pieces.back().lo : length};
+  arc.regular = {at_begin ? pieces.front().middle() : 0, at_end ? pieces.back().middle() : length};
   const auto point = [&](double t) {
     const auto after =
         std::upper_bound(pieces.begin(), pieces.end(), t, [](double x, const Interval& piece) { return x < piece.hi; });
     const size_t k = std::min(static_cast<size_t>(after - pieces.begin()), pieces.size() - 1);
     const double share = std::clamp((t - pieces[k].lo) / pieces[k].width(), 0.0, 1.0);
+    if (at_begin && k == 0) return at_begin->point(nodes[1], nodes[0], 1 - share);
+    if (at_end && k + 1 == pieces.size()) return at_end->point(nodes[k], nodes[k + 1], share);
     const Vec3 chord = nodes[k + 1] - nodes[k], q = nodes[k] + share * chord;
-    if (!arc.regular.contains(pieces[k].middle())) return q;
     return solved(formula_, condition_, q, chord / glm::length(chord), 0.5 * glm::length(chord)).value_or(q);
   };
-  for (const double agree : kAgree) {
-    arc.curve = polynomial_approximation(point, pieces, agree * size_);
-    if (arc.curve) break;
+  std::vector<PolynomialCurve::Part> parts;
+  for (const Interval& piece : pieces) {
+    std::shared_ptr<const PolynomialCurve> curve;
+    const double rounding = std::max(rounding_at(point(piece.lo)), rounding_at(point(piece.hi)));
+    for (const double agree : kAgree) {
+      if (agree * size_ < rounding && agree < kAgree[2]) continue;
+      curve = polynomial_approximation(point, {&piece, 1}, agree * size_);
+      if (curve) break;
+    }
+    if (!curve) {
+      result_.complete = false;
+      return;
+    }
+    parts.insert(parts.end(), curve->parts().begin(), curve->parts().end());
   }
-  if (arc.curve)
-    result_.arcs.push_back(std::move(arc));
-  else
-    result_.complete = false;
+  arc.curve = std::make_shared<PolynomialCurve>(std::move(parts));
+  result_.arcs.push_back(std::move(arc));
 }
 
-bool Collector::lead_on(std::vector<Vec3>& nodes) {
+const ImplicitNode* Collector::node_around(const Box3& box) const {
+  for (const ImplicitNode& node : nodes_) {
+    const Box3 cube = Box3{node.point, node.point}.inflated(node.reach);
+    if (glm::all(glm::lessThanEqual(cube.lo, box.hi)) && glm::all(glm::lessThanEqual(box.lo, cube.hi))) return &node;
+  }
+  return nullptr;
+}
+
+std::optional<LastBit> Collector::lead_on(std::vector<Vec3>& nodes) {
   const Vec3 end = nodes.back();
-  if (region_.misses({end, end})) return false;
+  if (region_.misses({end, end})) return std::nullopt;
+  if (const ImplicitNode* node = node_around({end, end})) return lead_into(*node, nodes);
   const Box3* nearest = nullptr;
   double least = kNearSingular * size_;
   for (const Box3& box : open_) {
@@ -111,24 +139,73 @@ bool Collector::lead_on(std::vector<Vec3>& nodes) {
   }
   if (!nearest) {
     result_.complete = false;
-    return false;
+    return std::nullopt;
   }
-  const SecondOrder<double> f = second_order(formula_, end);
-  const auto second = condition_.at(f, triple(end));
-  const auto along = cross(f.gradient, second.gradient);
-  Vec3 way{along.x, along.y, along.z};
-  if (glm::dot(way, end - nodes[nodes.size() - 2]) < 0) way = -way;
-  Vec3 to;
-  if (const auto node = singular_point(*nearest)) {
-    to = *node;
-  } else {
-    if (!(glm::length(way) > 0)) return false;
-    way = glm::normalize(way);
-    to = end + std::max(0.0, glm::dot(way, nearest->center() - end)) * way;
-  }
-  if (to == end) return false;
+  Vec3 way = tangent(end, end - nodes[nodes.size() - 2]);
+  if (!(glm::length(way) > 0)) return std::nullopt;
+  const std::optional<Vec3> node = singular_point(*nearest);
+  const Vec3 to = node ? *node : end + std::max(0.0, glm::dot(way, nearest->center() - end)) * way;
+  if (to == end) return std::nullopt;
   nodes.push_back(to);
-  return true;
+  way = glm::normalize(to - end);
+  return LastBit{way, way};
+}
+
+// Near a node rounding leaves few digits of the place but all of the direction in which the branch leads into it:
+// w H w = 0 in the plane w . H s = 0.
+std::optional<LastBit> Collector::lead_into(const ImplicitNode& node, std::vector<Vec3>& nodes) {
+  const Vec3 end = nodes.back(), chord = node.point - end;
+  const Vec3 q = end + kSolvedToNode * chord;
+  const std::optional<Vec3> last =
+      solved(formula_, condition_, q, glm::normalize(chord), (1 - kSolvedToNode) * glm::length(chord));
+  const SecondOrder<double> f = second_order(formula_, node.point);
+  const auto normal = condition_.at(f, triple(node.point)).gradient;
+  const Frame plane = frame_about(node.point, glm::normalize(Vec3(normal.x, normal.y, normal.z)));
+  const auto form = [&](const Vec3& a, const Vec3& b) { return dot(triple(a), f.second(triple(b))); };
+  const double a = form(plane.x, plane.x), b = form(plane.x, plane.y), c = form(plane.y, plane.y);
+  if (!last || !(b * b > a * c)) {
+    result_.complete = false;
+    return std::nullopt;
+  }
+  // cos^2 a + 2 cos sin b + sin^2 c = 0: about the form's axes, at the same angle to both sides.
+  const double axis = 0.5 * std::atan2(2 * b, a - c), off = 0.5 * std::acos(-(a + c) / std::hypot(a - c, 2 * b));
+  Vec3 way(0);
+  for (const double angle : {axis + off, axis - off}) {
+    Vec3 along = std::cos(angle) * plane.x + std::sin(angle) * plane.y;
+    if (glm::dot(along, chord) < 0) along = -along;
+    if (glm::dot(along, chord) > glm::dot(way, chord)) way = along;
+  }
+  nodes.push_back(*last);
+  nodes.push_back(node.point);
+  return LastBit{tangent(*last, chord), way};
+}
+
+// What the rounding of the equations makes of a point of the curve, times a few.
+double Collector::rounding_at(const Vec3& p) const {
+  const SecondOrder<double> f = second_order(formula_, p);
+  const auto second = condition_.at(f, triple(p)).gradient;
+  const Vec3 a(f.gradient.x, f.gradient.y, f.gradient.z), b(second.x, second.y, second.z), n = glm::cross(a, b);
+  const SecondOrder<Interval> around = thin(formula_, p);
+  const double of_f = around.value.width(), of_second = condition_.at(around, triple(Box3{p, p})).value.width();
+  // a . d = f, b . d = g, n . d = 0.
+  return kTimesRounding * glm::length(of_f * glm::abs(glm::cross(b, n)) + of_second * glm::abs(glm::cross(n, a))) /
+         glm::dot(n, n);
+}
+
+// Of the curve at a place on it, of unit length, on the side of `onward`; zero where there is none.
+Vec3 Collector::tangent(const Vec3& p, const Vec3& onward) const {
+  const SecondOrder<double> f = second_order(formula_, p);
+  const auto along = cross(f.gradient, condition_.at(f, triple(p)).gradient);
+  const Vec3 way{along.x, along.y, along.z};
+  const double length = glm::length(way);
+  if (!(length > 0)) return Vec3(0);
+  return (glm::dot(way, onward) < 0 ? -1 : 1) / length * way;
+}
+
+// Hermite's cubic.
+Vec3 LastBit::point(const Vec3& from, const Vec3& to, double share) const {
+  const double length = glm::length(to - from), x = share, y = 1 - share;
+  return y * y * (1 + 2 * x) * from + x * x * (1 + 2 * y) * to + x * y * length * (y * begin - x * end);
 }
 
 std::optional<Vec3> Collector::singular_point(const Box3& box) const {

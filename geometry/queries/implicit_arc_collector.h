@@ -38,9 +38,15 @@ ParameterPlace<N> middle(const ParameterBox<N>& box) {
   return result;
 }
 
+// The end of an arc at a singular point, by its directions at both ends: unit vectors.
+struct LastBit {
+  Vec3 begin{0}, end{0};
+  Vec3 point(const Vec3& from, const Vec3& to, double share) const;
+};
+
 class Collector {
  public:
-  Collector(const ImplicitSurface& surface, const ImplicitCondition& condition);
+  Collector(const ImplicitSurface& surface, const ImplicitCondition& condition, std::span<const ImplicitNode> nodes);
 
   // `system` has what search_solution_curves() asks for, and
   //   kUnknowns
@@ -59,10 +65,12 @@ class Collector {
     if (found.complete)
       for (const ParameterBox<N>& open : found.open) {
         Box3 hull;
-        ParameterPlace<N> lo, hi;
-        for (int i = 0; i < N; ++i) lo[i] = open[i].lo, hi[i] = open[i].hi;
-        hull.include(system.point(lo)), hull.include(system.point(hi));
-        if (region_.misses(hull)) continue;
+        for (int corner = 0; corner < 1 << N; ++corner) {
+          ParameterPlace<N> at;
+          for (int i = 0; i < N; ++i) at[i] = corner >> i & 1 ? open[i].hi : open[i].lo;
+          hull.include(system.point(at));
+        }
+        if (region_.misses(hull) || node_around(hull)) continue;
         open_.push_back(hull);
         if (hull.diameter() > kLargeOpen * size_) result_.complete = false;
       }
@@ -76,14 +84,20 @@ class Collector {
 
  private:
   void add(std::vector<Vec3> nodes, bool closed, bool begins_singular, bool ends_singular);
-  // From the last node to the singular point next to it; false if there is none.
-  bool lead_on(std::vector<Vec3>& nodes);
+  // From the last node on to the singular point next to it; none if there is none.
+  std::optional<LastBit> lead_on(std::vector<Vec3>& nodes);
+  std::optional<LastBit> lead_into(const ImplicitNode& node, std::vector<Vec3>& nodes);
+  double rounding_at(const Vec3& p) const;
+  Vec3 tangent(const Vec3& p, const Vec3& onward) const;
+  // The known node whose cube meets a box.
+  const ImplicitNode* node_around(const Box3& box) const;
   // A singular point of the surface, in or next to a box: grad F = 0 and F = level.
   std::optional<Vec3> singular_point(const Box3& box) const;
 
   const ImplicitFormula& formula_;
   const ImplicitRegion& region_;
   const ImplicitCondition& condition_;
+  std::span<const ImplicitNode> nodes_;
   double size_;
   std::vector<Box3> open_;
   ImplicitArcs result_;

@@ -5,15 +5,17 @@
 // across the chord through the chord's point at t; t is the length of the polygon of nodes.
 //
 // Where the equations lose their rank (singular points of the surface, crossings of the curves) arcs end next to the
-// place. They are led on to it, straight on: that is as far as 1e-6 of the region's size, on which they bend by the
-// square of that.
+// place and are led on to it. At nodes that are known (implicit_nodes.h) that is done some way before, where the curve
+// is still told apart from others by its plane; elsewhere about 1e-5 of the region's size, where it is nearly straight.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/curves/polynomial_curve.h"
 #include "geometry/queries/implicit_equations.h"
+#include "geometry/queries/implicit_nodes.h"
 #include "geometry/shapes/implicit_surface.h"
 
 namespace lekalo::geometry {
@@ -21,7 +23,7 @@ namespace lekalo::geometry {
 struct ImplicitArc {
   std::shared_ptr<const PolynomialCurve> curve;
   bool closed = false;
-  Interval regular;  // of t: the rest leads straight on to a singular point
+  Interval regular;  // of t: what is not next to a singular point
 };
 struct ImplicitArcs {
   std::vector<ImplicitArc> arcs;
@@ -30,8 +32,9 @@ struct ImplicitArcs {
   bool complete = true;
 };
 
-// In a box; what lies beyond the region may be left out.
-ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box);
+// In a box; what lies beyond the region may be left out. `nodes`: of silhouettes.
+ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box,
+                           std::span<const ImplicitNode> nodes = {});
 // F = level on a plane: over a rectangle of the frame's x and y.
 ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const Frame& plane, const Interval& x, const Interval& y);
 

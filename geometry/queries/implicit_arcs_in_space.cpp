@@ -13,14 +13,18 @@ struct InSpace {
   const ImplicitRegion& region;
   const ImplicitCondition& condition;
   const Box3& searched;
+  std::span<const ImplicitNode> nodes;
 
   SystemValue<Interval, 3, 2> enclose(const ParameterBox<3>& x) const {
     const Box3 box{{x[0].lo, x[1].lo, x[2].lo}, {x[0].hi, x[1].hi, x[2].hi}};
+    // What lies next to a node is known: nothing is searched in its cube, and in one of half the size curves end.
+    const bool is_at_node = in_cube(box, 1);
+    if (is_at_node && in_cube(box, 0.5)) return {{Interval(kNowhere), Interval(0)}, {}};
     const ImplicitRange range = range_of(formula, box);
     const auto second = condition.enclose(range, box);
     const auto& g = range.over.gradient;
     // Beyond a ball nothing is wanted; curves that lead there are followed all the same.
-    const bool is_outside = region.is_ball && region.misses(box);
+    const bool is_outside = is_at_node || (region.is_ball && region.misses(box));
     return {{is_outside ? Interval(kNowhere) : range.over.value, second.value},
             {{{g.x, g.y, g.z}, {second.gradient.x, second.gradient.y, second.gradient.z}}}};
   }
@@ -41,14 +45,24 @@ struct InSpace {
               return condition.at(thin(formula, p), triple(Box3{p, p})).value.width();
             })};
   }
+
+ private:
+  bool in_cube(const Box3& box, double share) const {
+    for (const ImplicitNode& node : nodes) {
+      const Box3 cube = Box3{node.point, node.point}.inflated(share * node.reach);
+      if (cube.contains(box.lo) && cube.contains(box.hi)) return true;
+    }
+    return false;
+  }
 };
 
 }  // namespace
 
-ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box) {
-  const InSpace system{surface.formula(), surface.region(), condition, box};
+ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box,
+                           std::span<const ImplicitNode> nodes) {
+  const InSpace system{surface.formula(), surface.region(), condition, box, nodes};
   const ParameterBox<3> domain{{{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}, {box.lo.z, box.hi.z}}};
-  return Collector(surface, condition).find(system, domain);
+  return Collector(surface, condition, nodes).find(system, domain);
 }
 
 }  // namespace lekalo::geometry

@@ -29,14 +29,12 @@ struct OnPlane {
       box.lo[k] = along.lo, box.hi[k] = along.hi;
     }
     SystemValue<Interval, 2, 1> result;
-    if (region.misses(box)) {
-      result.value[0] = Interval(kNowhere);
-      return result;
-    }
     using J = Jet2<Interval, 2>;
     const J over = value(J::u_variable(x[0]), J::v_variable(x[1]));
-    result = {{over.c[0]}, {{{over.c[1], over.c[2]}}}};
-    if (formula.smoothness() != Expression::Smoothness::smooth) return result;
+    // Beyond the region nothing is wanted; curves that lead there are followed all the same.
+    const bool is_outside = region.misses(box);
+    result = {{is_outside ? Interval(kNowhere) : over.c[0]}, {{{over.c[1], over.c[2]}}}};
+    if (is_outside || formula.smoothness() != Expression::Smoothness::smooth) return result;
     // As in range_of().
     using Slope = Jet2<Interval, 1>;
     const Interval m[] = {x[0].middle(), x[1].middle()}, u = x[0] - m[0], v = x[1] - m[1];
@@ -73,7 +71,7 @@ struct OnPlane {
 ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const Frame& plane, const Interval& x, const Interval& y) {
   const OnPlane system{surface.formula(), surface.region(), plane};
   const ImplicitCondition condition = ImplicitCondition::plane(plane.origin, plane.z);
-  return Collector(surface, condition).find(system, {x, y});
+  return Collector(surface, condition, {}).find(system, {x, y});
 }
 
 }  // namespace lekalo::geometry

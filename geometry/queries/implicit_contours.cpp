@@ -46,10 +46,11 @@ class Collector {
 
   ImplicitContours silhouette() {
     if (!is_edge_on()) {
-      const ImplicitArcs found = implicit_arcs(surface_, sight_, search_box());
+      const std::vector<ImplicitNode> nodes = implicit_nodes(surface_, view_, search_box());
+      const ImplicitArcs found = implicit_arcs(surface_, sight_, search_box(), nodes);
       note(found);
       for (const ImplicitArc& arc : found.arcs)
-        each_inside(arc, [&](CurvePtr curve, bool closed) { add_silhouette(curve, closed, arc.regular); });
+        each_inside(arc, [&](const CurvePtr& curve, bool closed) { add_silhouette(curve, closed, arc.regular); });
     }
     if (region_.is_ball && surface_.is_closed()) add_outline_of_ball();
     return std::move(result_);
@@ -103,7 +104,7 @@ class Collector {
     const ImplicitArcs found = implicit_arcs(surface_, plane, x, y);
     note(found);
     for (const ImplicitArc& arc : found.arcs)
-      each_inside(arc, [&](CurvePtr curve, bool closed) { add(curve, closed, false); });
+      each_inside(arc, [&](const CurvePtr& curve, bool closed) { add(curve, closed, false); });
     if (surface_.is_closed()) add_section_of_region(plane, height);
     return std::move(result_);
   }
