@@ -66,7 +66,8 @@ class ImplicitSheets final : public Solid {
     t.insert(t.end(), own.begin(), own.end());
   }
   bool contains(const Real3& p) const override {
-    const auto f = F()(LinePolynomial({p.x}), LinePolynomial({p.y}), LinePolynomial({p.z}));
+    const auto constant = [](Real value) { return LinePolynomial(std::vector<Real>{value}); };
+    const LinePolynomial f = F()(constant(p.x), constant(p.y), constant(p.z));
     return f.c[0] < 0 && (!closed_ || in_region(p));
   }
 
