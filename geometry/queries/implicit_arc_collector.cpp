@@ -14,7 +14,7 @@ namespace {
 constexpr double kNearSingular = 1e-4, kShortest = 1e-9;
 constexpr double kTimesRounding = 4;
 constexpr double kSolvedToNode = 0.95;  // of the way to a node that is known
-constexpr double kAgree[] = {1e-13, 1e-11, 1e-9};
+constexpr double kAgree[] = {1e-14, 1e-13, 1e-11, 1e-9};
 
 // Solves F = level, the second equation, and n . (p - q) = 0 near q, n a unit vector; none where Newton's iteration
 // leads farther away than `reach`.
@@ -105,7 +105,7 @@ void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, 
     std::shared_ptr<const PolynomialCurve> curve;
     const double rounding = std::max(rounding_at(point(piece.lo)), rounding_at(point(piece.hi)));
     for (const double agree : kAgree) {
-      if (agree * size_ < rounding && agree < kAgree[2]) continue;
+      if (agree * size_ < rounding && agree < std::end(kAgree)[-1]) continue;
       curve = polynomial_approximation(point, {&piece, 1}, agree * size_);
       if (curve) break;
     }

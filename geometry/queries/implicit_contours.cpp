@@ -234,6 +234,19 @@ class Collector {
     return std::make_shared<PolynomialCurve>(std::move(parts));
   }
 
+  // Where the ball of the region turns away along a curve on it.
+  std::vector<double> turns_of_ball(const Curve& curve, bool closed) const {
+    const Vec3 center = region_.box.center();
+    return sign_changes(
+        curve, closed,
+        [&](const Box3& box) {
+          const Vec3& v = view_.direction_or_eye;
+          const Triple<Interval> p = triple(box);
+          return dot(p - triple(center), view_.central ? p - triple(v) : triple(Box3{v, v}));
+        },
+        [&](const Vec3& p) { return glm::dot(p - center, sight_at(p)); });
+  }
+
   // A line on the surface, and perhaps on the ball of the region, that is no silhouette.
   void add(const CurvePtr& curve, bool closed, bool on_ball) {
     ImplicitContour line{curve, closed, {}, nullptr};
@@ -241,15 +254,7 @@ class Collector {
         *curve, closed, [&](const Box3& box) { return sight_.enclose(range_of(formula_, box), box).value; },
         [&](const Vec3& p) { return slope_along_sight(p); });
     if (on_ball) {
-      const Vec3 center = region_.box.center();
-      const std::vector<double> found = sign_changes(
-          *curve, closed,
-          [&](const Box3& box) {
-            const Vec3& v = view_.direction_or_eye;
-            const Triple<Interval> p = triple(box);
-            return dot(p - triple(center), view_.central ? p - triple(v) : triple(Box3{v, v}));
-          },
-          [&](const Vec3& p) { return glm::dot(p - center, sight_at(p)); });
+      const std::vector<double> found = turns_of_ball(*curve, closed);
       line.turns.insert(line.turns.end(), found.begin(), found.end());
       std::sort(line.turns.begin(), line.turns.end());
     }
@@ -312,10 +317,9 @@ class Collector {
       each_kept(
           circle.domain(), true, changes_of_F(circle, true), [&](double t) { return is_solid_at(circle.point(t)); },
           [&](const Interval& t) {
-            result_.lines.push_back({std::make_shared<Circle>(frame, circle.radius(), t),
-                                     t.width() == circle.domain().width(),
-                                     {},
-                                     nullptr});
+            const auto arc = std::make_shared<Circle>(frame, circle.radius(), t);
+            const bool whole = t.width() == circle.domain().width();
+            result_.lines.push_back({arc, whole, turns_of_ball(*arc, whole), nullptr});
           });
       return;
     }
