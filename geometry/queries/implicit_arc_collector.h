@@ -1,6 +1,7 @@
 // What searches of curves on implicit surfaces (implicit_arcs.h) have in common, whatever their unknowns.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 
