@@ -80,6 +80,13 @@ bool contains(const ParameterBox<N>& outer, const ParameterBox<N>& inner) {
   return true;
 }
 
+template <int N>
+bool meet(const ParameterBox<N>& a, const ParameterBox<N>& b) {
+  for (int i = 0; i < N; ++i)
+    if (!intersects(a[i], b[i])) return false;
+  return true;
+}
+
 template <int N, int M, class System>
 class Search {
  public:
@@ -296,7 +303,9 @@ class Search {
     const int along = over.chart.along;
     std::vector<Interval> settled;
     std::vector<const Place*> nodes;
-    for (const SolutionArc<N>& arc : result_.arcs)
+    for (size_t a = 0; a < result_.arcs.size(); ++a) {
+      if (!meet<N>(around_[a], over.box)) continue;
+      const SolutionArc<N>& arc = result_.arcs[a];
       for (size_t k = 0; k < arc.nodes.size(); ++k) {
         const Place& node = arc.nodes[k];
         if (!range.contains(node[along])) continue;
@@ -307,6 +316,7 @@ class Search {
         if (k + 1 < arc.nodes.size() && contains<N>(over.box, arc.hulls[k]))
           settled.push_back(hull(Interval(node[along]), Interval(arc.nodes[k + 1][along])));
       }
+    }
     std::sort(settled.begin(), settled.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
     std::sort(nodes.begin(), nodes.end(), [&](const Place* a, const Place* b) { return (*a)[along] < (*b)[along]; });
     const auto add = [&](double lo, double hi) {
@@ -397,9 +407,11 @@ class Search {
       clipped[i] = intersect(box[i], domain_[i]);
       if (clipped[i].empty()) clipped[i] = Interval(domain_[i].clamp(box[i].lo));
     }
-    for (const SolutionArc<N>& arc : result_.arcs)
-      for (const Box& tube : arc.tubes)
+    for (size_t k = 0; k < result_.arcs.size(); ++k) {
+      if (!contains<N>(around_[k], clipped)) continue;
+      for (const Box& tube : result_.arcs[k].tubes)
         if (contains<N>(tube, clipped)) return true;
+    }
     for (const Box& tube : loose_tubes_)
       if (contains<N>(tube, clipped)) return true;
     return false;
@@ -441,10 +453,15 @@ class Search {
     }
     if (arc.nodes.size() == 1) return !arc.begins_singular && !arc.ends_singular;
     // What runs into a known arc is its last bit, before a singular solution.
-    if (meets_known_)
+    if (meets_known_) {
       loose_tubes_.insert(loose_tubes_.end(), arc.tubes.begin(), arc.tubes.end());
-    else
-      result_.arcs.push_back(std::move(arc));
+      return true;
+    }
+    Box around = arc.tubes.front();
+    for (const Box& tube : arc.tubes)
+      for (int i = 0; i < N; ++i) around[i] = hull(around[i], tube[i]);
+    around_.push_back(around);
+    result_.arcs.push_back(std::move(arc));
     return true;
   }
 
@@ -710,6 +727,7 @@ class Search {
   const SolutionCurveOptions<N, M>& options_;
   std::array<double, N> scale_{};
   std::vector<Box> boxes_;
+  std::vector<Box> around_;  // the tubes of each arc
   std::vector<Box> loose_tubes_;
   bool meets_known_ = false;
   SolutionCurves<N> result_;

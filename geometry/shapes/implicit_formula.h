@@ -27,6 +27,12 @@ class ImplicitFormula {
     using G = Gradient<S>;
     return (*this)(G::variable(x, 0), G::variable(y, 1), G::variable(z, 2));
   }
+  // Value, gradient and second derivatives.
+  template <class S>
+  Jet3<S, 2> with_second(const S& x, const S& y, const S& z) const {
+    using J = Jet3<S, 2>;
+    return (*this)(J::variable(x, 0), J::variable(y, 1), J::variable(z, 2));
+  }
   Vec3 gradient(const Vec3& p) const {
     const auto at = with_gradient(p.x, p.y, p.z);
     return {at.c[1], at.c[2], at.c[3]};

@@ -51,11 +51,6 @@ class OnChord final : public BernsteinSource {
   Vec3 from_, to_;
 };
 
-bool misses_ball(const Box3& box, const Vec3& center, double radius) {
-  const Vec3 off = glm::max(glm::max(box.lo - center, center - box.hi), Vec3(0));
-  return glm::dot(off, off) > radius * radius * (1 + 1e-12);
-}
-
 void require_values(const ImplicitFormula& formula, const ImplicitRegion& region) {
   const Vec3 center = region.box.center(), size = region.box.size();
   for (int i = 0; i <= kTried; ++i)
@@ -72,6 +67,12 @@ void require_values(const ImplicitFormula& formula, const ImplicitRegion& region
 
 }  // namespace
 
+bool ImplicitRegion::misses(const Box3& other) const {
+  if (!is_ball) return glm::any(glm::lessThan(other.hi, box.lo)) || glm::any(glm::greaterThan(other.lo, box.hi));
+  const Vec3 off = glm::max(glm::max(other.lo - box.center(), box.center() - other.hi), Vec3(0));
+  return glm::dot(off, off) > radius() * radius() * (1 + 1e-12);
+}
+
 ImplicitSurface::ImplicitSurface(Expression expression, double level, const ImplicitRegion& region, bool closed)
     : formula_(std::move(expression), level), region_(region), closed_(closed) {
   const Box3& box = region.box;
@@ -83,9 +84,7 @@ ImplicitSurface::ImplicitSurface(Expression expression, double level, const Impl
   polynomial_ = LinePolynomial::of(formula_.expression());
   if (polynomial_ && polynomial_->degree() == 0)
     throw FieldError("formula", "the formula is constant: it names none of x, y, z");
-  const auto outside = [&](const Box3& cell) {
-    return region.is_ball && misses_ball(cell, region.box.center(), region.radius());
-  };
+  const auto outside = [&](const Box3& cell) { return region.is_ball && region.misses(cell); };
   ImplicitCells cells(formula_, box, outside, polynomial_ ? kMostBoundCells : kMostCells, !polynomial_);
   if (cells.where_zero().empty()) {
     const bool above = formula_(box.center()) > 0;

@@ -24,6 +24,8 @@ struct ImplicitRegion {
     return {{center - Vec3(radius), center + Vec3(radius)}, true};
   }
   double radius() const { return 0.5 * (box.hi.x - box.lo.x); }
+  // Whether a box holds nothing of the region.
+  bool misses(const Box3& other) const;
 };
 
 class ImplicitSurface final : public Shape {
@@ -44,6 +46,9 @@ class ImplicitSurface final : public Shape {
     if (cells_) return {"implicit cells", static_cast<size_t>(cells_->count()), cells_->memory()};
     return {"polynomial on the line"};
   }
+
+  const ImplicitFormula& formula() const { return formula_; }
+  const ImplicitRegion& region() const { return region_; }
 
   // F - level.
   double value(const Vec3& p) const { return formula_(p); }

@@ -8,6 +8,7 @@
 #include "geometry/curves/parameter_line.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/csg_contours.h"
+#include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
 #include "render/lines/strokes.h"
 
@@ -91,9 +92,11 @@ class StrokeCollector {
   // The view is one of the object's own coordinates.
   void add_silhouettes(const geometry::ViewOf& view, const Style& style, const HiddenLines& hidden);
 
-  // The edges or outlines of balls, tubes, and solids put together of others.
+  // The edges or outlines of implicit surfaces, balls, tubes, and solids put together of others. Only open implicit
+  // surfaces have a boundary.
   void add_solid(const geometry::ShapePtr& shape, const geometry::ViewOf& view, bool edges, const Style& style,
                  const HiddenLines& hidden);
+  void add(const geometry::ImplicitContours& contours, const Style& style, const HiddenLines& hidden);
   void add(const geometry::CsgLine& line, const Style& style, const HiddenLines& hidden);
   // Adds what the visitor adds of the shape as it is before it was moved as a whole; the map leads back to there.
   void in_own_coordinates(const geometry::ShapePtr& shape,

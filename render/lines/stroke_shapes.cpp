@@ -207,6 +207,14 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
                                 const HiddenLines& hidden) {
   in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
     const ViewOf own_view = seen_through(view, back);
+    if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original)) {
+      if (!edges)
+        add(silhouette(*surface, own_view), style, hidden);
+      else if (kind_ == (surface->is_closed() ? "sharp" : "boundary"))
+        add(border(*surface, own_view), style, hidden);
+      return;
+    }
+    if (kind_ == "boundary") return;
     const auto* tube = dynamic_cast<const Tube*>(&original);
     const auto* balls = dynamic_cast<const Balls*>(&original);
     if (const auto* solid = dynamic_cast<const Csg*>(&original)) {
@@ -225,10 +233,16 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
         aside_ = line.aside, cusps_ = line.turns;
         stroke(line.curve, style, hidden);
       }
-    } else {
-      leave_out("outlines of implicit surfaces");
     }
   });
+}
+
+void StrokeCollector::add(const ImplicitContours& contours, const Style& style, const HiddenLines& hidden) {
+  if (!contours.complete) ++work_.incomplete;
+  for (const ImplicitContour& line : contours.lines) {
+    aside_ = line.aside, cusps_ = line.turns;
+    stroke(line.curve, style, hidden);
+  }
 }
 
 void StrokeCollector::add(const CsgLine& line, const Style& style, const HiddenLines& hidden) {
@@ -289,9 +303,12 @@ void StrokeCollector::add_section(const SectionPlane& plane, const Style& style,
       [&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape))
     in_own_coordinates(*shape, [&](const Shape& original, const Affine& own) {
+      const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
+      if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
+        return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
       const auto* solid = dynamic_cast<const Csg*>(&original);
-      if (!solid) return leave_out("sections of tubes, balls and implicit surfaces");
-      const CsgLines found = csg_section(*solid, own.point(through), glm::transpose(own.inverse().linear) * normal);
+      if (!solid) return leave_out("sections of tubes and balls");
+      const CsgLines found = csg_section(*solid, own_through, own_normal);
       if (!found.complete) ++work_.incomplete;
       for (const CsgLine& line : found.lines) add(line, style, hidden);
     });

@@ -12,11 +12,14 @@
 #include "geometry/shapes/balls.h"
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/csg.h"
+#include "geometry/shapes/implicit_surface.h"
 #include "geometry/shapes/tube.h"
 #include "geometry/surfaces/bezier_surface.h"
+#include "geometry/transformed.h"
 #include "render/drawing/random_solids.h"
 #include "render/drawing/visible_lines.h"
 #include "render/scene/load.h"
+#include "support/implicit_oracle.h"
 #include "support/line_oracle.h"
 #include "support/sight_oracle.h"
 #include "support/tier.h"
@@ -351,6 +354,103 @@ TEST(DrawingTruth, Balls) {
   }
   expect_right(found, "balls");
 }
+
+// Implicit surfaces by formulas that are written twice, whole and cut off by a box or a ball, open and closed, each
+// moved with its object or as a shape.
+struct Sphere {
+  static constexpr const char* text = "x^2 + y^2 + z^2 - 1.44";
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return x * x + y * y + z * z - T(1.44);
+  }
+};
+struct Ring {
+  static constexpr const char* text = "(x^2 + y^2 + z^2 + 0.84)^2 - 4*(x^2 + y^2)";
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T a = x * x + y * y + z * z + T(0.84);
+    return a * a - T(4.0) * (x * x + y * y);
+  }
+};
+struct TwoRings {
+  static constexpr const char* text = "((x + 1)*x^2*(x - 1) + y^2)^2 + z^2 - 0.02";
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    const T a = (x + T(1.0)) * x * x * (x - T(1.0)) + y * y;
+    return a * a + z * z - T(0.02);
+  }
+};
+struct Clebsch {
+  static constexpr const char* text =
+      "81*(x^3 + y^3 + z^3) - 189*(x^2*(y + z) + y^2*(x + z) + z^2*(x + y)) + 54*x*y*z + 126*(x*y + y*z + z*x)"
+      " - 9*(x^2 + y^2 + z^2) - 9*(x + y + z) + 1";
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return T(81.0) * (x * x * x + y * y * y + z * z * z) -
+           T(189.0) * (x * x * (y + z) + y * y * (x + z) + z * z * (x + y)) + T(54.0) * x * y * z +
+           T(126.0) * (x * y + y * z + z * x) - T(9.0) * (x * x + y * y + z * z) - T(9.0) * (x + y + z) + T(1.0);
+  }
+};
+
+// Of a surface that bounds nothing every crossing counts.
+Sheets sheets_of_open(const oracle::sight::Solid& surface) {
+  return [&surface](const Vec3& from, const Vec3& point, double contact) {
+    using oracle::sight::Real;
+    const oracle::sight::Real3 o{from.x, from.y, from.z};
+    const oracle::sight::Real3 d{Real(point.x) - o.x, Real(point.y) - o.y, Real(point.z) - o.z};
+    const Real length = std::sqrt(oracle::sight::dot(d, d));
+    std::vector<Real> t;
+    surface.crossings(o, d, contact / length, t);
+    const auto before = [&](double free) {
+      return std::count_if(t.begin(), t.end(), [&](Real at) { return at > 0 && at < 1 - free / length; });
+    };
+    const auto layers = before(kOwn);
+    return layers == before(kOwnToo) ? static_cast<int>(layers) : -1;
+  };
+}
+
+template <class F>
+void expect_implicit(const char* name, const Vec3& half, bool is_ball, bool closed, unsigned seed, int least = 12) {
+  auto formula = std::get<Expression>(Expression::parse(F::text));
+  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+  ASSERT_FALSE(formula.bind(variables));
+  const ShapePtr surface =
+      std::make_shared<ImplicitSurface>(formula, 0, ImplicitRegion{{-half, half}, is_ball}, closed);
+  const auto truth = std::make_shared<oracle::sight::ImplicitSheets<F>>(-half, half, is_ball, closed);
+  Views views(seed);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(least)); ++k) {
+    SmallScene scene;
+    const Affine map = Affine::translation(0.5 * views.direction());
+    Look look;
+    look.lines.emplace();
+    for (const char* kind : {"sharp", "boundary", "silhouette", "section"}) look.lines->styles[kind] = Style();
+    look.lines->planes.push_back({0.3 * views.direction(), views.direction()});
+    ClassicLook white;
+    scene.add(k % 3 == 0 ? transformed(surface, map) : surface, make_material(white));
+    if (k % 3 == 1) scene.model.objects.back().transform = map;
+    scene.model.objects.back().look = std::make_shared<const Look>(look);
+    views.look(scene, k % 2);
+    const Affine back = k % 3 < 2 ? map.inverse() : Affine();
+    const Sheets own = closed ? sheets_of(std::vector<SolidPtr>{truth}) : sheets_of_open(*truth);
+    Truth(
+        *scene.world(),
+        [&](const Vec3& from, const Vec3& point, double contact) {
+          return own(back.point(from), back.point(point), contact);
+        },
+        views, found, 6);
+  }
+  expect_right(found, name);
+}
+
+TEST(DrawingTruth, ImplicitSphere) { expect_implicit<Sphere>("sphere", Vec3(1.5), false, false, 61); }
+TEST(DrawingTruth, ImplicitSphereInASmallerBox) { expect_implicit<Sphere>("cut sphere", Vec3(0.9), false, true, 67); }
+TEST(DrawingTruth, ImplicitRing) { expect_implicit<Ring>("ring", Vec3(1.5), false, false, 71); }
+TEST(DrawingTruth, ImplicitRingInABall) { expect_implicit<Ring>("ring in a ball", Vec3(1.2), true, true, 73); }
+TEST(DrawingTruth, OpenImplicitRing) { expect_implicit<Ring>("open ring", Vec3(1.6, 1.1, 0.3), false, false, 79); }
+TEST(DrawingTruth, ImplicitTwoRings) { expect_implicit<TwoRings>("two rings", Vec3(1.3, 0.9, 0.1), false, true, 83); }
+TEST(DrawingTruth, ImplicitCubic) { expect_implicit<Clebsch>("cubic", Vec3(2), true, false, 89); }
+TEST(DrawingTruth, ClosedImplicitCubic) { expect_implicit<Clebsch>("closed cubic", Vec3(1.2), false, true, 97); }
 
 // A bicubic sheet that hides parts of itself, with its net of parameter lines.
 TEST(DrawingTruth, Saddles) {

@@ -1,0 +1,41 @@
+// The curves on an implicit surface where a second equation holds (implicit_equations.h), all of them, by the certified
+// search of geometry/numerics/solution_curves.h, as piecewise polynomials whose nodes solve both equations.
+//
+// Between two nodes that the search found the point at t solves F = level, the second equation, and lies in the plane
+// across the chord through the chord's point at t; t is the length of the polygon of nodes.
+//
+// Where the equations lose their rank (singular points of the surface, crossings of the curves) arcs end next to the
+// place and are led on to it. At nodes that are known (implicit_nodes.h) that is done some way before, where the curve
+// is still told apart from others by its plane; elsewhere about 1e-5 of the region's size, where it is nearly straight.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "geometry/curves/polynomial_curve.h"
+#include "geometry/queries/implicit_equations.h"
+#include "geometry/queries/implicit_nodes.h"
+#include "geometry/shapes/implicit_surface.h"
+
+namespace lekalo::geometry {
+
+struct ImplicitArc {
+  std::shared_ptr<const PolynomialCurve> curve;
+  bool closed = false;
+  Interval regular;  // of t: what is not next to a singular point
+};
+struct ImplicitArcs {
+  std::vector<ImplicitArc> arcs;
+  // False where something larger than 1e-3 of the region's size is not decided, an arc stops for no reason that was
+  // found, or a curve is too crooked for polynomials.
+  bool complete = true;
+};
+
+// In a box; what lies beyond the region may be left out. `nodes`: of silhouettes.
+ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box,
+                           std::span<const ImplicitNode> nodes = {});
+// F = level on a plane: over a rectangle of the frame's x and y.
+ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const Frame& plane, const Interval& x, const Interval& y);
+
+}  // namespace lekalo::geometry
