@@ -45,6 +45,8 @@ class Shape {
   virtual LineMethod method() const { return {}; }
   // True if a line is in that region where t goes to minus infinity; of an unbounded one.
   virtual bool begins_inside(const Line&) const { return false; }
+  // point() where nothing asks for the parameters and the derivatives by them: they may be zero.
+  virtual ShapePoint bare_point(const SurfaceHit& hit, const Vec3& near) const { return point(hit, near); }
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 

@@ -88,6 +88,11 @@ template <>
 constexpr bool kIsFirstOrder<Gradient<double>> = true;
 
 template <class T>
+constexpr bool kIsJetInOne = false;
+template <int N>
+constexpr bool kIsJetInOne<Jet<double, N>> = true;
+
+template <class T>
 T product(const T& a, const T& b) {
   if constexpr (kIsFirstOrder<T>) {
     T r;
@@ -121,6 +126,16 @@ void sine_and_cosine(const T& a, T& sine, T& cosine) {
     for (int k = 1; k < T::kCount; ++k) {
       sine.c[k] = c * a.c[k];
       cosine.c[k] = -s * a.c[k];
+    }
+  } else if constexpr (kIsJetInOne<T>) {
+    // Along a line most arguments are straight: each coefficient is made from the one before it alone.
+    for (int k = 2; k < T::kCount; ++k)
+      if (a.c[k] != 0) return sin_cos(a, sine, cosine);
+    sine.c[0] = std::sin(a.c[0]);
+    cosine.c[0] = std::cos(a.c[0]);
+    for (int k = 1; k < T::kCount; ++k) {
+      sine.c[k] = a.c[1] * cosine.c[k - 1] / k;
+      cosine.c[k] = -(a.c[1] * sine.c[k - 1] / k);
     }
   } else if constexpr (kIsJet<T>) {
     sin_cos(a, sine, cosine);

@@ -349,7 +349,7 @@ class SurfaceProjection {
 SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
   if (surface->bounded())
     prepared_ = std::make_shared<Prepared>(std::move(surface));
-  else if (const auto plane = std::dynamic_pointer_cast<const Plane>(surface); plane && plane->knows_feet())
+  else if (const auto plane = std::dynamic_pointer_cast<const Plane>(surface); plane && plane->is_whole())
     plane_ = plane;
   else
     throw std::invalid_argument("the surface is unbounded: give it a domain to project on");

@@ -21,7 +21,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-ConvexSolid::Side::Side(SurfacePtr side) : surface(std::move(side)) {
+ConvexSolid::Side::Side(SurfacePtr side) : surface(std::move(side)), knows_feet(surface->knows_feet()) {
   const Surface* original = surface.get();
   if (const auto* image = dynamic_cast<const TransformedSurface*>(original)) {
     original = image->original().get();
@@ -32,7 +32,7 @@ ConvexSolid::Side::Side(SurfacePtr side) : surface(std::move(side)) {
   plane = dynamic_cast<const Plane*>(original);
   sphere = dynamic_cast<const SphereSurface*>(original);
   cone = dynamic_cast<const ConeSurface*>(original);
-  if (sphere && !sphere->knows_feet()) sphere = nullptr;  // only a part of it
+  if (sphere && !covers(sphere->domain(), SphereSurface::kFull)) sphere = nullptr;  // only a part of it
   // A frustum from end to end.
   if (cone && !(cone->radius() >= 0 && cone->top_radius() >= 0 && cone->height() > 0 &&
                 cone->domain().u.width() >= kTwoPi && cone->domain().v.lo == 0 && cone->domain().v.hi == 1))
@@ -254,8 +254,12 @@ bool ConvexSolid::clip_to_quadric(const LineOfSolids& line, Stretch& inside) con
   return keep(start + first.s, start + second.s);
 }
 
-ShapePoint ConvexSolid::point(int face, const Vec3& near) const {
+ShapePoint ConvexSolid::point(int face, const Vec3& near, bool parameters) const {
   const Side& side = sides_[face];
+  if (!parameters && side.knows_feet) {
+    const Foot foot = side.surface->foot(near);
+    return {foot.point, side.sign * foot.normal};
+  }
   const Vec3 at = side.mapped ? side.inverse.point(near) : near;
   const Rectangle domain = side.surface->domain();
   double u, v;

@@ -39,8 +39,9 @@ class ConvexSolid {
   // whatever solids they bound.
   bool stretch(const LineOfSolids& line, Stretch& inside) const;
 
-  // What shows at a point of a face, which lies at `near` but for rounding.
-  ShapePoint point(int face, const Vec3& near) const;
+  // What shows at a point of a face, which lies at `near` but for rounding; parameters and derivatives may be zero
+  // where they are not asked for.
+  ShapePoint point(int face, const Vec3& near, bool parameters) const;
 
  private:
   // -depth <= dot(p - at_hi, normal) <= 0; the depth may be infinite.
@@ -52,6 +53,7 @@ class ConvexSolid {
   // A face's surface, which may be the image of one of three.
   struct Side {
     SurfacePtr surface;
+    bool knows_feet;
     const Plane* plane = nullptr;
     const SphereSurface* sphere = nullptr;
     const ConeSurface* cone = nullptr;

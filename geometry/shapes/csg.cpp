@@ -322,11 +322,13 @@ bool Csg::first_hit(const Line& line, const Interval& t, SurfaceHit& first) cons
   return found;
 }
 
-ShapePoint Csg::point(const SurfaceHit& hit, const Vec3& near) const {
+ShapePoint Csg::point_of(const SurfaceHit& hit, const Vec3& near, bool parameters) const {
   const Leaf& leaf = leaves_[hit.face % leaf_count()];
   SurfaceHit of_leaf = hit;
   of_leaf.face = hit.face / leaf_count();
-  ShapePoint point = leaf.convex ? leaf.convex->point(of_leaf.face, near) : leaf.shape->point(of_leaf, near);
+  ShapePoint point = leaf.convex  ? leaf.convex->point(of_leaf.face, near, parameters)
+                     : parameters ? leaf.shape->point(of_leaf, near)
+                                  : leaf.shape->bare_point(of_leaf, near);
   if (leaf.turned) point.normal = -point.normal;
   return point;
 }

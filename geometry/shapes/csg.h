@@ -34,7 +34,8 @@ class Csg final : public Shape {
   // The parameters of hits on leaves with closed forms are zero; point() finds them.
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override;
-  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override { return point_of(hit, near, true); }
+  ShapePoint bare_point(const SurfaceHit& hit, const Vec3& near) const override { return point_of(hit, near, false); }
   bool is_closed() const override { return true; }
   LineMethod method() const override { return {"CSG of leaves", leaves_.size(), leaves_.size() * sizeof(Leaf)}; }
   bool begins_inside(const Line& line) const override;
@@ -64,6 +65,7 @@ class Csg final : public Shape {
   struct Stretch;
   struct Search;
 
+  ShapePoint point_of(const SurfaceHit& hit, const Vec3& near, bool parameters) const;
   int leaf_count() const { return static_cast<int>(leaves_.size()); }
   int append(const ShapePtr& operand, int parent, bool taken_away, bool turned);
   void finish(Node& node);

@@ -231,17 +231,18 @@ void ImplicitCells::make_grid(const Box3& region, int rounds) {
     }
   }
   grid_.per_side = 1.0 / grid_.side;
-  grid_.nodes.resize(static_cast<size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2]);
+  grid_.boxes.resize(static_cast<size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2]);
   fill_grid(0, {0, 0, 0}, grid_.count);
 }
 
 void ImplicitCells::fill_grid(int node, const std::array<int, 3>& first, const std::array<int, 3>& count) {
   const int axis = nodes_[node].axis;
   if (axis < 0 || count[axis] == 1) {
+    const int child = nodes_[node].child, held = axis >= 0 ? ~node : child >= 0 ? child : kNothing;
     for (int k = first[2]; k < first[2] + count[2]; ++k)
       for (int j = first[1]; j < first[1] + count[1]; ++j)
         for (int i = first[0]; i < first[0] + count[0]; ++i)
-          grid_.nodes[(static_cast<size_t>(k) * grid_.count[1] + j) * grid_.count[0] + i] = node;
+          grid_.boxes[(static_cast<size_t>(k) * grid_.count[1] + j) * grid_.count[0] + i] = held;
     return;
   }
   std::array<int, 3> half = count, above = first;
@@ -275,7 +276,7 @@ LEKALO_WIDE void ImplicitCells::follow(const Line& line, double t0, double t1, S
     next[axis] = d == 0 ? kInfinity : first[axis] + plane[axis] * side[axis];
     size *= grid_.count[axis];
   }
-  int node = grid_.nodes[box];
+  int held = grid_.boxes[box];
   for (double from = t0;;) {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
     const double to = next[axis];
@@ -285,19 +286,19 @@ LEKALO_WIDE void ImplicitCells::follow(const Line& line, double t0, double t1, S
       box += stride[axis];
       plane[axis] += step[axis];
       next[axis] = first[axis] + plane[axis] * side[axis];
-      if (grid_.nodes[box] == node) continue;
+      if (grid_.boxes[box] == held) continue;
     }
     const double end = is_last ? t1 : to;
     if (from < end) {
-      if (nodes_[node].axis >= 0)
-        follow_node(node, line, from, end, changes);
-      else if (nodes_[node].child >= 0)
-        follow_cell(cells_[nodes_[node].child], line, from, end, changes);
+      if (held >= 0)
+        follow_cell(cells_[held], line, from, end, changes);
+      else if (held != kNothing)
+        follow_node(~held, line, from, end, changes);
       if (is_last || changes.is_done()) return;
       from = end;
     }
     if (is_last) return;
-    node = grid_.nodes[box];
+    held = grid_.boxes[box];
   }
 }
 

@@ -25,6 +25,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "geometry/queries/line_intersections.h"
@@ -47,7 +48,7 @@ class ImplicitCells {
   double rounding() const { return rounding_; }
   int count() const { return static_cast<int>(cells_.size()); }
   size_t memory() const {
-    return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node) + grid_.nodes.size() * sizeof(int);
+    return cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(Node) + grid_.boxes.size() * sizeof(int);
   }
 
   // Follows the sign of F along the line from t0 to t1, both in the region. The origin of the line lies near it.
@@ -72,12 +73,14 @@ class ImplicitCells {
     int axis = -1;   // of the cut; -1: a leaf
     int child = -1;  // the part below the cut, the one above follows; of a leaf its cell, -1: no zero there
   };
-  // The region in equal boxes, halved as the nodes are, and the node that holds each of them or is as small.
+  // The region in equal boxes, halved as the nodes are, and what the node that holds each of them, or is as small, has
+  // there: a cell by its number, kNothing where there is no zero, or, where the node is cut further, ~node.
   struct Grid {
     Vec3 lo{0}, side{0}, per_side{0};  // per_side: one over the sides
     std::array<int, 3> count{1, 1, 1};
-    std::vector<int> nodes;  // x fastest
+    std::vector<int> boxes;  // x fastest
   };
+  static constexpr int kNothing = std::numeric_limits<int>::min();
   // Bounds on the fourth derivatives over a box with these half sides.
   struct FourthDerivatives {
     Vec3 half{0};

@@ -74,7 +74,7 @@ bool ImplicitRegion::misses(const Box3& other) const {
 }
 
 ImplicitSurface::ImplicitSurface(Expression expression, double level, const ImplicitRegion& region, bool closed)
-    : formula_(std::move(expression), level), region_(region), closed_(closed) {
+    : formula_(std::move(expression), level), region_(region), size_(glm::length(region.box.size())), closed_(closed) {
   const Box3& box = region.box;
   const Vec3 size = box.size();
   const char* const field = region.is_ball ? "ball" : "box";
@@ -202,7 +202,7 @@ ShapePoint ImplicitSurface::border_point(int face, const Vec3& near) const {
 // One step of Newton's iteration along the gradient leads from the line's own place to the surface.
 ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const {
   if (hit.face > 0) return border_point(hit.face, near);
-  const double size = glm::length(region_.box.size()), worst = kWorstPlace * size;
+  const double worst = kWorstPlace * size_;
   ShapePoint at;
   at.position = near;
   Vec3 slope;
@@ -216,15 +216,14 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
     slope = {both.c[1], both.c[2], both.c[3]};
     value = both.c[0];
   }
-  double square = glm::dot(slope, slope);
+  double square = glm::dot(slope, slope), length = std::sqrt(square);
   if (square > 0) {
-    const Vec3 step = value / square * slope;
-    if (glm::length(step) <= worst) at.position -= step;
+    if (std::abs(value) <= worst * length) at.position -= value / square * slope;
     // The bound for the whole region is mostly good enough.
     double rounding = polynomial_ ? noise_ : cells_->rounding();
-    if (polynomial_ && rounding > kGoodPlace * size * std::sqrt(square))
+    if (polynomial_ && rounding > kGoodPlace * size_ * length)
       rounding = noise_of(*polynomial_, formula_.level(), {near, near});
-    at.error = std::min(2 * rounding / std::sqrt(square), worst);
+    at.error = std::min(2 * rounding / length, worst);
   } else {
     // A singular point: a normal of its surroundings.
     at.error = worst;
@@ -233,8 +232,9 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
       square = glm::dot(slope, slope);
       if (square > 0) break;
     }
+    length = std::sqrt(square);
   }
-  if (square > 0 && square < kInfinity) at.normal = slope / std::sqrt(square);
+  if (square > 0 && square < kInfinity) at.normal = slope / length;
   return at;
 }
 

@@ -70,6 +70,7 @@ class ImplicitSurface final : public Shape {
 
   ImplicitFormula formula_;
   ImplicitRegion region_;
+  double size_;  // of the region
   bool closed_;
   std::optional<LinePolynomial> polynomial_;
   double noise_ = 0;  // of the polynomial's coefficients

@@ -15,6 +15,11 @@ ConeSurface::ConeSurface(const Frame& frame, double radius, double top_radius, d
   if (radius == 0 && widening_ == 0) throw std::invalid_argument("a cone needs a radius or a half-angle");
   if (!(height != 0)) throw std::invalid_argument("the height of a cone must not be zero");
   check_domain(domain, {});
+  // On both nappes the height of a hit does not tell its side, and at an apex there is no gradient.
+  if (free_sides(0, 0).front || free_sides(0, 0).back) {
+    const double slope = widening_ / height;
+    be_part_of({{1, 1, -slope * slope}, -2 * radius * slope, -radius * radius}, Vec3(1));
+  }
 }
 
 NurbsCurveForm ConeSurface::meridian_form() const {
@@ -36,6 +41,12 @@ Sides ConeSurface::free_sides(double, double) const {
   return {.front = outward, .back = !outward};
 }
 
+Foot ConeSurface::foot(const Vec3& near) const {
+  const Vec3 p = frame_.to_local_point(near);
+  if (p.x == 0 && p.y == 0) return {near, normal(0, p.z / height_)};  // the apex
+  return MeridianSurface::foot(near);
+}
+
 void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
   const MovedLine moved = local_line(line, nearest_axis_point());
   const bool cylinder = widening_ == 0;
@@ -45,6 +56,7 @@ void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits)
   const Quadric quadric = cylinder ? Quadric{{1, 1, 0}, 0, -1} : Quadric{{1, 1, -1}, 0, 0};
   const QuadricRoots roots = quadric_roots(quadric, o, d);
   const Interval near{t.lo - moved.start, t.hi - moved.start};
+  const bool by_height = knows_feet() && !hits.wants_parameters();
   const auto add = [&](int i, double nappe) {
     if (hits.is_enough() || !roots.may_lie_in(near, i)) return;
     // Is there anything of this nappe in the domain?
@@ -53,7 +65,12 @@ void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits)
     const QuadricHit hit = quadric_hit(quadric, d, roots, i);
     const double at = moved.start + hit.s;
     if (!t.contains(at)) return;
-    add_hit(hits, line, at, std::atan2(nappe * hit.point.y, nappe * hit.point.x), moved.at(hit.s).z / height_);
+    const double z = moved.at(hit.s).z;
+    const Place place = by_height ? place_by_height(z) : Place::at_border;
+    if (place == Place::inside)
+      hits.add({at, 0, 0});
+    else if (place == Place::at_border)
+      add_hit(hits, line, at, std::atan2(nappe * hit.point.y, nappe * hit.point.x), z / height_);
   };
   if (cylinder) {
     for (int i = 0; i < roots.count; ++i) add(i, radius_ < 0 ? -1 : 1);

@@ -20,6 +20,7 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
 
   // Of one nappe the outer side.
   Sides free_sides(double u, double v) const override;
+  Foot foot(const Vec3& near) const override;
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -16,6 +16,7 @@ Ellipsoid::Ellipsoid(const Frame& frame, const Vec3& semi_axes, const Rectangle&
     throw std::invalid_argument("the semi-axes of an ellipsoid must be positive");
   check_domain(domain, kRules);
   whole_ = covers(domain, kFull);
+  be_part_of({{1, 1, 1}, 0, -1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm Ellipsoid::meridian_form() const {
@@ -25,7 +26,7 @@ NurbsCurveForm Ellipsoid::meridian_form() const {
 }
 
 void Ellipsoid::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 1}, 0, -1}, 1.0 / semi_axes(), line, t, hits, [](const Vec3& p) {
+  add_quadric_hits(line, t, hits, [](const Vec3& p) {
     return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
   });
 }

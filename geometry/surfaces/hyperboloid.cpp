@@ -16,6 +16,7 @@ HyperboloidOneSheet::HyperboloidOneSheet(const Frame& frame, const Vec3& semi_ax
   if (!(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0))
     throw std::invalid_argument("the semi-axes of a hyperboloid must be positive");
   check_domain(domain, kOneSheetRules);
+  be_part_of({{1, 1, -1}, 0, -1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm HyperboloidOneSheet::meridian_form() const {
@@ -25,8 +26,7 @@ NurbsCurveForm HyperboloidOneSheet::meridian_form() const {
 }
 
 void HyperboloidOneSheet::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, -1}, 0, -1}, {1 / a_, 1 / b_, 1 / c_}, line, t, hits,
-                   [](const Vec3& p) { return std::optional<double>(std::asinh(p.z)); });
+  add_quadric_hits(line, t, hits, [](const Vec3& p) { return std::optional<double>(std::asinh(p.z)); });
 }
 
 HyperboloidTwoSheets::HyperboloidTwoSheets(const Frame& frame, const Vec3& semi_axes, const Rectangle& domain)
@@ -34,6 +34,7 @@ HyperboloidTwoSheets::HyperboloidTwoSheets(const Frame& frame, const Vec3& semi_
   if (!(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z != 0))
     throw std::invalid_argument("the semi-axes of a hyperboloid must be positive");
   check_domain(domain, kTwoSheetsRules);
+  be_part_of({{1, 1, -1}, 0, 1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm HyperboloidTwoSheets::meridian_form() const {
@@ -43,7 +44,7 @@ NurbsCurveForm HyperboloidTwoSheets::meridian_form() const {
 }
 
 void HyperboloidTwoSheets::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, -1}, 0, 1}, {1 / a_, 1 / b_, 1 / c_}, line, t, hits, [](const Vec3& p) {
+  add_quadric_hits(line, t, hits, [](const Vec3& p) {
     return p.z > 0 ? std::optional<double>(std::asinh(std::hypot(p.x, p.y))) : std::nullopt;
   });
 }

@@ -126,12 +126,56 @@ std::optional<NurbsSurfaceForm> MeridianSurface::as_nurbs() const {
   return form;
 }
 
-void MeridianSurface::add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line,
-                                       const Interval& range, LineHits& hits,
+void MeridianSurface::be_part_of(const Quadric& quadric, const Vec3& scale) {
+  quadric_ = quadric;
+  scale_ = scale;
+  const Interval& v = domain_.v;
+  const bool has_lo = v.lo > -kInfinity, has_hi = v.hi < kInfinity;
+  // Any place but a pole or apex tells the side, on one nappe.
+  const double some = has_lo ? (has_hi ? v.middle() : v.lo + 1) : has_hi ? v.hi - 1 : 0;
+  const Vec3 from = frame_.to_local_direction(evaluate(0, some, 0).point() - frame_.origin);
+  side_ = glm::dot(frame_.direction(half_gradient(scale_ * from)), normal(0, some)) < 0 ? -1 : 1;
+  knows_feet_ = domain_.u.width() >= kTwoPi;
+  inside_ = around_ = Interval::entire();
+  if (whole_) return;
+  const auto height = [&](double at) { return scale_.z * meridian(at, 0).z[0]; };
+  const auto spanned = [&](double a, double b) { return Interval(std::min(a, b), std::max(a, b)); };
+  inside_ = spanned(height(v.lo), height(v.hi));
+  if (has_lo && has_hi) {
+    // A hit beyond the border counts within kShallowReach. Heights rise or fall all along v, but beyond a pole or
+    // vertex.
+    const double reach = 2 * kShallowReach * v.width();
+    const Interval farther = spanned(height(v.lo - reach), height(v.hi + reach));
+    around_ = {std::min(inside_.lo, farther.lo), std::max(inside_.hi, farther.hi)};
+  }
+  // More than the rounding of heights and parameters.
+  constexpr double kSlack = 1e-9;
+  const auto size = [](double z) { return std::abs(z) < kInfinity ? std::abs(z) : 0.0; };
+  const double slack = kSlack * (size(inside_.lo) + size(inside_.hi));
+  inside_ = {inside_.lo + slack, inside_.hi - slack};
+  around_ = {around_.lo - slack, around_.hi + slack};
+}
+
+// One step of Newton's iteration along the gradient.
+Foot MeridianSurface::foot(const Vec3& near) const {
+  const Vec3 from = near - frame_.origin;
+  const Vec3 p = scale_ * (upright_ ? from : frame_.to_local_direction(from));
+  const Vec3 half = half_gradient(p);
+  const double square = glm::dot(half, half);
+  const Vec3 step = (0.5 * quadric_.value(p) / square) * half;
+  const double sign = normal_sign() * side_ / std::sqrt(square);
+  return {near - direction(step), direction(sign * half)};
+}
+
+void MeridianSurface::add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
                                        std::optional<double> (*parameter)(const Vec3&)) const {
-  visit_quadric_hits(quadric, local_line(line, frame_.origin), scale, range, hits, [&](double t, const Vec3& p) {
-    if (needs_no_parameters(hits))
+  const bool by_height = knows_feet_ && !hits.wants_parameters();
+  visit_quadric_hits(quadric_, local_line(line, frame_.origin), scale_, range, hits, [&](double t, const Vec3& p) {
+    const Place place = by_height ? place_by_height(p.z) : Place::at_border;
+    if (place == Place::inside)
       hits.add({t, 0, 0});
+    else if (place == Place::outside)
+      return;
     else if (const auto v = parameter(p))
       add_hit(hits, line, t, std::atan2(p.y, p.x), *v);
   });

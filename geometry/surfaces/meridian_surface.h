@@ -41,6 +41,8 @@ class MeridianSurface : public Surface {
   DegenerateEdges degenerate_edges() const override;
   bool bounded() const override { return domain_.v.lo > -kInfinity && domain_.v.hi < kInfinity; }
   bool has_line_formula() const override { return true; }
+  bool knows_feet() const override { return knows_feet_; }
+  Foot foot(const Vec3& near) const override;
 
  protected:
   MeridianSurface(const Frame& frame, double a, double b, const Rectangle& domain)
@@ -67,10 +69,21 @@ class MeridianSurface : public Surface {
   // Adds the hit at angle u (of atan2) and v if both lie in the domain.
   void add_hit(LineHits& hits, const Line& line, double t, double u, double v) const;
 
-  // Adds the hits of a line with the quadric, whose coordinates are those of the frame times `scale`.
-  // `parameter` is v of a scaled point on it, or nothing where the point belongs to another sheet.
-  void add_quadric_hits(const Quadric& quadric, const Vec3& scale, const Line& line, const Interval& range,
-                        LineHits& hits, std::optional<double> (*parameter)(const Vec3&)) const;
+  // For constructors, once meridian() can be asked: the surface is a part of this quadric, whose coordinates are those
+  // of the frame times `scale`, and the height z tells which part. So it knows its feet if it goes all round.
+  void be_part_of(const Quadric& quadric, const Vec3& scale);
+
+  // Adds the hits of a line with that quadric. `parameter` is v of a scaled point on it, or nothing where the point
+  // belongs to another sheet.
+  void add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
+                        std::optional<double> (*parameter)(const Vec3&)) const;
+
+  // What the height alone, in scaled coordinates, tells of a hit on a surface that knows its feet.
+  enum class Place { inside, outside, at_border };
+  Place place_by_height(double z) const {
+    if (inside_.contains(z)) return Place::inside;
+    return around_.contains(z) ? Place::at_border : Place::outside;
+  }
 
   // True if the hits need no parameters: they are not wanted, and none would lie outside the domain.
   bool needs_no_parameters(const LineHits& hits) const { return whole_ && !hits.wants_parameters(); }
@@ -79,9 +92,19 @@ class MeridianSurface : public Surface {
   double a_, b_;  // stretch of the parallels along x and y
   Rectangle domain_;
   bool whole_ = false;  // a closed surface, all of it
+  bool knows_feet_ = false;
+  Vec3 scale_{1};  // of be_part_of
 
  private:
+  Quadric quadric_;
+  double side_ = 1;  // -1: where r_u x r_v points the quadric falls
+  // Scaled heights at which a hit certainly lies in the domain, and outside of which it certainly does not.
+  Interval inside_, around_;
   bool is_pole(double v) const;
+  // Half the quadric's gradient in the frame, at a scaled point.
+  Vec3 half_gradient(const Vec3& p) const {
+    return scale_ * (quadric_.squares * p + Vec3(0, 0, 0.5 * quadric_.linear_z));
+  }
   Vec3 direction(const Vec3& local) const { return upright_ ? local : frame_.direction(local); }
   bool upright_;  // the frame's axes are the world's
 };

@@ -15,6 +15,7 @@ EllipticParaboloid::EllipticParaboloid(const Frame& frame, double a, double b, c
     : MeridianFormula(frame, a, b, domain) {
   if (!(a > 0 && b > 0)) throw std::invalid_argument("the semi-axes of a paraboloid must be positive");
   check_domain(domain, kEllipticRules);
+  be_part_of({{1, 1, 0}, -1, 0}, {1 / a, 1 / b, 1});
 }
 
 NurbsCurveForm EllipticParaboloid::meridian_form() const {
@@ -22,8 +23,7 @@ NurbsCurveForm EllipticParaboloid::meridian_form() const {
 }
 
 void EllipticParaboloid::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 0}, -1, 0}, {1 / a_, 1 / b_, 1}, line, t, hits,
-                   [](const Vec3& p) { return std::optional<double>(std::hypot(p.x, p.y)); });
+  add_quadric_hits(line, t, hits, [](const Vec3& p) { return std::optional<double>(std::hypot(p.x, p.y)); });
 }
 
 HyperbolicParaboloid::HyperbolicParaboloid(const Frame& frame, double a, double b, const Rectangle& domain)

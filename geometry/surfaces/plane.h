@@ -19,7 +19,8 @@ class Plane final : public Surface {
   Vec3 normal(double, double, const SurfaceJet&) const override { return normal_sign() * frame_.z; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
-  bool knows_feet() const override { return whole_; }
+  bool is_whole() const { return whole_; }
+  bool knows_feet() const override { return true; }
   Foot foot(const Vec3& near) const override;
   Sides free_sides(double, double) const override { return {true, true}; }
   bool has_line_formula() const override { return true; }

@@ -15,6 +15,7 @@ SphereSurface::SphereSurface(const Frame& frame, double radius, const Rectangle&
   if (!(radius > 0)) throw std::invalid_argument("the radius of a sphere must be positive");
   check_domain(domain, kRules);
   whole_ = covers(domain, kFull);
+  be_part_of({{1, 1, 1}, 0, -1}, Vec3(1 / radius));
 }
 
 NurbsCurveForm SphereSurface::meridian_form() const {
@@ -39,7 +40,7 @@ Foot SphereSurface::foot(const Vec3& near) const {
 }
 
 void SphereSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
-  add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / radius_), line, t, hits, [](const Vec3& p) {
+  add_quadric_hits(line, t, hits, [](const Vec3& p) {
     return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
   });
 }

@@ -62,6 +62,7 @@ TorusSurface::TorusSurface(const Frame& frame, double major, double minor, const
   if (!(major > -minor)) throw std::invalid_argument("the major radius of a torus must be greater than -minor radius");
   check_domain(domain, rules(major, minor));
   whole_ = covers(domain, full_domain(major, minor));
+  if (major == 0) be_part_of({{1, 1, 1}, 0, -1}, Vec3(1 / minor));
 }
 
 NurbsCurveForm TorusSurface::meridian_form() const {
@@ -79,7 +80,7 @@ TorusSurface::MeridianTangent TorusSurface::meridian_near(const MeridianPoint<do
 
 void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
   if (major_ == 0) {
-    add_quadric_hits({{1, 1, 1}, 0, -1}, Vec3(1 / minor_), line, range, hits, [](const Vec3& p) {
+    add_quadric_hits(line, range, hits, [](const Vec3& p) {
       return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));
     });
     return;

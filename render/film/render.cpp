@@ -78,14 +78,14 @@ class TileTracer {
         lines_(world),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
         materials_(world.model().objects),
+        colors_only_(!film.keeps_data() && !film.channel(kKey) && lines_.empty() && !is_adaptive()),
         stop_(stop) {}
 
   // The tile's cost; nothing if it was given up and left no trace.
   std::optional<Tally> trace(int number) const {
     Exposure exposure(film_, number);
-    const double contrast = world_.model().film.contrast;
-    if (contrast > 0 && sampler_->samples_per_pixel() > kFewSamples)
-      trace_adaptively(film_.tile(number), static_cast<float>(contrast), exposure);
+    if (is_adaptive())
+      trace_adaptively(film_.tile(number), static_cast<float>(world_.model().film.contrast), exposure);
     else
       trace_evenly(film_.tile(number), exposure);
     if (exposure.given_up) {
@@ -115,12 +115,24 @@ class TileTracer {
           rays(kTogether),
           hits(kTogether) {}
 
+    // The values of the filtered layers.
+    struct Values {
+      explicit Values(const RaySample& s)
+          : all{s.radiance[0], s.radiance[1], s.radiance[2], s.alpha, s.direct[0], s.direct[1], s.direct[2]} {}
+      float all[7];
+    };
+
+    // The only sample of a pixel, where the filter does not reach beyond it.
+    void set(int x, int y, const RaySample& sample) {
+      const Values values(sample);
+      film.set_pixel(x, y, values.all + film.first_filtered());
+    }
+
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
     void add(int x, int y, const Vec2& place, const RaySample& sample, double share) {
       const int reach = film.reach();
-      const float all[] = {sample.radiance[0], sample.radiance[1], sample.radiance[2], sample.alpha,
-                           sample.direct[0],   sample.direct[1],   sample.direct[2]};
-      const float* const values = all + film.first_filtered();
+      const Values of_sample(sample);
+      const float* const values = of_sample.all + film.first_filtered();
       const Filter& filter = film.filter();
       if (reach == 0) {
         deposit(sums.data(), values, share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
@@ -163,6 +175,8 @@ class TileTracer {
     int number;
   };
 
+  bool is_adaptive() const { return world_.model().film.contrast > 0 && sampler_->samples_per_pixel() > kFewSamples; }
+
   static void add_shot(std::vector<Shot>& shots, int x, int y, const Vec2& place, int number) {
     Shot& shot = shots.emplace_back();
     shot.x = x;
@@ -189,7 +203,8 @@ class TileTracer {
       for (size_t i = 0; i < some.size(); ++i) {
         const Shot& shot = some[i];
         SampleStream random = sampler_->stream(shot.x, shot.y, shot.number);
-        RaySample sample = integrator_.trace(world_, rays[i], hits[i], random);
+        RaySample sample = colors_only_ ? integrator_.trace_color(world_, rays[i], hits[i], random)
+                                        : integrator_.trace(world_, rays[i], hits[i], random);
         if (!lines_.empty()) lines_.draw(Vec2(shot.x, shot.y) + shot.place, sample);
         ++tally.camera_rays;
         tally.shadow_rays += sample.shadow_rays;
@@ -202,7 +217,7 @@ class TileTracer {
 
   void trace_evenly(const Window& tile, Exposure& exposure) const {
     const int samples = sampler_->samples_per_pixel();
-    const bool keeps_data = film_.keeps_data();
+    const bool keeps_data = film_.keeps_data(), alone = samples == 1 && film_.reach() == 0;
     std::vector<Shot> shots;  // of a row
     for (int y = tile.y0; y < tile.y1; ++y) {
       shots.clear();
@@ -213,7 +228,10 @@ class TileTracer {
       take(shots, exposure, [&](const Shot& shot, const RaySample& sample) {
         if (is_finite(sample)) {
           ++counted;
-          exposure.add(shot.x, y, shot.place, sample, 1);
+          if (alone)
+            exposure.set(shot.x, y, sample);
+          else
+            exposure.add(shot.x, y, shot.place, sample, 1);
           const Vec2 off = shot.place - 0.5;
           if (keeps_data && glm::dot(off, off) < nearest && film_.crop().contains(shot.x, y)) {
             nearest = glm::dot(off, off);
@@ -221,7 +239,7 @@ class TileTracer {
           }
         }
         if (shot.number + 1 < samples) return;
-        exposure.finish(shot.x, y);
+        if (!alone) exposure.finish(shot.x, y);
         count(shot.x, y, counted);
         nearest = geometry::kInfinity;
         counted = 0;
@@ -352,6 +370,7 @@ class TileTracer {
   PictureLines lines_;
   SamplerPtr sampler_;
   MaterialNumbers materials_;
+  bool colors_only_;  // of samples
   const std::atomic<bool>* stop_;
 };
 

@@ -106,6 +106,11 @@ class TiledFilm {
   void set_pixel(int x, int y, std::span<const double> sums) {
     set_pixel(static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0), sums.data());
   }
+  // The same from the values of its only sample, whatever that weighs.
+  void set_pixel(int x, int y, const float* values) {
+    const size_t pixel = static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
+    for (size_t i = 0; i < filtered_.size(); ++i) filtered_planes_[i][pixel] = values[i];
+  }
   // Takes back what has been written of a tile that was given up: its pixels are 0 again.
   void clear(int tile);
   // Takes the sums of a tile. Where the filter does not reach beyond a pixel there are none, and its pixels are set.

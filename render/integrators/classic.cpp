@@ -31,6 +31,7 @@ constexpr int kMostPasses = 1000;
 constexpr float kGrain = 0.004f;
 constexpr float kOverPi = static_cast<float>(1 / kPi);
 const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
+const Wavelengths kPrimaries;
 const Spectrum kWhite{1, 1, 1, 0};
 
 // The light of lights at a point, before the coefficients.
@@ -71,18 +72,21 @@ constexpr int kMostTogether = 16;
 
 class Tracer {
  public:
+  // `whole`: the sample gets its point, depth and key, too.
   Tracer(const World& world, const ClassicOptions& options, double reference_depth, SampleStream& random,
-         RaySample& sample)
+         RaySample& sample, bool whole)
       : world_(world),
         options_(options),
         reference_depth_(reference_depth),
         tinted_(options.shadows == ShadowMode::transparent && world.has_transmitting_materials()),
+        whole_(whole),
         random_(random),
         sample_(sample) {}
 
   // `hit`: what the ray meets, instance -1 for nothing; `weight`: what the light of this ray is multiplied with on its
   // way to the eye; `length`: of the way up to its origin.
-  Spectrum radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length);
+  Spectrum radiance(const Ray& ray, const Hit& hit, const Media& media, int depth, const Spectrum& weight,
+                    double length);
 
  private:
   Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
@@ -97,35 +101,47 @@ class Tracer {
     if (!world_.nearest(ray, hit)) hit.instance = -1;
     return hit;
   }
-  void mix(uint64_t value) { sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u; }
+  void mix(uint64_t value) {
+    if (whole_) sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u;
+  }
 
   const World& world_;
   const ClassicOptions& options_;
   double reference_depth_;
   bool tinted_;  // shadows
+  bool whole_;
   SampleStream& random_;
   RaySample& sample_;
 };
 
-Spectrum Tracer::radiance(Ray ray, Hit hit, Media media, int depth, const Spectrum& weight, double length) {
+Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Media& around, int depth,
+                          const Spectrum& weight, double length) {
   Spectrum through = kWhite;
+  Media media = around;
+  // Behind a boundary that is none for light; mostly there is none of these.
+  std::optional<Ray> ray_on;
+  std::optional<Hit> hit_on;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (pass > 0) hit = met(ray);
+    if (ray_on) hit_on = met(*ray_on);
+    const Ray& ray = ray_on ? *ray_on : first_ray;
+    const Hit& hit = hit_on ? *hit_on : first_hit;
     if (hit.instance < 0) {
       mix(0);
-      return through * transmittance(media.current().absorption, kInfinity) * world_.model().background;
+      if (!media.is_air()) through *= transmittance(media.current().absorption, kInfinity);
+      return through * world_.model().background;
     }
     Seen seen(world_, ray, hit, length);
 
     const int32_t body = seen.point.instance;
-    const std::optional<Medium> medium = world_.material(seen.point, true).interior(kYellow);
+    const Object& object = world_.object(seen.point);
+    const std::optional<Medium> medium = object.material->interior(kYellow);
     if (medium && !seen.front && !media.is_inside(body)) media.enter(body, *medium);  // the eye is inside the body
+    if (!media.is_air()) through *= transmittance(media.current().absorption, hit.t);
     Media behind = media;
     if (medium) seen.front ? behind.enter(body, *medium) : behind.leave(body);
-    through *= transmittance(media.current().absorption, hit.t);
 
-    const Material& material = world_.material(seen.point, seen.front);
-    ClassicCoefficients c = material.classic(seen.point, Wavelengths{});
+    const Material& material = seen.front || !object.back_material ? *object.material : *object.back_material;
+    ClassicCoefficients c = material.classic(seen.point, kPrimaries);
     const bool is_boundary = !medium || (seen.front ? behind : media).filling() == body;
     if (is_boundary && (seen.front || !c.catches_shadows)) {
       seen.normal = material.shading_normal(seen.point);
@@ -134,7 +150,8 @@ Spectrum Tracer::radiance(Ray ray, Hit hit, Media media, int depth, const Spectr
     }
     media = behind;
     length = seen.length;
-    world_.leave(seen.point, ray.direction, ray);
+    if (!ray_on) ray_on = ray;
+    world_.leave(seen.point, ray_on->direction, *ray_on);
   }
   return {};
 }
@@ -144,7 +161,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
   if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
   mix(static_cast<uint64_t>(seen.point.instance) << 32 | static_cast<uint32_t>(seen.point.face));
   mix(seen.front);
-  mix(material.cell(seen.point));
+  if (whole_) mix(material.cell(seen.point));
   if (depth == 0) record(seen);
 
   const Illumination light = illuminate(ray, seen, c, media);
@@ -339,7 +356,7 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
     Media behind = media;
     if (medium) front ? behind.enter(point.instance, *medium) : behind.leave(point.instance);
     if (!medium || (front ? behind : media).filling() == point.instance)
-      share *= material.classic(point, Wavelengths{}).transmission;
+      share *= material.classic(point, kPrimaries).transmission;
     if (share.is_zero()) return {};
     media = behind;
     mix(static_cast<uint64_t>(point.instance) << 32 | static_cast<uint32_t>(point.face));
@@ -362,6 +379,7 @@ Spectrum Tracer::caught_shadow(const Illumination& light, const ClassicCoefficie
 
 void Tracer::record(const Seen& seen) {
   sample_.alpha = 1;
+  if (!whole_) return;
   sample_.point = seen.point;
   sample_.depth = seen.length;
 }
@@ -371,14 +389,20 @@ class ClassicIntegrator final : public Integrator {
   explicit ClassicIntegrator(const ClassicOptions& options) : options_(options) {}
 
   RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
-    RaySample sample;
-    Tracer tracer(world, options_, reference_depth(world, ray), random, sample);
-    sample.radiance = tracer.radiance(ray, first, Media(), 0, kWhite, 0);
-    return sample;
+    return sample(world, ray, first, random, true);
+  }
+  RaySample trace_color(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
+    return sample(world, ray, first, random, false);
   }
   std::any made_from() const override { return options_; }
 
  private:
+  RaySample sample(const World& world, const Ray& ray, const Hit& first, SampleStream& random, bool whole) const {
+    RaySample sample;
+    Tracer tracer(world, options_, reference_depth(world, ray), random, sample, whole);
+    sample.radiance = tracer.radiance(ray, first, Media(), 0, kWhite, 0);
+    return sample;
+  }
   double reference_depth(const World& world, const Ray& ray) const {
     if (options_.depth_attenuation == 0) return 0;
     if (options_.reference_depth) return *options_.reference_depth;

@@ -35,6 +35,10 @@ class Integrator {
   virtual ~Integrator() = default;
   // `first`: what the ray meets (World::nearest of many rays), instance -1 for nothing.
   virtual RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const = 0;
+  // The same for who asks for colours and counts alone: `point`, `depth` and `key` may be left out.
+  virtual RaySample trace_color(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const {
+    return trace(world, ray, first, random);
+  }
   // The plain options that it was made from (ClassicOptions), for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }
 };

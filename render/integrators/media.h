@@ -20,6 +20,7 @@ class Media {
     return *this;
   }
 
+  bool is_air() const { return count_ == 0; }
   // The medium that fills the place; air (index 1, no absorption) outside all bodies.
   Medium current() const { return count_ == 0 ? Medium{} : entries_[strongest()].medium; }
 

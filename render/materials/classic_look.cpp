@@ -17,24 +17,25 @@ class ClassicMaterial final : public Material {
                                        &look_.transmission, &look_.emission})
       if (color->texture()) textures_.push_back(color->texture());
     if (textures_.empty()) same_everywhere_ = coefficients({});
+    if (!look_.transmission.is_black())
+      interior_ = Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
+    is_even_ = textures_.empty() && look_.normal_deviation.amplitude == 0;
   }
 
   ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
     return textures_.empty() ? same_everywhere_ : coefficients(point);
   }
 
-  std::optional<Medium> interior(const Wavelengths&) const override {
-    if (!transmits()) return std::nullopt;
-    return Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
-  }
+  std::optional<Medium> interior(const Wavelengths&) const override { return interior_; }
 
-  bool transmits() const override { return !look_.transmission.is_black(); }
-  bool uses_parameters() const override { return !textures_.empty() || look_.normal_deviation.amplitude != 0; }
+  bool transmits() const override { return interior_.has_value(); }
+  bool uses_parameters() const override { return !is_even_; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, look_.normal_deviation);
   }
 
   uint64_t cell(const SurfacePoint& point) const override {
+    if (is_even_) return 0;
     uint64_t hash = deviation_cell(point, look_.normal_deviation);
     for (const TexturePtr& texture : textures_) hash = hash_combine(hash, texture->cell(point));
     return hash;
@@ -60,6 +61,8 @@ class ClassicMaterial final : public Material {
   ClassicLook look_;
   std::vector<TexturePtr> textures_;     // of all coefficients
   ClassicCoefficients same_everywhere_;  // where there are none
+  std::optional<Medium> interior_;       // where light passes
+  bool is_even_ = true;                  // neither textures nor deviations of the normal
 };
 
 }  // namespace

@@ -70,6 +70,8 @@ void Hierarchy::add(Leaf given) {
   if (given.shape) box = given.shape->bounds();
   for (const auto& target : given.targets)
     for (int piece = 0; piece < target->piece_count(); ++piece) box.include(target->piece_bounds(piece));
+  for (const auto& target : given.targets)
+    given.feet.push_back(!given.parameters && target->surface().knows_feet() ? &target->surface() : nullptr);
   given.size = box.bounded() && !box.empty() ? box.diameter() : 1.0;
   p.leaves.push_back(std::make_unique<Leaf>(std::move(given)));
   const Leaf& leaf = *p.leaves.back();
@@ -94,7 +96,7 @@ void Hierarchy::add(Leaf given) {
       r.face = static_cast<int>(face);
       r.target = leaf.targets[face].get();
       r.count = r.target->piece_count();
-      r.bare = leaf.is_bare(r.face);
+      r.bare = leaf.feet[face] != nullptr;
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
   }

@@ -36,10 +36,10 @@ struct Leaf {
   std::vector<HalfSpace> clips;
   uint32_t visible_to = kVisibleToAll;
   int object = 0;
-  double size = 0;  // diameter of its box; set by Hierarchy::add, 1 for unbounded leaves
-
-  // True if the nearest hit on a face comes without parameters: the surface's foot tells all that is shown.
-  bool is_bare(int face) const { return !parameters && !targets.empty() && targets[face]->surface().knows_feet(); }
+  // Set by Hierarchy::add.
+  double size = 0;  // diameter of its box, 1 for unbounded leaves
+  // By target: its surface if the nearest hits on it come without parameters and its foot tells all that is shown.
+  std::vector<const geometry::Surface*> feet;
 };
 
 class Hierarchy {

@@ -107,15 +107,18 @@ SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides
 // What a hit on a surface shows; `near` is its place on the line that found it.
 SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
                               double error) {
+  const double sign = leaf.signs[hit.face];
+  const auto sides_of = [&](const Surface& surface) {
+    const geometry::Sides sides = surface.free_sides(hit.u, hit.v);
+    return sign * surface.normal_sign() < 0 ? sides.turned() : sides;
+  };
+  if (const Surface* bare = leaf.feet[hit.face]) {
+    const geometry::Foot foot = bare->foot(near);
+    return point_as_seen({foot.point, sign * foot.normal}, sides_of(*bare), hit, incoming, object, error);
+  }
   const geometry::LineTarget& target = *leaf.targets[hit.face];
   const Surface& surface = target.surface();
-  const double sign = leaf.signs[hit.face];
-  geometry::Sides sides = surface.free_sides(hit.u, hit.v);
-  if (sign * surface.normal_sign() < 0) sides = sides.turned();
-  if (leaf.is_bare(hit.face)) {
-    const geometry::Foot foot = surface.foot(near);
-    return point_as_seen({foot.point, sign * foot.normal}, sides, hit, incoming, object, error);
-  }
+  const geometry::Sides sides = sides_of(surface);
   const geometry::SurfaceJet jet = target.jet_at(hit.piece, hit.u, hit.v, near);
   return point_as_seen(geometry::point_on(surface, sign, hit.u, hit.v, jet), sides, hit, incoming, object, error);
 }
@@ -434,19 +437,22 @@ double World::radius() const { return compiled_->top.radius(); }
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = compiled_->top.place(hit.instance);
   const Leaf& leaf = *place.leaf;
-  const Affine to_leaf = place.to_world ? place.to_world->inverse() : Affine();
-  const auto point_in_leaf = [&] {
+  const auto point_in_leaf = [&](const Vec3& near, double stretch) {
     if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
-    const Vec3 near = place.to_world ? to_leaf.point(ray.at(hit.t)) : ray.at(hit.t);
     if (!leaf.shape) return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
-    const geometry::ShapePoint at = leaf.shape->point({hit.t, hit.u, hit.v, hit.face, hit.piece}, near);
-    const double stretch = place.to_world ? geometry::largest_stretch(*place.to_world) : 1;
+    const geometry::SurfaceHit of_shape{hit.t, hit.u, hit.v, hit.face, hit.piece};
+    const geometry::ShapePoint at =
+        leaf.parameters ? leaf.shape->point(of_shape, near) : leaf.shape->bare_point(of_shape, near);
     return point_as_seen(at, {}, hit, ray.direction, place.object, place.error + at.error * stretch);
   };
-  SurfacePoint point = point_in_leaf();
-  if (place.to_world) {
+  std::optional<Affine> to_leaf;
+  if (place.to_world) to_leaf = place.to_world->inverse();
+  SurfacePoint point = to_leaf
+                           ? point_in_leaf(to_leaf->point(ray.at(hit.t)), geometry::largest_stretch(*place.to_world))
+                           : point_in_leaf(ray.at(hit.t), 1);
+  if (to_leaf) {
     const Affine& map = *place.to_world;
-    const geometry::Mat3 normals = glm::transpose(to_leaf.linear);
+    const geometry::Mat3 normals = glm::transpose(to_leaf->linear);
     point.position = map.point(point.position);
     point.smooth_position = map.point(point.smooth_position);
     point.du = map.direction(point.du);
@@ -456,7 +462,7 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   }
   const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
   point.error += kPositionError * (size.x + size.y + size.z);
-  if (compiled_->camera) point.pixel_size = compiled_->camera->pixel_size(point.position);
+  if (compiled_->camera && leaf.parameters) point.pixel_size = compiled_->camera->pixel_size(point.position);
   return point;
 }
 

@@ -5,6 +5,12 @@
 #include <random>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/ellipsoid.h"
+#include "geometry/surfaces/hyperboloid.h"
+#include "geometry/surfaces/paraboloid.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
@@ -39,6 +45,29 @@ std::vector<SurfacePtr> surfaces() {
           std::make_shared<TorusSurface>(frame, 2.5, 0.3), std::make_shared<Plane>(Frame{Vec3(0, 0, -1.5)})};
 }
 
+// Parts of quadrics between two heights, on which the height alone tells what belongs to them; and a rectangle.
+std::vector<SurfacePtr> parts() {
+  const auto frame = [](const Vec3& origin) { return frame_about(origin, glm::normalize(Vec3(1, 2, 3))); };
+  const Interval turn = SphereSurface::kFull.u;
+  auto inside_out = std::make_shared<ConeSurface>(frame({-2, 2, 0}), 0.8, 0.3, -1.5);
+  inside_out->set_reversed(true);
+  return {
+      std::make_shared<SphereSurface>(frame({2, 1, 0}), 0.8, Rectangle{turn, {-0.7, 1}}),
+      std::make_shared<Ellipsoid>(frame({-2, -1, 1}), Vec3(0.9, 0.7, 0.8)),
+      std::make_shared<Ellipsoid>(Frame{Vec3(0, 3, 0)}, Vec3(0.9, 0.7, 0.8), Rectangle{turn, {-1.2, 0.4}}),
+      std::make_shared<HyperboloidOneSheet>(frame({0, 0, 0}), Vec3(0.5, 0.7, 0.8), Rectangle{turn, {-1, 1.2}}),
+      std::make_shared<HyperboloidTwoSheets>(frame({3, -2, 0}), Vec3(0.5, 0.7, 0.4), Rectangle{turn, {0, 1.5}}),
+      std::make_shared<HyperboloidTwoSheets>(Frame{Vec3(3, 3, 1)}, Vec3(0.7, 0.5, -0.4), Rectangle{turn, {0.3, 1.5}}),
+      std::make_shared<EllipticParaboloid>(frame({-3, -3, 0}), 0.8, 0.6, Rectangle{turn, {0, 1.2}}),
+      std::make_shared<EllipticParaboloid>(Frame{Vec3(0, -3, 0)}, 0.8, 0.6, Rectangle{turn, {0.4, 1.2}}),
+      std::make_shared<ConeSurface>(frame({0, 2, -2}), 0.9, 0, 1.3),
+      std::make_shared<ConeSurface>(frame({0, -2, -2}), 0.9, -0.9, 2),  // both nappes
+      inside_out,
+      std::make_shared<ConeSurface>(frame({2, -1, -2}), -0.4, -0.9, 1),
+      std::make_shared<CylinderSurface>(frame({-1, 0, -3}), 0.4, 2),
+      std::make_shared<Plane>(frame({1, 1, 3}), Rectangle{{-1, 1}, {-1, 2}})};
+}
+
 TEST(BareHits, PointsAndNormalsAreTheSame) {
   const MaterialPtr plain = make_material(Diffuse{});
   Affine placed;
@@ -50,8 +79,10 @@ TEST(BareHits, PointsAndNormalsAreTheSame) {
     const double x = scale * normal(random), y = scale * normal(random);
     return Vec3(x, y, scale * normal(random));
   };
+  std::vector<SurfacePtr> all = surfaces();
+  for (const SurfacePtr& part : parts()) all.push_back(part);
   for (const Affine& map : {Affine(), placed}) {
-    const auto model = model_of(surfaces(), plain, map);
+    const auto model = model_of(all, plain, map);
     const World bare(model, false), full(model);
     int met = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -72,7 +103,7 @@ TEST(BareHits, PointsAndNormalsAreTheSame) {
       EXPECT_NEAR(p.error, q.error, 1e-9 * p.error);
       EXPECT_EQ(p.free_sides.front, q.free_sides.front);
       EXPECT_EQ(p.free_sides.back, q.free_sides.back);
-      if (glm::length(p.du) > 0 && a.instance >= 2 && a.instance <= 3) {  // part of a sphere, torus
+      if (!all[a.instance]->knows_feet()) {
         EXPECT_EQ(p.u, q.u);
         EXPECT_EQ(p.v, q.v);
       } else {
@@ -105,6 +136,64 @@ TEST(BareHits, ATextureKeepsTheParameters) {
   EXPECT_EQ(a.v, b.v);
 }
 
+// At the borders of parts the height does not decide alone.
+TEST(BareHits, PartsEndWhereTheyDoWithParameters) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit;
+  for (const SurfacePtr& surface : parts()) {
+    const Rectangle domain = surface->domain();
+    for (int k = 0; k < 4000; ++k) {
+      const bool top = unit(random) < 0.5;
+      const double off = k % 4 == 0 ? 0 : std::pow(10, -16 * unit(random)) * (unit(random) - 0.5);
+      const Vec3 at =
+          surface->point(domain.u.lo + domain.u.width() * unit(random), (top ? domain.v.hi : domain.v.lo) + off);
+      const Vec3 from = Vec3(unit(random), unit(random), unit(random)) * 8.0 - 4.0;
+      const Line line{from, glm::normalize(at - from)};
+      LineHits with(false, true), without(false, false);
+      surface->line_hits(line, Interval::entire(), with);
+      surface->line_hits(line, Interval::entire(), without);
+      ASSERT_EQ(with.size(), without.size());
+      for (int i = 0; i < with.size(); ++i) EXPECT_EQ(with[i].t, without[i].t);
+    }
+  }
+}
+
+TEST(BareHits, SolidsOfSolids) {
+  const auto shape = [](Body body) { return std::make_shared<BodyShape>(std::make_shared<Body>(std::move(body))); };
+  const Frame frame = frame_about({0.3, -0.2, 0.4}, glm::normalize(Vec3(1, 2, 3)));
+  const auto solid = std::make_shared<Csg>(
+      Csg::Operation::subtract, std::vector<ShapePtr>{shape(ball(Frame{}, 1.5)), shape(frustum(frame, 0.6, 0.2, 2)),
+                                                      shape(box(frame, {2, 0.5, 0.6})), shape(ball(frame, 0.7))});
+  auto model = std::make_shared<Model>();
+  Object object;
+  object.shape = ShapePtr(solid);
+  object.material = make_material(Diffuse{});
+  model->objects.push_back(object);
+  const World bare(model, false), full(model);
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  int met = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const auto any = [&] {
+      const double x = normal(random), y = normal(random);
+      return Vec3(x, y, normal(random));
+    };
+    Ray ray;
+    ray.origin = 5.0 * any();
+    ray.direction = glm::normalize(any() - ray.origin);
+    Hit a, b;
+    ASSERT_EQ(full.nearest(ray, a), bare.nearest(ray, b));
+    if (a.instance < 0) continue;
+    ++met;
+    EXPECT_EQ(a.t, b.t);
+    EXPECT_EQ(a.face, b.face);
+    const SurfacePoint p = full.surface_point(ray, a), q = bare.surface_point(ray, b);
+    EXPECT_LE(glm::length(p.position - q.position), p.error);
+    EXPECT_LE(glm::length(p.normal - q.normal), 10 * p.error);
+  }
+  EXPECT_GT(met, 5000);
+}
+
 TEST(BareHits, FeetOfAllTheirPoints) {
   for (const SurfacePtr& surface : surfaces()) {
     if (!surface->knows_feet()) continue;
@@ -114,6 +203,18 @@ TEST(BareHits, FeetOfAllTheirPoints) {
         const Foot foot = surface->foot(p);
         EXPECT_LE(glm::length(foot.point - p), 1e-14);
         EXPECT_LE(glm::length(foot.normal - surface->normal(u, v)), 1e-14);
+      }
+  }
+  for (const SurfacePtr& surface : parts()) {
+    if (!surface->knows_feet()) continue;
+    const Rectangle domain = surface->domain();
+    for (double u = 0.1; u < 6; u += 0.3)
+      for (double s = 0.01; s < 1; s += 0.1) {
+        const double v = domain.v.lo + s * domain.v.width();
+        const Vec3 p = surface->point(u, v);
+        const Foot foot = surface->foot(p);
+        EXPECT_LE(glm::length(foot.point - p), 1e-14);
+        EXPECT_LE(glm::length(foot.normal - surface->normal(u, v)), 1e-13);
       }
   }
 }
