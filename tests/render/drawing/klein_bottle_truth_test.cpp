@@ -1,0 +1,42 @@
+// The visible and hidden pieces of all lines of Klein bottles by formulas against the zeros of an implicit function
+// along the way of sight (support/implicit_oracle.h).
+#include "geometry/point_formulas.h"
+#include "geometry/surfaces/formula_surface.h"
+#include "render/drawing/line_truth.h"
+#include "support/implicit_oracle.h"
+
+namespace lekalo::render {
+namespace {
+
+// As the gallery writes it, the figure's middle at the distance a from the axis.
+SurfacePtr figure_eight_bottle(const std::string& a) {
+  const std::string rho = "(" + a + " + cos(u/2)*sin(v) - sin(u/2)*sin(2*v))";
+  return std::make_shared<FormulaSurface>(
+      point_formulas({rho + "*cos(u)", rho + "*sin(u)", "sin(u/2)*sin(v) + cos(u/2)*sin(2*v)"}, {"u", "v"}),
+      Rectangle{{0, kTwoPi}, {0, kTwoPi}}, FormulaSurface::Closed{false, true});
+}
+
+Sheets sheets_of(const oracle::implicit::FigureEightBottle& bottle) {
+  return [bottle](const Vec3& from, const Vec3& point, double contact) {
+    using oracle::implicit::Real;
+    // An outline's own sheet touches the way.
+    return oracle::implicit::layers_before(bottle, from, point, contact > 0 ? Real(contact) : Real(kOwn),
+                                           contact > 0 ? 10 * Real(contact) : Real(kOwnToo));
+  };
+}
+
+TEST(DrawingTruth, KleinBottles) {
+  Views views(67);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+    SmallScene scene;
+    const std::string a = std::to_string(views.number(1.8, 2.6));
+    show(scene, figure_eight_bottle(a), {"boundary", "silhouette", "self_intersection", "parameter"}, 4);
+    views.look(scene, k % 2);
+    Truth(*scene.world(), sheets_of(oracle::implicit::FigureEightBottle(std::stod(a))), views, found, 4);
+  }
+  expect_right(found, "klein_bottle");
+}
+
+}  // namespace
+}  // namespace lekalo::render
