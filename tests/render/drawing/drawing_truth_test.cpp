@@ -26,7 +26,7 @@ namespace {
 
 using namespace geometry;
 // Of rational Bezier patches, by halving (support/line_oracle.h).
-Sheets sheets_of(const SurfaceSet& surfaces) {
+Sheets sheets_of_patches(const SurfaceSet& surfaces) {
   std::vector<oracle::PatchOracle> patches;
   for (const SurfacePtr& surface : surfaces)
     for (const SurfacePiece& piece : surface->pieces())
@@ -206,7 +206,7 @@ TEST(DrawingTruth, Saddles) {
     const SurfaceSet sheet{std::make_shared<NurbsSurface>(bezier_surface(net))};
     show(scene, sheet, {"boundary", "silhouette", "parameter"}, 4);
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of(sheet), views, found, 4);
+    Truth(*scene.world(), sheets_of_patches(sheet), views, found, 4);
   }
   expect_right(found, "saddle", true);
 }
@@ -223,7 +223,7 @@ TEST(DrawingTruth, CrossingSheets) {
       show(scene, SurfaceSet{all.back()}, {"boundary", "silhouette", "parameter"}, 4);
     }
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of(all), views, found, 4);
+    Truth(*scene.world(), sheets_of_patches(all), views, found, 4);
   }
   expect_right(found, "sheets", true);
 }
@@ -238,7 +238,7 @@ TEST(DrawingTruth, Teapot) {
     SmallScene scene;
     show(scene, teapot, {"boundary", "silhouette"});
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of(teapot), views, found, 2);
+    Truth(*scene.world(), sheets_of_patches(teapot), views, found, 2);
   }
   expect_right(found, "teapot", true);
 }

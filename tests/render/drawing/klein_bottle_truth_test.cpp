@@ -16,12 +16,16 @@ SurfacePtr figure_eight_bottle(const std::string& a) {
       Rectangle{{0, kTwoPi}, {0, kTwoPi}}, FormulaSurface::Closed{false, true});
 }
 
-Sheets sheets_of(const oracle::implicit::FigureEightBottle& bottle) {
+// The lines that are asked about are polynomials that agree with theirs to e = 1e-13 of their size: where the way of
+// sight touches the surface the sheet that they lie on is met sqrt(2 e) from them, and e/d at the distance d from such
+// a place. So sheets must be as near as this to be taken for that, transitions are asked about this part of the line
+// away from them, and others that are nearer than twice or five times that are not clear.
+constexpr double kOwnContact = 3e-6, kOwnSheet = 2e-7, kAway = 1e-6;
+
+Sheets sheets_of_bottle(const oracle::implicit::FigureEightBottle& bottle) {
   return [bottle](const Vec3& from, const Vec3& point, double contact) {
-    using oracle::implicit::Real;
-    // An outline's own sheet touches the way.
-    return oracle::implicit::layers_before(bottle, from, point, contact > 0 ? Real(contact) : Real(kOwn),
-                                           contact > 0 ? 10 * Real(contact) : Real(kOwnToo));
+    return contact > 0 ? oracle::implicit::layers_before(bottle, from, point, kOwnContact, 2 * kOwnContact)
+                       : oracle::implicit::layers_before(bottle, from, point, kOwnSheet, 5 * kOwnSheet);
   };
 }
 
@@ -33,7 +37,7 @@ TEST(DrawingTruth, KleinBottles) {
     const std::string a = std::to_string(views.number(1.8, 2.6));
     show(scene, figure_eight_bottle(a), {"boundary", "silhouette", "self_intersection", "parameter"}, 4);
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of(oracle::implicit::FigureEightBottle(std::stod(a))), views, found, 4);
+    Truth(*scene.world(), sheets_of_bottle(oracle::implicit::FigureEightBottle(std::stod(a))), views, found, 4, kAway);
   }
   expect_right(found, "klein_bottle");
 }

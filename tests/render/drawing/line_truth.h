@@ -45,8 +45,13 @@ inline Sheets sheets_of(std::vector<SolidPtr> solids) {
 
 class Truth {
  public:
-  Truth(const World& world, Sheets sheets, Views& random, Found& found, int places = 12)
-      : camera_(*world.model().camera), sheets_(std::move(sheets)), random_(random), found_(found), places_(places) {
+  Truth(const World& world, Sheets sheets, Views& random, Found& found, int places = 12, double away = kBisected)
+      : camera_(*world.model().camera),
+        sheets_(std::move(sheets)),
+        random_(random),
+        found_(found),
+        places_(places),
+        away_(away) {
     const VisibleLines drawing = visible_lines(world, drawing_work(world));
     ++found_.views;
     if (drawing.incomplete > 0) {
@@ -72,7 +77,7 @@ class Truth {
     const double width = line.stroke.curve->domain().width();
     for (size_t k = 0; k < line.pieces.size(); ++k) {
       const VisiblePiece& piece = line.pieces[k];
-      const double margin = std::min(kBisected * width, 0.25 * piece.t.width());
+      const double margin = std::min(away_ * width, 0.25 * piece.t.width());
       for (int i = 0; i < places_; ++i) {
         const double t = random_.number(piece.t.lo + margin, piece.t.hi - margin);
         if (near_cusp(line, t)) continue;
@@ -86,7 +91,7 @@ class Truth {
       if (k + 1 == line.pieces.size() || line.pieces[k + 1].t.lo != piece.t.hi) continue;
       ++found_.transitions;
       const VisiblePiece& next = line.pieces[k + 1];
-      const double away = (near_cusp(line, piece.t.hi) ? 2 * kFromCusp : kBisected) * width;
+      const double away = (near_cusp(line, piece.t.hi) ? 2 * kFromCusp : away_) * width;
       const int before = layers(line, piece.t.hi - std::min(away, 0.5 * piece.t.width())),
                 behind = layers(line, next.t.lo + std::min(away, 0.5 * next.t.width()));
       if (before < 0 || behind < 0) ++unclear_of(line);
@@ -147,8 +152,8 @@ class Truth {
       pieces += " [" + std::to_string(one.t.lo) + " " + std::to_string(one.t.hi) + "]:" + std::to_string(one.layers);
     ADD_FAILURE() << "view " << found_.views << (camera_.is_parallel() ? " parallel " : " central ") << what << " of a "
                   << line.stroke.kind << " at t = " << t << ": " << piece.layers << " layers found, there are "
-                  << layers(line, t) << " (before " << layers(line, t - kBisected * width) << ", behind "
-                  << layers(line, t + kBisected * width) << ", 1e-5 away " << layers(line, t - 1e-5 * width) << ", "
+                  << layers(line, t) << " (before " << layers(line, t - away_ * width) << ", behind "
+                  << layers(line, t + away_ * width) << ", 1e-5 away " << layers(line, t - 1e-5 * width) << ", "
                   << layers(line, t + 1e-5 * width) << "); pieces" << pieces;
   }
 
@@ -156,7 +161,8 @@ class Truth {
   Sheets sheets_;
   Views& random_;
   Found& found_;
-  int places_;  // asked for on each piece
+  int places_;   // asked for on each piece
+  double away_;  // from transitions, of a line's domain
 };
 
 inline void expect_right(const Found& found, const char* name, bool by_halving = false) {
