@@ -14,6 +14,7 @@ constexpr double kLargestBin = 16, kLeastBin = 2;  // pixels
 constexpr double kCellsOfBin = 2;                  // about
 constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
+constexpr double kAnyTurn = 4;      // nothing is known
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
@@ -21,22 +22,35 @@ struct Part {
   const ProjectedCurve* curve;
   Interval t;
   Vec2 begin, end;
-  double bulge, turn;
+  double bulge, bow, turn;  // bow: as ProjectedCurve::Cell's
 
   Vec2 chord() const { return end - begin; }
   double length() const { return glm::length(chord()); }
 };
 
+// Of a part that is so short that a chord may stand for it where widths are asked for; it may bend all the same, or
+// have a cusp. P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that.
+double turn_of(const Vec2& chord, double bow) {
+  const double sine = 4 * bow / glm::length(chord);
+  return sine < 1 ? std::asin(sine) : kAnyTurn;
+}
+
 Part part_of(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
-  return {&curve, cell.t, cell.begin, cell.end, cell.bulge, cell.is_chord ? 0 : kCellTurn};
+  const double turn = cell.is_chord ? turn_of(cell.end - cell.begin, cell.bow) : kCellTurn;
+  return {&curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow, turn};
 }
 
 std::pair<Part, Part> halves(const Part& part) {
   const double middle = part.t.middle();
   const Vec2 at = part.curve->place(middle).p;
-  const double turn = part.turn > 0 ? 0.5 * part.turn / (1 - part.turn) : 0;
-  return {{part.curve, {part.t.lo, middle}, part.begin, at, 0.25 * part.bulge, turn},
-          {part.curve, {middle, part.t.hi}, at, part.end, 0.25 * part.bulge, turn}};
+  // Where no bound of P'' is worth something the bulge is that of the box, which is half as large at least.
+  const double bow = 0.25 * part.bow, bulge = std::min(0.5 * part.bulge, bow);
+  const auto turn = [&](const Vec2& chord) {
+    const double by_bow = turn_of(chord, bow);
+    return part.turn < 0.5 ? std::min(by_bow, 0.5 * part.turn / (1 - part.turn)) : by_bow;
+  };
+  return {{part.curve, {part.t.lo, middle}, part.begin, at, bulge, bow, turn(at - part.begin)},
+          {part.curve, {middle, part.t.hi}, at, part.end, bulge, bow, turn(part.end - at)}};
 }
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
@@ -89,7 +103,7 @@ class CellPair {
     const double lengths = glm::length(u) * glm::length(v);
     // The angle between the lines of both chords.
     const double sine = lengths > 0 ? std::abs(cross(u, v)) / lengths : 0;
-    if (sine > std::sin(std::min(a.turn + b.turn, 1.5)) + 1e-9) {
+    if (a.turn + b.turn < 0.5 * geometry::kPi && sine > std::sin(a.turn + b.turn) + 1e-9) {
       if (PictureCrossing crossing; solve(a, b, crossing)) found_.push_back(crossing);
       return;
     }

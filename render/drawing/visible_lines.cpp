@@ -33,8 +33,9 @@ constexpr double kTouch = 1e-9;
 constexpr double kOnHost = 2e-12;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
-// A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
-constexpr double kSameTurn = 5e-4;
+// A line that goes round its surface touches the outline in the picture, which is found to so many pixels,
+// where the outline is not farther before or behind it than this, in pixels too: near a cusp it crosses other parts.
+constexpr double kSameTurn = 5e-4, kSameDepth = 0.02;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
@@ -43,7 +44,7 @@ constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
 constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
-constexpr double kBisected = 1e-10;
+constexpr double kBisected = 1e-10, kOverlap = 0.05;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
 // A stretch of a line as near to a surface, of the scene's radius, is told by rays; after a few of them it may run
@@ -196,13 +197,15 @@ class Drawing {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       const double near = kTouch * world_.radius();
-      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke))) {
+      const double depth = depth_at(line, crossing.t), apart = depth_at(outline, crossing.t_other) - depth;
+      const Vec3 point = curves_[line]->tangent(crossing.t).origin;
+      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke)) &&
+          std::abs(apart) < kSameDepth * camera_.pixel_size(point)) {
         const Vec2 place = curves_[line]->place(crossing.t).p;
         for (const Vec2& one : known)
           if (glm::length(place - one) < kSameTurn) return;
       }
-      if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
-        events.push_back(crossing.t);
+      if (outline == line || apart < near) events.push_back(crossing.t);
     });
     return events;
   }
@@ -258,6 +261,7 @@ class Drawing {
   // Where it meets other surfaces.
   void add_piercings(const Stroke& stroke, std::vector<double>& events) {
     prepare_surfaces();
+    add_self_piercings(stroke, events);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Box3 box = bounds(*curve);
     if (!shapes_.empty()) add_entries(*curve, box, stroke.object, events);
@@ -276,6 +280,14 @@ class Drawing {
         return;
       for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
     });
+  }
+
+  // Where it meets the lines in which a surface on which it lies goes through itself.
+  void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
+    for (const Stroke& other : strokes_) {
+      if (other.kind != "self_intersection" || &other == &stroke || !share_host(other, stroke)) continue;
+      for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
+    }
   }
 
   // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.
@@ -488,10 +500,15 @@ class Drawing {
     double from = t.lo;
     for (size_t k = 0; k + 1 < seen.size(); ++k) {
       if (seen[k].second == seen[k + 1].second) continue;
+      // Rays beside the line see the change a little beside its place: they come nearer as the rest of the stretch gets
+      // shorter, and halves overlap for that.
       double lo = seen[k].first, hi = seen[k + 1].first;
       while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
-        const double middle = 0.5 * (lo + hi);
-        (layers_at(line, middle, aside) == seen[k].second ? lo : hi) = middle;
+        const double middle = 0.5 * (lo + hi), margin = kOverlap * (hi - lo);
+        if (layers_at(line, middle, room_beside(line, {lo, hi})) == seen[k].second)
+          lo = middle - margin;
+        else
+          hi = middle + margin;
       }
       add_piece({from, hi}, seen[k].second, pieces);
       from = hi;

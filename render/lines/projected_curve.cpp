@@ -115,13 +115,14 @@ void ProjectedCurve::cut(const Interval& t) {
   const bool is_straight = turn <= kTurn * speed;
   const double slowest = speed - turn;
   const bool is_open = is_straight && reach_ * most2 < kBend * slowest * slowest;
-  const double bulge = 0.5 * most2 * h * h;
-  if (extent <= kLongest && is_open) return add(t, false, bulge);
-  if (extent <= kPlace || (is_straight && extent <= kShort) || is_narrow) return add(t, true, std::min(extent, bulge));
+  const double bow = 0.5 * most2 * h * h;
+  if (extent <= kLongest && is_open) return add(t, false, bow, bow);
+  if (extent <= kPlace || (is_straight && extent <= kShort) || is_narrow)
+    return add(t, true, std::min(extent, bow), bow);
   halve();
 }
 
-void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge) {
+void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge, double bow) {
   // At a break the curve's own derivatives are those from the right.
   const Jet begin = jet(t.lo), end = jet(t.hi), inside = jet(next_down(t.hi));
   Cell cell;
@@ -132,6 +133,7 @@ void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge) {
   cell.begin_tangent = is_chord ? cell.end - cell.begin : begin.p1;
   cell.end_tangent = is_chord ? cell.begin_tangent : inside.p1;
   cell.bulge = bulge;
+  cell.bow = bow;
   cell.is_chord = is_chord;
   cells_.push_back(cell);
 }

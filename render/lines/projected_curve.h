@@ -29,6 +29,7 @@ class ProjectedCurve {
     Vec2 begin, end;                  // P there
     Vec2 begin_tangent, end_tangent;  // P'; that of the chord where the chord stands for the cell
     double bulge = 0;                 // the curve lies this near the chord
+    double bow = 0;                   // |P''| h^2 / 2 at most: the bulge by that alone
     bool is_chord = false;
     bool follows = false;  // begins where the cell before it (of a closed curve, before the first: the last) ends
     bool is_followed = false;
@@ -69,7 +70,7 @@ class ProjectedCurve {
   };
   Jet jet(double t) const;
   void cut(const geometry::Interval& t);
-  void add(const geometry::Interval& t, bool is_chord, double bulge);
+  void add(const geometry::Interval& t, bool is_chord, double bulge, double bow);
   void link();
   double length(const geometry::Interval& t) const;
 

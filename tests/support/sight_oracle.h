@@ -177,7 +177,8 @@ class TorusSolid final : public Placed {
 };
 
 // All balls of one radius about a curve: what they fill of a line is, for each stretch of the parameter on which they
-// meet it, one interval. Stretches are found at places close together, ends of intervals by parts of three.
+// meet it, one interval. Stretches are found at places close together, closer still where balls only just meet the line
+// or miss it; ends of intervals by parts of three.
 class TubeSolid final : public Solid {
  public:
   TubeSolid(std::function<Real3(Real)> curve, Real length, Real radius)
@@ -193,8 +194,18 @@ class TubeSolid final : public Solid {
       return std::pair(a, radius_ * radius_ - (dot(f, f) - a * a));
     };
     const auto at = [&](Real x) { return ball(curve_(length_ * x / kPlaces)); };
-    std::vector<std::pair<Real, Real>> all(kPlaces + 1);
-    for (int k = 0; k <= kPlaces; ++k) all[k] = ball(places_[k]);
+    std::vector<Real> x;
+    std::vector<std::pair<Real, Real>> all;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const auto next = ball(places_[k]);
+      if (k > 0 && std::min(std::abs(next.second), std::abs(all.back().second)) < kJust)
+        for (int i = 1; i < kFiner; ++i) {
+          x.push_back(k - 1 + static_cast<Real>(i) / kFiner);
+          all.push_back(at(x.back()));
+        }
+      x.push_back(k), all.push_back(next);
+    }
+    const int end_place = static_cast<int>(x.size()) - 1;
     const auto best = [](Real lo, Real hi, const auto& value) {
       for (int step = 0; step < 90; ++step) {
         const Real a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
@@ -202,31 +213,31 @@ class TubeSolid final : public Solid {
       }
       return (lo + hi) / 2;
     };
-    const auto g = [&](Real x) { return at(x).second; };
+    const auto g = [&](Real place) { return at(place).second; };
     std::vector<Real> found;
-    for (int k = 0; k <= kPlaces; ++k) {
+    for (int k = 0; k <= end_place; ++k) {
       const bool begins = all[k].second >= 0 && (k == 0 || all[k - 1].second < 0);
       if (begins) {
         int last = k;
-        while (last < kPlaces && all[last + 1].second >= 0) ++last;
+        while (last < end_place && all[last + 1].second >= 0) ++last;
         for (const Real side : {-1.0L, 1.0L}) {
-          const auto end = [&](Real x) {
-            const auto [a, square] = at(x);
+          const auto end = [&](Real place) {
+            const auto [a, square] = at(place);
             return square < 0 ? -1e3L + square : side * a + std::sqrt(square);  // uphill to where it meets
           };
+          const auto known = [&](int i) { return side * all[i].first + std::sqrt(all[i].second); };
           int nearest = k;
           for (int i = k; i <= last; ++i)
-            if (end(i) > end(nearest)) nearest = i;
+            if (known(i) > known(nearest)) nearest = i;
           // Beside the first and last places of the stretch balls meet the line too.
-          const Real lo = std::max(nearest - 1, 0), hi = std::min(nearest + 1, kPlaces);
+          const Real lo = x[std::max(nearest - 1, 0)], hi = x[std::min(nearest + 1, end_place)];
           found.push_back(side * end(best(lo, hi, end)) / speed);
         }
         k = last;
-      } else if (k > 0 && k < kPlaces && all[k].second < 0 && all[k].second >= all[k - 1].second &&
+      } else if (k > 0 && k < end_place && all[k].second < 0 && all[k].second >= all[k - 1].second &&
                  all[k].second >= all[k + 1].second && all[k].second > -1e-3L) {
         // Between places a few may.
-        const Real x = best(k - 1, k + 1, g);
-        const auto [a, square] = at(x);
+        const auto [a, square] = at(best(x[k - 1], x[k + 1], g));
         if (square > 0)
           for (const Real side : {-1.0L, 1.0L}) found.push_back((a + side * std::sqrt(square)) / speed);
       }
@@ -257,7 +268,8 @@ class TubeSolid final : public Solid {
   }
 
  private:
-  static constexpr int kPlaces = 600;
+  static constexpr int kPlaces = 600, kFiner = 32;
+  static constexpr Real kJust = 5e-3L;  // of the square of half of a ball's part
   std::function<Real3(Real)> curve_;
   Real length_, radius_;
   std::vector<Real3> places_;
