@@ -33,9 +33,8 @@ constexpr double kTouch = 1e-9;
 constexpr double kOnHost = 2e-12;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
-// A line that goes round its surface touches the outline in the picture, which is found to so many pixels,
-// where the outline is not farther before or behind it than this, in pixels too: near a cusp it crosses other parts.
-constexpr double kSameTurn = 5e-4, kSameDepth = 0.02;
+// A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
+constexpr double kSameTurn = 5e-4;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
@@ -197,15 +196,13 @@ class Drawing {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       const double near = kTouch * world_.radius();
-      const double depth = depth_at(line, crossing.t), apart = depth_at(outline, crossing.t_other) - depth;
-      const Vec3 point = curves_[line]->tangent(crossing.t).origin;
-      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke)) &&
-          std::abs(apart) < kSameDepth * camera_.pixel_size(point)) {
+      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke))) {
         const Vec2 place = curves_[line]->place(crossing.t).p;
         for (const Vec2& one : known)
           if (glm::length(place - one) < kSameTurn) return;
       }
-      if (outline == line || apart < near) events.push_back(crossing.t);
+      if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
+        events.push_back(crossing.t);
     });
     return events;
   }
