@@ -8,7 +8,7 @@
 //   at a cusp of its picture, where a silhouette goes behind its own surface.
 //
 // Between two such places one ray tells: the camera's own ray through a point of the line meets so many sheets before
-// it. Outlines that are not known as curves (of CSG, implicit surfaces, meshes) are found by more rays, and halving.
+// it. Outlines that are not known as curves (where a search is not complete) are found by more rays, and halving.
 #pragma once
 
 #include <functional>
