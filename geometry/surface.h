@@ -160,8 +160,8 @@ class Surface {
     return evaluate(u, v, order);
   }
 
-  // Where nothing shows parameters, a hit on a surface that knows its feet needs none: then no hit of a line lies
-  // outside the domain, and free_sides does not look at them. `near` is a point of the surface but for rounding.
+  // Where nothing shows parameters, a hit on a surface that knows its feet needs none: line_hits finds the same hits
+  // without, and free_sides does not look at them. `near` is a point of the surface but for rounding.
   virtual bool knows_feet() const { return false; }
   virtual Foot foot(const Vec3& near) const;
 
