@@ -37,7 +37,7 @@ Sides ConeSurface::free_sides(double, double) const {
   const double lo = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.lo,
                hi = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.hi;
   if (std::min(lo, hi) < 0 && std::max(lo, hi) > 0) return {};
-  const bool outward = (lo + hi) * height_ > 0;
+  const bool outward = height_ > 0;
   return {.front = outward, .back = !outward};
 }
 

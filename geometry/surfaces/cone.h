@@ -6,7 +6,7 @@ namespace lekalo::geometry {
 
 // r(u, v) = o + rho cos u x + rho sin u y + h v z,  rho(v) = radius + (top_radius - radius) v; u in radians, v = 0 at
 // the base, 1 at the height h. The half-angle between generatrix and axis has the tangent (top_radius - radius)/h. The
-// normal points outward where rho h > 0 (inward on the other nappe, where rho < 0).
+// normal points outward, away from the axis, where h > 0, on both nappes.
 class ConeSurface : public MeridianFormula<ConeSurface> {
  public:
   static constexpr Rectangle kFull{{0, kTwoPi}, {0, 1}};

@@ -28,6 +28,8 @@ TEST(ConeSurface, MeetsTheGeneralChecks) {
   checks::check_surface(ConeSurface(kSkewFrame, 0, 2, 0.5, {{-1, 2}, {0, 1}}));
   checks::check_surface(ConeSurface(kSkewFrame, 1, 1 + 1e-9, 1));
   checks::check_surface(ConeSurface(kSkewFrame, 1, 3, 2, {{0, kTwoPi}, {-1.5, 0.75}}));  // both nappes
+  for (const double height : {2.0, -2.0})                                                // the other one
+    checks::check_surface(ConeSurface(kSkewFrame, 1, 3, height, {{0, kTwoPi}, {-1.5, -0.75}}));
 }
 
 TEST(CylinderSurface, MeetsTheGeneralChecks) {
