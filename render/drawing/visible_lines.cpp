@@ -35,6 +35,9 @@ constexpr double kOnHost = 2e-12;
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
 constexpr double kSameTurn = 5e-4;
+// Where one singular value of (s_u, s_v), over the domain's widths, is so small a part of the other the surface has no
+// normal.
+constexpr double kNoNormal = 1e-6;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
@@ -283,8 +286,27 @@ class Drawing {
   void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
     for (const Stroke& other : strokes_) {
       if (other.kind != "self_intersection" || &other == &stroke || !share_host(other, stroke)) continue;
+      if (runs_along(*stroke.curve, *other.curve)) continue;  // to find that out as a common part takes long
       for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
     }
+  }
+  bool runs_along(const Curve& curve, const Curve& other) const {
+    constexpr int kPlaces = 256;
+    const Interval domain = curve.domain(), range = other.domain();
+    for (const double share : {0.43, 0.07, 0.91, 0.26, 0.71}) {
+      const Vec3 point = curve.point(domain.lo + share * domain.width());
+      const auto distance = [&](double x) { return glm::length(other.point(range.lo + x * range.width()) - point); };
+      double nearest = 0;
+      for (int k = 1; k <= kPlaces; ++k)
+        if (const double x = static_cast<double>(k) / kPlaces; distance(x) < distance(nearest)) nearest = x;
+      double lo = std::max(0.0, nearest - 1.0 / kPlaces), hi = std::min(1.0, nearest + 1.0 / kPlaces);
+      for (int step = 0; step < 50; ++step) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+      }
+      if (distance(0.5 * (lo + hi)) > kNear * world_.radius()) return false;
+    }
+    return true;
   }
 
   // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.
@@ -419,13 +441,18 @@ class Drawing {
     Vec3 uv = stroke.hosts[0].image->point(t);
     if (stroke.kind == "silhouette") {
       const SurfaceJet s = surface.evaluate(uv.x, uv.y, 2);
+      const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
+      const double area = e * g - f * f;
+      const Rectangle domain = surface.domain();
+      const double wide = domain.u.width() * domain.u.width(), high = domain.v.width() * domain.v.width(),
+                   largest = kNoNormal * std::max(e * wide, g * high);
+      if (!(area * wide * high > largest * largest)) return beside_cuspidal_edge(stroke, exact, s, aside);
       const Affine back = stroke.to_world.inverse();
       const Vec3 sight =
           glm::normalize(back.direction(camera_.is_parallel() ? camera_.view_direction() : exact - eye()));
       const Vec3 normal = glm::normalize(glm::cross(s.du(), s.dv()));
       // The way of sight is tangent, sight = a s_u + b s_v: the surface bends to one side along it.
-      const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
-      const double x = glm::dot(sight, s.du()), y = glm::dot(sight, s.dv()), area = e * g - f * f;
+      const double x = glm::dot(sight, s.du()), y = glm::dot(sight, s.dv());
       const double a = (g * x - f * y) / area, b = (e * y - f * x) / area;
       const double bend = glm::dot(normal, s.duu() * a * a + 2.0 * s.duv() * a * b + s.dvv() * b * b);
       const double size = world_.radius();
@@ -439,6 +466,19 @@ class Drawing {
     const double inside = std::min(aside, kInside);
     uv.x += inside * (domain.u.middle() - uv.x), uv.y += inside * (domain.v.middle() - uv.y);
     return stroke.to_world.point(surface.point(uv.x, uv.y));
+  }
+
+  // Where s_u and s_v are parallel, a s_u + b s_v = 0, both sheets go away from the edge along the second derivative in
+  // that direction of the parameters.
+  Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const SurfaceJet& s, double aside) const {
+    const bool by_u = glm::length(s.du()) > glm::length(s.dv());
+    const Vec3 along = by_u ? s.du() : s.dv();
+    const double square = glm::dot(along, along), share = glm::dot(s.du(), s.dv()) / square;
+    if (!(square > 0)) return exact;
+    const double a = by_u ? -share : 1, b = by_u ? 1 : -share;
+    Vec3 away = s.duu() * a * a + 2.0 * s.duv() * a * b + s.dvv() * b * b;
+    away = stroke.to_world.direction(away - glm::dot(away, along) / square * along);
+    return glm::length(away) > 0 ? exact - aside * world_.radius() / glm::length(away) * away : exact;
   }
   Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }
 
