@@ -46,7 +46,7 @@ constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
 constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
-constexpr double kBisected = 1e-10, kOverlap = 0.05;
+constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
 // A stretch of a line as near to a surface, of the scene's radius, is told by rays; after a few of them it may run
@@ -537,15 +537,10 @@ class Drawing {
     double from = t.lo;
     for (size_t k = 0; k + 1 < seen.size(); ++k) {
       if (seen[k].second == seen[k + 1].second) continue;
-      // Rays beside the line see the change a little beside its place: they come nearer as the rest of the stretch gets
-      // shorter, and halves overlap for that.
       double lo = seen[k].first, hi = seen[k + 1].first;
       while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
-        const double middle = 0.5 * (lo + hi), margin = kOverlap * (hi - lo);
-        if (layers_at(line, middle, room_beside(line, {lo, hi})) == seen[k].second)
-          lo = middle - margin;
-        else
-          hi = middle + margin;
+        const double middle = 0.5 * (lo + hi);
+        (layers_at(line, middle, aside) == seen[k].second ? lo : hi) = middle;
       }
       add_piece({from, hi}, seen[k].second, pieces);
       from = hi;
