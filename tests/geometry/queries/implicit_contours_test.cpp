@@ -102,7 +102,7 @@ TEST(ImplicitContours, OutlineOfATorusAsOfTheParametricOne) {
   const SurfacePtr torus = std::make_shared<TorusSurface>(Frame(), R, r);
   Dice dice(5);
   int cusps = 0;
-  const int count = tests::tier_count(1000, 30);
+  const int count = tests::tier_count(1000, tests::least_of_slow(30));
   for (int k = 0; k < count; ++k) {
     const ViewOf view = dice.view(1.4, k % 2);
     const ImplicitContours found = silhouette(ring, view);
@@ -476,8 +476,8 @@ struct Cayley {
 };
 
 TEST(ImplicitContours, LinesLeadIntoNodesOfACubic) {
-  expect_ends_at_nodes<Cayley>("cubic", {{1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, -1}}, tests::tier_count(500, 20),
-                               23);
+  expect_ends_at_nodes<Cayley>("cubic", {{1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, -1}},
+                               tests::tier_count(500, tests::least_of_slow(20)), 23);
 }
 
 // The corners of a dodecahedron and of an icosidodecahedron: 50 of the 65 nodes, the others are at infinity.
@@ -502,7 +502,7 @@ TEST(ImplicitContours, LinesLeadIntoNodesOfASextic) {
       }
     }
   ASSERT_EQ(nodes.size(), 50u);
-  expect_ends_at_nodes<Barth>("sextic", nodes, tests::tier_count(40, 3), 29);
+  expect_ends_at_nodes<Barth>("sextic", nodes, tests::tier_count(40, tests::least_of_slow(3)), 29);
 }
 
 // Creases are not found, and said to be missing.
