@@ -12,8 +12,8 @@
 #include "geometry/curves/polynomial_approximation.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/ball_outlines.h"
+#include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/implicit_arcs.h"
-#include "geometry/queries/sign_changes.h"
 #include "geometry/shapes/balls.h"
 
 namespace lekalo::geometry {

@@ -37,8 +37,8 @@ std::vector<int> merged_points(const Mesh& mesh) {
   return merged;
 }
 
-std::vector<Side> sides_of(const Mesh& mesh) {
-  const std::vector<int> point = merged_points(mesh);
+// `point`: of merged_points().
+std::vector<Side> sides_of(const Mesh& mesh, const std::vector<int>& point) {
   std::vector<std::tuple<int, int, int, bool>> all;  // points, triangle, backwards
   for (size_t k = 0; k < mesh.triangles.size(); ++k)
     for (int i = 0; i < 3; ++i) {
@@ -56,7 +56,8 @@ std::vector<Side> sides_of(const Mesh& mesh) {
 
 class Sorting {
  public:
-  Sorting(const Mesh& mesh, const ViewOf& view) : mesh_(mesh), view_(view), points_(merged_points(mesh)) {}
+  Sorting(const Mesh& mesh, const ViewOf& view, const std::vector<int>& points)
+      : mesh_(mesh), view_(view), points_(points) {}
 
   std::vector<MeshLineKind> kinds_of(const Side& side) const {
     if (side.triangles.size() == 1) return {MeshLineKind::boundary};
@@ -102,7 +103,7 @@ class Sorting {
 
   const Mesh& mesh_;
   const ViewOf& view_;
-  std::vector<int> points_;
+  const std::vector<int>& points_;  // of merged_points()
 };
 
 // Sides that follow one another, as polylines: through every point at which just two of them meet.
@@ -137,9 +138,10 @@ void add_chains(const Mesh& mesh, MeshLineKind kind, const std::vector<std::pair
 }  // namespace
 
 std::vector<MeshLine> mesh_lines(const Mesh& mesh, const ViewOf& view) {
-  const Sorting sorting(mesh, view);
+  const std::vector<int> points = merged_points(mesh);
+  const Sorting sorting(mesh, view, points);
   std::map<MeshLineKind, std::vector<std::pair<int, int>>> of_kind;
-  for (const Side& side : sides_of(mesh))
+  for (const Side& side : sides_of(mesh, points))
     for (const MeshLineKind kind : sorting.kinds_of(side)) of_kind[kind].emplace_back(side.a, side.b);
   std::vector<MeshLine> lines;
   for (const auto& [kind, sides] : of_kind) add_chains(mesh, kind, sides, lines);

@@ -290,19 +290,25 @@ class Drawing {
       for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
     }
   }
+  // As far as a few places of the curve tell, each the nearest to it of the other.
   bool runs_along(const Curve& curve, const Curve& other) const {
     constexpr int kPlaces = 256;
     const Interval domain = curve.domain(), range = other.domain();
     for (const double share : {0.43, 0.07, 0.91, 0.26, 0.71}) {
       const Vec3 point = curve.point(domain.lo + share * domain.width());
       const auto distance = [&](double x) { return glm::length(other.point(range.lo + x * range.width()) - point); };
-      double nearest = 0;
-      for (int k = 1; k <= kPlaces; ++k)
-        if (const double x = static_cast<double>(k) / kPlaces; distance(x) < distance(nearest)) nearest = x;
+      double nearest = 0, least = distance(0);
+      for (int k = 1; k <= kPlaces; ++k) {
+        const double x = static_cast<double>(k) / kPlaces, here = distance(x);
+        if (here < least) nearest = x, least = here;
+      }
       double lo = std::max(0.0, nearest - 1.0 / kPlaces), hi = std::min(1.0, nearest + 1.0 / kPlaces);
       for (int step = 0; step < 50; ++step) {
         const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+        if (distance(a) < distance(b))
+          hi = b;
+        else
+          lo = a;
       }
       if (distance(0.5 * (lo + hi)) > kNear * world_.radius()) return false;
     }

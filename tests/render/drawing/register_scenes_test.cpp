@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
+#include "render/drawing/picture_places.h"
 #include "render/drawing/visible_lines.h"
 #include "render/scene/load.h"
 #include "render/trace/world.h"
@@ -49,26 +49,6 @@ const std::vector<std::string> kScenes = {"figures/torus_outline",
                                           "primer/teapot",
                                           "figures/viviani"};
 constexpr int kQuick = 3;
-
-// Points in the picture, in fine pixels, found again by place.
-class Places {
- public:
-  void add(const Vec2& p) { cells_[key(p, 0, 0)].push_back(p); }
-  double distance(const Vec2& q) const {
-    double least = kInfinity;
-    for (int i = -2; i <= 2; ++i)
-      for (int j = -2; j <= 2; ++j)
-        if (const auto cell = cells_.find(key(q, i, j)); cell != cells_.end())
-          for (const Vec2& p : cell->second) least = std::min(least, glm::length(p - q));
-    return least;
-  }
-
- private:
-  static std::pair<int, int> key(const Vec2& p, int i, int j) {
-    return {static_cast<int>(std::floor(p.x)) + i, static_cast<int>(std::floor(p.y)) + j};
-  }
-  std::map<std::pair<int, int>, std::vector<Vec2>> cells_;
-};
 
 // What a ray meets.
 struct Seen {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "geometry/bodies/primitives.h"
+#include "render/drawing/picture_places.h"
 #include "render/drawing/random_views.h"
 #include "render/drawing/visible_lines.h"
 #include "support/tier.h"
@@ -18,26 +18,6 @@ using namespace geometry;
 
 constexpr int kFiner = 16, kWidth = 40, kHeight = 32;  // pixels of the picture
 constexpr double kRegister = 1.6;                      // fine pixels
-
-// Points in the picture, in fine pixels, found again by place.
-class Places {
- public:
-  void add(const Vec2& p) { cells_[key(p, 0, 0)].push_back(p); }
-  double distance(const Vec2& q) const {
-    double least = kInfinity;
-    for (int i = -2; i <= 2; ++i)
-      for (int j = -2; j <= 2; ++j)
-        if (const auto cell = cells_.find(key(q, i, j)); cell != cells_.end())
-          for (const Vec2& p : cell->second) least = std::min(least, glm::length(p - q));
-    return least;
-  }
-
- private:
-  static std::pair<int, int> key(const Vec2& p, int i, int j) {
-    return {static_cast<int>(std::floor(p.x)) + i, static_cast<int>(std::floor(p.y)) + j};
-  }
-  std::map<std::pair<int, int>, std::vector<Vec2>> cells_;
-};
 
 // A convex body about a place; a convex body's faces meet nowhere but along its lines.
 Body convex_body(Views& views, int kind, const Vec3& about) {

@@ -1,4 +1,4 @@
-#include "geometry/queries/sign_changes.h"
+#include "geometry/queries/curve_sign_changes.h"
 
 #include <algorithm>
 
