@@ -188,22 +188,24 @@ class Drawing {
     std::vector<double> events = stroke.cusps;
     add_own_outlines(stroke, events);
     add_piercings(stroke, events);
-    // Where it goes round its own surface, or ends on an outline, it only touches that in the picture: such a place is
-    // known better than as a crossing.
+    // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
+    // a place is known better than as a crossing.
     std::vector<Vec2> known;
     for (const double t : events) known.push_back(curves_[line]->place(t).p);
     for (const double end : {stroke.curve->domain().lo, stroke.curve->domain().hi})
       known.push_back(curves_[line]->place(end).p);
-    for (const CurvePiece& piece : stroke.curve->pieces()) events.push_back(piece.domain.lo);
+    const auto is_known = [&](double t) {
+      const Vec2 place = curves_[line]->place(t).p;
+      return std::any_of(known.begin(), known.end(),
+                         [&](const Vec2& one) { return glm::length(place - one) < kSameTurn; });
+    };
+    for (const CurvePiece& piece : stroke.curve->pieces())
+      if (!is_known(piece.domain.lo)) events.push_back(piece.domain.lo);
     crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
+      if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(crossing.t)) return;
       const double near = kTouch * world_.radius();
-      if (outline != line && (crossing.touching || share_host(strokes_[outline], stroke))) {
-        const Vec2 place = curves_[line]->place(crossing.t).p;
-        for (const Vec2& one : known)
-          if (glm::length(place - one) < kSameTurn) return;
-      }
       if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
         events.push_back(crossing.t);
     });
