@@ -423,8 +423,14 @@ class Drawing {
   }
 
   int layers_at(int line, double t, double aside) {
-    return layers_before(probe(line, t, aside),
-                         strokes_[line].hosts.empty() || strokes_[line].kind == "boundary" ? kTouch : kOnHost);
+    const Stroke& stroke = strokes_[line];
+    return layers_before(probe(line, t, aside), lies_on_own(stroke) ? kOnHost : kTouch);
+  }
+
+  // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.
+  bool lies_on_own(const Stroke& stroke) const {
+    if (!stroke.hosts.empty()) return stroke.kind != "boundary";
+    return stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
   }
 
   // How far beside a stretch of a line rays may be aimed: what is seen there is to be seen on the stretch too.
