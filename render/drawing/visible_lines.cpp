@@ -288,33 +288,46 @@ class Drawing {
   void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
     for (const Stroke& other : strokes_) {
       if (other.kind != "self_intersection" || &other == &stroke || !share_host(other, stroke)) continue;
-      if (runs_along(*stroke.curve, *other.curve)) continue;  // to find that out as a common part takes long
-      for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
+      if (!runs_along(*stroke.curve, *other.curve)) {
+        for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
+        continue;
+      }
+      // Then it lies on two sheets, and goes round either; to find it out as a common part would take long.
+      std::vector<double> turns;
+      add_own_outlines(other, turns);
+      for (const double turn : turns) {
+        const Vec3 point = other.curve->point(turn);
+        const double t = nearest(*stroke.curve, point);
+        if (glm::length(stroke.curve->point(t) - point) < kNear * world_.radius()) events.push_back(t);
+      }
     }
   }
   // As far as a few places of the curve tell, each the nearest to it of the other.
   bool runs_along(const Curve& curve, const Curve& other) const {
-    constexpr int kPlaces = 256;
-    const Interval domain = curve.domain(), range = other.domain();
+    const Interval domain = curve.domain();
     for (const double share : {0.43, 0.07, 0.91, 0.26, 0.71}) {
       const Vec3 point = curve.point(domain.lo + share * domain.width());
-      const auto distance = [&](double x) { return glm::length(other.point(range.lo + x * range.width()) - point); };
-      double nearest = 0, least = distance(0);
-      for (int k = 1; k <= kPlaces; ++k) {
-        const double x = static_cast<double>(k) / kPlaces, here = distance(x);
-        if (here < least) nearest = x, least = here;
-      }
-      double lo = std::max(0.0, nearest - 1.0 / kPlaces), hi = std::min(1.0, nearest + 1.0 / kPlaces);
-      for (int step = 0; step < 50; ++step) {
-        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        if (distance(a) < distance(b))
-          hi = b;
-        else
-          lo = a;
-      }
-      if (distance(0.5 * (lo + hi)) > kNear * world_.radius()) return false;
+      if (glm::length(other.point(nearest(other, point)) - point) > kNear * world_.radius()) return false;
     }
     return true;
+  }
+  // The parameter of a curve's point that is nearest to one on or far from it.
+  static double nearest(const Curve& curve, const Vec3& point) {
+    constexpr int kPlaces = 256, kSteps = 8;
+    const Interval domain = curve.domain();
+    const auto at = [&](int k) { return domain.lo + domain.width() * k / kPlaces; };
+    int best = 0;
+    double least = kInfinity;
+    for (int k = 0; k <= kPlaces; ++k)
+      if (const double off = glm::length(curve.point(at(k)) - point); off < least) least = off, best = k;
+    double t = at(best);
+    for (int step = 0; step < kSteps; ++step) {
+      const CurveJet jet = curve.evaluate(t, 1);
+      const double square = glm::dot(jet.d[1], jet.d[1]);
+      if (!(square > 0)) break;
+      t = domain.clamp(t + glm::dot(point - jet.d[0], jet.d[1]) / square);
+    }
+    return t;
   }
 
   // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.

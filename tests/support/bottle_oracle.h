@@ -16,12 +16,15 @@ namespace lekalo::oracle::implicit {
 
 using Real = long double;
 
+// Wide enough for the rounding of one operation.
 struct Range {
   Real lo, hi;
-  Range(Real a, Real b) : lo(a), hi(b) {}
+  Range(Real a, Real b) : lo(a - kRounding * std::abs(a)), hi(b + kRounding * std::abs(b)) {}
   Range(Real a) : lo(a), hi(a) {}
-  // Not one of them nearer than this: values are of the order of 1 to 100, rounded to 1e-19 of that many times over.
-  bool has_zero(Real slack = 0) const { return lo <= slack && hi >= -slack; }
+  bool has_zero() const { return lo <= 0 && hi >= 0; }
+
+ private:
+  static constexpr Real kRounding = 2.2e-19L;
 };
 inline Range operator+(const Range& a, const Range& b) { return {a.lo + b.lo, a.hi + b.hi}; }
 inline Range operator-(const Range& a, const Range& b) { return {a.lo - b.hi, a.hi - b.lo}; }
@@ -116,15 +119,17 @@ class Zeros {
 
  private:
   void search(Real lo, Real hi) {
-    const Range t(lo, hi);
+    // Both ends as they are, with no room for rounding: stretches meet in them.
+    Range t(lo);
+    t.hi = hi;
     if (surface_.is_far(ray_, t)) return;
     const Real middle = (lo + hi) / 2;
     if (surface_.is_smooth(ray_, t)) {
       const Jet all = surface_.value(ray_, t), at = surface_.value(ray_, Range(middle));
       const Range off(lo - middle, hi - middle);
       const Range slope = common(all.f1, at.f1 + all.f2 * off);
-      if (!common(all.f, at.f + slope * off).has_zero(kRounding)) return;
-      if (!slope.has_zero(kRounding)) {
+      if (!common(all.f, at.f + slope * off).has_zero()) return;
+      if (!slope.has_zero()) {
         if (is_below(lo) != is_below(hi)) found_.push_back(halved(lo, hi));
         return;
       }
@@ -148,7 +153,7 @@ class Zeros {
     return (lo + hi) / 2;
   }
 
-  static constexpr Real kTiny = 1e-10L, kRounding = 1e-15L;
+  static constexpr Real kTiny = 1e-10L;
   const Surface& surface_;
   const Ray& ray_;
   std::vector<Real> found_, untold_;
