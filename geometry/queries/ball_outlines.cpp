@@ -1,6 +1,7 @@
 #include "geometry/queries/ball_outlines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -403,6 +404,36 @@ class TubeOutlines {
   ShapeOutlines result_;
 };
 
+// Calls put(arc) for what lies outside of all balls but two of a circle about or on ball i, its points by an angle.
+void each_outside(const Balls& balls, size_t i, size_t other, const std::function<Vec3(double)>& point,
+                  const std::function<void(const Interval&)>& put) {
+  std::vector<Condition> conditions;
+  balls.near(i, [&](size_t k) {
+    if (k == i || k == other) return;
+    const Balls::Ball& ball = balls.balls()[k];
+    conditions.push_back(condition([&](double x) {
+      const Vec3 from = point(x) - ball.center;
+      return glm::dot(from, from) - ball.radius * ball.radius;
+    }));
+  });
+  for (const Interval& arc : kept(conditions)) put(arc);
+}
+
+// The circle about a frame's z axis on both balls, which may be the same, as far as it is on the shape.
+void add_edges(const Balls& balls, const std::array<size_t, 2>& on, const Frame& frame, double radius,
+               const ViewOf& view, ShapeOutlines& outlines) {
+  const Circle circle(frame, radius);
+  const auto point = [&](double x) { return circle.point(x); };
+  each_outside(balls, on[0], on[1], point, [&](const Interval& arc) {
+    ShapeOutline edge{std::make_shared<Circle>(frame, radius, arc), true, nullptr, {}};
+    for (size_t k = 0; k < (on[0] == on[1] ? 1 : 2); ++k) {
+      const Balls::Ball& ball = balls.balls()[on[k]];
+      add_turns([&](double x) { return (point(x) - ball.center) / ball.radius; }, point, view, arc, edge.turns);
+    }
+    outlines.lines.push_back(std::move(edge));
+  });
+}
+
 }  // namespace
 
 ShapeOutlines outlines(const Tube& tube, const ViewOf& view) { return TubeOutlines(tube, view).find(); }
@@ -411,23 +442,12 @@ ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
   ShapeOutlines result;
   const auto& all = balls.balls();
   for (size_t i = 0; i < all.size(); ++i) {
-    // Outside of all others.
-    const auto add_parts = [&](const std::function<Vec3(double)>& point, size_t other, auto&& put) {
-      std::vector<Condition> conditions;
-      balls.near(i, [&](size_t k) {
-        if (k != i && k != other)
-          conditions.push_back(condition([&](double x) {
-            const Vec3 from = point(x) - all[k].center;
-            return glm::dot(from, from) - all[k].radius * all[k].radius;
-          }));
-      });
-      for (const Interval& arc : kept(conditions)) put(arc);
-    };
     if (const auto circle = circle_of(all[i].center, all[i].radius, view))
-      add_parts([&](double x) { return circle->center + circle->radius * circle->normal(x); }, i,
-                [&](const Interval& arc) {
-                  result.lines.push_back({circle->curve(arc), false, circle->aside(arc)});
-                });
+      each_outside(
+          balls, i, i, [&](double x) { return circle->center + circle->radius * circle->normal(x); },
+          [&](const Interval& arc) {
+            result.lines.push_back({circle->curve(arc), false, circle->aside(arc), {}});
+          });
     balls.near(i, [&](size_t k) {
       if (k <= i) return;
       // The circle of two balls.
@@ -435,17 +455,21 @@ ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
       const double apart = glm::length(way), a = all[i].radius, b = all[k].radius;
       const double height = 0.5 * (apart + (a * a - b * b) / apart), square = a * a - height * height;
       if (!(apart > 0) || !(square > 0)) return;
-      const Circle meeting(frame_about(all[i].center + height / apart * way, way / apart), std::sqrt(square));
-      add_parts(
-          [&](double x) { return meeting.point(x); }, k,
-          [&](const Interval& arc) {
-            ShapeOutline edge{std::make_shared<Circle>(meeting.frame(), meeting.radius(), arc), true, nullptr, {}};
-            for (const size_t one : {i, k})
-              add_turns([&](double x) { return (meeting.point(x) - all[one].center) / all[one].radius; },
-                        [&](double x) { return meeting.point(x); }, view, arc, edge.turns);
-            result.lines.push_back(std::move(edge));
-          });
+      add_edges(balls, {i, k}, frame_about(all[i].center + height / apart * way, way / apart), std::sqrt(square), view,
+                result);
     });
+  }
+  return result;
+}
+
+ShapeOutlines plane_section(const Balls& balls, const Vec3& origin, const Vec3& normal, const ViewOf& view) {
+  ShapeOutlines result;
+  const Vec3 n = glm::normalize(normal);
+  const auto& all = balls.balls();
+  for (size_t i = 0; i < all.size(); ++i) {
+    const double height = glm::dot(origin - all[i].center, n), square = all[i].radius * all[i].radius - height * height;
+    if (square > 0)
+      add_edges(balls, {i, i}, frame_about(all[i].center + height * n, n), std::sqrt(square), view, result);
   }
   return result;
 }

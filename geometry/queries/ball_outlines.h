@@ -1,5 +1,5 @@
-// Outlines and edges of shapes that are made of balls, as seen: tubes (Golovanov 2016, 4.6 for the silhouettes of the
-// envelope) and balls.
+// Outlines, edges and sections of shapes that are made of balls, as seen: tubes (Golovanov 2016, 4.6 for the
+// silhouettes of the envelope) and balls.
 //
 // A point c(t) + R(t) n of the wall of a tube, |n| = 1, is on its outline if
 //
@@ -38,5 +38,7 @@ struct ShapeOutlines {
 ShapeOutlines outlines(const Tube& tube, const ViewOf& view);
 // With the circles in which balls meet.
 ShapeOutlines outlines(const Balls& balls, const ViewOf& view);
+// The circles in which a plane cuts balls, as far as they are outside of the others. The normal must not be zero.
+ShapeOutlines plane_section(const Balls& balls, const Vec3& origin, const Vec3& normal, const ViewOf& view);
 
 }  // namespace lekalo::geometry

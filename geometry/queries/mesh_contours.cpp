@@ -106,26 +106,26 @@ class Sorting {
   const std::vector<int>& points_;  // of merged_points()
 };
 
-// Sides that follow one another, as polylines: through every point at which just two of them meet.
-void add_chains(const Mesh& mesh, MeshLineKind kind, const std::vector<std::pair<int, int>>& sides,
-                std::vector<MeshLine>& lines) {
+// Sides between points that follow one another, as polylines: through every point at which just two of them meet.
+std::vector<CurvePtr> chains(const std::vector<Vec3>& all, const std::vector<std::pair<int, int>>& sides) {
+  std::vector<CurvePtr> lines;
   std::map<int, std::vector<int>> at;
   for (size_t k = 0; k < sides.size(); ++k)
     at[sides[k].first].push_back(static_cast<int>(k)), at[sides[k].second].push_back(static_cast<int>(k));
   std::vector<bool> used(sides.size(), false);
   const auto follow = [&](int side, int from) {
-    std::vector<Vec3> points{mesh.points[from]};
+    std::vector<Vec3> points{all[from]};
     int point = from;
     while (side >= 0) {
       used[side] = true;
       point = sides[side].first == point ? sides[side].second : sides[side].first;
-      points.push_back(mesh.points[point]);
+      points.push_back(all[point]);
       const std::vector<int>& here = at[point];
       side = here.size() != 2 ? -1 : used[here[0]] ? (used[here[1]] ? -1 : here[1]) : here[0];
     }
     const bool closed = point == from && points.size() > 3 && at[from].size() == 2;
     if (closed) points.pop_back();
-    lines.push_back({kind, std::make_shared<NurbsCurve>(polyline(points, closed))});
+    lines.push_back(std::make_shared<NurbsCurve>(polyline(points, closed)));
   };
   for (const auto& [point, here] : at)
     if (here.size() != 2)
@@ -133,6 +133,7 @@ void add_chains(const Mesh& mesh, MeshLineKind kind, const std::vector<std::pair
         if (!used[side]) follow(side, point);
   for (size_t k = 0; k < sides.size(); ++k)
     if (!used[k]) follow(static_cast<int>(k), sides[k].first);
+  return lines;
 }
 
 }  // namespace
@@ -144,8 +145,49 @@ std::vector<MeshLine> mesh_lines(const Mesh& mesh, const ViewOf& view) {
   for (const Side& side : sides_of(mesh, points))
     for (const MeshLineKind kind : sorting.kinds_of(side)) of_kind[kind].emplace_back(side.a, side.b);
   std::vector<MeshLine> lines;
-  for (const auto& [kind, sides] : of_kind) add_chains(mesh, kind, sides, lines);
+  for (const auto& [kind, sides] : of_kind)
+    for (CurvePtr& curve : chains(mesh.points, sides)) lines.push_back({kind, std::move(curve)});
   return lines;
+}
+
+std::vector<CurvePtr> plane_section(const Mesh& mesh, const Vec3& origin, const Vec3& normal) {
+  constexpr double kOnPlane = 1e-15;  // of the distances: points as near lie on it
+  const Vec3 n = glm::normalize(normal);
+  const std::vector<int> merged = merged_points(mesh);
+  std::vector<double> height;  // 0: on the plane
+  for (const Vec3& point : mesh.points) {
+    const Vec3 from = point - origin;
+    const double h = glm::dot(from, n);
+    height.push_back(std::abs(h) <= kOnPlane * (glm::length(point) + glm::length(origin)) ? 0 : h);
+  }
+  // What is on the plane counts as above it, so that every triangle has two places where it goes through or none. A
+  // place belongs to a side, or to the point at which that meets the plane.
+  std::vector<Vec3> places;
+  std::map<std::pair<int, int>, int> numbers;
+  const auto place = [&](int a, int b) {
+    if (height[a] == 0) b = a;
+    if (height[b] == 0) a = b;
+    const auto [known, is_new] = numbers.try_emplace(std::minmax(a, b), static_cast<int>(places.size()));
+    if (is_new) {
+      const auto& [p, q] = known->first;
+      const double share = p == q ? 0 : height[p] / (height[p] - height[q]);
+      places.push_back(mesh.points[p] + share * (mesh.points[q] - mesh.points[p]));
+    }
+    return known->second;
+  };
+  std::vector<std::pair<int, int>> sides;
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    std::vector<int> ends;
+    for (int i = 0; i < 3; ++i) {
+      const int a = merged[triangle.point[i]], b = merged[triangle.point[(i + 1) % 3]];
+      if ((height[a] < 0) != (height[b] < 0)) ends.push_back(place(a, b));
+    }
+    if (ends.size() == 2 && ends[0] != ends[1]) sides.push_back(std::minmax(ends[0], ends[1]));
+  }
+  // A side in the plane may be one of two triangles.
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return chains(places, sides);
 }
 
 MeshTriangles::MeshTriangles(MeshPtr mesh) : mesh_(std::move(mesh)) {

@@ -1,5 +1,5 @@
 // Lines of triangle meshes, as exact as the mesh: borders, creases and outlines along its sides (Golovanov 2016, 8.3),
-// and where lines meet its triangles.
+// sections by planes, and where lines meet its triangles.
 #pragma once
 
 #include <vector>
@@ -28,6 +28,10 @@ struct MeshLine {
 
 // Points with the same coordinates are one. Sides of triangles in one plane are none. Silhouettes are smooth sides too.
 std::vector<MeshLine> mesh_lines(const Mesh& mesh, const ViewOf& view);
+
+// Where a plane goes through the triangles, as polylines with a corner at every side that they pass; sides in the plane
+// are among them where a triangle lies below. The normal must not be zero.
+std::vector<CurvePtr> plane_section(const Mesh& mesh, const Vec3& origin, const Vec3& normal);
 
 // The triangles of a mesh, found by place.
 class MeshTriangles {

@@ -306,13 +306,22 @@ void StrokeCollector::add_section(const SectionPlane& plane, const Style& style,
       const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
       if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
         return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
+      if (const auto* balls = dynamic_cast<const Balls*>(&original)) {
+        for (const ShapeOutline& line :
+             plane_section(*balls, own_through, own_normal, seen_through(view_from(back), own)).lines) {
+          cusps_ = line.turns;
+          stroke(line.curve, style, hidden);
+        }
+        return;
+      }
       const auto* solid = dynamic_cast<const Csg*>(&original);
-      if (!solid) return leave_out("sections of tubes and balls");
+      if (!solid) return leave_out("sections of tubes");
       const CsgLines found = csg_section(*solid, own_through, own_normal);
       if (!found.complete) ++work_.incomplete;
       for (const CsgLine& line : found.lines) add(line, style, hidden);
     });
-  if (std::holds_alternative<MeshPtr>(object_->shape)) leave_out("sections of meshes");
+  if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape))
+    for (const CurvePtr& line : plane_section(**mesh, through, normal)) stroke(line, style, hidden);
 }
 
 void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {

@@ -62,6 +62,35 @@ TEST(MeshContours, EdgesOfABox) {
   EXPECT_NEAR(again[MeshLineKind::sharp].length, found[MeshLineKind::sharp].length, 1e-12);
 }
 
+TEST(MeshContours, SectionsOfABox) {
+  const Mesh mesh = box_of_triangles();
+  const auto expect = [&](const Vec3& origin, const Vec3& normal, double length) {
+    const auto lines = plane_section(mesh, origin, normal);
+    ASSERT_EQ(lines.size(), length > 0 ? 1u : 0u);
+    if (lines.empty()) return;
+    EXPECT_GT(lines[0]->period(), 0);
+    const Interval t = lines[0]->domain();
+    double found = 0;
+    for (int k = 0; k < std::lround(t.width()); ++k) {
+      const Vec3 from = lines[0]->point(t.lo + k), to = lines[0]->point(t.lo + k + 1);
+      EXPECT_NEAR(glm::dot(from - origin, glm::normalize(normal)), 0, 1e-15);
+      found += glm::length(to - from);
+    }
+    EXPECT_NEAR(found, length, 1e-12);
+  };
+  expect({0.4, 0, 0}, {3, 0, 0}, 2 * (2 + 3));
+  expect({0.4, 0, 0}, {-1, 0, 0}, 2 * (2 + 3));
+  expect({0, 0, 1.25}, {0, 0, 1}, 2 * (1 + 2));
+  expect({0, 0, 0}, {2, -1, 0}, 2 * (std::sqrt(5.0) + 3));  // along four edges and the diagonals of two sides
+  // The six corners of a hexagon lie on edges: its sides are three pairs, each in a face.
+  const double side = 0.5 * (std::hypot(1.0, 2.0) + std::hypot(1.0, 3.0) + std::hypot(2.0, 3.0));
+  expect({0.5, 1, 1.5}, {6, 3, 2}, 2 * side);
+  // A face in the plane is cut round where the body is below.
+  expect({0, 0, 0}, {-1, 0, 0}, 2 * (2 + 3));
+  expect({0, 0, 0}, {1, 0, 0}, 0);
+  expect({2, 0, 0}, {1, 0, 0}, 0);
+}
+
 TEST(MeshContours, OutlineOfABallIsNearItsCircle) {
   TessellationTolerance tolerance;
   tolerance.angle = 0.05;

@@ -187,7 +187,8 @@ TEST(DrawingTruth, Balls) {
       using oracle::sight::PairSolid;
       all = all ? std::make_shared<PairSolid>(PairSolid::Kind::unite, all, one) : one;
     }
-    show(scene, ShapePtr(std::make_shared<Balls>(centers, radii)), {"sharp", "silhouette"});
+    show(scene, ShapePtr(std::make_shared<Balls>(centers, radii)), {"sharp", "silhouette", "section"}, 0,
+         {{0.3 * views.direction(), views.direction()}, {centers[0], views.direction()}});
     views.look(scene, k % 2);
     Truth(*scene.world(), sheets_of(std::vector<SolidPtr>{all}), views, found);
   }

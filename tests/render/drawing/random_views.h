@@ -35,11 +35,13 @@ class Views {
   std::mt19937 random_;
 };
 
-inline void show(SmallScene& scene, Entity shape, const std::vector<std::string>& kinds, int parameter_lines = 0) {
+inline void show(SmallScene& scene, Entity shape, const std::vector<std::string>& kinds, int parameter_lines = 0,
+                 std::vector<SectionPlane> planes = {}) {
   Look look;
   look.lines.emplace();
   for (const std::string& kind : kinds) look.lines->styles[kind] = Style();
   look.lines->at_u.count = look.lines->at_v.count = parameter_lines;
+  look.lines->planes = std::move(planes);
   ClassicLook white;
   scene.add(std::move(shape), make_material(white));
   scene.model.objects.back().look = std::make_shared<const Look>(look);
