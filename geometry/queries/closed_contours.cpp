@@ -6,6 +6,7 @@
 #include "geometry/queries/canonical_surface.h"
 #include "geometry/queries/conic_image.h"
 #include "geometry/queries/profile_sections.h"
+#include "geometry/queries/torus_outline.h"
 #include "geometry/queries/torus_sections.h"
 
 namespace lekalo::geometry {
@@ -379,6 +380,7 @@ std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& or
 std::optional<Contours> closed_silhouette(const SurfacePtr& surface, const ViewOf& view, double tolerance) {
   const auto known = canonical(surface);
   if (!known) return std::nullopt;
+  if (known->kind == Kind::torus) return torus_silhouette(*known, view);
   const Box3 box = bounds(*surface);
   const auto form = known->quadric(box.center(), box.diameter());
   if (!form) return std::nullopt;

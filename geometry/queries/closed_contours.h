@@ -6,6 +6,7 @@
 //   planes with extrusions and surfaces of revolution (geometry/queries/profile_sections.h): the profile, moved;
 //   quadrics that meet in planes (geometry/queries/quadric_sections.h);
 //   silhouettes of quadrics: sections by the polar plane of the eye, or of the way of sight;
+//   silhouettes of rings (geometry/queries/torus_outline.h);
 //   tori with planes across or through the axis and those that touch them twice (Villarceau), with planes, spheres,
 //   cylinders, cones and tori about the same axis, with the spheres that fill their tube.
 //

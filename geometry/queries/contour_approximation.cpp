@@ -5,6 +5,7 @@
 #include "geometry/curves/curve_part.h"
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/polynomial_approximation.h"
+#include "geometry/curves/surface_curve.h"
 #include "geometry/queries/contour_curve.h"
 
 namespace lekalo::geometry {
@@ -13,15 +14,17 @@ namespace {
 
 constexpr double kAgree = 1e-13;
 
-bool is_part_of_searched(const Curve& curve) {
+// Of contours that are searched, and of curves on surfaces, each point takes long.
+bool takes_long(const Curve& curve) {
   const auto* part = dynamic_cast<const CurvePart*>(&curve);
-  return is_searched(part ? *part->of() : curve);
+  const Curve& whole = part ? *part->of() : curve;
+  return is_searched(whole) || dynamic_cast<const SurfaceCurve*>(&whole);
 }
 
 }  // namespace
 
 CurvePtr contour_approximation(const CurvePtr& curve) {
-  if (!dynamic_cast<const ParameterLine*>(curve.get()) && !is_part_of_searched(*curve)) return curve;
+  if (!dynamic_cast<const ParameterLine*>(curve.get()) && !takes_long(*curve)) return curve;
   // Its box from a few points: bounds of a searched curve take as long as all else.
   Box3 box;
   constexpr int kPlaces = 8;
@@ -34,7 +37,7 @@ CurvePtr contour_approximation(const CurvePtr& curve) {
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {
   const Rectangle domain = surface.domain();
   const double size = std::max(domain.u.width(), domain.v.width());
-  if (!is_part_of_searched(*curve) || !(size < kInfinity)) return image;
+  if (!takes_long(*curve) || !(size < kInfinity)) return image;
   auto simple = polynomial_approximation(CurvePart(image, curve->domain()), kAgree * size);
   return simple ? simple : image;
 }

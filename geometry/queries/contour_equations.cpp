@@ -1,6 +1,7 @@
 #include "geometry/queries/contour_equations.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -32,15 +33,15 @@ template class ContourEquations<4>;
 SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& piece, const Rectangle& box) {
   if (surface.enclosure_order() >= 3) return surface.enclose(box, 3);
   SurfaceEnclosure boxes = surface.enclose(box, 2);
-  for (int k = 0; k <= 3; ++k) {
-    Box3 seen;
-    for (int i = 0; i <= 2; ++i)
-      for (int j = 0; j <= 2; ++j)
-        seen.include(
-            evaluate_within(surface, piece, box.u.lo + 0.5 * i * box.u.width(), box.v.lo + 0.5 * j * box.v.width(), 3)
-                .d(3 - k, k));
-    boxes.values[SurfaceJet::index(3 - k, k)] = seen.inflated(0.5 * seen.diameter());
-  }
+  std::array<Box3, 4> seen;
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; j <= 2; ++j) {
+      const SurfaceJet s =
+          evaluate_within(surface, piece, box.u.lo + 0.5 * i * box.u.width(), box.v.lo + 0.5 * j * box.v.width(), 3);
+      for (int k = 0; k <= 3; ++k) seen[k].include(s.d(3 - k, k));
+    }
+  for (int k = 0; k <= 3; ++k)
+    boxes.values[SurfaceJet::index(3 - k, k)] = seen[k].inflated(0.5 * seen[k].diameter());
   return boxes;
 }
 

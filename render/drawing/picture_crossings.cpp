@@ -15,6 +15,7 @@ constexpr double kCellsOfBin = 2;                  // about
 constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kAnyTurn = 4;      // nothing is known
+constexpr double kLastStep = 1e-8;  // of a part: Newton's iteration has come to rounding behind it
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
@@ -28,15 +29,16 @@ struct Part {
   double length() const { return glm::length(chord()); }
 };
 
-// Of a part that is so short that a chord may stand for it where widths are asked for; it may bend all the same, or
-// have a cusp. P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that.
+// P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so short
+// that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
 double turn_of(const Vec2& chord, double bow) {
   const double sine = 4 * bow / glm::length(chord);
   return sine < 1 ? std::asin(sine) : kAnyTurn;
 }
 
 Part part_of(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
-  const double turn = cell.is_chord ? turn_of(cell.end - cell.begin, cell.bow) : kCellTurn;
+  const double by_bow = turn_of(cell.end - cell.begin, cell.bow);
+  const double turn = cell.is_chord ? by_bow : std::min(by_bow, kCellTurn);
   return {&curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow, turn};
 }
 
@@ -83,7 +85,8 @@ bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
     if (determinant == 0 || !std::isfinite(determinant)) return false;
     const double by_s = cross(apart, at_b.tangent) / determinant, by_t = cross(apart, at_a.tangent) / determinant;
     s += by_s, t += by_t;
-    if (std::abs(by_s) <= 1e-14 * a.t.width() && std::abs(by_t) <= 1e-14 * b.t.width()) break;
+    // Both parts turn by less than the angle between them: the error after a step is about its square.
+    if (std::abs(by_s) <= kLastStep * a.t.width() && std::abs(by_t) <= kLastStep * b.t.width()) break;
   }
   const auto inside = [](const Interval& range, double x) {
     const double slack = kEndSlack * range.width();

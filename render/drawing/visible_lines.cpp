@@ -35,6 +35,8 @@ constexpr double kOnHost = 2e-12;
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
 constexpr double kSameTurn = 5e-4;
+// Pieces of a curve go on in one another if their directions, and their ends, of the curve's length, differ by no more.
+constexpr double kSmooth = 1e-7;
 // Where one singular value of (s_u, s_v), over the domain's widths, is so small a part of the other the surface has no
 // normal.
 constexpr double kNoNormal = 1e-6;
@@ -200,7 +202,7 @@ class Drawing {
                          [&](const Vec2& one) { return glm::length(place - one) < kSameTurn; });
     };
     for (const CurvePiece& piece : stroke.curve->pieces())
-      if (!is_known(piece.domain.lo)) events.push_back(piece.domain.lo);
+      if (is_corner(*stroke.curve, piece.domain.lo) && !is_known(piece.domain.lo)) events.push_back(piece.domain.lo);
     crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
@@ -210,6 +212,15 @@ class Drawing {
         events.push_back(crossing.t);
     });
     return events;
+  }
+
+  // Where a curve changes its direction, or jumps.
+  static bool is_corner(const Curve& curve, double t) {
+    if (!(t > curve.domain().lo)) return false;
+    const CurveJet before = curve.evaluate(next_down(t), 1), behind = curve.evaluate(t, 1);
+    const double a = glm::length(before.d[1]), b = glm::length(behind.d[1]);
+    return !(a > 0 && b > 0) || glm::length(before.d[1] / a - behind.d[1] / b) > kSmooth ||
+           glm::length(before.d[0] - behind.d[0]) > kSmooth * (a + b) * curve.domain().width();
   }
 
   static bool share_host(const Stroke& a, const Stroke& b) {
@@ -513,7 +524,8 @@ class Drawing {
   int layers_before(const Vec3& point, double touch = kTouch) {
     ++result_.statistics.rays;
     const PicturePoint at = camera_.project(point);
-    const Ray ray = camera_.ray(at.x, at.y);
+    Ray ray = camera_.ray(at.x, at.y);
+    ray.t_max = at.depth;
     int layers = 0;
     for (const Hit& hit : world_.all_hits(ray)) {
       if (!(hit.t < at.depth)) continue;

@@ -61,20 +61,23 @@ ProjectedCurve::ProjectedCurve(CurvePtr curve, const Affine& to_world, const Cam
   link();
 }
 
+ProjectedCurve::Place ProjectedCurve::place_of(const CurveJet& at, double w, double w1) const {
+  const auto& [row_x, row_y, row_w] = map_.row;
+  const Vec2 p = Vec2(apply(row_x, at.d[0], 1), apply(row_y, at.d[0], 1)) / w;
+  return {p, (Vec2(apply(row_x, at.d[1], 0), apply(row_y, at.d[1], 0)) - w1 * p) / w};
+}
+
+ProjectedCurve::Place ProjectedCurve::place(double t) const {
+  const CurveJet at = curve_->evaluate(t, 1);
+  return place_of(at, apply(map_.row[2], at.d[0], 1), apply(map_.row[2], at.d[1], 0));
+}
+
 ProjectedCurve::Jet ProjectedCurve::jet(double t) const {
   const CurveJet at = curve_->evaluate(t, 2);
   const auto& [row_x, row_y, row_w] = map_.row;
   const double w = apply(row_w, at.d[0], 1), w1 = apply(row_w, at.d[1], 0), w2 = apply(row_w, at.d[2], 0);
-  Jet jet;
-  jet.p = Vec2(apply(row_x, at.d[0], 1), apply(row_y, at.d[0], 1)) / w;
-  jet.p1 = (Vec2(apply(row_x, at.d[1], 0), apply(row_y, at.d[1], 0)) - w1 * jet.p) / w;
-  jet.p2 = (Vec2(apply(row_x, at.d[2], 0), apply(row_y, at.d[2], 0)) - 2 * w1 * jet.p1 - w2 * jet.p) / w;
-  return jet;
-}
-
-ProjectedCurve::Place ProjectedCurve::place(double t) const {
-  const Jet at = jet(t);
-  return {at.p, at.p1};
+  const auto [p, p1] = place_of(at, w, w1);
+  return {p, p1, (Vec2(apply(row_x, at.d[2], 0), apply(row_y, at.d[2], 0)) - 2 * w1 * p1 - w2 * p) / w};
 }
 
 void ProjectedCurve::cut(const Interval& t) {
@@ -124,14 +127,14 @@ void ProjectedCurve::cut(const Interval& t) {
 
 void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge, double bow) {
   // At a break the curve's own derivatives are those from the right.
-  const Jet begin = jet(t.lo), end = jet(t.hi), inside = jet(next_down(t.hi));
+  const Place begin = place(t.lo), end = place(t.hi), inside = place(next_down(t.hi));
   Cell cell;
   cell.t = t;
   cell.begin = begin.p;
   // Nor need the point be that of the left.
   cell.end = glm::length(end.p - inside.p) <= kMeet ? end.p : inside.p;
-  cell.begin_tangent = is_chord ? cell.end - cell.begin : begin.p1;
-  cell.end_tangent = is_chord ? cell.begin_tangent : inside.p1;
+  cell.begin_tangent = is_chord ? cell.end - cell.begin : begin.tangent;
+  cell.end_tangent = is_chord ? cell.begin_tangent : inside.tangent;
   cell.bulge = bulge;
   cell.bow = bow;
   cell.is_chord = is_chord;
@@ -163,7 +166,7 @@ double ProjectedCurve::length(const Interval& t) const {
   static const GaussRule rule = gauss_legendre(kPlacesOfLength);
   double sum = 0;
   for (int i = 0; i < kPlacesOfLength; ++i)
-    sum += rule.weights[i] * glm::length(jet(t.middle() + 0.5 * t.width() * rule.nodes[i]).p1);
+    sum += rule.weights[i] * glm::length(place(t.middle() + 0.5 * t.width() * rule.nodes[i]).tangent);
   return 0.5 * t.width() * sum;
 }
 

@@ -69,6 +69,7 @@ class ProjectedCurve {
     Vec2 p, p1, p2;
   };
   Jet jet(double t) const;
+  Place place_of(const geometry::CurveJet& at, double w, double w1) const;
   void cut(const geometry::Interval& t);
   void add(const geometry::Interval& t, bool is_chord, double bulge, double bow);
   void link();
