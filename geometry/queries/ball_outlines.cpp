@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
-#include "geometry/curves/circle.h"
 #include "geometry/curves/ellipse.h"
 #include "geometry/curves/polynomial_approximation.h"
 #include "geometry/numerics/interval.h"
+#include "geometry/queries/ball_circles.h"
 
 namespace lekalo::geometry {
 
@@ -19,114 +19,6 @@ constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves 
 constexpr double kAgreeAside = 1e-4;
 // Of h, relative: less is the end-on view, where n is not determined.
 constexpr double kEndOn = 1e-13;
-// How far outside of the tube a point of it is asked about, of the size.
-constexpr double kBeside = 1e-7;
-// Directions of a curve that differ by less go on smoothly.
-constexpr double kCorner = 1e-6;
-constexpr double kSame = 1e-12;  // of parameters: parts as short are none
-
-// The circle of the points c + R n of a ball at which the way of sight touches it: n = k axis + s (cos x + sin y).
-struct BallCircle {
-  Vec3 center;
-  double radius;
-  Frame frame;  // origin 0, z the axis
-  double k, s;
-
-  Vec3 normal(double t) const { return k * frame.z + s * (std::cos(t) * frame.x + std::sin(t) * frame.y); }
-  CurvePtr curve(const Interval& t) const {
-    Frame at = frame;
-    at.origin = center + radius * k * frame.z;
-    return std::make_shared<Circle>(at, radius * s, t);
-  }
-  CurvePtr aside(const Interval& t) const {
-    Frame at = frame;
-    at.origin = k * frame.z;
-    return std::make_shared<Circle>(at, s, t);
-  }
-};
-
-std::optional<BallCircle> circle_of(const Vec3& center, double radius, const ViewOf& view) {
-  if (!view.central) return BallCircle{center, radius, frame_about(Vec3(0), view.direction_or_eye), 0, 1};
-  const Vec3 away = center - view.direction_or_eye;
-  const double distance = glm::length(away);
-  if (!(distance > radius)) return std::nullopt;  // the eye is inside
-  const double k = -radius / distance;
-  return BallCircle{center, radius, frame_about(Vec3(0), away / distance), k, std::sqrt(1 - k * k)};
-}
-
-// What is kept of a circle: where a cos t + b sin t + c >= 0 for all of these.
-struct Condition {
-  double a, b, c;
-  double at(double t) const { return a * std::cos(t) + b * std::sin(t) + c; }
-  // Where it is zero, in one turn.
-  void add_roots(std::vector<double>& roots) const {
-    const double size = std::hypot(a, b);
-    if (!(std::abs(c) < size)) return;
-    const double middle = std::atan2(b, a), half = std::acos(-c / size);
-    for (const double t : {middle - half, middle + half}) roots.push_back(t - kTwoPi * std::floor(t / kTwoPi));
-  }
-};
-
-// `value` is linear in the point of the circle, or in the normal.
-Condition condition(const std::function<double(double)>& value) {
-  const double at_0 = value(0), at_half = value(kPi), at_quarter = value(0.5 * kPi);
-  const double c = 0.5 * (at_0 + at_half);
-  return {at_0 - c, at_quarter - c, c};
-}
-
-std::vector<Interval> kept(const std::vector<Condition>& conditions) {
-  std::vector<double> cuts;
-  for (const Condition& one : conditions) {
-    if (!(std::abs(one.c) < std::hypot(one.a, one.b)) && one.c < 0) return {};
-    one.add_roots(cuts);
-  }
-  if (cuts.empty()) return {{0, kTwoPi}};
-  std::sort(cuts.begin(), cuts.end());
-  cuts.push_back(cuts.front() + kTwoPi);
-  std::vector<Interval> result;
-  for (size_t k = 0; k + 1 < cuts.size(); ++k) {
-    const Interval t{cuts[k], cuts[k + 1]};
-    const auto holds = [&](const Condition& one) { return one.at(t.middle()) >= 0; };
-    if (t.width() > kSame && std::all_of(conditions.begin(), conditions.end(), holds)) result.push_back(t);
-  }
-  return result;
-}
-
-// Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
-// ends of stretches by halving.
-template <class State, class Put>
-void each_stretch(const Interval& range, int places, const State& state, const Put& put) {
-  constexpr double kInside = 1e-9;  // of the range: its ends themselves are on borders
-  const auto place = [&](int k) {
-    return range.lo + range.width() * std::clamp(static_cast<double>(k) / places, kInside, 1 - kInside);
-  };
-  double from = range.lo;
-  auto here = state(place(0));
-  for (int k = 1; k <= places; ++k) {
-    const auto next = state(place(k));
-    if (next == here) continue;
-    double lo = place(k - 1), hi = place(k);
-    for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
-      (state(middle) == here ? lo : hi) = middle;
-    if (hi - from > kSame * range.width()) put(Interval{from, hi}, here);
-    from = hi, here = next;
-  }
-  if (range.hi - from > kSame * range.width()) put(Interval{from, range.hi}, here);
-}
-
-// The parameters in a range at which a surface with these unit normals along an edge turns away from the viewer. As all
-// of them are as far from their centre or axis, n . (p - e) is linear in cos t and sin t.
-void add_turns(const std::function<Vec3(double)>& normal, const std::function<Vec3(double)>& point, const ViewOf& view,
-               const Interval& range, std::vector<double>& turns) {
-  std::vector<double> roots;
-  condition([&](double t) {
-    return glm::dot(normal(t), view.central ? point(t) - view.direction_or_eye : view.direction_or_eye);
-  }).add_roots(roots);
-  for (const double root : roots)
-    for (const double t : {root, root + kTwoPi})
-      if (range.contains(t)) turns.push_back(t);
-}
-
 class TubeOutlines {
  public:
   TubeOutlines(const Tube& tube, const ViewOf& view) : tube_(tube), sweep_(tube.sweep()), view_(view) {
@@ -277,7 +169,7 @@ class TubeOutlines {
     // Cut where it enters or leaves the tube itself or what its ends cut away, and at cusps.
     const auto is_outside = [&](double s) {
       const Vec3 p = point_at(s);
-      return !tube_.is_cut_off(p, place(s).first) && !tube_.holds(p + kBeside * size_ * normal_at(s));
+      return !tube_.is_cut_off(p, place(s).first) && !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
     };
     each_stretch(
         range, std::max(64, static_cast<int>(sweep_.cells().size())),
@@ -304,34 +196,13 @@ class TubeOutlines {
   }
 
   // The circle of one ball, as far as neither the balls before it (the curve ends there at `before`) nor those after it
-  // hide it: n . c' >= -R' before, n . c' <= -R' after.
+  // hide it.
   void add_ball(std::optional<double> before, std::optional<double> after) {
-    const double t = before ? *before : *after;
-    const BallJet ball = sweep_.ball(t);
-    if (before && after && *before != *after) {
-      // No corner: the wall goes on.
-      const Vec3 a = sweep_.ball(*before).center[1], b = sweep_.ball(*after).center[1];
-      if (glm::length(glm::normalize(a) - glm::normalize(b)) < kCorner) return;
-    }
+    if (before && after && *before != *after && !is_corner(sweep_, *before, *after)) return;  // the wall goes on
+    const BallJet ball = sweep_.ball(before ? *before : *after);
     const auto circle = circle_of(ball.center[0], ball.radius[0], view_);
     if (!circle) return;
-    std::vector<Condition> conditions;
-    if (before != after) {
-      for (const auto& [end, sign] : {std::pair(before, 1.0), std::pair(after, -1.0)}) {
-        if (!end) continue;
-        const BallJet at = sweep_.ball(*end);
-        conditions.push_back(condition(
-            [&, sign = sign](double x) { return sign * (glm::dot(circle->normal(x), at.center[1]) + at.radius[1]); }));
-      }
-      for (int side = 0; side < 2; ++side)
-        if (tube_.caps() != Caps::round && (side == 0 ? !before : !after)) {
-          const Tube::End& end = tube_.end(side);
-          conditions.push_back(condition([&](double x) {
-            return glm::dot(circle->center + circle->radius * circle->normal(x) - end.point, end.inward);
-          }));
-        }
-    }
-    for (const Interval& arc : kept(conditions)) add_arc(*circle, arc);
+    for (const Interval& arc : arcs_between(tube_, *circle, before, after)) add_arc(*circle, arc);
   }
 
   // On the inner side of a corner two straight tubes of one radius meet in half an ellipse, in the plane half way
@@ -343,7 +214,8 @@ class TubeOutlines {
     const Vec3 inward = second - first, across = glm::cross(first, second);
     if (glm::length(inward) < kCorner) return;
     const auto is_straight = [](const BallJet& at) {
-      return glm::length(glm::cross(at.center[1], at.center[2])) < kSame * glm::dot(at.center[1], at.center[1]) &&
+      return glm::length(glm::cross(at.center[1], at.center[2])) <
+                 kSameOnBalls * glm::dot(at.center[1], at.center[1]) &&
              at.radius[1] == 0;
     };
     const double cosine = glm::length(first + second) / 2;  // of half the turn
@@ -370,7 +242,7 @@ class TubeOutlines {
   void add_arc(const BallCircle& circle, const Interval& arc) {
     const auto is_outside = [&](double x) {
       const Vec3 n = circle.normal(x);
-      return !tube_.holds(circle.center + circle.radius * n + kBeside * size_ * n);
+      return !tube_.holds(circle.center + circle.radius * n + kBesideBalls * size_ * n);
     };
     each_stretch(arc, 48, is_outside, [&](const Interval& part, bool outside) {
       if (outside) result_.lines.push_back({circle.curve(part), false, circle.aside(part), {}});
@@ -383,8 +255,7 @@ class TubeOutlines {
       const Tube::End& end = tube_.end(side);
       const Interval domain = sweep_.curve().domain();
       const BallJet ball = sweep_.ball(side == 0 ? domain.lo : before_end(domain.hi));
-      // Inward the balls must not reach farther into the plane than the last one.
-      if ((side == 0 ? 1 : -1) * ball.radius[1] > kSame * glm::length(ball.center[1])) {
+      if (grows_inward(ball, side)) {
         result_.complete = false;
         continue;
       }

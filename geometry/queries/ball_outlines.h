@@ -38,7 +38,10 @@ struct ShapeOutlines {
 ShapeOutlines outlines(const Tube& tube, const ViewOf& view);
 // With the circles in which balls meet.
 ShapeOutlines outlines(const Balls& balls, const ViewOf& view);
-// The circles in which a plane cuts balls, as far as they are outside of the others. The normal must not be zero.
+// The lines in which a plane cuts these shapes, all of them edges; `view` is that of the turns. The normal must not be
+// zero. Of balls circles, as far as they are outside of the others. Of tubes (tube_section.cpp) lines of the wall, of
+// round ends and corners, and chords of flat ends; bulges smaller than 1/256 of a piece of the curve may be missed.
 ShapeOutlines plane_section(const Balls& balls, const Vec3& origin, const Vec3& normal, const ViewOf& view);
+ShapeOutlines plane_section(const Tube& tube, const Vec3& origin, const Vec3& normal, const ViewOf& view);
 
 }  // namespace lekalo::geometry

@@ -40,8 +40,7 @@ SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& pie
           evaluate_within(surface, piece, box.u.lo + 0.5 * i * box.u.width(), box.v.lo + 0.5 * j * box.v.width(), 3);
       for (int k = 0; k <= 3; ++k) seen[k].include(s.d(3 - k, k));
     }
-  for (int k = 0; k <= 3; ++k)
-    boxes.values[SurfaceJet::index(3 - k, k)] = seen[k].inflated(0.5 * seen[k].diameter());
+  for (int k = 0; k <= 3; ++k) boxes.values[SurfaceJet::index(3 - k, k)] = seen[k].inflated(0.5 * seen[k].diameter());
   return boxes;
 }
 

@@ -1,5 +1,5 @@
-// Silhouettes of tori in closed form (Golovanov 2016, 4.6; capability 4.6e). In the torus's own coordinates its normal is
-// m = (cos v e(u), sin v) with e(u) = (cos u, sin u), and i . m = 0 says
+// Silhouettes of tori in closed form (Golovanov 2016, 4.6; capability 4.6e). In the torus's own coordinates its normal
+// is m = (cos v e(u), sin v) with e(u) = (cos u, sin u), and i . m = 0 says
 //
 //   seen along d:        (d . e) cos v + d_z sin v = 0,
 //   seen from the eye w: (w . e - R) cos v + w_z sin v = r.

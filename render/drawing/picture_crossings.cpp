@@ -29,8 +29,8 @@ struct Part {
   double length() const { return glm::length(chord()); }
 };
 
-// P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so short
-// that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
+// P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so
+// short that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
 double turn_of(const Vec2& chord, double bow) {
   const double sine = 4 * bow / glm::length(chord);
   return sine < 1 ? std::asin(sine) : kAnyTurn;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "geometry/curves/parameter_line.h"
+#include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/implicit_contours.h"
@@ -96,6 +97,7 @@ class StrokeCollector {
   // surfaces have a boundary.
   void add_solid(const geometry::ShapePtr& shape, const geometry::ViewOf& view, bool edges, const Style& style,
                  const HiddenLines& hidden);
+  void add(const geometry::ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden);
   void add(const geometry::ImplicitContours& contours, const Style& style, const HiddenLines& hidden);
   void add(const geometry::CsgLine& line, const Style& style, const HiddenLines& hidden);
   // Adds what the visitor adds of the shape as it is before it was moved as a whole; the map leads back to there.

@@ -4,7 +4,6 @@
 #include "geometry/curves/curve_part.h"
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/segment.h"
-#include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
@@ -226,15 +225,19 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       for (const CsgLine& line : solid_lines_.lines)
         if (line.edge == edges) add(line, style, hidden);
     } else if (tube || balls) {
-      const ShapeOutlines found = tube ? outlines(*tube, own_view) : outlines(*balls, own_view);
-      if (!found.complete && !edges) ++work_.incomplete;
-      for (const ShapeOutline& line : found.lines) {
-        if (line.edge != edges) continue;
-        aside_ = line.aside, cusps_ = line.turns;
-        stroke(line.curve, style, hidden);
-      }
+      add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
     }
   });
+}
+
+void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
+  // Asked for outlines and for edges: what is missing is told once.
+  if (!outlines.complete && (!edges || kind_ == "section")) ++work_.incomplete;
+  for (const ShapeOutline& line : outlines.lines) {
+    if (line.edge != edges) continue;
+    aside_ = line.aside, cusps_ = line.turns;
+    stroke(line.curve, style, hidden);
+  }
 }
 
 void StrokeCollector::add(const ImplicitContours& contours, const Style& style, const HiddenLines& hidden) {
@@ -306,16 +309,13 @@ void StrokeCollector::add_section(const SectionPlane& plane, const Style& style,
       const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
       if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
         return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
-      if (const auto* balls = dynamic_cast<const Balls*>(&original)) {
-        for (const ShapeOutline& line :
-             plane_section(*balls, own_through, own_normal, seen_through(view_from(back), own)).lines) {
-          cusps_ = line.turns;
-          stroke(line.curve, style, hidden);
-        }
-        return;
-      }
+      const ViewOf own_view = seen_through(view_from(back), own);
+      if (const auto* balls = dynamic_cast<const Balls*>(&original))
+        return add(plane_section(*balls, own_through, own_normal, own_view), true, style, hidden);
+      if (const auto* tube = dynamic_cast<const Tube*>(&original))
+        return add(plane_section(*tube, own_through, own_normal, own_view), true, style, hidden);
       const auto* solid = dynamic_cast<const Csg*>(&original);
-      if (!solid) return leave_out("sections of tubes");
+      if (!solid) return;
       const CsgLines found = csg_section(*solid, own_through, own_normal);
       if (!found.complete) ++work_.incomplete;
       for (const CsgLine& line : found.lines) add(line, style, hidden);
@@ -326,15 +326,16 @@ void StrokeCollector::add_section(const SectionPlane& plane, const Style& style,
 
 void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
   const auto* body = std::get_if<BodyPtr>(&object_->shape);
-  if (const auto* with = std::get_if<BodyPtr>(&other)) {
-    if (body) add(intersect(**body, **with), **body, style, hidden);
-    each_surface([&](const SurfacePtr& surface) { add(intersect(**with, surface), **with, style, hidden); });
-  } else if (const auto* with_surface = std::get_if<SurfacePtr>(&other)) {
-    if (body) add(intersect(**body, *with_surface), **body, style, hidden);
-    each_surface([&](const SurfacePtr& surface) {
-      add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
-    });
-  }
+  const auto* with_body = std::get_if<BodyPtr>(&other);
+  const auto* with_surface = std::get_if<SurfacePtr>(&other);
+  bool known = body && (with_body || with_surface);
+  if (body && with_body) add(intersect(**body, **with_body), **body, style, hidden);
+  if (body && with_surface) add(intersect(**body, *with_surface), **body, style, hidden);
+  each_surface([&](const SurfacePtr& surface) {
+    if (with_body) known = true, add(intersect(**with_body, surface), **with_body, style, hidden);
+    if (with_surface) known = true, add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
+  });
+  if (!known) leave_out("intersections of what is neither a surface nor a body");
 }
 
 std::string_view StrokeCollector::kind_of(const Body& body, const Edge& edge) {

@@ -1,0 +1,102 @@
+#include "geometry/queries/ball_circles.h"
+
+namespace lekalo::geometry {
+
+CurvePtr BallCircle::curve(const Interval& t) const {
+  Frame at = frame;
+  at.origin = center + radius * k * frame.z;
+  return std::make_shared<Circle>(at, radius * s, t);
+}
+
+CurvePtr BallCircle::aside(const Interval& t) const {
+  Frame at = frame;
+  at.origin = k * frame.z;
+  return std::make_shared<Circle>(at, s, t);
+}
+
+std::optional<BallCircle> circle_of(const Vec3& center, double radius, const ViewOf& view) {
+  if (!view.central) return BallCircle{center, radius, frame_about(Vec3(0), view.direction_or_eye), 0, 1};
+  const Vec3 away = center - view.direction_or_eye;
+  const double distance = glm::length(away);
+  if (!(distance > radius)) return std::nullopt;
+  const double k = -radius / distance;
+  return BallCircle{center, radius, frame_about(Vec3(0), away / distance), k, std::sqrt(1 - k * k)};
+}
+
+std::optional<BallCircle> circle_of(const Vec3& center, double radius, const Vec3& origin, const Vec3& normal) {
+  const double k = glm::dot(origin - center, normal) / radius, square = 1 - k * k;
+  if (!(square > 0)) return std::nullopt;
+  return BallCircle{center, radius, frame_about(Vec3(0), normal), k, std::sqrt(square)};
+}
+
+void Condition::add_roots(std::vector<double>& roots) const {
+  const double size = std::hypot(a, b);
+  if (!(std::abs(c) < size)) return;
+  const double middle = std::atan2(b, a), half = std::acos(-c / size);
+  for (const double t : {middle - half, middle + half}) roots.push_back(t - kTwoPi * std::floor(t / kTwoPi));
+}
+
+Condition condition(const std::function<double(double)>& value) {
+  const double at_0 = value(0), at_half = value(kPi), at_quarter = value(0.5 * kPi);
+  const double c = 0.5 * (at_0 + at_half);
+  return {at_0 - c, at_quarter - c, c};
+}
+
+std::vector<Interval> kept(const std::vector<Condition>& conditions) {
+  std::vector<double> cuts;
+  for (const Condition& one : conditions) {
+    if (!(std::abs(one.c) < std::hypot(one.a, one.b)) && one.c < 0) return {};
+    one.add_roots(cuts);
+  }
+  if (cuts.empty()) return {{0, kTwoPi}};
+  std::sort(cuts.begin(), cuts.end());
+  cuts.push_back(cuts.front() + kTwoPi);
+  std::vector<Interval> result;
+  for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+    const Interval t{cuts[k], cuts[k + 1]};
+    const auto holds = [&](const Condition& one) { return one.at(t.middle()) >= 0; };
+    if (t.width() > kSameOnBalls && std::all_of(conditions.begin(), conditions.end(), holds)) result.push_back(t);
+  }
+  return result;
+}
+
+bool is_corner(const BallSweep& sweep, double before, double after) {
+  const Vec3 a = sweep.ball(before).center[1], b = sweep.ball(after).center[1];
+  return !(glm::length(glm::normalize(a) - glm::normalize(b)) < kCorner);
+}
+
+std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, std::optional<double> before,
+                                   std::optional<double> after) {
+  std::vector<Condition> conditions;
+  if (before != after) {
+    for (const auto& [end, sign] : {std::pair(before, 1.0), std::pair(after, -1.0)}) {
+      if (!end) continue;
+      const BallJet at = tube.sweep().ball(*end);
+      conditions.push_back(condition(
+          [&, sign = sign](double x) { return sign * (glm::dot(circle.normal(x), at.center[1]) + at.radius[1]); }));
+    }
+    for (int side = 0; side < 2; ++side)
+      if (tube.caps() != Caps::round && (side == 0 ? !before : !after)) {
+        const Tube::End& end = tube.end(side);
+        conditions.push_back(condition([&](double x) { return glm::dot(circle.point(x) - end.point, end.inward); }));
+      }
+  }
+  return kept(conditions);
+}
+
+bool grows_inward(const BallJet& ball, int side) {
+  return (side == 0 ? 1 : -1) * ball.radius[1] > kSameOnBalls * glm::length(ball.center[1]);
+}
+
+void add_turns(const std::function<Vec3(double)>& normal, const std::function<Vec3(double)>& point, const ViewOf& view,
+               const Interval& range, std::vector<double>& turns) {
+  std::vector<double> roots;
+  condition([&](double t) {
+    return glm::dot(normal(t), view.central ? point(t) - view.direction_or_eye : view.direction_or_eye);
+  }).add_roots(roots);
+  for (const double root : roots)
+    for (const double t : {root, root + kTwoPi})
+      if (range.contains(t)) turns.push_back(t);
+}
+
+}  // namespace lekalo::geometry
