@@ -145,7 +145,8 @@ TEST(DrawingTruth, HelixThroughASlottedPlate) {
         point_formulas({"cos(t)", "sin(t)", "(t - 2*pi)*" + std::to_string(pitch)}, {"t"}),
         Interval{0, turns * kTwoPi});
     const double law = std::stod(std::to_string(pitch));
-    show(scene, ShapePtr(std::make_shared<Tube>(helix, RadiusLaw(radius), Caps::round)), {"sharp", "silhouette"});
+    show(scene, ShapePtr(std::make_shared<Tube>(helix, RadiusLaw(radius), Caps::round)),
+         {"sharp", "silhouette", "section"}, 0, {{0.5 * views.direction(), views.direction()}});
     Frame plate = frame_from({-2, -1.8, -0.1}, {0, 0, 1}, {1, 0, 0}), slot = plate;
     slot.origin = {-1.4, -0.4, -0.2};
     const Vec3 size(4, 3.6, 0.2), hole(2.8, 0.8, 0.4);
