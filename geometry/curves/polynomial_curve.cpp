@@ -8,7 +8,10 @@ CurveJet PolynomialCurve::evaluate(double t, int order) const {
   const double x = part.local(inside);
   CurveJet jet;
   jet.order = order;
-  for (int k = 0; k <= order; ++k) jet.d[k] = part.derivative(k, x);
+  if (order == 1)
+    part.value_and_slope(x, jet.d[0], jet.d[1]);
+  else
+    for (int k = 0; k <= order; ++k) jet.d[k] = part.derivative(k, x);
   if (t == inside) return jet;
   jet.d[0] += (t - inside) * part.derivative(1, x);
   for (int k = 2; k <= order; ++k) jet.d[k] = Vec3(0);

@@ -31,6 +31,16 @@ struct PolynomialPart {
     return sum;
   }
 
+  // The value and the first derivative by t at x, in one run (Horner's scheme with its own derivative).
+  void value_and_slope(double x, Vec3& sum, Vec3& slope) const {
+    sum = slope = Vec3(0);
+    for (int i = terms; i-- > 0;) {
+      slope = slope * x + sum;
+      sum = sum * x + powers[i];
+    }
+    slope *= scale;
+  }
+
   // The k-th derivative by t at x.
   Vec3 derivative(int k, double x) const {
     Vec3 sum(0);

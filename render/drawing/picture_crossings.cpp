@@ -100,6 +100,20 @@ bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
 // The crossings of two cells. Cells that run along one another would touch everywhere: then none is told.
 class CellPair {
  public:
+  void find(const Part& a, const Part& b) {
+    cross_parts(a, b);
+    if (runs_along_) common_ = common_part(a, b).value_or(a.t);
+  }
+  // Where the first runs along the second.
+  const std::optional<Interval>& common() const { return common_; }
+  std::vector<PictureCrossing> found() const {
+    std::vector<PictureCrossing> result;
+    for (const PictureCrossing& one : found_)
+      if (!one.touching || !runs_along_) result.push_back(one);
+    return result;
+  }
+
+ private:
   void cross_parts(const Part& a, const Part& b) {
     if (runs_along_ || is_apart(a, b) || is_apart(b, a)) return;
     const Vec2 u = a.chord(), v = b.chord();
@@ -112,7 +126,7 @@ class CellPair {
     }
     if (!asked_) {
       asked_ = true;
-      runs_along_ = run_along(a, b);
+      runs_along_ = common_part(a, b).has_value();
       if (runs_along_) return;
     }
     if (std::max(a.length() + a.bulge, b.length() + b.bulge) < kTouching) {
@@ -132,14 +146,6 @@ class CellPair {
       cross_parts(a, second);
     }
   }
-  std::vector<PictureCrossing> found() const {
-    std::vector<PictureCrossing> result;
-    for (const PictureCrossing& one : found_)
-      if (!one.touching || !runs_along_) result.push_back(one);
-    return result;
-  }
-
- private:
   // The parameter of the place of a part nearest to q, if that is at q.
   static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
     constexpr int kSteps = 6;
@@ -151,21 +157,27 @@ class CellPair {
       const auto at = part.curve->place(t);
       const Vec2 off = q - at.p;
       if (glm::length(off) <= kOneLine) return t;
-      const double speed = glm::dot(at.tangent, at.tangent);
+      const double speed = glm::length(at.tangent);
       if (!(speed > 0)) break;
-      t += glm::dot(off, at.tangent) / speed;
+      // The part turns little: it does not come nearer to a place that is farther beside it than ahead.
+      const double ahead = glm::dot(off, at.tangent) / speed, beside = std::abs(cross(off, at.tangent)) / speed;
+      if (beside > kOneLine + 2 * std::abs(ahead)) break;
+      if ((t == part.t.lo && ahead < 0) || (t == part.t.hi && ahead > 0)) break;  // it lies beyond the end
+      t += ahead / speed;
     }
     return std::nullopt;
   }
 
-  // Whether a stretch of one part lies on the other: its ends, which are ends of either, and its middle do.
-  static bool run_along(const Part& a, const Part& b) {
+  // The stretch of one part that lies on the other: its ends, which are ends of either, and its middle do.
+  static std::optional<Interval> common_part(const Part& a, const Part& b) {
     Interval common{geometry::kInfinity, -geometry::kInfinity};
     if (parameter_at(b, a.begin)) common = hull(common, Interval(a.t.lo));
     if (parameter_at(b, a.end)) common = hull(common, Interval(a.t.hi));
     for (const Vec2& end : {b.begin, b.end})
       if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
-    return common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->place(common.middle()).p);
+    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->place(common.middle()).p))
+      return common;
+    return std::nullopt;
   }
 
   static constexpr int kMostTouching = 16, kMostSteps = 4000;
@@ -174,6 +186,7 @@ class CellPair {
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
   bool asked_ = false, runs_along_ = false;
+  std::optional<Interval> common_;
 };
 
 }  // namespace
@@ -209,23 +222,51 @@ void PictureCrossings::each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) c
     for (size_t i = first % columns_; i <= last % columns_; ++i) visit(j * columns_ + i);
 }
 
-void PictureCrossings::collect(const ProjectedCurve& curve, std::vector<Hit>& hits) const {
+void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<bool(int)>& skip,
+                               std::vector<Hit>& hits) const {
+  std::vector<Run> runs;
   for (const ProjectedCurve::Cell& cell : curve.cells()) {
     const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge, hi = glm::max(cell.begin, cell.end) + cell.bulge;
     each_bin(lo, hi, [&](size_t bin) {
       for (const Item& item : bins_[bin]) {
         if (item.lo.x > hi.x || lo.x > item.hi.x || item.lo.y > hi.y || lo.y > item.hi.y) continue;
         if (bin_of(glm::max(lo, item.lo)) != bin) continue;  // both are in several bins: once is enough
+        if (skip(item.curve)) continue;
         const ProjectedCurve::Cell& of_other = curves_[item.curve]->cells()[item.cell];
         if (curves_[item.curve] == &curve &&
             (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
           continue;
         CellPair pair;
-        pair.cross_parts(part_of(curve, cell), part_of(*curves_[item.curve], of_other));
+        pair.find(part_of(curve, cell), part_of(*curves_[item.curve], of_other));
         for (const PictureCrossing& crossing : pair.found()) hits.push_back({item.curve, crossing});
+        if (pair.common()) runs.push_back({item.curve, *pair.common()});
       }
     });
   }
+  if (!runs.empty()) drop_joints(curve, runs, hits);
+}
+
+// Where a curve runs along another each cell touches those before and behind its fellow at its ends.
+void PictureCrossings::drop_joints(const ProjectedCurve& curve, std::vector<Run>& runs, std::vector<Hit>& hits) {
+  std::sort(runs.begin(), runs.end(),
+            [](const Run& a, const Run& b) { return a.curve != b.curve ? a.curve < b.curve : a.t.lo < b.t.lo; });
+  std::vector<Run> joined;
+  for (const Run& run : runs) {
+    const bool goes_on = !joined.empty() && joined.back().curve == run.curve &&
+                         run.t.lo <= joined.back().t.hi + kEndSlack * run.t.width();
+    if (goes_on)
+      joined.back().t.hi = std::max(joined.back().t.hi, run.t.hi);
+    else
+      joined.push_back(run);
+  }
+  std::erase_if(hits, [&](const Hit& hit) {
+    if (!hit.crossing.touching) return false;
+    const Vec2 place = curve.place(hit.crossing.t).p;
+    return std::any_of(joined.begin(), joined.end(), [&](const Run& run) {
+      const auto is_end = [&](double t) { return glm::length(curve.place(t).p - place) <= 2 * kTouching; };
+      return run.curve == hit.curve && run.t.contains(hit.crossing.t) && !is_end(run.t.lo) && !is_end(run.t.hi);
+    });
+  });
 }
 
 }  // namespace lekalo::render

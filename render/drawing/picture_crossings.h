@@ -5,6 +5,7 @@
 // pixel: there they touch.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "render/lines/projected_curve.h"
@@ -23,12 +24,12 @@ class PictureCrossings {
   // The curves must stay. `width` and `height` in pixels.
   PictureCrossings(std::vector<const ProjectedCurve*> curves, double width, double height);
 
-  // Calls found(index of the other curve, crossing) for all crossings of a curve; the same place may come twice where
-  // cells meet. Of a curve with itself too, but for neighbouring cells.
-  template <class Found>
-  void with(const ProjectedCurve& curve, Found&& found) const {
+  // Calls found(index of the other curve, crossing) for all crossings of a curve with those for which skip(index) is
+  // false; the same place may come twice where cells meet. Of a curve with itself too, but for neighbouring cells.
+  template <class Skip, class Found>
+  void with(const ProjectedCurve& curve, Skip&& skip, Found&& found) const {
     std::vector<Hit> hits;
-    collect(curve, hits);
+    collect(curve, skip, hits);
     for (const Hit& hit : hits) found(hit.curve, hit.crossing);
   }
 
@@ -37,12 +38,18 @@ class PictureCrossings {
     int curve;
     PictureCrossing crossing;
   };
+  // Where a curve runs along another.
+  struct Run {
+    int curve;
+    geometry::Interval t;
+  };
   struct Item {
     int curve;
     int cell;
     Vec2 lo, hi;  // of the cell's box
   };
-  void collect(const ProjectedCurve& curve, std::vector<Hit>& hits) const;
+  void collect(const ProjectedCurve& curve, const std::function<bool(int)>& skip, std::vector<Hit>& hits) const;
+  static void drop_joints(const ProjectedCurve& curve, std::vector<Run>& runs, std::vector<Hit>& hits);
   size_t bin_of(const Vec2& place) const;
   template <class Visit>
   void each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) const;

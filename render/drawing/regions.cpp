@@ -70,8 +70,9 @@ void Regions::cut(double width, double height) {
       if (borders_[k].t.contains(t)) cuts[k].push_back(t);
   };
   const PictureCrossings crossings(curves, width, height);
+  const auto none = [](int) { return false; };
   for (const ProjectedCurve* curve : curves)
-    crossings.with(*curve, [&](int other, const PictureCrossing& crossing) {
+    crossings.with(*curve, none, [&](int other, const PictureCrossing& crossing) {
       add_cut(curve, crossing.t);
       add_cut(curves[other], crossing.t_other);
     });

@@ -110,7 +110,7 @@ class Drawing {
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
       strokes_.push_back(std::move(stroke));
     }
-    drop_repeated_outlines();
+    find_repeated_lines();
     std::vector<const ProjectedCurve*> outlines;
     for (size_t k = 0; k < strokes_.size(); ++k)
       if (strokes_[k].outlines) outlines.push_back(curves_[k].get()), outline_of_.push_back(static_cast<int>(k));
@@ -149,22 +149,23 @@ class Drawing {
     stroke.curve = contour_approximation(stroke.curve);
   }
 
-  // The border at which two surfaces join is one of each: one is enough to hide what lies behind it.
-  void drop_repeated_outlines() {
+  // The border at which two surfaces join is one of each: one is enough to hide what lies behind it. And what is drawn
+  // along a border, all of it, crosses it nowhere.
+  void find_repeated_lines() {
     constexpr int kPlaces = 4;
     const double same = kOnHost * world_.radius();
     using Places = std::array<Vec3, kPlaces + 1>;
-    std::vector<std::pair<Places, int>> borders;
+    std::vector<std::pair<Places, int>> lines;
     for (size_t k = 0; k < strokes_.size(); ++k) {
       const Stroke& stroke = strokes_[k];
-      if (!stroke.outlines || stroke.kind == "silhouette") continue;
+      if (stroke.kind == "silhouette") continue;
       const Interval domain = stroke.curve->domain();
       Places places;
       for (int i = 0; i <= kPlaces; ++i)
         places[i] = stroke.to_world.point(stroke.curve->point(domain.lo + domain.width() * i / kPlaces));
-      borders.emplace_back(places, static_cast<int>(k));
+      lines.emplace_back(places, static_cast<int>(k));
     }
-    std::sort(borders.begin(), borders.end(), [](const auto& a, const auto& b) {
+    std::sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
       return a.first[kPlaces / 2].x != b.first[kPlaces / 2].x ? a.first[kPlaces / 2].x < b.first[kPlaces / 2].x
                                                               : a.second < b.second;
     });
@@ -176,10 +177,14 @@ class Drawing {
       };
       return near(false) || near(true);
     };
-    for (size_t k = 0; k < borders.size(); ++k)
-      for (size_t j = k + 1; j < borders.size(); ++j) {
-        if (borders[j].first[kPlaces / 2].x > borders[k].first[kPlaces / 2].x + same) break;
-        if (agree(borders[k].first, borders[j].first)) strokes_[borders[j].second].outlines = false;
+    twins_.resize(strokes_.size());
+    for (size_t k = 0; k < lines.size(); ++k)
+      for (size_t j = k + 1; j < lines.size(); ++j) {
+        if (lines[j].first[kPlaces / 2].x > lines[k].first[kPlaces / 2].x + same) break;
+        const int a = lines[k].second, b = lines[j].second;
+        if (!(strokes_[a].outlines || strokes_[b].outlines) || !agree(lines[k].first, lines[j].first)) continue;
+        if (strokes_[a].outlines) strokes_[b].outlines = false;
+        twins_[a].push_back(b), twins_[b].push_back(a);
       }
   }
 
@@ -203,7 +208,11 @@ class Drawing {
     };
     for (const CurvePiece& piece : stroke.curve->pieces())
       if (is_corner(*stroke.curve, piece.domain.lo) && !is_known(piece.domain.lo)) events.push_back(piece.domain.lo);
-    crossings.with(*curves_[line], [&](int other, const PictureCrossing& crossing) {
+    const auto is_twin = [&](int other) {
+      const std::vector<int>& twins = twins_[line];
+      return std::find(twins.begin(), twins.end(), outline_of_[other]) != twins.end();
+    };
+    crossings.with(*curves_[line], is_twin, [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(crossing.t)) return;
@@ -593,6 +602,7 @@ class Drawing {
   std::vector<Stroke> strokes_;
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> outline_of_;
+  std::vector<std::vector<int>> twins_;  // lines along the whole of which another lies
   std::vector<WorldSurface> surfaces_;
   BoxTree tree_;  // of their boxes
   std::vector<WorldShape> shapes_;

@@ -236,10 +236,21 @@ class TubeSolid final : public Solid {
         k = last;
       } else if (k > 0 && k < end_place && all[k].second < 0 && all[k].second >= all[k - 1].second &&
                  all[k].second >= all[k + 1].second && all[k].second > -1e-3L) {
-        // Between places a few may.
-        const auto [a, square] = at(best(x[k - 1], x[k + 1], g));
-        if (square > 0)
-          for (const Real side : {-1.0L, 1.0L}) found.push_back((a + side * std::sqrt(square)) / speed);
+        // Between places a few may: from where they begin to where they end.
+        const Real most = best(x[k - 1], x[k + 1], g);
+        if (!(g(most) > 0)) continue;
+        const auto change = [&](Real in, Real out) {
+          for (int step = 0; step < 90; ++step) (g((in + out) / 2) > 0 ? in : out) = (in + out) / 2;
+          return in;
+        };
+        const Real lo = change(most, x[k - 1]), hi = change(most, x[k + 1]);
+        for (const Real side : {-1.0L, 1.0L}) {
+          const auto end = [&](Real place) {
+            const auto [a, square] = at(place);
+            return side * a + std::sqrt(std::max(square, Real(0)));
+          };
+          found.push_back(side * end(best(lo, hi, end)) / speed);
+        }
       }
     }
     const auto near = [&](Real one) { return std::abs(one - 1) < contact; };
