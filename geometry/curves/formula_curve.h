@@ -23,6 +23,7 @@ class FormulaCurve final : public Curve {
   PointFormulas point_;
   Interval domain_;
   bool closed_ = false;  // set once the ends are known to meet
+  double size_ = 0;      // of what the formulas gave where they were tried
 };
 
 }  // namespace lekalo::geometry

@@ -2,6 +2,13 @@
 
 namespace lekalo::geometry {
 
+namespace {
+
+constexpr double kShallow = 0.7;  // |k| up to which angles tell points near joins
+constexpr int kPlacesOfArc = 64;
+
+}  // namespace
+
 CurvePtr BallCircle::curve(const Interval& t) const {
   Frame at = frame;
   at.origin = center + radius * k * frame.z;
@@ -97,6 +104,72 @@ void add_turns(const std::function<Vec3(double)>& normal, const std::function<Ve
   for (const double root : roots)
     for (const double t : {root, root + kTwoPi})
       if (range.contains(t)) turns.push_back(t);
+}
+
+double zero_between(const std::function<double(double)>& value, double a, double b) {
+  double at_a = value(a);
+  const double at_b = value(b);
+  if ((at_a > 0) == (at_b > 0)) return std::abs(at_a) < std::abs(at_b) ? a : b;
+  double lo = a, hi = b, t = a, before = b, now = at_a, then = at_b;
+  if (lo > hi) std::swap(lo, hi), at_a = at_b;
+  constexpr int kSteps = 200, kHalve = 8;
+  for (int step = 1; step < kSteps && now != 0; ++step) {
+    double next = t - now * (before - t) / (then - now);
+    if (!(next > lo && next < hi) || step % kHalve == 0) next = 0.5 * (lo + hi);
+    if (!(next > lo && next < hi) || next == t) break;
+    before = t, then = now;
+    t = next, now = value(t);
+    ((now > 0) == (at_a > 0) ? lo : hi) = t;
+  }
+  return t;
+}
+
+std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi,
+                                 const std::function<double(double)>& share) {
+  const auto by_t = [share](double at, double sign) {
+    const double k = std::clamp(share(at), -1.0, 1.0);
+    return WallPlace{at, k, sign * std::sqrt(1 - k * k)};
+  };
+  // From a join the first place at which |k| is kShallow, if it falls all the way.
+  const auto end_of_arc = [&](double from, double to) -> std::optional<double> {
+    double at = from, value = 1;
+    for (int i = 1; i < kPlacesOfArc; ++i) {
+      const double next = from + (to - from) * i / kPlacesOfArc, next_value = std::abs(share(next));
+      if (next_value <= kShallow)
+        return zero_between([&](double x) { return std::abs(share(x)) - kShallow; }, at, next);
+      if (!(next_value < value)) return std::nullopt;
+      at = next, value = next_value;
+    }
+    return std::nullopt;
+  };
+  std::vector<WallPath> paths;
+  const std::optional<double> lo = joins_lo ? end_of_arc(t.lo, t.hi) : t.lo,
+                              hi = joins_hi ? end_of_arc(t.hi, t.lo) : t.hi;
+  if (!lo || !hi) {
+    // A shallow bulge: one smooth curve by the root of the distance from where they join.
+    if (joins_lo && joins_hi)
+      paths.push_back({{0, kTwoPi}, [=](double s) {
+                         return by_t(t.clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
+                       }});
+    else
+      paths.push_back({{-1, 1}, [=](double s) {
+                         return by_t(t.clamp(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s),
+                                     s >= 0 ? 1.0 : -1.0);
+                       }});
+    return paths;
+  }
+  const auto add_arc = [&](double from, double to) {
+    const double sign = share(from) > 0 ? 1 : -1, angle = std::acos(kShallow);
+    paths.push_back({{-angle, angle}, [=](double s) {
+                       const double k = sign * std::cos(s);
+                       return WallPlace{zero_between([&](double x) { return share(x) - k; }, from, to), k, std::sin(s)};
+                     }});
+  };
+  if (joins_lo) add_arc(t.lo, *lo);
+  if (joins_hi) add_arc(t.hi, *hi);
+  if (*lo < *hi)
+    for (const double sign : {1.0, -1.0}) paths.push_back({{*lo, *hi}, [=](double s) { return by_t(s, sign); }});
+  return paths;
 }
 
 }  // namespace lekalo::geometry

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "geometry/curves/circle.h"
-#include "geometry/queries/contours.h"
-#include "geometry/shapes/tube.h"
+#include "geometry/queries/ball_outlines.h"
 
 namespace lekalo::geometry {
 
@@ -58,11 +57,32 @@ std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, s
                                    std::optional<double> after);
 // Whether the balls next to a flat end (side 0 or 1), whose ball is given, reach farther into its plane than that does.
 bool grows_inward(const BallJet& ball, int side);
+// The edge of such an end: where its plane cuts the wall of the balls behind. `view` is that of the turns.
+ShapeOutlines edge_of_end(const Tube& tube, int side, const ViewOf& view);
 
 // Adds the parameters in a range at which a surface with these unit normals along an edge turns away from the viewer,
 // where all points of the edge are as far from the surface's centre or axis: n . (p - e) is linear in cos t and sin t.
 void add_turns(const std::function<Vec3(double)>& normal, const std::function<Vec3(double)>& point, const ViewOf& view,
                const Interval& range, std::vector<double>& turns);
+
+// The zero of a monotone function between two places, or the nearer of them where it has one sign: the secant's in a
+// bracket.
+double zero_between(const std::function<double(double)>& value, double a, double b);
+
+// Lines on the wall of a tube that are found circle by circle, across the axis e: points with u . f = k, |f| = 1 across
+// e, are u = k f + side e x f with side = -+ sqrt(1 - k^2). Over a stretch of t there are two; at an end with |k| = 1
+// they join, and rounding of t moves them along the line there: up to |k| = 0.7 they are told by the angle from the
+// end.
+struct WallPlace {
+  double t, k, side;
+};
+struct WallPath {
+  Interval range;
+  std::function<WallPlace(double)> at;
+};
+// `share` is k by t.
+std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi,
+                                 const std::function<double(double)>& share);
 
 // Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
 // ends of stretches by halving.

@@ -48,32 +48,33 @@ class TubeOutlines {
  private:
   static double before_end(double t) { return next_down(t); }
 
-  // The planes that n is in, and how much of it is left across them.
+  // n = p e + sqrt(1 - p^2) u with u across e; n . b = beta makes u . f = k.
   struct Balance {
-    Vec3 a, b;
-    double x, y, z_square, h;  // h: relative, negative where there is no outline
+    Vec3 e, f;
+    double p, k, h;  // h: (1 - p^2) (1 - k^2) times the square of the sine between e and b, negative for no outline
   };
   Balance balance(double t) const {
     const BallJet ball = sweep_.ball(t);
+    const Vec3 b = view_.central ? ball.center[0] - view_.direction_or_eye : view_.direction_or_eye;
+    const double beta = view_.central ? -ball.radius[0] : 0, speed = glm::length(ball.center[1]);
     Balance result;
-    result.a = ball.center[1];
-    result.b = view_.central ? ball.center[0] - view_.direction_or_eye : view_.direction_or_eye;
-    const double alpha = -ball.radius[1], beta = view_.central ? -ball.radius[0] : 0;
-    const double aa = glm::dot(result.a, result.a), ab = glm::dot(result.a, result.b),
-                 bb = glm::dot(result.b, result.b);
-    const Vec3 across = glm::cross(result.a, result.b);
-    const double det = glm::dot(across, across);
-    result.x = (alpha * bb - beta * ab) / det;
-    result.y = (beta * aa - alpha * ab) / det;
-    const double used = alpha * alpha * bb - 2 * alpha * beta * ab + beta * beta * aa;
-    result.h = (det - used) / (aa * bb);
-    result.z_square = (det - used) / (det * det);
+    result.e = ball.center[1] / speed;
+    result.p = -ball.radius[1] / speed;
+    // Twice: what is left of b is small where the tube is seen end-on.
+    Vec3 across = b - glm::dot(b, result.e) * result.e;
+    across -= glm::dot(across, result.e) * result.e;
+    const double length = glm::length(across), rest = 1 - result.p * result.p;
+    const double needed = beta - result.p * glm::dot(b, result.e);
+    result.f = across / length;
+    result.k = needed / (std::sqrt(std::max(rest, 0.0)) * length);
+    result.h = (rest * length * length - needed * needed) / glm::dot(b, b);
     return result;
   }
   double h(double t) const { return balance(t).h; }
-  Vec3 normal(double t, double sign) const {
-    const Balance b = balance(t);
-    return b.x * b.a + b.y * b.b + sign * std::sqrt(std::max(b.z_square, 0.0)) * glm::cross(b.a, b.b);
+  Vec3 normal(const WallPlace& place) const {
+    const Balance at = balance(place.t);
+    const Vec3 u = place.k * at.f + place.side * glm::cross(at.e, at.f);
+    return at.p * at.e + std::sqrt(std::max(1 - at.p * at.p, 0.0)) * u;
   }
   Vec3 point(double t, const Vec3& n) const {
     const BallJet ball = sweep_.ball(t);
@@ -142,41 +143,35 @@ class TubeOutlines {
     }
   }
 
-  // Both branches over t; where they join they are one smooth curve by the root of the distance from there.
+  // Both branches over t.
   void add_wall(const Interval& t, bool joins_lo, bool joins_hi) {
-    using Place = std::pair<double, double>;  // t and the sign of the branch
-    const auto clamp = [t](double x) { return t.clamp(x); };
-    if (joins_lo && joins_hi) {
-      add_branch({0, kTwoPi}, [=](double s) {
-        return Place(clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
-      });
-    } else if (joins_lo || joins_hi) {
-      add_branch({-1, 1}, [=](double s) {
-        return Place(clamp(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s), s >= 0 ? 1.0 : -1.0);
-      });
-    } else {
-      for (const double sign : {1.0, -1.0}) add_branch(t, [=](double s) { return Place(s, sign); });
-    }
+    for (const WallPath& path : wall_paths(t, joins_lo, joins_hi, [this](double x) { return balance(x).k; }))
+      add_path(path.range, path.at);
   }
 
-  void add_branch(const Interval& range, const std::function<std::pair<double, double>(double)>& place) {
-    const auto normal_at = [&](double s) {
-      const auto [t, sign] = place(s);
-      return normal(t, sign);
+  void add_path(const Interval& range, const std::function<WallPlace(double)>& place) {
+    const auto normal_at = [&](double s) { return normal(place(s)); };
+    const auto point_at = [&](double s) {
+      const WallPlace at = place(s);
+      return point(at.t, normal(at));
     };
-    const auto point_at = [&](double s) { return point(place(s).first, normal_at(s)); };
-    const auto bends_away = [&](double s) { return bend(place(s).first, normal_at(s)) < 0; };
-    // Cut where it enters or leaves the tube itself or what its ends cut away, and at cusps.
+    const auto bends_away = [&](double s) {
+      const WallPlace at = place(s);
+      return bend(at.t, normal(at)) < 0;
+    };
     const auto is_outside = [&](double s) {
       const Vec3 p = point_at(s);
-      return !tube_.is_cut_off(p, place(s).first) && !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
+      return !tube_.is_cut_off(p, place(s).t) && !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
     };
-    each_stretch(
-        range, std::max(64, static_cast<int>(sweep_.cells().size())),
-        [&](double s) { return std::pair(is_outside(s), bends_away(s)); },
-        [&](const Interval& part, const std::pair<bool, bool>& state) {
-          if (state.first) put(part, point_at, normal_at, state.second ? 1 : -1);
-        });
+    // Cut at cusps, and where it enters or leaves the tube itself or what its ends cut away.
+    constexpr int kCuspPlaces = 1024;
+    const int places = std::max(64, static_cast<int>(sweep_.cells().size()));
+    each_stretch(range, kCuspPlaces, bends_away, [&](const Interval& smooth, bool away) {
+      const int share = static_cast<int>(std::ceil(places * smooth.width() / range.width()));
+      each_stretch(smooth, std::max(8, share), is_outside, [&](const Interval& part, bool outside) {
+        if (outside) put(part, point_at, normal_at, away ? 1 : -1);
+      });
+    });
   }
 
   void put(const Interval& range, const std::function<Vec3(double)>& point_at,
@@ -256,7 +251,9 @@ class TubeOutlines {
       const Interval domain = sweep_.curve().domain();
       const BallJet ball = sweep_.ball(side == 0 ? domain.lo : before_end(domain.hi));
       if (grows_inward(ball, side)) {
-        result_.complete = false;
+        ShapeOutlines edge = edge_of_end(tube_, side, view_);
+        result_.complete = result_.complete && edge.complete && !edge.lines.empty();
+        for (ShapeOutline& line : edge.lines) result_.lines.push_back(std::move(line));
         continue;
       }
       Frame frame = frame_about(end.point, end.inward);

@@ -29,8 +29,7 @@ struct ShapeOutline {
 
 struct ShapeOutlines {
   std::vector<ShapeOutline> lines;
-  bool complete = true;  // false where some were not found to that precision, or are not known (flat ends where the
-                         // radius grows inward)
+  bool complete = true;  // false where some were not found to that precision
 };
 
 // Where tubes go through themselves the edges are left out but for corners between straight parts, and outlines end

@@ -24,7 +24,6 @@ namespace {
 constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves that are approximated
 // |e . m| from which a loop about the tube is a function of the angle.
 constexpr double kSteep = 0.8;
-constexpr double kShallow = 0.7;  // of |k|
 // Of g: less between two stretches is where the two points of a circle meet, and the section crosses itself.
 constexpr double kMeets = 1e-12;
 constexpr int kPlaces = 256;  // a piece of the curve
@@ -40,6 +39,12 @@ class TubeSection {
         frame_(frame_about(origin, normal)),
         view_(view),
         size_(tube.bounds().diameter()) {}
+
+  // Of the wall alone, within a range of t.
+  ShapeOutlines find_wall(const Interval& range) {
+    for (const CurvePiece& piece : sweep_.curve().pieces()) add_walls(intersect(piece.domain, range));
+    return std::move(result_);
+  }
 
   ShapeOutlines find() {
     const Curve& curve = sweep_.curve();
@@ -95,12 +100,6 @@ class TubeSection {
     Vec3 point() const { return circle.center + circle.radius * direction; }
     Vec3 normal() const { return circle.p * circle.axis + std::sqrt(1 - circle.p * circle.p) * direction; }
   };
-  // That of the points in the plane: k f +- sqrt(1 - k^2) e x f.
-  static Vec3 direction(const WallCircle& at, double sign) {
-    const Vec3 f = glm::normalize(at.steepest);
-    const double k = std::clamp(share(at), -1.0, 1.0);
-    return k * f + sign * std::sqrt(1 - k * k) * glm::cross(at.axis, f);
-  }
   // The direction across the axis at an angle about m.
   Vec3 direction_at_angle(const WallCircle& at, double angle) const {
     Vec3 x = frame_.x - glm::dot(frame_.x, at.axis) * at.axis;
@@ -212,68 +211,22 @@ class TubeSection {
       if (ends[k].t < ends[k + 1].t) add_wall({ends[k].t, ends[k + 1].t}, ends[k].joins, ends[k + 1].joins);
   }
 
-  // Both points over t. Where they join the wall's circle is touched, |k| = 1, and rounding of t moves them along the
-  // section: up to |k| = kShallow they are told by the angle from there.
-  void add_wall(const Interval& t, bool joins_lo, bool joins_hi) {
-    const std::optional<double> lo = joins_lo ? end_of_arc(t.lo, t.hi) : t.lo,
-                                hi = joins_hi ? end_of_arc(t.hi, t.lo) : t.hi;
-    using Pair = std::pair<double, double>;  // t and the sign
-    if (!lo || !hi) {
-      // A shallow bulge.
-      if (joins_lo && joins_hi)
-        return add_points({0, kTwoPi}, [=](double s) {
-          return Pair(t.clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
-        });
-      return add_points({-1, 1}, [=](double s) {
-        return Pair(t.clamp(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s), s >= 0 ? 1.0 : -1.0);
-      });
-    }
-    if (joins_lo) add_arc(t.lo, *lo);
-    if (joins_hi) add_arc(t.hi, *hi);
-    if (*lo < *hi)
-      for (const double sign : {1.0, -1.0}) add_points({*lo, *hi}, [=](double s) { return Pair(s, sign); });
-  }
-
   static double share(const WallCircle& at) { return -at.height / (at.radius * glm::length(at.steepest)); }
 
-  // From where the points join the first place at which |k| is kShallow, if it falls all the way.
-  std::optional<double> end_of_arc(double from, double to) const {
-    double at = from, value = 1;
-    for (int k = 1; k < kTurnPlaces; ++k) {
-      const double next = from + (to - from) * k / kTurnPlaces, next_value = std::abs(share(circle(next)));
-      if (next_value <= kShallow)
-        return solve([this](double t) { return std::abs(share(circle(t))) - kShallow; }, at, next);
-      if (!(next_value < value)) return std::nullopt;
-      at = next, value = next_value;
-    }
-    return std::nullopt;
-  }
-
-  // Points with the places on the curve and the signs that they have by a parameter.
-  void add_points(const Interval& range, const std::function<std::pair<double, double>(double)>& place) {
-    add_path(range, [=, this](double s) {
-      const auto [t, sign] = place(s);
-      const WallCircle at = circle(t);
-      return WallPoint{t, at, direction(at, sign)};
-    });
-  }
-
-  // On both sides of the place `from` where the points join, as far as `to`.
-  void add_arc(double from, double to) {
-    const double sign = circle(from).height < 0 ? 1 : -1, angle = std::acos(kShallow);
-    add_path({-angle, angle}, [=, this](double s) {
-      const double k = sign * std::cos(s);
-      const double t = solve([&](double x) { return share(circle(x)) - k; }, from, to);
-      const WallCircle at = circle(t);
-      const Vec3 f = glm::normalize(at.steepest);
-      return WallPoint{t, at, k * f + std::sin(s) * glm::cross(at.axis, f)};
-    });
+  void add_wall(const Interval& t, bool joins_lo, bool joins_hi) {
+    for (const WallPath& path : wall_paths(t, joins_lo, joins_hi, [this](double x) { return share(circle(x)); }))
+      add_path(path.range, [at = path.at, this](double s) {
+        const WallPlace place = at(s);
+        const WallCircle wall = circle(place.t);
+        const Vec3 f = glm::normalize(wall.steepest);
+        return WallPoint{place.t, wall, place.k * f + place.side * glm::cross(wall.axis, f)};
+      });
   }
 
   // All around the tube between two places on different sides, by the angle.
   void add_loop(const Place& from, const Place& to) {
     add_path({0, kTwoPi}, [=, this](double angle) {
-      const double t = solve(
+      const double t = zero_between(
           [&](double x) {
             const WallCircle at = circle(x);
             return at.height + at.radius * glm::dot(direction_at_angle(at, angle), m_);
@@ -282,24 +235,6 @@ class TubeSection {
       const WallCircle at = circle(t);
       return WallPoint{t, at, direction_at_angle(at, angle)};
     });
-  }
-
-  // The zero of a monotone function between two places, or the nearer of them: the secant's in a bracket.
-  static double solve(const std::function<double(double)>& value, double a, double b) {
-    double at_a = value(a), at_b = value(b);
-    if ((at_a > 0) == (at_b > 0)) return std::abs(at_a) < std::abs(at_b) ? a : b;
-    double lo = a, hi = b, t = a, before = b, now = at_a, then = at_b;
-    if (lo > hi) std::swap(lo, hi), std::swap(at_a, at_b);
-    constexpr int kSteps = 200, kHalve = 8;
-    for (int step = 1; step < kSteps && now != 0; ++step) {
-      double next = t - now * (before - t) / (then - now);
-      if (!(next > lo && next < hi) || step % kHalve == 0) next = 0.5 * (lo + hi);
-      if (!(next > lo && next < hi) || next == t) break;
-      before = t, then = now;
-      t = next, now = value(t);
-      ((now > 0) == (at_a > 0) ? lo : hi) = t;
-    }
-    return t;
   }
 
   // What of a path on the wall is outside of the rest of the tube.
@@ -357,26 +292,32 @@ class TubeSection {
   void add_ends() {
     for (int side = 0; side < 2; ++side) {
       const Tube::End& end = tube_.end(side);
-      const Interval domain = sweep_.curve().domain();
-      const BallJet ball = sweep_.ball(side == 0 ? domain.lo : next_down(domain.hi));
-      if (grows_inward(ball, side)) {
-        result_.complete = false;
-        continue;
-      }
       const Vec3 along = glm::cross(end.inward, m_), across = glm::cross(along, end.inward);
       const double sine = glm::length(along);
-      const double height = glm::dot(origin_ - end.point, m_) / (sine * sine);
-      const double square = ball.radius[0] * ball.radius[0] - height * height * glm::dot(across, across);
-      if (!(square > 0)) continue;
-      const Vec3 middle = end.point + height * across, half = std::sqrt(square) / sine * along;
-      const auto is_outside = [&](double x) {
-        return !tube_.holds(middle + x * half - kBesideBalls * size_ * end.inward);
-      };
-      each_stretch({-1, 1}, kTurnPlaces, is_outside, [&](const Interval& part, bool outside) {
-        if (!outside) return;
-        result_.lines.push_back(
-            {std::make_shared<Segment>(middle + part.lo * half, middle + part.hi * half), true, nullptr, {}});
-      });
+      if (!(sine > 0)) continue;
+      // What of the line that both planes have in common is inside, seen a little behind the end; near the end's own
+      // ball, as other parts of the tube may reach through its plane.
+      const Vec3 middle = end.point + glm::dot(origin_ - end.point, m_) / (sine * sine) * across;
+      const Vec3 way = along / sine;
+      std::vector<SurfaceHit> hits;
+      tube_.all_hits({middle + kAgree * size_ * end.inward, way}, {-kInfinity, kInfinity}, hits);
+      const Interval domain = sweep_.curve().domain();
+      double reach = 0;
+      for (int cell = end.begin; cell < end.end; ++cell)
+        reach = std::max(reach, sweep_.ball(sweep_.cells()[static_cast<size_t>(cell)].t.lo).radius[0]);
+      reach = std::max(reach, sweep_.ball(side == 0 ? domain.lo : next_down(domain.hi)).radius[0]);
+      for (size_t k = 0; k + 1 < hits.size(); k += 2) {
+        const Vec3 from = middle + hits[k].t * way, to = middle + hits[k + 1].t * way;
+        if (glm::length(0.5 * (from + to) - end.point) > reach) continue;
+        const auto is_outside = [&](double x) {
+          return !tube_.holds(glm::mix(from, to, x) - kBesideBalls * size_ * end.inward);
+        };
+        each_stretch({0, 1}, kTurnPlaces, is_outside, [&](const Interval& part, bool outside) {
+          if (!outside) return;
+          result_.lines.push_back(
+              {std::make_shared<Segment>(glm::mix(from, to, part.lo), glm::mix(from, to, part.hi)), true, nullptr, {}});
+        });
+      }
     }
   }
 
@@ -390,6 +331,16 @@ class TubeSection {
 };
 
 }  // namespace
+
+ShapeOutlines edge_of_end(const Tube& tube, int side, const ViewOf& view) {
+  const Tube::End& end = tube.end(side);
+  const auto& cells = tube.sweep().cells();
+  if (end.begin >= end.end) return {};
+  const Interval range{cells[static_cast<size_t>(end.begin)].t.lo, cells[static_cast<size_t>(end.end - 1)].t.hi};
+  // Behind the plane by what lines are told to: on it rounding would cut them off or not.
+  const Vec3 origin = end.point + kAgree * tube.bounds().diameter() * end.inward;
+  return TubeSection(tube, origin, end.inward, view).find_wall(range);
+}
 
 ShapeOutlines plane_section(const Tube& tube, const Vec3& origin, const Vec3& normal, const ViewOf& view) {
   return TubeSection(tube, origin, glm::normalize(normal), view).find();

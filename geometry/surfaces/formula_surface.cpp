@@ -1,6 +1,7 @@
 // A surface by its formulas (Golovanov 2016, 3.1): r(u, v) = point(f(u, v), g(u, v), h(u, v)).
 #include "geometry/surfaces/formula_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,6 +15,9 @@ namespace {
 
 // Places along each direction where the formulas are tried before anything else asks.
 constexpr int kTried = 32;
+// As of formula curves: parts of the domain down to this are taken in halves where bounds are infinite or enormous.
+constexpr double kLeastHalved = 1.0 / 16;
+constexpr double kEnormous = 8;
 
 double place(const Interval& range, int i) { return i == kTried ? range.hi : range.lo + range.width() * i / kTried; }
 
@@ -58,6 +62,7 @@ FormulaSurface::FormulaSurface(PointFormulas point_formulas, const Rectangle& do
   degenerate_ = {is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
                  is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))};
   closed_ = closed;
+  size_ = box.diameter();
 }
 
 SurfaceJet FormulaSurface::evaluate(double u, double v, int order) const {
@@ -67,7 +72,23 @@ SurfaceJet FormulaSurface::evaluate(double u, double v, int order) const {
 }
 
 SurfaceEnclosure FormulaSurface::enclose(const Rectangle& box, int order) const {
-  return enclose_surface_centered(point_, box, order);
+  SurfaceEnclosure whole = enclose_surface_centered(point_, box, order);
+  const int count = SurfaceJet::index(0, order) + 1;
+  const double share_u = box.u.width() / domain_.u.width(), share_v = box.v.width() / domain_.v.width();
+  const auto is_good = [&] {
+    return whole.d(0, 0).diameter() <= kEnormous * size_ &&
+           std::all_of(whole.values.begin(), whole.values.begin() + count, [](const Box3& b) { return b.bounded(); });
+  };
+  if (!(std::max(share_u, share_v) > kLeastHalved) || is_good()) return whole;
+  Rectangle below = box, above = box;
+  if (share_u >= share_v)
+    below.u.hi = above.u.lo = box.u.middle();
+  else
+    below.v.hi = above.v.lo = box.v.middle();
+  whole = enclose(below, order);
+  const SurfaceEnclosure other = enclose(above, order);
+  for (int k = 0; k < count; ++k) whole.values[k].include(other.values[k]);
+  return whole;
 }
 
 TypeDeclaration formula_surface_type() {

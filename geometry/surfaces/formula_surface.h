@@ -30,7 +30,8 @@ class FormulaSurface final : public Surface {
  private:
   PointFormulas point_;
   Rectangle domain_;
-  Closed closed_;  // set once the edges are known to meet
+  Closed closed_;    // set once the edges are known to meet
+  double size_ = 0;  // of what the formulas gave where they were tried
   DegenerateEdges degenerate_;
 };
 

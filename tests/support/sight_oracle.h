@@ -205,7 +205,6 @@ class TubeSolid final : public Solid {
         }
       x.push_back(k), all.push_back(next);
     }
-    const int end_place = static_cast<int>(x.size()) - 1;
     const auto best = [](Real lo, Real hi, const auto& value) {
       for (int step = 0; step < 90; ++step) {
         const Real a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
@@ -213,7 +212,21 @@ class TubeSolid final : public Solid {
       }
       return (lo + hi) / 2;
     };
-    const auto g = [&](Real place) { return at(place).second; };
+    // Gaps between places, and stretches between places.
+    for (size_t k = 1; k + 1 < x.size(); ++k) {
+      const Real here = all[k].second, before = all[k - 1].second, next = all[k + 1].second;
+      const Real sign = here < 0 ? 1 : -1;
+      if (sign * here < sign * before || sign * here < sign * next || (before < 0) != (here < 0) ||
+          (next < 0) != (here < 0) || std::abs(here) > kJust)
+        continue;
+      const Real extreme = best(x[k - 1], x[k + 1], [&](Real place) { return sign * at(place).second; });
+      if ((at(extreme).second < 0) == (here < 0)) continue;
+      const size_t to = extreme < x[k] ? k : k + 1;
+      x.insert(x.begin() + static_cast<std::ptrdiff_t>(to), extreme);
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(to), at(extreme));
+      ++k;
+    }
+    const int end_place = static_cast<int>(x.size()) - 1;
     std::vector<Real> found;
     for (int k = 0; k <= end_place; ++k) {
       const bool begins = all[k].second >= 0 && (k == 0 || all[k - 1].second < 0);
@@ -234,23 +247,6 @@ class TubeSolid final : public Solid {
           found.push_back(side * end(best(lo, hi, end)) / speed);
         }
         k = last;
-      } else if (k > 0 && k < end_place && all[k].second < 0 && all[k].second >= all[k - 1].second &&
-                 all[k].second >= all[k + 1].second && all[k].second > -1e-3L) {
-        // Between places a few may: from where they begin to where they end.
-        const Real most = best(x[k - 1], x[k + 1], g);
-        if (!(g(most) > 0)) continue;
-        const auto change = [&](Real in, Real out) {
-          for (int step = 0; step < 90; ++step) (g((in + out) / 2) > 0 ? in : out) = (in + out) / 2;
-          return in;
-        };
-        const Real lo = change(most, x[k - 1]), hi = change(most, x[k + 1]);
-        for (const Real side : {-1.0L, 1.0L}) {
-          const auto end = [&](Real place) {
-            const auto [a, square] = at(place);
-            return side * a + std::sqrt(std::max(square, Real(0)));
-          };
-          found.push_back(side * end(best(lo, hi, end)) / speed);
-        }
       }
     }
     const auto near = [&](Real one) { return std::abs(one - 1) < contact; };

@@ -46,9 +46,13 @@ ordered_json foot_row(ordered_json row, const Foot& foot) {
   return row;
 }
 
+// Of formulas that are not bounded: everything else has a nearest place.
+constexpr const char* kNoFeet = "no foot was found: its formulas have no finite bounds";
+
 ordered_json feet(const geometry::Curve& curve, const Vec3& point) {
   ordered_json out;
   const geometry::CurveFeet found = project(point, curve);
+  if (found.feet.empty()) throw std::invalid_argument(kNoFeet);
   out["distance"] = found.feet.front().distance;
   for (const geometry::CurveFoot& foot : found.feet) out["feet"].push_back(foot_row({{"t", foot.t}}, foot));
   for (const Interval& arc : found.arcs) out["arcs"].push_back(range(arc));
@@ -58,6 +62,7 @@ ordered_json feet(const geometry::Curve& curve, const Vec3& point) {
 ordered_json feet(const geometry::Surface& surface, const Vec3& point) {
   ordered_json out;
   const geometry::SurfaceFeet found = project(point, surface);
+  if (found.feet.empty()) throw std::invalid_argument(kNoFeet);
   out["distance"] = found.feet.front().distance;
   for (const geometry::SurfaceFoot& foot : found.feet)
     out["feet"].push_back(foot_row({{"u", foot.u}, {"v", foot.v}}, foot));

@@ -55,5 +55,20 @@ TEST(FormulaCurve, RefusesWhatIsNoCurve) {
   EXPECT_THROW(curve({"cos(t)", "sin(t)", "0"}, {0, 6}, true), std::invalid_argument);
 }
 
+// Bounds of the quotient over the whole domain are infinite, as 0.8 cos^2 + sin^2 >= 0 is all that they see.
+TEST(FormulaCurve, QuotientsWhoseBoundsOverAllAreInfinite) {
+  const FormulaCurve curve(point_formulas({"cos(t)/sqrt(0.8*cos(t)^2 + sin(t)^2)", "sin(t)", "0"}, {"t"}), {0, kTwoPi},
+                           true);
+  const Box3 box = bounds(curve);
+  EXPECT_TRUE(box.bounded());
+  EXPECT_GE(box.hi.x, 1 / std::sqrt(0.8));
+  EXPECT_LT(box.hi.x, 2);
+  const CurveEnclosure whole = curve.enclose({0, kTwoPi}, 2);
+  for (int k = 0; k <= 100; ++k) {
+    const CurveJet at = curve.evaluate(kTwoPi * k / 100, 2);
+    for (int order = 0; order <= 2; ++order) EXPECT_TRUE(whole.d[order].contains(at.d[order])) << k << " " << order;
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::geometry
