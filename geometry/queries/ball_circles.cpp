@@ -4,7 +4,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kShallow = 0.7;  // |k| up to which angles tell points near joins
+constexpr double kShallow = 0.7;  // |k| down to which angles tell points near joins
 constexpr int kPlacesOfArc = 64;
 
 }  // namespace
@@ -130,13 +130,16 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
     const double k = std::clamp(share(at), -1.0, 1.0);
     return WallPlace{at, k, sign * std::sqrt(1 - k * k)};
   };
-  // From a join the first place at which |k| is kShallow, if it falls all the way.
+  // Of a shallow bulge |k| falls less.
+  double least = 1;
+  for (int i = 1; i < kPlacesOfArc; ++i) least = std::min(least, std::abs(share(t.lo + t.width() * i / kPlacesOfArc)));
+  const double told = std::max(kShallow, 0.5 * (1 + least));
+  // From a join the first place at which |k| is that, if it falls all the way.
   const auto end_of_arc = [&](double from, double to) -> std::optional<double> {
     double at = from, value = 1;
     for (int i = 1; i < kPlacesOfArc; ++i) {
       const double next = from + (to - from) * i / kPlacesOfArc, next_value = std::abs(share(next));
-      if (next_value <= kShallow)
-        return zero_between([&](double x) { return std::abs(share(x)) - kShallow; }, at, next);
+      if (next_value <= told) return zero_between([&](double x) { return std::abs(share(x)) - told; }, at, next);
       if (!(next_value < value)) return std::nullopt;
       at = next, value = next_value;
     }
@@ -146,7 +149,7 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
   const std::optional<double> lo = joins_lo ? end_of_arc(t.lo, t.hi) : t.lo,
                               hi = joins_hi ? end_of_arc(t.hi, t.lo) : t.hi;
   if (!lo || !hi) {
-    // A shallow bulge: one smooth curve by the root of the distance from where they join.
+    // One smooth curve by the root of the distance from where they join.
     if (joins_lo && joins_hi)
       paths.push_back({{0, kTwoPi}, [=](double s) {
                          return by_t(t.clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
@@ -159,7 +162,7 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
     return paths;
   }
   const auto add_arc = [&](double from, double to) {
-    const double sign = share(from) > 0 ? 1 : -1, angle = std::acos(kShallow);
+    const double sign = share(from) > 0 ? 1 : -1, angle = std::acos(told);
     paths.push_back({{-angle, angle}, [=](double s) {
                        const double k = sign * std::cos(s);
                        return WallPlace{zero_between([&](double x) { return share(x) - k; }, from, to), k, std::sin(s)};
