@@ -11,12 +11,34 @@ constexpr double kSame = 1e-3;      // millimetres between lines that are one
 constexpr double kShortest = 1e-2;  // of what is left
 constexpr int kPlaces = 32;         // on each step of a curve
 constexpr int kPlacesOnSide = 7;    // of a path with corners: others may touch it where a construction says so
+constexpr double kBin = 3;          // millimetres
 
 double distance_from(const Vec2& place, const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
   const double square = glm::dot(way, way);
   const double x = square > 0 ? std::clamp(glm::dot(place - a, way) / square, 0.0, 1.0) : 0;
   return glm::length(place - (a + x * way));
+}
+
+int64_t bin_at(double x, double y) {
+  const auto number = [](double at) { return static_cast<int64_t>(std::floor(at / kBin)); };
+  return number(x) * (int64_t{1} << 32) + number(y);
+}
+
+// All that a chain of places comes near to, perhaps more than once.
+template <class Visit>
+void each_bin(const std::vector<Vec2>& places, const Visit& visit) {
+  for (size_t k = 0; k + 1 < places.size(); ++k) {
+    const Vec2 way = places[k + 1] - places[k];
+    const int parts = std::max(1, static_cast<int>(std::ceil(glm::length(way) / kBin)));
+    for (int i = 0; i < parts; ++i) {
+      const Vec2 a = places[k] + way * (static_cast<double>(i) / parts),
+                 b = places[k] + way * (static_cast<double>(i + 1) / parts);
+      const Vec2 lo = glm::min(a, b) - kSame, hi = glm::max(a, b) + kSame;
+      for (double x = lo.x; x < hi.x + kBin; x += kBin)
+        for (double y = lo.y; y < hi.y + kBin; y += kBin) visit(bin_at(std::min(x, hi.x), std::min(y, hi.y)));
+    }
+  }
 }
 
 }  // namespace
@@ -31,8 +53,26 @@ std::vector<Vec2> Overlaps::places_on(const Path& path) {
   return places;
 }
 
+const std::vector<int>& Overlaps::near(const Vec2& place) const {
+  static const std::vector<int> none;
+  const auto found = bins_.find(bin_at(place.x, place.y));
+  return found == bins_.end() ? none : found->second;
+}
+
+std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
+  std::vector<int> numbers;
+  each_bin(places, [&](int64_t bin) {
+    if (const auto found = bins_.find(bin); found != bins_.end())
+      numbers.insert(numbers.end(), found->second.begin(), found->second.end());
+  });
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
 bool Overlaps::is_covered(const Vec2& place) const {
-  for (const Drawn& one : drawn_) {
+  for (const int number : near(place)) {
+    const Drawn& one = drawn_[number];
     if (place.x < one.lo.x - kSame || place.x > one.hi.x + kSame || place.y < one.lo.y - kSame ||
         place.y > one.hi.y + kSame)
       continue;
@@ -60,7 +100,8 @@ std::vector<Path> Overlaps::left_of(const Path& path) {
     if (!(length > 0)) return {path};
     const Vec2 along = way / length;
     std::vector<std::pair<double, double>> covered;
-    for (const Drawn& one : drawn_) {
+    for (const int number : near(own.places)) {
+      const Drawn& one = drawn_[number];
       if (!one.straight || own.lo.x > one.hi.x + kSame || one.lo.x > own.hi.x + kSame || own.lo.y > one.hi.y + kSame ||
           one.lo.y > own.hi.y + kSame)
         continue;
@@ -86,7 +127,14 @@ std::vector<Path> Overlaps::left_of(const Path& path) {
     }
     if (at < length) keep(at, length);
   }
-  if (!left.empty()) drawn_.push_back(std::move(own));
+  if (!left.empty()) {
+    const int number = static_cast<int>(drawn_.size());
+    each_bin(own.places, [&](int64_t bin) {
+      std::vector<int>& here = bins_[bin];
+      if (here.empty() || here.back() != number) here.push_back(number);
+    });
+    drawn_.push_back(std::move(own));
+  }
   return left;
 }
 

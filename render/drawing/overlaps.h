@@ -4,6 +4,8 @@
 // before hidden ones, and lines of an earlier object before those of a later one.
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "render/drawing/paths.h"
@@ -24,8 +26,12 @@ class Overlaps {
   };
   static std::vector<Vec2> places_on(const Path& path);
   bool is_covered(const Vec2& place) const;
+  // What was drawn near a place; near some line, each once.
+  const std::vector<int>& near(const Vec2& place) const;
+  std::vector<int> near(const std::vector<Vec2>& places) const;
 
   std::vector<Drawn> drawn_;
+  std::unordered_map<int64_t, std::vector<int>> bins_;  // of those near a square of the page, by their numbers
 };
 
 }  // namespace lekalo::render
