@@ -118,13 +118,20 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
                           const Spectrum& weight, double length) {
   Spectrum through = kWhite;
   Media media = around;
-  // Behind a boundary that is none for light; mostly there is none of these.
-  std::optional<Ray> ray_on;
-  std::optional<Hit> hit_on;
+  // Behind a boundary that is none for light; mostly there is none of these, so that they are not initialised.
+  struct Beyond {
+    Beyond() {}
+    union {
+      Ray ray;
+    };
+    union {
+      Hit hit;
+    };
+  } beyond;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (ray_on) hit_on = met(*ray_on);
-    const Ray& ray = ray_on ? *ray_on : first_ray;
-    const Hit& hit = hit_on ? *hit_on : first_hit;
+    if (pass > 0) beyond.hit = met(beyond.ray);
+    const Ray& ray = pass > 0 ? beyond.ray : first_ray;
+    const Hit& hit = pass > 0 ? beyond.hit : first_hit;
     if (hit.instance < 0) {
       mix(0);
       if (!media.is_air()) through *= transmittance(media.current().absorption, kInfinity);
@@ -150,8 +157,8 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
     }
     media = behind;
     length = seen.length;
-    if (!ray_on) ray_on = ray;
-    world_.leave(seen.point, ray_on->direction, *ray_on);
+    if (pass == 0) beyond.ray = first_ray;
+    world_.leave(seen.point, beyond.ray.direction, beyond.ray);
   }
   return {};
 }

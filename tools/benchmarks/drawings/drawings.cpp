@@ -104,6 +104,10 @@ void teapot(const std::filesystem::path& scenes, int runs) {
   print_row("teapot", ours, occt_drawn(faces, 8, scene.model->camera->view_direction(), 1));
 }
 
+void rods(const std::filesystem::path& scenes, int runs) {
+  print_row("300 rods", drawn(load_scene(scenes / "crossing_rods.yaml"), runs), std::nullopt);
+}
+
 void bodies(const std::filesystem::path& scenes, int runs) {
   for (const auto& [columns, rows] : {std::pair(5, 5), std::pair(25, 10)}) {
     LoadOptions options;
@@ -124,6 +128,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   lekalo::benchmarks::teapot(argv[1], runs);
+  lekalo::benchmarks::rods(argv[1], runs);
   lekalo::benchmarks::bodies(argv[1], runs);
   return 0;
 }
