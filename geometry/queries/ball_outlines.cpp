@@ -42,6 +42,7 @@ class TubeOutlines {
       add_ball(before_end(curve.domain().hi), std::nullopt);
       if (tube_.caps() != Caps::round) add_ends();
     }
+    if (creases_ > 0) result_.meets_itself = false;  // at its corners
     return std::move(result_);
   }
 
@@ -161,7 +162,10 @@ class TubeOutlines {
     };
     const auto is_outside = [&](double s) {
       const Vec3 p = point_at(s);
-      return !tube_.is_cut_off(p, place(s).t) && !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
+      if (tube_.is_cut_off(p, place(s).t)) return false;
+      if (!tube_.holds(p + kBesideBalls * size_ * normal_at(s))) return true;
+      result_.meets_itself = true;
+      return false;
     };
     // Cut at cusps, and where it enters or leaves the tube itself or what its ends cut away.
     constexpr int kCuspPlaces = 1024;
@@ -231,6 +235,7 @@ class TubeOutlines {
           },
           point, view_, {0, kPi}, crease.turns);
     result_.lines.push_back(std::move(crease));
+    ++creases_;
   }
 
   // What of it other parts of the tube do not hide.
@@ -269,6 +274,7 @@ class TubeOutlines {
   const BallSweep& sweep_;
   const ViewOf& view_;
   double size_;
+  int creases_ = 0;
   ShapeOutlines result_;
 };
 

@@ -29,7 +29,8 @@ struct ShapeOutline {
 
 struct ShapeOutlines {
   std::vector<ShapeOutline> lines;
-  bool complete = true;  // false where some were not found to that precision
+  bool complete = true;       // false where some were not found to that precision
+  bool meets_itself = false;  // a tube goes through itself, along edges that are not told
 };
 
 // Where tubes go through themselves the edges are left out but for corners between straight parts, and outlines end

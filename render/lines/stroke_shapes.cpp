@@ -233,6 +233,7 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
   if (!outlines.complete && (!edges || kind_ == "section")) ++work_.incomplete;
+  if (outlines.meets_itself && edges) leave_out("the edges along which a tube goes through itself");
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
     aside_ = line.aside, cusps_ = line.turns;
