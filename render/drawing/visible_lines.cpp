@@ -194,7 +194,7 @@ class Drawing {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
     add_own_outlines(stroke, events);
-    add_piercings(stroke, events);
+    add_piercings(line, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
     // a place is known better than as a crossing.
     std::vector<Vec2> known;
@@ -281,7 +281,8 @@ class Drawing {
   }
 
   // Where it meets other surfaces.
-  void add_piercings(const Stroke& stroke, std::vector<double>& events) {
+  void add_piercings(int line, std::vector<double>& events) {
+    const Stroke& stroke = strokes_[line];
     prepare_surfaces();
     add_self_piercings(stroke, events);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
@@ -290,10 +291,14 @@ class Drawing {
     std::optional<CurveCells> cells;
     tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
-      const bool own = std::any_of(stroke.hosts.begin(), stroke.hosts.end(), [&](const Stroke::Host& host) {
-        return host.surface == other.original && stroke.object == other.object;
-      });
-      if (own) return;
+      const auto lies_on_it = [&](const Stroke& one) {
+        return std::any_of(one.hosts.begin(), one.hosts.end(), [&](const Stroke::Host& host) {
+          return host.surface == other.original && one.object == other.object;
+        });
+      };
+      if (lies_on_it(stroke) ||
+          std::any_of(twins_[line].begin(), twins_[line].end(), [&](int twin) { return lies_on_it(strokes_[twin]); }))
+        return;
       if (!cells) cells.emplace(*curve);
       if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
       const double near = kNear * world_.radius();
