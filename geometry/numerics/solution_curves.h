@@ -50,6 +50,9 @@ struct SolutionCurveOptions {
   double least = 0;
   // So far outside of the domain a solution still counts (it is moved to the border).
   std::array<double, N> slack{};
+  // Whether boxes in which a curve takes too many slices are divided: not where the solutions may be no curves, which
+  // would take long to find out.
+  bool divides_hard_boxes = false;
   // The error of each equation's value.
   std::array<double, M> rounding{};
   // An equation holds where it is no larger than this; of account with more than N - 1 equations.
@@ -247,6 +250,7 @@ class Search {
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
       if (++slices_seen > kMostSlices) {
+        if (options_.divides_hard_boxes) return divide(over.box);
         result_.open.push_back(over.box);
         return;
       }

@@ -59,6 +59,7 @@ class Collector {
     SolutionCurveOptions<N> options;
     options.least = kLeast * size_;
     options.most_boxes = kMostBoxes;
+    options.divides_hard_boxes = true;
     options.rounding = system.rounding();
     for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
     const SolutionCurves<N> found = search_solution_curves<N>(system, domain, options);
