@@ -48,6 +48,8 @@ constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
 // joins it there may lie before it.
 constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
+// A face whose normal stands across the sight but for this is seen edge-on.
+constexpr double kEdgeOn = 1e-9;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -428,7 +430,26 @@ class Drawing {
 
   int layers_at(int line, double t, double aside) {
     const Stroke& stroke = strokes_[line];
-    return layers_before(probe(line, t, aside), lies_on_own(stroke) ? kOnHost : kTouch);
+    const double touch = lies_on_own(stroke) ? kOnHost : kTouch;
+    const std::optional<Vec3> across = normal_seen_edge_on(line, t);
+    if (!across) return layers_before(probe(line, t, aside), touch);
+    // Rays would run along the face. What it is the outline of hides the line on one side alone.
+    const Vec3 exact = curves_[line]->tangent(t).origin, by = aside * world_.radius() * *across;
+    return std::min(layers_before(exact + by, touch), layers_before(exact - by, touch));
+  }
+
+  // Of a surface on which a line lies, where it is seen edge-on.
+  std::optional<Vec3> normal_seen_edge_on(int line, double t) const {
+    const Stroke& stroke = strokes_[line];
+    if (stroke.kind == "silhouette") return std::nullopt;
+    for (const Stroke::Host& host : stroke.hosts) {
+      const Vec3 uv = host.image->point(t);
+      const Vec3 normal = glm::normalize(stroke.to_world.normal(host.surface->normal(uv.x, uv.y)));
+      const Vec3 sight =
+          camera_.is_parallel() ? camera_.view_direction() : glm::normalize(curves_[line]->tangent(t).origin - eye());
+      if (std::abs(glm::dot(normal, sight)) < kEdgeOn) return normal;
+    }
+    return std::nullopt;
   }
 
   // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.
