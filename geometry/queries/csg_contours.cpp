@@ -76,9 +76,16 @@ class Lines {
  private:
   int count() const { return static_cast<int>(leaves_.size()); }
 
-  // Of an implicit leaf its region too.
+  // Of an implicit leaf its region too, of a piece of a tube its ends: they cut nothing of its lines.
   std::vector<int> all_of(int k) const {
-    return leaves_[k].region >= 0 ? std::vector<int>{k, leaves_[k].region} : std::vector<int>{k};
+    std::vector<int> all = leaves_[k].ends;
+    all.push_back(k);
+    if (leaves_[k].region >= 0) all.push_back(leaves_[k].region);
+    return all;
+  }
+  bool belong_together(int k, int m) const {
+    const std::vector<int>& ends = leaves_[k].ends;
+    return leaves_[k].region == m || std::find(ends.begin(), ends.end(), m) != ends.end();
   }
 
   ViewOf view_of(const CsgLeaf& leaf) const {
@@ -134,7 +141,7 @@ class Lines {
 
   // Where the boundaries of two leaves meet.
   void add_meeting(int k, int m) {
-    if (!BoxTree::meets(leaves_[k].box, leaves_[m].box) || leaves_[k].region == m) return;
+    if (!BoxTree::meets(leaves_[k].box, leaves_[m].box) || belong_together(k, m) || belong_together(m, k)) return;
     // A shape is the first, then a body.
     if ((leaves_[m].shape && !leaves_[k].shape) || (leaves_[k].plane && !leaves_[m].plane)) std::swap(k, m);
     const CsgLeaf &a = leaves_[k], &b = leaves_[m];
@@ -272,6 +279,7 @@ class Lines {
   }
   void add(const ShapeOutlines& outlines, const Affine& map, bool edges, const Candidate& asked) {
     if (!outlines.complete) result_.complete = false;
+    if (outlines.meets_itself && edges) result_.left_out.insert("the edges along which a tube goes through itself");
     for (const ShapeOutline& outline : outlines.lines)
       if (outline.edge == edges) add(outline.curve, outline.aside, outline.turns, map, asked);
   }

@@ -94,7 +94,7 @@ class Leaves {
              glm::length(glm::cross(first.center[1], at.center[1])) <=
                  kStraight * glm::dot(first.center[1], first.center[1]);
     };
-    std::vector<Body> found;
+    std::vector<Body> balls, walls;
     for (const CurvePiece& piece : pieces) {
       const BallJet begin = tube.sweep().ball(piece.domain.lo), end = tube.sweep().ball(next_down(piece.domain.hi));
       if (begin.radius[1] != 0 || begin.radius[2] != 0) return false;
@@ -104,14 +104,19 @@ class Leaves {
       if (!(glm::length(way) > 0) ||
           glm::length(glm::cross(way, begin.center[1])) > kStraight * glm::length(way) * glm::length(begin.center[1]))
         return false;
-      found.push_back(
+      walls.push_back(
           cylinder_body(frame_about(begin.center[0], glm::normalize(way)), begin.radius[0], glm::length(way)));
-      if (tube.caps() != Caps::round) continue;
-      found.push_back(ball_at(begin.center[0], begin.radius[0]));
+      balls.push_back(ball_at(begin.center[0], begin.radius[0]));
       if (piece.domain.hi == curve.domain().hi && !curve.is_closed())
-        found.push_back(ball_at(end.center[0], end.radius[0]));
+        balls.push_back(ball_at(end.center[0], end.radius[0]));
     }
-    for (const Body& body : found) add(body, map);
+    if (tube.caps() != Caps::round) balls.clear();
+    const int first = static_cast<int>(all.size()), count = static_cast<int>(balls.size());
+    for (const Body& ball : balls) add(ball, map);
+    for (int k = 0; k < static_cast<int>(walls.size()); ++k) {
+      add(walls[k], map);
+      if (count > 0) all.back().ends = {first + k, first + (k + 1) % count};
+    }
     return true;
   }
 };

@@ -25,6 +25,7 @@ struct CsgLeaf {
   Affine map;
   int region = -1;         // of an implicit leaf: the leaf that is its region
   bool is_region = false;  // a body whose own lines are those of the implicit leaf
+  std::vector<int> ends;   // of a straight piece of a tube: the balls in which it goes on, which hold its rims
   Box3 box = Box3::everything();
 };
 
