@@ -150,6 +150,7 @@ TEST(CsgLines, Cusps) {
 struct Leaves {
   const char* name;
   ShapePtr one, other;
+  bool meets_planes_alone = false;
 };
 
 // The same solids of leaves that have surfaces and of some that have none.
@@ -160,6 +161,8 @@ TEST(CsgLines, OfLeavesWithoutSurfaces) {
   const auto circle = std::make_shared<FormulaCurve>(
       point_formulas({"0.31 + 0.9*cos(t)", "0.9*sin(t) - 0.12", "0.23"}, {"t"}), Interval{0, kTwoPi});
   const Vec3 from(-1.6, -0.4, 0.1), to(1.5, 0.5, 0.4);
+  const Affine map =
+      Affine::translation({-0.1, 0.2, 0.1}) * Affine::rotation(0.7, {1, 2, -1}) * Affine::scaling({1.2, 0.9, 0.8});
   const std::vector<Leaves> leaves = {
       {"implicit ball", ball_at(frame.origin, 0.9),
        implicit("(x - 0.31)^2 + (y + 0.12)^2 + (z - 0.23)^2 - 0.81", {{Vec3(-1.5), Vec3(1.5)}})},
@@ -176,7 +179,11 @@ TEST(CsgLines, OfLeavesWithoutSurfaces) {
        implicit("((x - 0.31)^2 + (y + 0.12)^2 + (z - 0.23)^2 + 0.6875)^2 - 3.24*((x - 0.31)^2 + (y + 0.12)^2)",
                 {{Vec3(-2), Vec3(2)}})},
       {"ring of a tube", shape_of(torus_body(frame, 0.9, 0.35)),
-       std::make_shared<Tube>(circle, RadiusLaw(0.35), Caps::round)},
+       std::make_shared<Tube>(circle, RadiusLaw(0.35), Caps::round), true},
+      {"moved implicit ball", transformed(ball_at(frame.origin, 0.9), map),
+       transformed(implicit("(x - 0.31)^2 + (y + 0.12)^2 + (z - 0.23)^2 - 0.81", {{Vec3(-1.5), Vec3(1.5)}}), map)},
+      {"moved ring of a tube", transformed(shape_of(torus_body(frame, 0.9, 0.35)), map),
+       transformed(std::make_shared<Tube>(circle, RadiusLaw(0.35), Caps::round), map), true},
   };
   const std::vector<std::pair<const char*, ShapePtr>> others = {
       {"cube", shape_of(box(frame_from({-0.2, -0.9, -0.8}, {0.1, 0.2, 1}, {1, 0, 0}), {1.1, 1.3, 1.2}))},
@@ -184,7 +191,7 @@ TEST(CsgLines, OfLeavesWithoutSurfaces) {
       {"ball", ball_at({-0.3, 0.4, 0.2}, 0.7)}};
   for (const Leaves& leaf : leaves)
     for (const auto& [name, other] : others) {
-      if (leaf.name == std::string("ring of a tube") && name != std::string("cube")) continue;  // not known
+      if (leaf.meets_planes_alone && name != std::string("cube")) continue;  // others are not known
       for (const Operation operation : {Operation::unite, Operation::intersect, Operation::subtract})
         for (const bool first : {true, false}) {
           if (!first && operation != Operation::subtract) continue;
