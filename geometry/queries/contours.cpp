@@ -10,6 +10,7 @@
 #include "geometry/queries/closed_contours.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/picture_cusps.h"
+#include "geometry/shapes/implicit_formula.h"
 #include "geometry/surfaces/plane.h"
 
 namespace lekalo::geometry {
@@ -151,6 +152,31 @@ Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3
   const Vec3 n = unit(normal, "the normal of the plane has no length");
   if (auto exact = closed_section(surface, origin, n, kSamePoint * bounds(*surface).diameter())) return *exact;
   return contours_of(surface, height_over(triple(origin), triple(n)));
+}
+
+Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula) {
+  demand_bounded(*surface);
+  // Divided by what it changes over a length, so that its values are about distances.
+  constexpr int kSteps = 8;
+  const Rectangle domain = surface->domain();
+  double most = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const Vec3 p =
+          surface->point(domain.u.lo + domain.u.width() * i / kSteps, domain.v.lo + domain.v.width() * j / kSteps);
+      const double slope = glm::length(glm::transpose(to_formula.linear) * formula.gradient(to_formula.point(p)));
+      if (std::isfinite(slope)) most = std::max(most, slope);
+    }
+  const double by = most > 0 ? 1 / most : 1;
+  const auto value = [formula, m = to_formula.linear, o = to_formula.offset, by](const auto& s, const auto&,
+                                                                                 const auto&) {
+    using T = std::decay_t<decltype(s.x)>;
+    const auto coordinate = [&](int k) -> T { return s.x * m[0][k] + s.y * m[1][k] + s.z * m[2][k] + o[k]; };
+    return T(formula(coordinate(0), coordinate(1), coordinate(2)) * by);
+  };
+  Contours found = contours_of(surface, {false, value});
+  if (formula.smoothness() != Expression::Smoothness::smooth) found.complete = false;
+  return found;
 }
 
 // Whether the way of sight runs in the surface everywhere: a cylinder along its axis, a cone from its tip. All that is

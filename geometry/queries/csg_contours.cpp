@@ -6,249 +6,392 @@
 
 #include "geometry/curves/curve_part.h"
 #include "geometry/curves/segment.h"
+#include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
+#include "geometry/queries/box_tree.h"
+#include "geometry/queries/canonical_surface.h"
 #include "geometry/queries/contour_approximation.h"
+#include "geometry/queries/csg_boundary.h"
+#include "geometry/queries/csg_leaves.h"
+#include "geometry/queries/curve_entries.h"
 #include "geometry/queries/curve_intersections.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/half_space.h"
-#include "geometry/surfaces/plane.h"
+#include "geometry/queries/curve_sign_changes.h"
+#include "geometry/queries/implicit_arcs.h"
+#include "geometry/queries/implicit_contours.h"
+#include "geometry/queries/implicit_equations.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-// How far from a line the solid is asked, of its size.
-constexpr double kAside = 1e-6;
-// Normals that differ by less are those of one smooth surface.
-constexpr double kSmooth = 1e-6;
+using Kind = CsgLine::Kind;
+
+// Planes at a smaller angle have no line in common.
+constexpr double kParallel = 1e-6;
 // Parts of a line shorter than this, of its domain, are none.
 constexpr double kShortest = 1e-9;
-// A direction along which no edge of a drawing lies.
-const Vec3 kProbe = glm::normalize(Vec3(0.5377, -0.7391, 0.4057));
+// Where in a stretch the solid is asked: not half way, where lines of symmetric solids cross themselves.
+constexpr double kAskedAt = 0.4721;
 
-// A leaf in the solid's coordinates.
-struct Leaf {
-  BodyPtr body;  // or else the half-space behind the plane
-  std::shared_ptr<const Plane> plane;
-  Box3 box = Box3::everything();
+// A line of a leaf, or of two, before it is known what of it is on the boundary.
+struct Candidate {
+  CsgLine line;
+  std::vector<int> own;    // the leaves on which it lies
+  int face = -1, of = -1;  // on that face of a body only, which is not one of `own`
+  bool touching = false;   // surfaces touch along it
+  bool smooth = false;     // two faces of one body go on smoothly in one another
+  double reach = 1;        // how far the line goes
 };
-
-void collect(const ShapePtr& shape, const Affine& map, std::vector<Leaf>& leaves, bool& complete) {
-  if (const auto* moved = dynamic_cast<const TransformedShape*>(shape.get()))
-    return collect(moved->original(), map * moved->map(), leaves, complete);
-  if (const auto* csg = dynamic_cast<const Csg*>(shape.get())) {
-    for (const ShapePtr& operand : csg->operands()) collect(operand, map, leaves, complete);
-  } else if (const auto* body = dynamic_cast<const BodyShape*>(shape.get())) {
-    Leaf leaf;
-    leaf.body = std::make_shared<const Body>(transformed(*body->body(), map));
-    leaf.box = bounds(*leaf.body);
-    leaves.push_back(std::move(leaf));
-  } else if (const auto* half = dynamic_cast<const HalfSpaceShape*>(shape.get())) {
-    const Frame& frame = half->frame();
-    const Vec3 normal = glm::normalize(glm::cross(map.direction(frame.x), map.direction(frame.y)));
-    leaves.push_back({nullptr,
-                      std::make_shared<Plane>(frame_from(map.point(frame.origin), normal, map.direction(frame.x))),
-                      Box3::everything()});
-  } else {
-    complete = false;
-  }
-}
 
 class Lines {
  public:
-  explicit Lines(const Csg& solid) : solid_(solid), box_(solid.bounds()), size_(box_.diameter()) {
-    for (const ShapePtr& operand : solid.operands()) collect(operand, Affine(), leaves_, result_.complete);
-  }
+  Lines(const Csg& solid, const ViewOf& view)
+      : solid_(solid), view_(view), box_(solid.bounds()), size_(box_.diameter()), leaves_(csg_leaves(solid)) {}
 
-  CsgLines find(const ViewOf& view) {
-    add_edges();
-    for (size_t k = 0; k < leaves_.size(); ++k)
-      if (leaves_[k].body)
-        add(silhouette(*leaves_[k].body, view), *leaves_[k].body, nullptr, {static_cast<int>(k)}, false);
+  CsgLines find() {
+    for (int k = 0; k < count(); ++k) add_edges(k);
+    for (int k = 0; k < count(); ++k)
+      for (int m = k + 1; m < count(); ++m) add_meeting(k, m);
+    for (int k = 0; k < count(); ++k) add_silhouettes(k);
     return std::move(result_);
   }
 
   // Of each leaf, as far as its side of the section is the solid's.
   CsgLines section(const Vec3& origin, const Vec3& normal) {
     const auto plane = std::make_shared<Plane>(frame_about(origin, glm::normalize(normal)));
-    for (size_t k = 0; k < leaves_.size(); ++k) {
-      const int own = static_cast<int>(k);
-      if (leaves_[k].body)
-        add(plane_section(*leaves_[k].body, origin, normal), *leaves_[k].body, nullptr, {own}, false);
-      else
-        add_planes(leaves_[k].plane, plane, {own}, false);
+    for (int k = 0; k < count(); ++k) {
+      const CsgLeaf& leaf = leaves_[k];
+      const Candidate asked{{nullptr, Kind::section, {}, {}, nullptr}, all_of(k)};
+      if (leaf.plane)
+        add_planes(leaf.plane, plane, asked);
+      else if (leaf.body && !leaf.is_region)
+        add(plane_section(*leaf.body, origin, normal), *leaf.body, nullptr, asked);
+      else if (leaf.shape)
+        add_section_of_shape(k, origin, normal, asked);
     }
     return std::move(result_);
   }
 
  private:
-  void add_edges() {
-    for (size_t k = 0; k < leaves_.size(); ++k) {
-      if (!leaves_[k].body) continue;
-      const Body& body = *leaves_[k].body;
-      for (const Edge& edge : body.edges) {
-        if (edge.kind != EdgeKind::regular || !edge.curve) continue;
-        CsgLine line{edge.curve, true, {}, {}};
-        for (const int c : edge.coedges) {
-          const Coedge& coedge = body.coedges[c];
-          line.hosts.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
-        }
-        add(std::move(line), {static_cast<int>(k)});
+  int count() const { return static_cast<int>(leaves_.size()); }
+
+  // Of an implicit leaf its region too, of a piece of a tube its ends: they cut nothing of its lines.
+  std::vector<int> all_of(int k) const {
+    std::vector<int> all = leaves_[k].ends;
+    all.push_back(k);
+    if (leaves_[k].region >= 0) all.push_back(leaves_[k].region);
+    return all;
+  }
+  bool belong_together(int k, int m) const {
+    const std::vector<int>& ends = leaves_[k].ends;
+    return leaves_[k].region == m || std::find(ends.begin(), ends.end(), m) != ends.end();
+  }
+
+  ViewOf view_of(const CsgLeaf& leaf) const {
+    const Affine back = leaf.map.inverse();
+    ViewOf view = view_;
+    view.direction_or_eye =
+        view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
+    return view;
+  }
+
+  void add_edges(int k) {
+    const CsgLeaf& leaf = leaves_[k];
+    const Candidate sharp{{nullptr, Kind::sharp, {}, {}, nullptr}, all_of(k)};
+    if (leaf.implicit) add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+    if (leaf.tube) add(tube_outlines(leaf), leaf.map, true, sharp);
+    if (!leaf.body || leaf.is_region) return;
+    const Body& body = *leaf.body;
+    for (const Edge& edge : body.edges) {
+      if (edge.kind != EdgeKind::regular || !edge.curve) continue;
+      Candidate found = sharp;
+      found.line.curve = edge.curve;
+      for (const int c : edge.coedges) {
+        const Coedge& coedge = body.coedges[c];
+        found.line.hosts.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
       }
-      for (size_t m = k + 1; m < leaves_.size(); ++m) add_meeting(static_cast<int>(k), static_cast<int>(m));
+      found.smooth = is_smooth(found.line);
+      add(std::move(found));
     }
-    for (size_t k = 0; k < leaves_.size(); ++k)
-      for (size_t m = k + 1; m < leaves_.size(); ++m)
-        if (!leaves_[k].body) add_meeting(static_cast<int>(m), static_cast<int>(k));
   }
 
-  static bool apart(const Box3& a, const Box3& b) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (a.lo[axis] > b.hi[axis] || b.lo[axis] > a.hi[axis]) return true;
-    return false;
+  static bool is_smooth(const CsgLine& line) {
+    constexpr double kSmooth = 1e-3;
+    if (line.hosts.size() != 2) return false;
+    const Interval domain = line.curve->domain();
+    for (const double x : {0.23, kAskedAt, 0.81}) {
+      const auto normal = [&](int which) {
+        const Vec3 uv = line.hosts[which].image->point(domain.lo + x * domain.width());
+        return line.hosts[which].surface->normal(uv.x, uv.y);
+      };
+      if (glm::length(glm::cross(normal(0), normal(1))) > kSmooth) return false;
+    }
+    return true;
   }
 
-  // Where the boundaries of two leaves meet; the first is a body, or both are half-spaces.
-  void add_meeting(int first, int second) {
-    const Leaf &a = leaves_[first], &b = leaves_[second];
-    if (apart(a.box, b.box)) return;
-    if (!a.body) return add_planes(a.plane, b.plane, {first, second}, true);
+  void add_silhouettes(int k) {
+    const CsgLeaf& leaf = leaves_[k];
+    const Candidate asked{{nullptr, Kind::silhouette, {}, {}, nullptr}, all_of(k)};
+    if (leaf.body && !leaf.is_region) add(silhouette(*leaf.body, view_), *leaf.body, nullptr, asked);
+    if (leaf.implicit) add(silhouette(*leaf.implicit, view_of(leaf)), leaf.map, asked);
+    if (leaf.tube) add(tube_outlines(leaf), leaf.map, false, asked);
+  }
+  ShapeOutlines tube_outlines(const CsgLeaf& leaf) const { return outlines(*leaf.tube, view_of(leaf)); }
+
+  // Where the boundaries of two leaves meet.
+  void add_meeting(int k, int m) {
+    if (!BoxTree::meets(leaves_[k].box, leaves_[m].box) || belong_together(k, m) || belong_together(m, k)) return;
+    // A shape is the first, then a body.
+    if ((leaves_[m].shape && !leaves_[k].shape) || (leaves_[k].plane && !leaves_[m].plane)) std::swap(k, m);
+    const CsgLeaf &a = leaves_[k], &b = leaves_[m];
+    Candidate asked{{nullptr, Kind::sharp, {}, {}, nullptr}, all_of(k)};
+    asked.own.push_back(m);
     try {
-      if (b.body)
-        add(intersect(*a.body, *b.body), *a.body, b.body.get(), {first, second}, true);
+      if (a.plane)
+        add_planes(a.plane, b.plane, asked);
+      else if (a.shape && b.plane)
+        add_section_of_shape(k, b.plane->frame().origin, b.plane->frame().z, asked);
+      else if (a.shape && b.body)
+        add_meeting_of_shape(k, m);
+      else if (a.implicit && b.implicit)
+        add_meeting_of_implicit(k, m);
+      else if (a.shape)
+        result_.left_out.insert("lines in which tubes meet one another or implicit surfaces in one solid");
+      else if (b.body)
+        add(intersect(*a.body, *b.body), *a.body, b.body.get(), asked);
       else
-        add(plane_section(*a.body, b.plane->frame().origin, b.plane->frame().z), *a.body, nullptr, {first, second},
-            true, b.plane);
+        add(plane_section(*a.body, b.plane->frame().origin, b.plane->frame().z), *a.body, nullptr, asked);
     } catch (const std::invalid_argument&) {
       result_.complete = false;
     }
   }
 
+  // With the faces of a body, as far as the whole surfaces go: where they are no faces the solid has no edge.
+  void add_meeting_of_shape(int k, int m) {
+    const CsgLeaf &leaf = leaves_[k], &other = leaves_[m];
+    for (int f = 0; f < static_cast<int>(other.body->faces.size()); ++f) {
+      const SurfacePtr& surface = other.body->faces[f].surface;
+      if (!BoxTree::meets(bounds(*surface), leaf.box)) continue;
+      const Candidate asked{{nullptr, Kind::sharp, {}, {}, nullptr}, {k}, f, m};
+      if (leaf.implicit) {
+        const Contours found = level_section(surface, leaf.implicit->formula(), leaf.map.inverse());
+        if (!found.complete) result_.complete = false;
+        for (const Contour& contour : found.branches) {
+          Candidate one = asked;
+          one.line.curve = contour.curve;
+          one.line.hosts.push_back({surface, contour.images[0]});
+          one.touching = contour.kind == ContourKind::touching;
+          add_turns(leaf, contour.closed, one.line);
+          add(std::move(one));
+        }
+      } else if (const auto plane = canonical(surface); plane && plane->kind == CanonicalSurface::Kind::plane) {
+        add_section_of_shape(k, plane->origin, plane->normal(), asked);
+      } else if (leaf.tube) {
+        result_.left_out.insert("lines in which tubes meet curved faces of one solid");
+      }
+    }
+  }
+
+  void add_meeting_of_implicit(int k, int m) {
+    const CsgLeaf &a = leaves_[k], &b = leaves_[m];
+    const Affine back = a.map.inverse();
+    const ImplicitFormula& formula = b.implicit->formula();
+    const ImplicitCondition other = ImplicitCondition::other(formula, b.map.inverse() * a.map);
+    // Where both are.
+    Box3 box = transformed(b.box, back);
+    const Box3 own = a.implicit->bounds();
+    box.lo = glm::max(box.lo, own.lo), box.hi = glm::min(box.hi, own.hi);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box.lo[axis] < box.hi[axis])) return;
+    const ImplicitArcs found = implicit_arcs(*a.implicit, other, box);
+    if (!found.complete || formula.smoothness() != Expression::Smoothness::smooth) result_.complete = false;
+    for (const ImplicitArc& arc : found.arcs) {
+      Candidate one{{transformed(arc.curve, a.map), Kind::sharp, {}, {}, nullptr}, {k, m}};
+      add_turns(a, arc.closed, one.line);
+      add_turns(b, arc.closed, one.line);
+      add(std::move(one));
+    }
+  }
+
+  // Where an implicit leaf turns away along a line on it.
+  void add_turns(const CsgLeaf& leaf, bool closed, CsgLine& line) const {
+    line.curve = contour_approximation(line.curve);
+    const ImplicitCondition sight = ImplicitCondition::sight(view_of(leaf));
+    const ImplicitFormula& formula = leaf.implicit->formula();
+    const std::vector<double> turns = sign_changes(
+        *transformed(line.curve, leaf.map.inverse()), closed,
+        [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },
+        [&](const Vec3& p) { return sight.at(second_order(formula, p), triple(p)).value; });
+    line.turns.insert(line.turns.end(), turns.begin(), turns.end());
+  }
+
+  void add_section_of_shape(int k, const Vec3& through, const Vec3& across, const Candidate& asked) {
+    const CsgLeaf& leaf = leaves_[k];
+    const Vec3 origin = leaf.map.inverse().point(through), normal = glm::transpose(leaf.map.linear) * across;
+    if (leaf.implicit) add(plane_section(*leaf.implicit, origin, normal, view_of(leaf)), leaf.map, asked);
+    if (leaf.tube) add(plane_section(*leaf.tube, origin, normal, view_of(leaf)), leaf.map, true, asked);
+  }
+
   // The line of two planes within the solid's box.
   void add_planes(const std::shared_ptr<const Plane>& first, const std::shared_ptr<const Plane>& second,
-                  const std::vector<int>& own, bool edge) {
+                  Candidate asked) {
     const Frame &a = first->frame(), &b = second->frame();
     const Vec3 along = glm::cross(a.z, b.z);
     const double square = glm::dot(along, along);
-    if (!(square > kSmooth * kSmooth) || !box_.bounded()) return;
+    if (!(square > kParallel * kParallel) || !box_.bounded()) return;
     // The point of both planes nearest to the box's middle.
     const Vec3 middle = 0.5 * (box_.lo + box_.hi);
     const double da = glm::dot(a.origin - middle, a.z), db = glm::dot(b.origin - middle, b.z);
     const Vec3 through = middle + (da * glm::cross(b.z, along) + db * glm::cross(along, a.z)) / square;
     const Vec3 reach = 0.51 * size_ / std::sqrt(square) * along;
-    CsgLine line{std::make_shared<Segment>(through - reach, through + reach), edge, {{first, nullptr}}, {}};
-    if (edge) line.hosts.push_back({second, nullptr});
-    add(std::move(line), own);
+    asked.line.curve = std::make_shared<Segment>(through - reach, through + reach);
+    add(std::move(asked));
   }
 
-  void add(const BodyContours& contours, const Body& body, const Body* other, const std::vector<int>& own, bool edge,
-           const std::shared_ptr<const Plane>& plane = nullptr) {
+  void add(const BodyContours& contours, const Body& body, const Body* other, const Candidate& asked) {
     if (!contours.complete) result_.complete = false;
     for (const BodyContour& branch : contours.branches)
       for (const BodyContourPart& part : branch.parts) {
         const Interval all = part.contour.curve->domain();
         const auto add_part = [&](const Interval& t) {
           if (!(t.width() > kShortest * all.width())) return;
-          CsgLine line;
+          Candidate found = asked;
+          CsgLine& line = found.line;
           line.curve =
               t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t);
-          line.edge = edge;
           line.hosts.push_back({body.faces[part.face].surface, part.contour.images[0]});
           if (other && part.other_face >= 0 && part.contour.images.size() > 1)
             line.hosts.push_back({other->faces[part.other_face].surface, part.contour.images[1]});
-          if (plane) line.hosts.push_back({plane, nullptr});
           for (const double cusp : part.contour.cusps)
-            if (t.contains(cusp)) line.cusps.push_back(cusp);
-          add(std::move(line), own);
+            if (t.contains(cusp)) line.turns.push_back(cusp);
+          found.touching = part.contour.kind == ContourKind::touching;
+          add(std::move(found));
         };
         add_part({part.t.lo, std::min(part.t.hi, all.hi)});
         if (part.t.hi > all.hi) add_part({all.lo, part.t.hi - all.width()});
       }
   }
 
-  // What of the line is on the solid's boundary. `own`: the leaves on which it lies.
-  void add(CsgLine line, const std::vector<int>& own) {
+  void add(const ImplicitContours& contours, const Affine& map, const Candidate& asked) {
+    if (!contours.complete) result_.complete = false;
+    for (const ImplicitContour& contour : contours.lines) add(contour.curve, contour.aside, contour.turns, map, asked);
+  }
+  void add(const ShapeOutlines& outlines, const Affine& map, bool edges, const Candidate& asked) {
+    if (!outlines.complete) result_.complete = false;
+    if (outlines.meets_itself && edges) result_.left_out.insert("the edges along which a tube goes through itself");
+    for (const ShapeOutline& outline : outlines.lines)
+      if (outline.edge == edges) add(outline.curve, outline.aside, outline.turns, map, asked);
+  }
+  // What a leaf has in coordinates of its own.
+  void add(const CurvePtr& curve, const CurvePtr& aside, const std::vector<double>& turns, const Affine& map,
+           Candidate found) {
+    found.line.curve = transformed(curve, map);
+    if (aside) found.line.aside = transformed(aside, Affine{map.linear, Vec3(0)});
+    found.line.turns = turns;
+    add(std::move(found));
+  }
+
+  // What of the line is on the solid's boundary.
+  void add(Candidate found) {
+    CsgLine& line = found.line;
     const Interval domain = line.curve->domain();
-    std::vector<double> cuts{domain.lo, domain.hi};
     for (CsgLine::Host& host : line.hosts)
       if (host.image) host.image = contour_approximation(line.curve, *host.surface, host.image);
     line.curve = contour_approximation(line.curve);
     const Box3 box = bounds(*line.curve);
-    for (size_t k = 0; k < leaves_.size(); ++k) {
-      if (std::find(own.begin(), own.end(), static_cast<int>(k)) != own.end() || apart(leaves_[k].box, box)) continue;
+    found.reach = std::min(size_, box.diameter());
+    const std::vector<double> cuts = cuts_of(found, box);
+    // Stretches that follow one another on the boundary are one line.
+    double from = 0;
+    std::optional<Kind> on;
+    for (size_t i = 0; i + 1 < cuts.size(); ++i) {
+      if (cuts[i + 1] - cuts[i] <= kShortest * domain.width()) continue;
+      const std::optional<Kind> here = kind_of(found, {cuts[i], cuts[i + 1]});
+      if (on && here != on) put(line, *on, {from, cuts[i]});
+      if (here != on) from = cuts[i];
+      on = here;
+    }
+    if (on) put(line, *on, {from, domain.hi});
+  }
+
+  // Where other leaves may begin or end to cover it.
+  std::vector<double> cuts_of(const Candidate& found, const Box3& box) const {
+    const Curve& curve = *found.line.curve;
+    std::vector<double> cuts{curve.domain().lo, curve.domain().hi};
+    for (int k = 0; k < count(); ++k) {
+      const CsgLeaf& leaf = leaves_[k];
+      if (std::find(found.own.begin(), found.own.end(), k) != found.own.end() || !BoxTree::meets(leaf.box, box))
+        continue;
       const auto meet = [&](const Surface& surface) {
-        const SurfaceMeetings meetings = intersect(*line.curve, surface);
+        const SurfaceMeetings meetings = intersect(curve, surface);
         for (const SurfaceMeeting& one : meetings.points) cuts.push_back(one.t);
         for (const Interval& on : meetings.on_surface) cuts.push_back(on.lo), cuts.push_back(on.hi);
       };
-      if (leaves_[k].plane) meet(*leaves_[k].plane);
-      if (leaves_[k].body)
-        for (const Face& face : leaves_[k].body->faces) meet(*face.surface);
+      if (leaf.plane) meet(*leaf.plane);
+      if (leaf.body)
+        for (int f = 0; f < static_cast<int>(leaf.body->faces.size()); ++f)
+          if (k != found.of || f != found.face) meet(*leaf.body->faces[f].surface);
+      if (leaf.implicit) {
+        const ImplicitFormula& formula = leaf.implicit->formula();
+        const std::vector<double> changes = sign_changes(
+            *transformed(found.line.curve, leaf.map.inverse()), false,
+            [&](const Box3& part) { return range_of(formula, part).over.value; },
+            [&](const Vec3& p) { return formula(p); });
+        cuts.insert(cuts.end(), changes.begin(), changes.end());
+      } else if (leaf.shape) {
+        add_entries(
+            curve, leaf.box, size_,
+            [&](const Line& chord, std::vector<double>& hits) {
+              std::vector<SurfaceHit> met;
+              leaf.shape->all_hits(chord, {0, 1}, met);
+              for (const SurfaceHit& hit : met) hits.push_back(hit.t);
+            },
+            cuts);
+      }
     }
     std::sort(cuts.begin(), cuts.end());
-    // Stretches that follow one another on the boundary are one line.
-    double from = 0;
-    bool on = false;
-    for (size_t i = 0; i + 1 < cuts.size(); ++i) {
-      if (cuts[i + 1] - cuts[i] <= kShortest * domain.width()) continue;
-      const bool here = is_on_boundary(line, 0.5 * (cuts[i] + cuts[i + 1]));
-      if (here && !on) from = cuts[i];
-      if (!here && on) put(line, {from, cuts[i]});
-      on = here;
-    }
-    if (on) put(line, {from, domain.hi});
+    return cuts;
   }
 
-  void put(const CsgLine& line, const Interval& t) {
+  // Of a stretch on the boundary: what it is there.
+  std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) const {
+    const CurveJet at = found.line.curve->evaluate(stretch.lo + kAskedAt * stretch.width(), 1);
+    if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
+    const bool is_edge = found.line.kind == Kind::sharp;
+    const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, found.touching, is_edge && !found.smooth};
+    const CsgBoundary boundary = boundary_at(solid_, size_, question);
+    if (boundary == CsgBoundary::none) return std::nullopt;
+    if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;
+    return found.smooth || boundary == CsgBoundary::smooth_edge ? std::optional(Kind::smooth) : std::nullopt;
+  }
+
+  void put(const CsgLine& line, Kind kind, const Interval& t) {
     CsgLine part = line;
-    if (t.width() < line.curve->domain().width()) part.curve = std::make_shared<CurvePart>(line.curve, t);
+    part.kind = kind;
+    if (t.width() < line.curve->domain().width()) {
+      part.curve = std::make_shared<CurvePart>(line.curve, t);
+      if (part.aside) part.aside = std::make_shared<CurvePart>(line.aside, t);
+    }
     std::erase_if(part.hosts, [](const CsgLine::Host& host) { return !host.image; });
-    std::erase_if(part.cusps, [&](double cusp) { return !t.contains(cusp); });
+    std::erase_if(part.turns, [&](double turn) { return !t.contains(turn); });
     result_.lines.push_back(std::move(part));
   }
 
-  static Vec3 normal_of(const CsgLine::Host& host, double t) {
-    if (!host.image) return host.surface->normal(0, 0);
-    const Vec3 uv = host.image->point(t);
-    return host.surface->normal(uv.x, uv.y);
-  }
-
-  bool is_on_boundary(const CsgLine& line, double t) const {
-    const Vec3 p = line.curve->point(t);
-    if (line.hosts.empty()) return false;
-    const Vec3 first = normal_of(line.hosts[0], t);
-    const Vec3 second = line.hosts.size() > 1 ? normal_of(line.hosts[1], t) : first;
-    const double e = kAside * size_;
-    if (glm::length(glm::cross(first, second)) < kSmooth)
-      return !line.edge && is_inside(p + e * first) != is_inside(p - e * first);
-    const bool pp = is_inside(p + e * first + e * second), pm = is_inside(p + e * first - e * second),
-               mp = is_inside(p - e * first + e * second), mm = is_inside(p - e * first - e * second);
-    const bool by_first = pp == pm && mp == mm, by_second = pp == mp && pm == mm;
-    return !by_first && !by_second;
-  }
-
-  bool is_inside(const Vec3& p) const {
-    std::vector<SurfaceHit> hits;
-    const Line line{p, kProbe};
-    solid_.all_hits(line, {0, kInfinity}, hits);
-    // Beyond all hits a line is inside of what reaches to infinity there.
-    const bool at_infinity = solid_.begins_inside({p, -kProbe});
-    return (hits.size() % 2 == 1) != at_infinity;
-  }
-
   const Csg& solid_;
+  const ViewOf& view_;
   Box3 box_;
   double size_;
-  std::vector<Leaf> leaves_;
+  std::vector<CsgLeaf> leaves_;
   CsgLines result_;
 };
 
 }  // namespace
 
-CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid).find(view); }
+CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid, view).find(); }
 
-CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal) {
-  return Lines(solid).section(origin, normal);
+CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view) {
+  return Lines(solid, view).section(origin, normal);
 }
 
 }  // namespace lekalo::geometry

@@ -1,11 +1,11 @@
-// Edges and outlines of solids that are put together (shapes/csg.h), through their leaves: edges and silhouettes of the
-// leaves and the lines where two leaves meet, as far as they lie on the boundary of the whole.
+// Edges and outlines of solids that are put together (shapes/csg.h), through their leaves (csg_leaves.h): edges and
+// silhouettes of the leaves and the lines where two leaves meet, as far as they lie on the boundary of the whole.
 //
 // A line changes between lying on the boundary and not only where it meets another leaf. In between the solid is asked
-// at four places around a point of the line, p +- e n_1 +- e n_2 with the normals of the surfaces that meet there: it
-// is an edge unless one of the two normals alone tells inside from outside, or none does.
+// about one place of it (csg_boundary.h).
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,25 +15,29 @@
 namespace lekalo::geometry {
 
 struct CsgLine {
-  CurvePtr curve;    // a whole edge or contour, or a part of one
-  bool edge = true;  // else a silhouette
+  enum class Kind { sharp, smooth, silhouette, section };
+  CurvePtr curve;  // a whole edge or contour, or a part of one
+  Kind kind = Kind::sharp;
   struct Host {
     SurfacePtr surface;
     Curve2Ptr image;
   };
-  std::vector<Host> hosts;    // the surfaces of the leaves on which it lies
-  std::vector<double> cusps;  // of silhouettes
+  std::vector<Host> hosts;  // the surfaces of the leaves on which it lies, as far as these have any
+  // Of silhouettes where the picture has a cusp, of other lines where a leaf without surfaces turns away there.
+  std::vector<double> turns;
+  CurvePtr aside;  // of silhouettes without hosts: a vector along which lines beside them miss the leaf
 };
 
 struct CsgLines {
   std::vector<CsgLine> lines;
-  bool complete = true;  // false with leaves that are no bodies (tubes, implicit surfaces), or where a search was not
+  bool complete = true;            // false where a search was not
+  std::set<std::string> left_out;  // lines that are not known at all, in words
 };
 
 // Edges first; hosts of one leaf's face are one surface in all lines.
 CsgLines csg_lines(const Csg& solid, const ViewOf& view);
 
-// Where a plane cuts the solid's boundary. The normal need not be a unit vector.
-CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal);
+// Where a plane cuts the solid's boundary; `view` is that of the turns. The normal need not be a unit vector.
+CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view);
 
 }  // namespace lekalo::geometry

@@ -3,6 +3,7 @@
 //   sight    grad F . s = 0       its silhouette: s the direction of view, or p - e from an eye e (Golovanov 2016, 4.6)
 //   sphere   |p - c|^2 = R^2      its border on a ball
 //   plane    n . (p - o) = 0      its section by a plane
+//   other    G(A p) = level       where it meets another implicit surface, A an affine map to that one's coordinates
 //
 // Bounds over a box X about m come from interval arithmetic (Moore, Kearfott, Cloud 2009, ch. 6), with H for the second
 // derivatives:
@@ -62,6 +63,13 @@ class ImplicitCondition {
     return {Kind::plane, normal, glm::dot(origin, normal)};
   }
 
+  // The formula must outlive it.
+  static ImplicitCondition other(const ImplicitFormula& formula, const Affine& to_formula) {
+    ImplicitCondition result(Kind::other, Vec3(0), 0);
+    result.other_ = &formula, result.to_other_ = to_formula;
+    return result;
+  }
+
   template <class S>
   struct Value {
     S value;
@@ -81,6 +89,8 @@ class ImplicitCondition {
         const Triple<S> off = p - v;
         return {sqr(off.x) + sqr(off.y) + sqr(off.z) - S(number_) * S(number_), S(2) * off};
       }
+      case Kind::other:
+        return of_other(p);
       case Kind::plane:
         break;
     }
@@ -90,12 +100,26 @@ class ImplicitCondition {
   Value<Interval> enclose(const ImplicitRange& range, const Box3& box) const;
 
  private:
-  enum class Kind { sight, sight_from_eye, sphere, plane };
+  enum class Kind { sight, sight_from_eye, sphere, plane, other };
   ImplicitCondition(Kind kind, const Vec3& vector, double number) : kind_(kind), vector_(vector), number_(number) {}
+
+  template <class S>
+  Value<S> of_other(const Triple<S>& p) const {
+    using G = Gradient<S>;
+    const Triple<G> x{G::variable(p.x, 0), G::variable(p.y, 1), G::variable(p.z, 2)};
+    const Mat3& m = to_other_.linear;
+    const auto coordinate = [&](int k) -> G {
+      return x.x * m[0][k] + x.y * m[1][k] + x.z * m[2][k] + to_other_.offset[k];
+    };
+    const G found = (*other_)(coordinate(0), coordinate(1), coordinate(2));
+    return {found.c[0], {found.c[1], found.c[2], found.c[3]}};
+  }
 
   Kind kind_;
   Vec3 vector_;
   double number_;
+  const ImplicitFormula* other_ = nullptr;
+  Affine to_other_;
 };
 
 // How the surface bends along a way of sight that touches it, s . H s: above zero F is larger than the level on both

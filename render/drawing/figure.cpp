@@ -44,6 +44,18 @@ void collect_legend(const std::vector<Object>& objects, std::vector<LegendEntry>
   }
 }
 
+// Of a line that is seen end-on.
+bool is_point(const Path& path) {
+  constexpr double kSame = 1e-3;  // millimetres
+  Vec2 at = path.from;
+  for (const PathStep& step : path.steps) {
+    for (const double s : {0.25, 0.5, 0.75, 1.0})
+      if (glm::length(point_on(at, step, s) - path.from) > kSame) return false;
+    at = step.to;
+  }
+  return true;
+}
+
 // What of the objects only lines show is not rendered under them.
 std::vector<Object> without_lines(const std::vector<Object>& objects) {
   std::vector<Object> kept;
@@ -243,6 +255,8 @@ class ViewDrawing {
     std::vector<double> breaks;
     for (const CurvePiece& one : stroke.curve->pieces()) breaks.push_back(one.domain.lo);
     const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
+    // Without caps it shows nothing.
+    if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole)) return;
     for (Path& path : overlaps_.left_of(whole)) {
       add_obstacles(path);
       // Where it is cut, or has a head, nothing goes on.

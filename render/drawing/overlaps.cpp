@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lekalo::render {
 
 namespace {
 
 constexpr double kSame = 1e-3;      // millimetres between lines that are one
+constexpr double kStraight = 1e-4;  // how far a straight line is from its chord
 constexpr double kShortest = 1e-2;  // of what is left
 constexpr int kPlaces = 32;         // on each step of a curve
 constexpr int kPlacesOnSide = 7;    // of a path with corners: others may touch it where a construction says so
@@ -25,32 +27,83 @@ int64_t bin_at(double x, double y) {
   return number(x) * (int64_t{1} << 32) + number(y);
 }
 
-// All that a chain of places comes near to, perhaps more than once.
+// All that a chain of places comes as near to, perhaps more than once.
 template <class Visit>
-void each_bin(const std::vector<Vec2>& places, const Visit& visit) {
+void each_bin(const std::vector<Vec2>& places, double near, const Visit& visit) {
   for (size_t k = 0; k + 1 < places.size(); ++k) {
     const Vec2 way = places[k + 1] - places[k];
     const int parts = std::max(1, static_cast<int>(std::ceil(glm::length(way) / kBin)));
     for (int i = 0; i < parts; ++i) {
       const Vec2 a = places[k] + way * (static_cast<double>(i) / parts),
                  b = places[k] + way * (static_cast<double>(i + 1) / parts);
-      const Vec2 lo = glm::min(a, b) - kSame, hi = glm::max(a, b) + kSame;
+      const Vec2 lo = glm::min(a, b) - near, hi = glm::max(a, b) + near;
       for (double x = lo.x; x < hi.x + kBin; x += kBin)
         for (double y = lo.y; y < hi.y + kBin; y += kBin) visit(bin_at(std::min(x, hi.x), std::min(y, hi.y)));
     }
   }
 }
 
+// The point of a path that is farthest in a direction.
+Vec2 farthest_along(const Path& path, const Vec2& way) {
+  Vec2 best = path.from, begin = path.from;
+  for (const PathStep& step : path.steps) {
+    const auto height = [&](double s) { return glm::dot(point_on(begin, step, s), way); };
+    int highest = 0;
+    for (int k = 1; k <= kPlaces; ++k)
+      if (height(static_cast<double>(k) / kPlaces) > height(static_cast<double>(highest) / kPlaces)) highest = k;
+    double lo = std::max(highest - 1.0, 0.0) / kPlaces, hi = std::min(highest + 1.0, 1.0 * kPlaces) / kPlaces;
+    constexpr int kThirds = 40;
+    for (int k = 0; k < kThirds; ++k) {
+      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+      (height(a) < height(b) ? lo : hi) = height(a) < height(b) ? a : b;
+    }
+    for (const double s : {static_cast<double>(highest) / kPlaces, 0.5 * (lo + hi)})
+      if (height(s) > glm::dot(best, way)) best = point_on(begin, step, s);
+    begin = step.to;
+  }
+  return best;
+}
+
+// A line that runs to and fro, as a circle does that is seen edge-on, is straight from one end to the other.
+std::optional<Path> straightened(const Path& path, const std::vector<Vec2>& places) {
+  const auto farthest = [&](const Vec2& from) {
+    return *std::max_element(places.begin(), places.end(), [&](const Vec2& a, const Vec2& b) {
+      return glm::length(a - from) < glm::length(b - from);
+    });
+  };
+  Vec2 to = farthest(path.from);
+  Vec2 from = farthest(to);
+  if (!(glm::length(to - from) > kSame)) return std::nullopt;
+  for (const Vec2& place : places)
+    if (distance_from(place, from, to) > kStraight) return std::nullopt;
+  const Vec2 way = (to - from) / glm::length(to - from);
+  to = farthest_along(path, way), from = farthest_along(path, -way);
+  // As the path ran, if it was straight.
+  if (glm::length(to - path.from) < glm::length(from - path.from)) std::swap(from, to);
+  Path line;
+  line.from = glm::length(from - path.from) < kStraight ? path.from : from;
+  line.steps.push_back(line_to(glm::length(to - path.end()) < kStraight ? path.end() : to));
+  return line;
+}
+
 }  // namespace
 
-std::vector<Vec2> Overlaps::places_on(const Path& path) {
-  std::vector<Vec2> places{path.from};
-  for (const PathStep& step : path.steps) {
-    const Vec2 begin = places.back();
+void Overlaps::add_places(Drawn& drawn) {
+  const Path& path = drawn.path;
+  drawn.places = {path.from};
+  for (size_t number = 0; number < path.steps.size(); ++number) {
+    const PathStep& step = path.steps[number];
+    const Vec2 begin = drawn.places.back();
     const int parts = step.kind != PathStep::Kind::line ? kPlaces : path.steps.size() == 1 ? 1 : kPlacesOnSide;
-    for (int k = 1; k <= parts; ++k) places.push_back(point_on(begin, step, static_cast<double>(k) / parts));
+    for (int k = 0; k < parts; ++k) {
+      const double from = static_cast<double>(k) / parts, to = static_cast<double>(k + 1) / parts;
+      const Vec2 before = drawn.places.back();
+      drawn.chords.push_back({begin, static_cast<int>(number), from, to});
+      drawn.places.push_back(point_on(begin, step, to));
+      drawn.bow = std::max(
+          drawn.bow, glm::length(point_on(begin, step, 0.5 * (from + to)) - 0.5 * (before + drawn.places.back())));
+    }
   }
-  return places;
 }
 
 const std::vector<int>& Overlaps::near(const Vec2& place) const {
@@ -61,7 +114,7 @@ const std::vector<int>& Overlaps::near(const Vec2& place) const {
 
 std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
   std::vector<int> numbers;
-  each_bin(places, [&](int64_t bin) {
+  each_bin(places, kSame, [&](int64_t bin) {
     if (const auto found = bins_.find(bin); found != bins_.end())
       numbers.insert(numbers.end(), found->second.begin(), found->second.end());
   });
@@ -73,25 +126,56 @@ std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
 bool Overlaps::is_covered(const Vec2& place) const {
   for (const int number : near(place)) {
     const Drawn& one = drawn_[number];
-    if (place.x < one.lo.x - kSame || place.x > one.hi.x + kSame || place.y < one.lo.y - kSame ||
-        place.y > one.hi.y + kSame)
+    const double near = kSame + one.bow;
+    if (place.x < one.lo.x - near || place.x > one.hi.x + near || place.y < one.lo.y - near ||
+        place.y > one.hi.y + near)
       continue;
-    for (size_t k = 0; k + 1 < one.places.size(); ++k)
-      if (distance_from(place, one.places[k], one.places[k + 1]) < kSame) return true;
+    for (size_t k = 0; k < one.chords.size(); ++k)
+      if (comes_near(one, k, place)) return true;
   }
   return false;
 }
 
-std::vector<Path> Overlaps::left_of(const Path& path) {
+// A chord tells as far as the curve may be from it; between, the curve's own parts.
+bool Overlaps::comes_near(const Drawn& drawn, size_t number, const Vec2& place) {
+  const double off = distance_from(place, drawn.places[number], drawn.places[number + 1]);
+  if (off < kSame) return true;
+  if (off > kSame + 2 * drawn.bow) return false;
+  constexpr int kParts = 8;
+  const Chord& chord = drawn.chords[number];
+  const PathStep& step = drawn.path.steps[chord.step];
+  Vec2 before = drawn.places[number];
+  for (int k = 1; k <= kParts; ++k) {
+    const Vec2 next = point_on(chord.begin, step, chord.from + (chord.to - chord.from) * k / kParts);
+    if (distance_from(place, before, next) < kSame) return true;
+    before = next;
+  }
+  return false;
+}
+
+std::vector<Path> Overlaps::left_of(const Path& given) {
+  Drawn own;
+  own.path = given;
+  add_places(own);
+  if (auto line = straightened(given, own.places)) {
+    own = Drawn();
+    own.path = std::move(*line);
+    add_places(own);
+  }
+  const Path path = own.path;
   const bool straight = path.steps.size() == 1 && path.steps[0].kind == PathStep::Kind::line;
-  Drawn own{path.from, path.from, straight, places_on(path), path.from, path.from};
+  own.straight = straight;
+  own.lo = own.hi = own.from = own.to = path.from;
   for (const Vec2& place : own.places) own.lo = glm::min(own.lo, place), own.hi = glm::max(own.hi, place);
   std::vector<Path> left;
   if (!straight) {
     // In the middle of its places too, where no other line's chord can be its own by chance.
     bool covered = true;
-    for (size_t k = 0; k + 1 < own.places.size() && covered; ++k)
-      covered = is_covered(own.places[k]) && is_covered(0.5 * (own.places[k] + own.places[k + 1]));
+    for (size_t k = 0; k < own.chords.size() && covered; ++k) {
+      const Chord& chord = own.chords[k];
+      covered = is_covered(own.places[k]) &&
+                is_covered(point_on(chord.begin, path.steps[chord.step], 0.5 * (chord.from + chord.to)));
+    }
     if (!covered) left.push_back(path);
   } else {
     own.to = path.steps[0].to;
@@ -129,7 +213,7 @@ std::vector<Path> Overlaps::left_of(const Path& path) {
   }
   if (!left.empty()) {
     const int number = static_cast<int>(drawn_.size());
-    each_bin(own.places, [&](int64_t bin) {
+    each_bin(own.places, kSame + own.bow, [&](int64_t bin) {
       std::vector<int>& here = bins_[bin];
       if (here.empty() || here.back() != number) here.push_back(number);
     });

@@ -18,13 +18,23 @@ class Overlaps {
   std::vector<Path> left_of(const Path& path);
 
  private:
-  struct Drawn {
-    Vec2 lo, hi;
-    bool straight;
-    std::vector<Vec2> places;  // of a curve, close together
-    Vec2 from{0}, to{0};       // of a straight line
+  // What a curve does between two of its places.
+  struct Chord {
+    Vec2 begin;  // of the step
+    int step;
+    double from, to;  // of the step, 0 to 1
   };
-  static std::vector<Vec2> places_on(const Path& path);
+  struct Drawn {
+    Vec2 lo{0}, hi{0};
+    bool straight = false;
+    Path path;
+    std::vector<Vec2> places;   // of a curve, close together
+    std::vector<Chord> chords;  // from each place to the next
+    double bow = 0;             // how far the curve is from these, at most
+    Vec2 from{0}, to{0};        // of a straight line
+  };
+  static void add_places(Drawn& drawn);
+  static bool comes_near(const Drawn& drawn, size_t chord, const Vec2& place);
   bool is_covered(const Vec2& place) const;
   // What was drawn near a place; near some line, each once.
   const std::vector<int>& near(const Vec2& place) const;

@@ -13,10 +13,11 @@
 #include "geometry/numerics/triple.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
+#include "geometry/queries/csg_leaves.h"
+#include "geometry/queries/curve_entries.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/queries/passages.h"
-#include "geometry/shapes/csg.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
 
@@ -47,6 +48,8 @@ constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
 // joins it there may lie before it.
 constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
+// A face whose normal stands across the sight but for this is seen edge-on.
+constexpr double kEdgeOn = 1e-9;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -287,7 +290,7 @@ class Drawing {
     add_self_piercings(stroke, events);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Box3 box = bounds(*curve);
-    if (!shapes_.empty()) add_entries(*curve, box, stroke.object, events);
+    add_shape_entries(*curve, box, stroke.object, events);
     std::optional<CurveCells> cells;
     tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
@@ -355,51 +358,18 @@ class Drawing {
     return t;
   }
 
-  // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.
-  void add_entries(const Curve& curve, const Box3& box, int object, std::vector<double>& events) const {
-    constexpr double kFlat = 1e-11, kBowed = 1e-5;  // of the radius, how far a part is from its chord
-    constexpr int kMostHalvings = 40;
-    for (const WorldShape& other : shapes_) {
-      if (other.object == object || !BoxTree::meets(other.box, box)) continue;
-      std::vector<double> hits;
-      const auto part = [&](const auto& self, double lo, const Vec3& from, double hi, const Vec3& to,
-                            int depth) -> void {
-        const double middle = 0.5 * (lo + hi);
-        const Vec3 between = curve.point(middle);
-        Box3 around{from, from};
-        around.include(to), around.include(between);
-        const double bow = glm::length(between - 0.5 * (from + to));
-        if (!BoxTree::meets(around.inflated(2 * bow), other.box)) return;
-        hits.clear();
-        if (from != to) other.add_hits({from, to - from}, hits);
-        if (hits.empty() && bow < kBowed * world_.radius()) return;
-        if (bow < kFlat * world_.radius() || depth >= kMostHalvings || !(lo < middle && middle < hi)) {
-          for (const double hit : hits) events.push_back(lo + hit * (hi - lo));
-          return;
-        }
-        self(self, lo, from, middle, between, depth + 1);
-        self(self, middle, between, hi, to, depth + 1);
-      };
-      for (const CurvePiece& piece : curve.pieces()) {
-        const Interval t = intersect(piece.domain, curve.domain());
-        if (!(t.width() > 0)) continue;
-        const double last = next_down(t.hi);
-        constexpr int kParts = 8;  // a bow between two places may be none in the middle
-        for (int k = 0; k < kParts; ++k) {
-          const double lo = t.lo + k * t.width() / kParts,
-                       hi = k + 1 == kParts ? last : t.lo + (k + 1) * t.width() / kParts;
-          part(part, lo, curve.point(lo), hi, curve.point(hi), 0);
-        }
-      }
-    }
+  // Where a curve enters or leaves shapes that no surfaces describe.
+  void add_shape_entries(const Curve& curve, const Box3& box, int object, std::vector<double>& events) const {
+    for (const WorldShape& other : shapes_)
+      if (other.object != object && BoxTree::meets(other.box, box))
+        add_entries(curve, other.box, world_.radius(), other.add_hits, events);
   }
 
   // Shapes whose boundary is not made of parametric surfaces.
   struct WorldShape {
     Box3 box;
     int object;
-    // Adds where a chord meets it, 0 to 1.
-    std::function<void(const Line& chord, std::vector<double>& hits)> add_hits;
+    ChordHits add_hits;
   };
 
   struct WorldSurface {
@@ -457,12 +427,34 @@ class Drawing {
 
   static bool has_surfaces(const Shape& shape) {
     const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
-    return dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape) != nullptr;
+    const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
+    if (!solid) return false;
+    const std::vector<CsgLeaf> leaves = csg_leaves(*solid);
+    return std::none_of(leaves.begin(), leaves.end(), [](const CsgLeaf& leaf) { return leaf.shape != nullptr; });
   }
 
   int layers_at(int line, double t, double aside) {
     const Stroke& stroke = strokes_[line];
-    return layers_before(probe(line, t, aside), lies_on_own(stroke) ? kOnHost : kTouch);
+    const double touch = lies_on_own(stroke) ? kOnHost : kTouch;
+    const std::optional<Vec3> across = normal_seen_edge_on(line, t);
+    if (!across) return layers_before(probe(line, t, aside), touch);
+    // Rays would run along the face. What it is the outline of hides the line on one side alone.
+    const Vec3 exact = curves_[line]->tangent(t).origin, by = aside * world_.radius() * *across;
+    return std::min(layers_before(exact + by, touch), layers_before(exact - by, touch));
+  }
+
+  // Of a surface on which a line lies, where it is seen edge-on.
+  std::optional<Vec3> normal_seen_edge_on(int line, double t) const {
+    const Stroke& stroke = strokes_[line];
+    if (stroke.kind == "silhouette") return std::nullopt;
+    for (const Stroke::Host& host : stroke.hosts) {
+      const Vec3 uv = host.image->point(t);
+      const Vec3 normal = glm::normalize(stroke.to_world.normal(host.surface->normal(uv.x, uv.y)));
+      const Vec3 sight =
+          camera_.is_parallel() ? camera_.view_direction() : glm::normalize(curves_[line]->tangent(t).origin - eye());
+      if (std::abs(glm::dot(normal, sight)) < kEdgeOn) return normal;
+    }
+    return std::nullopt;
   }
 
   // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.

@@ -100,6 +100,8 @@ class StrokeCollector {
   void add(const geometry::ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden);
   void add(const geometry::ImplicitContours& contours, const Style& style, const HiddenLines& hidden);
   void add(const geometry::CsgLine& line, const Style& style, const HiddenLines& hidden);
+  // What is missing of them.
+  void note(const geometry::CsgLines& lines);
   // Adds what the visitor adds of the shape as it is before it was moved as a whole; the map leads back to there.
   void in_own_coordinates(const geometry::ShapePtr& shape,
                           const std::function<void(const geometry::Shape&, const geometry::Affine&)>& visit);

@@ -220,11 +220,14 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       if (solid_ != shape || solid_view_ != own_view.direction_or_eye) {
         solid_ = shape, solid_view_ = own_view.direction_or_eye;
         solid_lines_ = csg_lines(*solid, own_view);
-        if (!solid_lines_.complete) ++work_.incomplete;
+        note(solid_lines_);
       }
+      const CsgLine::Kind asked = !edges             ? CsgLine::Kind::silhouette
+                                  : kind_ == "sharp" ? CsgLine::Kind::sharp
+                                                     : CsgLine::Kind::smooth;
       for (const CsgLine& line : solid_lines_.lines)
-        if (line.edge == edges) add(line, style, hidden);
-    } else if (tube || balls) {
+        if (line.kind == asked) add(line, style, hidden);
+    } else if ((tube || balls) && kind_ != "smooth") {
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
     }
   });
@@ -251,8 +254,13 @@ void StrokeCollector::add(const ImplicitContours& contours, const Style& style, 
 
 void StrokeCollector::add(const CsgLine& line, const Style& style, const HiddenLines& hidden) {
   for (const CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
-  cusps_ = line.cusps;
+  cusps_ = line.turns, aside_ = line.aside;
   stroke(line.curve, style, hidden);
+}
+
+void StrokeCollector::note(const CsgLines& lines) {
+  if (!lines.complete) ++work_.incomplete;
+  for (const std::string& what : lines.left_out) leave_out(what);
 }
 
 void StrokeCollector::add_mesh_lines(MeshLineKind kind, const Style& style, const HiddenLines& hidden) {
@@ -317,8 +325,8 @@ void StrokeCollector::add_section(const SectionPlane& plane, const Style& style,
         return add(plane_section(*tube, own_through, own_normal, own_view), true, style, hidden);
       const auto* solid = dynamic_cast<const Csg*>(&original);
       if (!solid) return;
-      const CsgLines found = csg_section(*solid, own_through, own_normal);
-      if (!found.complete) ++work_.incomplete;
+      const CsgLines found = csg_section(*solid, own_through, own_normal, own_view);
+      note(found);
       for (const CsgLine& line : found.lines) add(line, style, hidden);
     });
   if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape))

@@ -270,7 +270,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     else
       add_edges(**body, kind, style, lines.hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
-    if (kind == "sharp" || kind == "boundary")
+    if (kind == "sharp" || kind == "smooth" || kind == "boundary")
       add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
   } else if (std::holds_alternative<MeshPtr>(object_->shape)) {
     if (kind == "boundary") add_mesh_lines(MeshLineKind::boundary, style, lines.hidden);

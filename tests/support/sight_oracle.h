@@ -285,13 +285,14 @@ class TubeSolid final : public Solid {
 // What lies in the first of two, and in the second too, or not.
 class PairSolid final : public Solid {
  public:
-  enum class Kind { unite, subtract };
+  enum class Kind { unite, subtract, intersect };
   PairSolid(Kind kind, SolidPtr a, SolidPtr b) : kind_(kind), a_(std::move(a)), b_(std::move(b)) {}
   void crossings(const Real3& o, const Real3& d, Real contact, std::vector<Real>& t) const override {
     a_->crossings(o, d, contact, t), b_->crossings(o, d, contact, t);
   }
   bool contains(const Real3& p) const override {
-    return kind_ == Kind::unite ? a_->contains(p) || b_->contains(p) : a_->contains(p) && !b_->contains(p);
+    if (kind_ == Kind::unite) return a_->contains(p) || b_->contains(p);
+    return a_->contains(p) && b_->contains(p) == (kind_ == Kind::intersect);
   }
 
  private:

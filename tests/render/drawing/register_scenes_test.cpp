@@ -28,6 +28,7 @@ constexpr double kInPlane = 1e-9;        // of unit normals, and of the scene's 
 const std::vector<std::string> kScenes = {"figures/torus_outline",
                                           "figures/plate_csg",
                                           "gallery/trefoil",
+                                          "drawing/csg_leaves",
                                           "figures/solids_with_dimensions",
                                           "figures/plate_bodies",
                                           "figures/plate_quadrics",
@@ -48,7 +49,7 @@ const std::vector<std::string> kScenes = {"figures/torus_outline",
                                           "gallery/dini",
                                           "primer/teapot",
                                           "figures/viviani"};
-constexpr int kQuick = 3;
+constexpr int kQuick = 4;
 
 // What a ray meets.
 struct Seen {

@@ -132,6 +132,29 @@ TEST(Overlaps, DrawnOnce) {
   curve.steps.push_back(curve_to({3, 4}, {7, 4}, {10, 0}));
   EXPECT_EQ(overlaps.left_of(curve).size(), 1u);
   EXPECT_EQ(overlaps.left_of(curve).size(), 0u);
+  // A large circle that begins elsewhere, and one a little larger.
+  const auto circle = [](double radius, double from) {
+    const PictureEllipse ellipse{{100, 100}, {radius, 0}, {0, radius}};
+    Path path;
+    path.from = ellipse.point(from);
+    path.steps = arcs_to(ellipse, from, from + geometry::kTwoPi);
+    path.closed = true;
+    return path;
+  };
+  EXPECT_EQ(overlaps.left_of(circle(60, 0)).size(), 1u);
+  EXPECT_EQ(overlaps.left_of(circle(60, 0.37)).size(), 0u);
+  EXPECT_EQ(overlaps.left_of(circle(60.003, 0.37)).size(), 1u);
+  // One that is seen edge-on is a straight line, there and back.
+  const PictureEllipse flat{{0, 50}, {8, 6}, {0, 0}};
+  Path edge_on;
+  edge_on.from = flat.point(1);
+  edge_on.steps = arcs_to(flat, 1, 1 + geometry::kTwoPi);
+  edge_on.closed = true;
+  const auto line = overlaps.left_of(edge_on);
+  ASSERT_EQ(line.size(), 1u);
+  ASSERT_EQ(line[0].steps.size(), 1u);
+  EXPECT_NEAR(glm::length(line[0].end() - line[0].from), 20, 1e-3);
+  EXPECT_EQ(overlaps.left_of(straight({0, 50}, {4, 53})).size(), 0u);
 }
 
 TEST(Sheets, Formats) {
