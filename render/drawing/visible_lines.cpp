@@ -194,6 +194,7 @@ class Drawing {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
     add_own_outlines(stroke, events);
+    add_outlines_of_twins(line, events);
     add_piercings(stroke, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
     // a place is known better than as a crossing.
@@ -260,6 +261,22 @@ class Drawing {
         for (const auto& root : found.isolated) events.push_back(root[0]);
         // Where the bounds of a searched curve are too wide to tell: by changes of sign.
         for (const auto& open : found.open) add_sign_changes(system, open[0], events);
+      }
+    }
+  }
+
+  // Where it goes round surfaces that join its own along it.
+  void add_outlines_of_twins(int line, std::vector<double>& events) const {
+    const Stroke& stroke = strokes_[line];
+    for (const int twin : twins_[line]) {
+      const Stroke& other = strokes_[twin];
+      std::vector<double> turns;
+      add_own_outlines(other, turns);
+      const Affine map = stroke.to_world.inverse() * other.to_world;
+      for (const double turn : turns) {
+        const Vec3 point = map.point(other.curve->point(turn));
+        const double t = nearest(*stroke.curve, point);
+        if (glm::length(stroke.curve->point(t) - point) < kNear * world_.radius()) events.push_back(t);
       }
     }
   }

@@ -72,6 +72,8 @@ class StrokeCollector {
 
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
+  void add_creases(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
+
   void add_parameter_lines(const geometry::SurfacePtr& surface, geometry::HeldParameter held,
                            const geometry::ParameterValues& asked, const Style& style, const HiddenLines& hidden);
 

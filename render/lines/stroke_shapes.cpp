@@ -5,6 +5,7 @@
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/box_tree.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/queries/trim.h"
@@ -16,13 +17,6 @@
 namespace lekalo::render {
 
 using namespace geometry;
-
-namespace {
-
-// Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
-constexpr double kSmoothEdge = 1e-3;
-
-}  // namespace
 
 std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
   std::vector<double> values;
@@ -69,6 +63,17 @@ void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style
   if (!is_closed_in(*surface, HeldParameter::v)) {
     if (!edges.v_min) edge(HeldParameter::v, domain.v.lo);
     if (!edges.v_max) edge(HeldParameter::v, domain.v.hi);
+  }
+}
+
+void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
+  // So far beside a crease its other side is asked for derivatives, of the domain.
+  constexpr double kOtherSide = 1e-13;
+  for (const Crease& crease : creases(*surface)) {
+    const Interval range = crease.held == HeldParameter::u ? surface->domain().u : surface->domain().v;
+    lies_on_line(surface, crease.held, crease.at, crease.along);
+    lies_on_line(surface, crease.held, crease.seam ? range.hi : crease.at - kOtherSide * range.width(), crease.along);
+    stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, crease.along), style, hidden);
   }
 }
 

@@ -279,6 +279,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
   } else {
     each_surface([&](const SurfacePtr& surface) {
       if (kind == "boundary") add_boundary(surface, style, lines.hidden);
+      if (kind == "sharp") add_creases(surface, style, lines.hidden);
       if (kind == "parameter")
         for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
           add_parameter_lines(surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style, lines.hidden);
