@@ -1,5 +1,6 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
-// looks, stroke_shapes.cpp the lines of curves, surfaces, bodies and solids, stroke_helpers.cpp the helpers.
+// looks, stroke_shapes.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp where they are cut or
+// met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -57,10 +58,14 @@ class StrokeCollector {
   void add_kind(std::string_view kind, const Style& style, const Lines& lines);
 
   template <class Visit>
-  void each_surface(const Visit& visit) const {
-    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&object_->shape)) visit(*surface);
-    if (const auto* set = std::get_if<SurfaceSet>(&object_->shape))
+  static void each_surface(const Entity& shape, const Visit& visit) {
+    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&shape)) visit(*surface);
+    if (const auto* set = std::get_if<SurfaceSet>(&shape))
       for (const geometry::SurfacePtr& surface : *set) visit(surface);
+  }
+  template <class Visit>
+  void each_surface(const Visit& visit) const {
+    each_surface(object_->shape, visit);
   }
   // Those of bodies too.
   template <class Visit>
@@ -119,9 +124,26 @@ class StrokeCollector {
   static geometry::ViewOf seen_through(geometry::ViewOf view, const geometry::Affine& map);
   geometry::ViewOf view_from(const geometry::Affine& map) const { return seen_through(view_, map); }
 
-  void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
+  // Where a plane of the world cuts a shape that to_world_ places.
+  void add_section(const Entity& shape, const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
 
   void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden);
+
+  // What is kept of curves of the world: where along them that may change, and whether a point is kept (`size` is that
+  // of its curve).
+  struct Cutter {
+    std::function<void(const geometry::CurvePtr& curve, std::vector<double>& cuts)> add_cuts;
+    std::function<bool(const Vec3& point, double size)> keeps;
+  };
+  static Cutter cutter_of(const ClipPlane& plane);
+  std::vector<geometry::Interval> kept_parts(const Stroke& stroke) const;
+  void add_part(const Stroke& whole, const geometry::Interval& t);
+
+  // The edges at which the object's clip planes cut it, of one kind: `sharp` where caps close the cut, else `boundary`.
+  void add_cut_edges(std::string_view kind, const Style& style, const HiddenLines& hidden);
+  // The part of a clip plane around the object, in its coordinates.
+  geometry::SurfacePtr cap_of(const ClipPlane& plane) const;
+  void lies_on_cap(const geometry::CurvePtr& curve, const geometry::SurfacePtr& cap);
 
   static std::string_view kind_of(const geometry::Body& body, const geometry::Edge& edge);
 
@@ -161,6 +183,8 @@ class StrokeCollector {
   std::vector<Stroke::Host> hosts_;  // of the next stroke
   std::vector<double> cusps_;        // likewise
   geometry::CurvePtr aside_;         // likewise
+  geometry::SurfacePtr cap_;         // on which strokes lie, if any
+  std::vector<Cutter> cutters_;      // of strokes
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;

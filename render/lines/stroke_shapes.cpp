@@ -282,6 +282,8 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
   each_face([&](const SurfacePtr& surface) {
     if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
   });
+  for (const ClipPlane& plane : object_->clips)
+    if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_});
 }
 
 void StrokeCollector::add_meetings() {
@@ -299,48 +301,6 @@ void StrokeCollector::add_meetings() {
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });
   undrawn_ = borders_ = false;
-}
-
-void StrokeCollector::add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
-  // A plane of the world in the object's coordinates.
-  const Affine back = to_world_.inverse();
-  const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
-  if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
-    add(plane_section(**body, through, normal), **body, style, hidden);
-  each_surface(
-      [&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
-  if (const auto* shape = std::get_if<ShapePtr>(&object_->shape))
-    in_own_coordinates(*shape, [&](const Shape& original, const Affine& own) {
-      const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
-      if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
-        return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
-      const ViewOf own_view = seen_through(view_from(back), own);
-      if (const auto* balls = dynamic_cast<const Balls*>(&original))
-        return add(plane_section(*balls, own_through, own_normal, own_view), true, style, hidden);
-      if (const auto* tube = dynamic_cast<const Tube*>(&original))
-        return add(plane_section(*tube, own_through, own_normal, own_view), true, style, hidden);
-      const auto* solid = dynamic_cast<const Csg*>(&original);
-      if (!solid) return;
-      const CsgLines found = csg_section(*solid, own_through, own_normal);
-      if (!found.complete) ++work_.incomplete;
-      for (const CsgLine& line : found.lines) add(line, style, hidden);
-    });
-  if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape))
-    for (const CurvePtr& line : plane_section(**mesh, through, normal)) stroke(line, style, hidden);
-}
-
-void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
-  const auto* body = std::get_if<BodyPtr>(&object_->shape);
-  const auto* with_body = std::get_if<BodyPtr>(&other);
-  const auto* with_surface = std::get_if<SurfacePtr>(&other);
-  bool known = body && (with_body || with_surface);
-  if (body && with_body) add(intersect(**body, **with_body), **body, style, hidden);
-  if (body && with_surface) add(intersect(**body, *with_surface), **body, style, hidden);
-  each_surface([&](const SurfacePtr& surface) {
-    if (with_body) known = true, add(intersect(**with_body, surface), **with_body, style, hidden);
-    if (with_surface) known = true, add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
-  });
-  if (!known) leave_out("intersections of what is neither a surface nor a body");
 }
 
 std::string_view StrokeCollector::kind_of(const Body& body, const Edge& edge) {

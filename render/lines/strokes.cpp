@@ -121,8 +121,11 @@ void StrokeCollector::add(const std::vector<Object>& objects, const Affine& to_w
     const bool is_point = std::holds_alternative<Vec3>(object.shape),
                is_curve = std::holds_alternative<CurvePtr>(object.shape);
     const bool says = object.look && object.look->lines;
+    cutters_.clear();
+    for (const ClipPlane& plane : object.clips) cutters_.push_back(cutter_of(plane));
     if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
     if (work_.fills) add_borders_of_fill(fill_of(model_, object));
+    cutters_.clear();
     if (object.look)
       for (const Helper& helper : object.look->helpers) {
         kind_ = helper.type;
@@ -183,7 +186,13 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   stroke.arrow_at_start = style.arrows == "start" || style.arrows == "both";
   stroke.arrow_at_end = style.arrows == "end" || style.arrows == "both";
   stroke.arrow_size = style.arrow_size;
-  work_.strokes.push_back(std::move(stroke));
+  if (cap_) {
+    hosts_ = std::move(stroke.hosts);
+    lies_on_cap(stroke.curve, cap_);
+    stroke.hosts = std::move(hosts_);
+    hosts_.clear();
+  }
+  for (const Interval& t : kept_parts(stroke)) add_part(stroke, t);
 }
 
 void StrokeCollector::polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden) {
@@ -257,7 +266,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     add_silhouettes(view_from(to_world_.inverse()), style, lines.hidden);
     add_mesh_lines(MeshLineKind::silhouette, style, lines.hidden);
   } else if (kind == "section") {
-    for (const SectionPlane& plane : lines.planes) add_section(plane, style, lines.hidden);
+    for (const SectionPlane& plane : lines.planes) add_section(object_->shape, plane, style, lines.hidden);
   } else if (kind == "intersection") {
     for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
   } else if (kind == "self_intersection") {
@@ -285,6 +294,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
           add_parameter_lines(surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style, lines.hidden);
     });
   }
+  if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, lines.hidden);
 }
 
 ViewOf StrokeCollector::seen_through(ViewOf view, const Affine& map) {

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "geometry/bodies/primitives.h"
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/polyline.h"
+#include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/revolution.h"
+#include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
 #include "render/drawing/visible_lines.h"
 #include "support/tier.h"
@@ -70,6 +74,69 @@ TEST(LinesOfSurfaces, CreasesAreBordersOfTheirPieces) {
   }
   EXPECT_GT(hidden, compared / 10);
   EXPECT_GT(compared, 3000);
+}
+
+// Of the world, how long the lines are behind so many layers.
+std::map<int, double> lengths_of(const VisibleLines& found) {
+  std::map<int, double> lengths;
+  for (const VisibleLine& line : found.lines) {
+    const CurvePtr curve = transformed(line.stroke.curve, line.stroke.to_world);
+    for (const VisiblePiece& piece : line.pieces)
+      lengths[piece.layers] += arc_length(*curve, piece.t.lo, piece.t.hi).value;
+  }
+  return lengths;
+}
+
+// A box that planes along its sides cut, with caps, is a smaller box; a ball beside it goes through the caps.
+TEST(LinesOfSurfaces, CappedCutsMakeASmallerBox) {
+  Views views(23);
+  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(10)); ++k) {
+    const Vec3 size(views.number(1, 3), views.number(1, 3), views.number(1, 3));
+    Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
+    frame.origin = -frame.direction(0.5 * size);
+    SmallScene cut, small;
+    show(cut, std::make_shared<Body>(box(frame, 1.5 * size)), {"sharp"});
+    const Affine moved = Affine::translation({0.2, 0.1, -0.3});
+    Object& object = cut.model.objects.back();
+    object.transform = moved;
+    for (const Vec3& axis : {frame.x, frame.y, frame.z})
+      object.clips.push_back({moved.point(frame.origin + frame.direction(size)), axis, true});
+    show(small, std::make_shared<Body>(box(frame, size)), {"sharp"});
+    small.model.objects.back().transform = moved;
+    Frame corner = frame;
+    corner.origin = frame.origin + frame.direction(size);
+    for (SmallScene* scene : {&cut, &small}) show(*scene, std::make_shared<Body>(ball(corner, 0.4)), {"silhouette"});
+    views.look(cut, k % 2);
+    small.model.film = cut.model.film, small.model.camera = cut.model.camera;
+    const auto world = cut.world(), world_of_small = small.world();
+    const std::map<int, double> found = lengths_of(visible_lines(*world, drawing_work(*world))),
+                                expected = lengths_of(visible_lines(*world_of_small, drawing_work(*world_of_small)));
+    ASSERT_EQ(found.size(), expected.size());
+    for (const auto& [layers, length] : expected) EXPECT_NEAR(found.at(layers), length, 1e-6) << k << " " << layers;
+  }
+}
+
+// What an open cut leaves of a sphere ends at a circle, a border.
+TEST(LinesOfSurfaces, OpenCutsAreBorders) {
+  SmallScene scene;
+  show(scene, sphere({0, 0, 0}, 2), {"boundary", "parameter", "silhouette"}, 6);
+  const ClipPlane plane{{0, 0, 1}, glm::normalize(Vec3(1, 2, 2)), false};
+  scene.model.objects.back().clips = {plane};
+  Views views(5);
+  views.look(scene, false);
+  const auto world = scene.world();
+  const VisibleLines found = visible_lines(*world, drawing_work(*world));
+  double length = 0;
+  for (const VisibleLine& line : found.lines)
+    for (const VisiblePiece& piece : line.pieces) {
+      if (line.stroke.kind == "boundary") length += arc_length(*line.stroke.curve, piece.t.lo, piece.t.hi).value;
+      for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+        const Vec3 point = line.stroke.curve->point(piece.t.lo + share * piece.t.width());
+        EXPECT_LT(glm::dot(point - plane.through, plane.normal), 1e-9);
+      }
+    }
+  const double height = glm::dot(plane.through, plane.normal);
+  EXPECT_NEAR(length, kTwoPi * std::sqrt(4 - height * height), 1e-6);
 }
 
 }  // namespace

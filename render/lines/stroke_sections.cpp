@@ -1,0 +1,61 @@
+// Where planes cut shapes, and where shapes meet one another.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/trim.h"
+#include "geometry/shapes/half_space.h"
+#include "geometry/surfaces/plane.h"
+#include "geometry/transformed.h"
+#include "render/lines/stroke_collector.h"
+#include "render/scene/objects.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+void StrokeCollector::add_section(const Entity& shape, const SectionPlane& plane, const Style& style,
+                                  const HiddenLines& hidden) {
+  // The plane in the shape's coordinates.
+  const Affine back = to_world_.inverse();
+  const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
+  if (const auto* body = std::get_if<BodyPtr>(&shape))
+    add(plane_section(**body, through, normal), **body, style, hidden);
+  each_surface(shape, [&](const SurfacePtr& surface) {
+    add(plane_section(surface, through, normal), {surface}, style, hidden);
+  });
+  if (const auto* solid_shape = std::get_if<ShapePtr>(&shape))
+    in_own_coordinates(*solid_shape, [&](const Shape& original, const Affine& own) {
+      const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
+      if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
+        return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
+      const ViewOf own_view = seen_through(view_from(back), own);
+      if (const auto* balls = dynamic_cast<const Balls*>(&original))
+        return add(plane_section(*balls, own_through, own_normal, own_view), true, style, hidden);
+      if (const auto* tube = dynamic_cast<const Tube*>(&original))
+        return add(plane_section(*tube, own_through, own_normal, own_view), true, style, hidden);
+      const auto* solid = dynamic_cast<const Csg*>(&original);
+      if (!solid) return;
+      const CsgLines found = csg_section(*solid, own_through, own_normal);
+      if (!found.complete) ++work_.incomplete;
+      for (const CsgLine& line : found.lines) add(line, style, hidden);
+    });
+  if (const auto* mesh = std::get_if<MeshPtr>(&shape))
+    for (const CurvePtr& line : plane_section(**mesh, through, normal)) stroke(line, style, hidden);
+}
+
+void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
+  const auto* body = std::get_if<BodyPtr>(&object_->shape);
+  const auto* with_body = std::get_if<BodyPtr>(&other);
+  const auto* with_surface = std::get_if<SurfacePtr>(&other);
+  bool known = body && (with_body || with_surface);
+  if (body && with_body) add(intersect(**body, **with_body), **body, style, hidden);
+  if (body && with_surface) add(intersect(**body, *with_surface), **body, style, hidden);
+  each_surface([&](const SurfacePtr& surface) {
+    if (with_body) known = true, add(intersect(**with_body, surface), **with_body, style, hidden);
+    if (with_surface) known = true, add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
+  });
+  if (!known) leave_out("intersections of what is neither a surface nor a body");
+}
+
+}  // namespace lekalo::render
