@@ -1,6 +1,6 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
-// looks, stroke_shapes.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp where they are cut or
-// met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
+// looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
+// where they are cut or met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,11 @@
 #include "geometry/curves/parameter_line.h"
 #include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
+#include "geometry/queries/trim.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -77,13 +79,28 @@ class StrokeCollector {
 
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
+  // Of a body's faces as far as the faces go.
   void add_creases(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
+  void add_creases(const geometry::Body& body, const Style& style, const HiddenLines& hidden);
+  void add_crease(const geometry::SurfacePtr& surface, const geometry::Crease& crease, const geometry::Interval& along,
+                  const Style& style, const HiddenLines& hidden);
 
   void add_parameter_lines(const geometry::SurfacePtr& surface, geometry::HeldParameter held,
                            const geometry::ParameterValues& asked, const Style& style, const HiddenLines& hidden);
 
-  // Of a body's faces, as far as the faces go.
   void add_parameter_lines(const geometry::Body& body, const Lines& lines, const Style& style);
+
+  // A face; without a region it fills its surface's domain.
+  struct FaceRegion {
+    geometry::SurfacePtr surface;
+    std::shared_ptr<const geometry::TrimRegion> region;
+    std::vector<geometry::Curve2Ptr> borders;
+  };
+  template <class Visit>
+  static void each_trimmed_face(const geometry::Body& body, Visit&& visit);
+  // The parts of a parameter line that lie in a region, in the surface's domain.
+  static void each_line_of_face(const FaceRegion& face, geometry::HeldParameter held, double at,
+                                const std::function<void(double at, const geometry::Interval& along)>& visit);
 
   void add_edges(const geometry::Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden);
 

@@ -66,17 +66,6 @@ void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style
   }
 }
 
-void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
-  // So far beside a crease its other side is asked for derivatives, of the domain.
-  constexpr double kOtherSide = 1e-13;
-  for (const Crease& crease : creases(*surface)) {
-    const Interval range = crease.held == HeldParameter::u ? surface->domain().u : surface->domain().v;
-    lies_on_line(surface, crease.held, crease.at, crease.along);
-    lies_on_line(surface, crease.held, crease.seam ? range.hi : crease.at - kOtherSide * range.width(), crease.along);
-    stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, crease.along), style, hidden);
-  }
-}
-
 void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParameter held, const ParameterValues& asked,
                                           const Style& style, const HiddenLines& hidden) {
   if (!surface->bounded()) return;
@@ -89,43 +78,6 @@ void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParamet
       continue;
     lies_on_line(surface, held, at);
     stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
-  }
-}
-
-void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, const Style& style) {
-  for (size_t index = 0; index < body.faces.size(); ++index) {
-    const Face& face = body.faces[index];
-    const auto region = trim_of(body, static_cast<int>(index));
-    if (!region) {
-      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
-        add_parameter_lines(face.surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style,
-                            lines.hidden);
-      continue;
-    }
-    std::vector<Curve2Ptr> borders;
-    for (const int loop : face.loops)
-      for (const int coedge : body.loops[loop].coedges) borders.push_back(body.coedges[coedge].image);
-    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-      const bool u = held == HeldParameter::u;
-      const Interval range = u ? region->u_range() : region->v_range(),
-                     along = u ? region->v_range() : region->u_range();
-      for (const double at : values_in(u ? lines.at_u : lines.at_v, range, false)) {
-        const auto place = [&](double t) { return u ? Vec3(at, t, 0) : Vec3(t, at, 0); };
-        const Segment line(place(along.lo), place(along.hi));
-        std::vector<double> cuts{along.lo, along.hi};
-        for (const Curve2Ptr& border : borders)
-          for (const CurveMeeting& meeting : intersect(line, *border).points)
-            cuts.push_back(along.lo + meeting.s * along.width());
-        std::sort(cuts.begin(), cuts.end());
-        for (size_t k = 0; k + 1 < cuts.size(); ++k) {
-          const Interval t{cuts[k], cuts[k + 1]};
-          const Vec3 middle = place(t.middle());
-          if (t.width() <= 1e-9 * along.width() || !region->contains(middle.x, middle.y)) continue;
-          lies_on_line(face.surface, held, at, t);
-          stroke(std::make_shared<ParameterLine>(face.surface, held, at, t), style, lines.hidden);
-        }
-      }
-    }
   }
 }
 

@@ -278,6 +278,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
       add_parameter_lines(**body, lines, style);
     else
       add_edges(**body, kind, style, lines.hidden);
+    if (kind == "sharp") add_creases(**body, style, lines.hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
     if (kind == "sharp" || kind == "boundary")
       add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);

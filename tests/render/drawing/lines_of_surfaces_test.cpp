@@ -6,6 +6,8 @@
 #include <map>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/bodies/trimmed_surface.h"
+#include "geometry/curves/circle.h"
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/queries/mass_properties.h"
@@ -74,6 +76,28 @@ TEST(LinesOfSurfaces, CreasesAreBordersOfTheirPieces) {
   }
   EXPECT_GT(hidden, compared / 10);
   EXPECT_GT(compared, 3000);
+}
+
+// Parameter lines and borders of a part of a sphere are the same wherever it lies, over the seam too.
+TEST(LinesOfSurfaces, PartsOverTheSeam) {
+  std::vector<double> lengths;
+  for (const double at : {3.0, 0.2, 5.9}) {
+    Frame frame;
+    frame.origin = {at, 0.2, 0};
+    SmallScene scene;
+    show(scene, std::make_shared<Body>(trimmed_surface(sphere({0, 0, 0}, 1), {std::make_shared<Circle>(frame, 1)})),
+         {"boundary", "parameter"}, 5);
+    scene.model.objects.back().transform = Affine::rotation(-at, {0, 0, 1});
+    Views views(1);
+    views.look(scene, false);
+    double length = 0;
+    for (const Stroke& stroke : drawing_work(*scene.world()).strokes)
+      if (stroke.drawn) length += arc_length(*stroke.curve, stroke.curve->domain().lo, stroke.curve->domain().hi).value;
+    lengths.push_back(length);
+  }
+  EXPECT_GT(lengths[0], 15);
+  EXPECT_NEAR(lengths[0], lengths[1], 1e-6);
+  EXPECT_NEAR(lengths[0], lengths[2], 1e-6);
 }
 
 // Of the world, how long the lines are behind so many layers.
