@@ -13,6 +13,7 @@
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/creases.h"
 #include "geometry/queries/picture_cusps.h"
+#include "geometry/shapes/implicit_formula.h"
 #include "geometry/surfaces/plane.h"
 
 namespace lekalo::geometry {
@@ -209,6 +210,24 @@ Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3
   const Vec3 n = unit(normal, "the normal of the plane has no length");
   if (auto exact = closed_section(surface, origin, n, kSamePoint * bounds(*surface).diameter())) return *exact;
   return contours_of(surface, height_over(triple(origin), triple(n)));
+}
+
+Contours level_lines(const SurfacePtr& surface, const ImplicitFormula& formula) {
+  demand_bounded(*surface);
+  // Distances are known in the order of their size.
+  constexpr int kSteps = 6;
+  const Rectangle domain = surface->domain();
+  double steepest = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const double slope = glm::length(formula.gradient(
+          surface->point(domain.u.lo + domain.u.width() * i / kSteps, domain.v.lo + domain.v.width() * j / kSteps)));
+      if (std::isfinite(slope)) steepest = std::max(steepest, slope);
+    }
+  const double scale = steepest > 0 ? 1 / steepest : 1;
+  return contours_of(surface, {false, [&formula, scale](const auto& s, const auto&, const auto&) {
+                                 return scale * formula(s.x, s.y, s.z);
+                               }});
 }
 
 // Whether the way of sight runs in the surface everywhere in a part of its domain: a cylinder along its axis, a cone

@@ -15,6 +15,8 @@
 
 namespace lekalo::geometry {
 
+class ImplicitFormula;
+
 enum class ContourKind {
   crossing,  // the surfaces cross, the function changes its sign
   touching,  // the surfaces, or the surface and the plane, touch along it
@@ -73,6 +75,8 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance = 
 
 // These take one surface, which must be bounded (std::invalid_argument).
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal);
+// Where a formula of the place has its level: how the surface meets an implicit one, its region left out.
+Contours level_lines(const SurfacePtr& surface, const ImplicitFormula& formula);
 // Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5).
 Contours silhouette(const SurfacePtr& surface, const ViewOf& view);
 // Where the normal (that of the surface) stands at `angle` to `direction`; pi/2 is the silhouette. In (0, pi).

@@ -96,8 +96,7 @@ class StrokeCollector {
     std::shared_ptr<const geometry::TrimRegion> region;
     std::vector<geometry::Curve2Ptr> borders;
   };
-  template <class Visit>
-  static void each_trimmed_face(const geometry::Body& body, Visit&& visit);
+  static std::vector<FaceRegion> trimmed_faces(const geometry::Body& body);
   // The parts of a parameter line that lie in a region, in the surface's domain.
   static void each_line_of_face(const FaceRegion& face, geometry::HeldParameter held, double at,
                                 const std::function<void(double at, const geometry::Interval& along)>& visit);
@@ -144,15 +143,40 @@ class StrokeCollector {
   // Where a plane of the world cuts a shape that to_world_ places.
   void add_section(const Entity& shape, const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
 
+  // With another shape, as the objects that show it place it; one that none shows stands as it is written.
   void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden);
-
-  // What is kept of curves of the world: where along them that may change, and whether a point is kept (`size` is that
-  // of its curve).
-  struct Cutter {
-    std::function<void(const geometry::CurvePtr& curve, std::vector<double>& cuts)> add_cuts;
-    std::function<bool(const Vec3& point, double size)> keeps;
+  struct PlacedShape {
+    Entity shape;
+    geometry::Affine to_world;
   };
+  std::vector<PlacedShape> placements_of(const Entity& shape) const;
+  void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
+  void add_meeting_of_leaves(const geometry::ShapePtr& solid, const geometry::Affine& to_world,
+                             const PlacedShape& other, const Style& style, const HiddenLines& hidden);
+  // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
+  void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
+                           const Style& style, const HiddenLines& hidden);
+  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::ImplicitSurface& other,
+                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
+  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::Balls& other,
+                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
+
+  // What is kept of strokes: where along them that may change, and whether a point is kept (`size` is that of the
+  // stroke's curve in the world).
+  struct Cutter {
+    std::function<void(const Stroke& stroke, std::vector<double>& cuts)> add_cuts;
+    std::function<bool(const Stroke& stroke, double t, double size)> keeps;
+  };
+  // What is kept where a function of the place is not positive; it is given in coordinates that to_world maps.
+  static Cutter cut_where(const geometry::Affine& to_world,
+                          const std::function<geometry::Interval(const geometry::Box3&)>& range,
+                          const std::function<double(const Vec3&)>& value);
   static Cutter cutter_of(const ClipPlane& plane);
+  // The part of a surface that a face is.
+  static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
+  // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.
+  static Cutter cutter_of(const std::vector<PlacedShape>& leaves, size_t on, const geometry::ShapePtr& placed_solid);
   std::vector<geometry::Interval> kept_parts(const Stroke& stroke) const;
   void add_part(const Stroke& whole, const geometry::Interval& t);
 

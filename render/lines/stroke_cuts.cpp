@@ -21,53 +21,59 @@ constexpr double kInPlane = 1e-9;
 // Parts of a curve that are shorter, of its domain, are none.
 constexpr double kLeastPart = 1e-9;
 
-double height(const ClipPlane& plane, const Vec3& point) { return glm::dot(plane.normal, point - plane.through); }
-
-// Heights of boxes over the plane; of the world.
-Interval height(const ClipPlane& plane, const Box3& box) {
+// Interval arithmetic for n . (p - o).
+Interval height(const Vec3& normal, const Vec3& origin, const Box3& box) {
   Interval sum(0);
-  for (int k = 0; k < 3; ++k)
-    sum += Interval(plane.normal[k]) * (Interval(box.lo[k], box.hi[k]) - Interval(plane.through[k]));
+  for (int k = 0; k < 3; ++k) sum += Interval(normal[k]) * (Interval(box.lo[k], box.hi[k]) - Interval(origin[k]));
   return sum;
 }
 
 }  // namespace
 
-StrokeCollector::Cutter StrokeCollector::cutter_of(const ClipPlane& plane) {
+StrokeCollector::Cutter StrokeCollector::cut_where(const Affine& to_world,
+                                                   const std::function<Interval(const Box3&)>& range,
+                                                   const std::function<double(const Vec3&)>& value) {
+  const Affine back = to_world.inverse();
   Cutter cutter;
-  cutter.add_cuts = [plane](const CurvePtr& curve, std::vector<double>& cuts) {
-    // Where it lies in the plane there are no changes to look for.
+  cutter.add_cuts = [=](const Stroke& stroke, std::vector<double>& cuts) {
+    const CurvePtr curve = transformed(stroke.curve, back * stroke.to_world);
+    // Where it keeps to zero there are no changes to look for.
     constexpr int kPlaces = 8;
     const Interval domain = curve->domain();
     const double near = kInPlane * bounds(*curve).diameter();
-    bool lies_in_it = true;
-    for (int k = 0; k <= kPlaces && lies_in_it; ++k)
-      lies_in_it = std::abs(height(plane, curve->point(domain.lo + domain.width() * k / kPlaces))) <= near;
-    if (lies_in_it) return;
-    const std::vector<double> found = sign_changes(
-        *curve, false, [&](const Box3& box) { return height(plane, box); },
-        [&](const Vec3& point) { return height(plane, point); });
+    bool keeps_to_zero = true;
+    for (int k = 0; k <= kPlaces && keeps_to_zero; ++k)
+      keeps_to_zero = std::abs(value(curve->point(domain.lo + domain.width() * k / kPlaces))) <= near;
+    if (keeps_to_zero) return;
+    const std::vector<double> found = sign_changes(*curve, false, range, value);
     cuts.insert(cuts.end(), found.begin(), found.end());
   };
-  cutter.keeps = [plane](const Vec3& point, double size) { return height(plane, point) <= kInPlane * size; };
+  cutter.keeps = [=](const Stroke& stroke, double t, double size) {
+    return value(back.point(stroke.to_world.point(stroke.curve->point(t)))) <= kInPlane * size;
+  };
   return cutter;
+}
+
+StrokeCollector::Cutter StrokeCollector::cutter_of(const ClipPlane& plane) {
+  const Vec3 origin = plane.through, normal = glm::normalize(plane.normal);
+  return cut_where(
+      Affine(), [=](const Box3& box) { return height(normal, origin, box); },
+      [=](const Vec3& point) { return glm::dot(normal, point - origin); });
 }
 
 std::vector<Interval> StrokeCollector::kept_parts(const Stroke& stroke) const {
   const Interval domain = stroke.curve->domain();
   if (cutters_.empty()) return {domain};
-  const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
-  const double size = bounds(*curve).diameter();
+  const double size = bounds(*transformed(stroke.curve, stroke.to_world)).diameter();
   std::vector<double> cuts{domain.lo, domain.hi};
-  for (const Cutter& cutter : cutters_) cutter.add_cuts(curve, cuts);
+  for (const Cutter& cutter : cutters_) cutter.add_cuts(stroke, cuts);
   std::sort(cuts.begin(), cuts.end());
   std::vector<Interval> parts;
   for (size_t k = 0; k + 1 < cuts.size(); ++k) {
     const Interval t{cuts[k], cuts[k + 1]};
     if (!(t.width() > kLeastPart * domain.width())) continue;
-    const Vec3 middle = curve->point(t.middle());
     if (!std::all_of(cutters_.begin(), cutters_.end(),
-                     [&](const Cutter& cutter) { return cutter.keeps(middle, size); }))
+                     [&](const Cutter& cutter) { return cutter.keeps(stroke, t.middle(), size); }))
       continue;
     if (!parts.empty() && parts.back().hi >= t.lo - kLeastPart * domain.width())
       parts.back().hi = t.hi;

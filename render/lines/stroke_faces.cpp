@@ -65,19 +65,20 @@ void StrokeCollector::each_line_of_face(const FaceRegion& face, HeldParameter he
   }
 }
 
-template <class Visit>
-void StrokeCollector::each_trimmed_face(const Body& body, Visit&& visit) {
+std::vector<StrokeCollector::FaceRegion> StrokeCollector::trimmed_faces(const Body& body) {
+  std::vector<FaceRegion> faces;
   for (size_t index = 0; index < body.faces.size(); ++index) {
     const Face& face = body.faces[index];
     FaceRegion region{face.surface, trim_of(body, static_cast<int>(index)), {}};
     for (const int loop : face.loops)
       for (const int coedge : body.loops[loop].coedges) region.borders.push_back(body.coedges[coedge].image);
-    visit(region);
+    faces.push_back(std::move(region));
   }
+  return faces;
 }
 
 void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, const Style& style) {
-  each_trimmed_face(body, [&](const FaceRegion& face) {
+  for (const FaceRegion& face : trimmed_faces(body))
     for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
       const bool u = held == HeldParameter::u;
       ParameterValues asked = u ? lines.at_u : lines.at_v;
@@ -94,7 +95,6 @@ void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, 
           stroke(std::make_shared<ParameterLine>(face.surface, held, own_at, along), style, lines.hidden);
         });
     }
-  });
 }
 
 void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
@@ -102,8 +102,11 @@ void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style,
 }
 
 void StrokeCollector::add_creases(const Body& body, const Style& style, const HiddenLines& hidden) {
-  each_trimmed_face(body, [&](const FaceRegion& face) {
-    if (!face.region) return add_creases(face.surface, style, hidden);
+  for (const FaceRegion& face : trimmed_faces(body)) {
+    if (!face.region) {
+      add_creases(face.surface, style, hidden);
+      continue;
+    }
     for (const Crease& crease : creases(*face.surface)) {
       const bool u = crease.held == HeldParameter::u;
       const Interval range = u ? face.region->u_range() : face.region->v_range();
@@ -114,7 +117,7 @@ void StrokeCollector::add_creases(const Body& body, const Style& style, const Hi
         if (both.width() > kLeastPart * along.width()) add_crease(face.surface, crease, both, style, hidden);
       });
     }
-  });
+  }
 }
 
 }  // namespace lekalo::render

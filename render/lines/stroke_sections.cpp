@@ -1,14 +1,5 @@
-// Where planes cut shapes, and where shapes meet one another.
-#include <algorithm>
-#include <cmath>
-
-#include "geometry/queries/curve_intersections.h"
-#include "geometry/queries/trim.h"
-#include "geometry/shapes/half_space.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/transformed.h"
+// Where planes cut shapes.
 #include "render/lines/stroke_collector.h"
-#include "render/scene/objects.h"
 
 namespace lekalo::render {
 
@@ -42,20 +33,6 @@ void StrokeCollector::add_section(const Entity& shape, const SectionPlane& plane
     });
   if (const auto* mesh = std::get_if<MeshPtr>(&shape))
     for (const CurvePtr& line : plane_section(**mesh, through, normal)) stroke(line, style, hidden);
-}
-
-void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
-  const auto* body = std::get_if<BodyPtr>(&object_->shape);
-  const auto* with_body = std::get_if<BodyPtr>(&other);
-  const auto* with_surface = std::get_if<SurfacePtr>(&other);
-  bool known = body && (with_body || with_surface);
-  if (body && with_body) add(intersect(**body, **with_body), **body, style, hidden);
-  if (body && with_surface) add(intersect(**body, *with_surface), **body, style, hidden);
-  each_surface([&](const SurfacePtr& surface) {
-    if (with_body) known = true, add(intersect(**with_body, surface), **with_body, style, hidden);
-    if (with_surface) known = true, add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
-  });
-  if (!known) leave_out("intersections of what is neither a surface nor a body");
 }
 
 }  // namespace lekalo::render
