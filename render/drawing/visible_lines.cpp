@@ -105,6 +105,7 @@ class Drawing {
   VisibleLines run(LineWork work) {
     auto begin = std::chrono::steady_clock::now();
     result_.incomplete = work.incomplete;
+    result_.incomplete_objects = std::move(work.incomplete_objects);
     for (Stroke& stroke : work.strokes) {
       simplify(stroke);
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));

@@ -36,6 +36,10 @@ class StrokeCollector {
   void add(const std::vector<Object>& objects, const geometry::Affine& to_world);
 
   void leave_out(const std::string& what);
+  // Of the object not all lines are known.
+  void is_incomplete();
+  // In messages.
+  std::string name_of_object() const;
 
   // The line or the sign that stands for an object: what there is of it first.
   void add_legend(const Object& object);

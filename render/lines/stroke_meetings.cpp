@@ -121,6 +121,10 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     if (solid_of<Csg>(one.shape))
       return add_meeting_of_leaves(std::get<ShapePtr>(one.shape), one.to_world, other, style, hidden);
   }
+  for (const PlacedShape* one : {&a, &b})
+    each_surface(one->shape, [&](const SurfacePtr& surface) {
+      if (!surface->bounded()) leave_out("intersections of unbounded surfaces (" + name_of_object() + ")");
+    });
   const bool a_has_faces = has_faces(a.shape), b_has_faces = has_faces(b.shape);
   if (a_has_faces && b_has_faces) {
     to_world_ = a.to_world;
@@ -144,8 +148,8 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     return;
   }
   if (!a_has_faces && !b_has_faces)
-    return leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " ('" + object_->name +
-                     "')");
+    return leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() +
+                     ")");
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
   each_surface(faces.shape, [&](const SurfacePtr& surface) {
     if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
@@ -172,7 +176,7 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
     const Frame& frame = plane->frame();
     add_section(solid.shape, {to_world.point(frame.origin), glm::normalize(to_world.normal(frame.z))}, style, hidden);
   } else {
-    leave_out("intersections of curved faces and " + words_of(solid.shape) + " ('" + object_->name + "')");
+    leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
   cutters_.resize(before);
 }

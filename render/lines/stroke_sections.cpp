@@ -13,6 +13,7 @@ void StrokeCollector::add_section(const Entity& shape, const SectionPlane& plane
   if (const auto* body = std::get_if<BodyPtr>(&shape))
     add(plane_section(**body, through, normal), **body, style, hidden);
   each_surface(shape, [&](const SurfacePtr& surface) {
+    if (!surface->bounded()) return leave_out("sections of " + name_of_object() + ", which is unbounded");
     add(plane_section(surface, through, normal), {surface}, style, hidden);
   });
   if (const auto* solid_shape = std::get_if<ShapePtr>(&shape))
@@ -28,7 +29,7 @@ void StrokeCollector::add_section(const Entity& shape, const SectionPlane& plane
       const auto* solid = dynamic_cast<const Csg*>(&original);
       if (!solid) return;
       const CsgLines found = csg_section(*solid, own_through, own_normal);
-      if (!found.complete) ++work_.incomplete;
+      if (!found.complete) is_incomplete();
       for (const CsgLine& line : found.lines) add(line, style, hidden);
     });
   if (const auto* mesh = std::get_if<MeshPtr>(&shape))

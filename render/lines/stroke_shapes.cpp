@@ -112,7 +112,7 @@ void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held
 
 void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr>& surfaces, const Style& style,
                           const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const Contour& contour : contours.branches) {
     for (size_t k = 0; k < contour.images.size() && k < surfaces.size(); ++k)
       hosts_.push_back({surfaces[k], contour.images[k]});
@@ -123,7 +123,7 @@ void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr
 
 void StrokeCollector::add(const BodyContours& contours, const Body& body, const Style& style,
                           const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const BodyContour& branch : contours.branches)
     for (const BodyContourPart& part : branch.parts) {
       const Interval all = part.contour.curve->domain();
@@ -177,7 +177,7 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       if (solid_ != shape || solid_view_ != own_view.direction_or_eye) {
         solid_ = shape, solid_view_ = own_view.direction_or_eye;
         solid_lines_ = csg_lines(*solid, own_view);
-        if (!solid_lines_.complete) ++work_.incomplete;
+        if (!solid_lines_.complete) is_incomplete();
       }
       for (const CsgLine& line : solid_lines_.lines)
         if (line.edge == edges) add(line, style, hidden);
@@ -189,7 +189,7 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
-  if (!outlines.complete && (!edges || kind_ == "section")) ++work_.incomplete;
+  if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
     aside_ = line.aside, cusps_ = line.turns;
@@ -198,7 +198,7 @@ void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style
 }
 
 void StrokeCollector::add(const ImplicitContours& contours, const Style& style, const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const ImplicitContour& line : contours.lines) {
     aside_ = line.aside, cusps_ = line.turns;
     stroke(line.curve, style, hidden);

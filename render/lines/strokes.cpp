@@ -7,6 +7,7 @@
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/queries/self_intersections.h"
+#include "geometry/surfaces/plane.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
@@ -140,6 +141,20 @@ void StrokeCollector::leave_out(const std::string& what) {
     work_.left_out.push_back(what);
 }
 
+void StrokeCollector::is_incomplete() {
+  ++work_.incomplete;
+  const std::string name = name_of_object();
+  if (std::find(work_.incomplete_objects.begin(), work_.incomplete_objects.end(), name) ==
+      work_.incomplete_objects.end())
+    work_.incomplete_objects.push_back(name);
+}
+
+std::string StrokeCollector::name_of_object() const {
+  for (const auto& [object, number] : numbers_)
+    if (number == object_number_ && !object->name.empty()) return "'" + object->name + "'";
+  return "object " + std::to_string(object_number_);
+}
+
 void StrokeCollector::add_legend(const Object& object) {
   const int number = numbers_.at(&object);
   LegendEntry entry{object.legend, {}, {}};
@@ -270,8 +285,12 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
   } else if (kind == "intersection") {
     for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
   } else if (kind == "self_intersection") {
+    if (std::holds_alternative<ShapePtr>(object_->shape)) leave_out("self-intersections of " + name_of_object());
     each_surface([&](const SurfacePtr& surface) {
-      add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+      if (surface->bounded())
+        add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+      else
+        leave_out("lines of " + name_of_object() + ", which is unbounded");
     });
   } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
     if (kind == "parameter")
@@ -280,6 +299,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
       add_edges(**body, kind, style, lines.hidden);
     if (kind == "sharp") add_creases(**body, style, lines.hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+    if (kind == "parameter") leave_out("parameter lines of " + name_of_object());
     if (kind == "sharp" || kind == "boundary")
       add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
   } else if (std::holds_alternative<MeshPtr>(object_->shape)) {
@@ -288,6 +308,8 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     if (kind == "smooth") add_mesh_lines(MeshLineKind::smooth, style, lines.hidden);
   } else {
     each_surface([&](const SurfacePtr& surface) {
+      if (!undrawn_ && !surface->bounded() && (kind == "parameter" || !dynamic_cast<const Plane*>(surface.get())))
+        leave_out("lines of " + name_of_object() + ", which is unbounded");
       if (kind == "boundary") add_boundary(surface, style, lines.hidden);
       if (kind == "sharp") add_creases(surface, style, lines.hidden);
       if (kind == "parameter")

@@ -88,9 +88,10 @@ struct LineWork {
   std::vector<Mark> marks;
   std::vector<PointText> texts;  // of drawings, as the legend
   std::vector<LegendEntry> legend;
-  int incomplete = 0;
-  bool fills = false;                 // areas are filled: their borders are among the strokes
-  std::vector<std::string> left_out;  // of drawings: what has no lines of its own yet, in words
+  int incomplete = 0;                           // searches for lines that did not find all
+  std::vector<std::string> incomplete_objects;  // of these, in words
+  bool fills = false;                           // areas are filled: their borders are among the strokes
+  std::vector<std::string> left_out;            // of drawings: what has no lines of its own yet, in words
 };
 
 // How a style's lines look in a drawing, widths in millimetres; and what lies behind something (none: not drawn), with
