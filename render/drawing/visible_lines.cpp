@@ -304,7 +304,7 @@ class Drawing {
     add_self_piercings(stroke, events);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Box3 box = bounds(*curve);
-    if (!shapes_.empty()) add_entries(*curve, box, stroke.object, events);
+    if (!shapes_.empty()) add_entries(*curve, box, stroke, events);
     std::optional<CurveCells> cells;
     tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
@@ -369,11 +369,11 @@ class Drawing {
   }
 
   // Where a curve enters or leaves shapes that no surfaces describe: found by the chords of ever shorter parts.
-  void add_entries(const Curve& curve, const Box3& box, int object, std::vector<double>& events) const {
+  void add_entries(const Curve& curve, const Box3& box, const Stroke& stroke, std::vector<double>& events) const {
     constexpr double kFlat = 1e-11, kBowed = 1e-5;  // of the radius, how far a part is from its chord
     constexpr int kMostHalvings = 40;
     for (const WorldShape& other : shapes_) {
-      if (other.object == object || !BoxTree::meets(other.box, box)) continue;
+      if (other.object == stroke.object || other.object == stroke.met || !BoxTree::meets(other.box, box)) continue;
       std::vector<double> hits;
       const auto part = [&](const auto& self, double lo, const Vec3& from, double hi, const Vec3& to,
                             int depth) -> void {
@@ -480,6 +480,7 @@ class Drawing {
 
   // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.
   bool lies_on_own(const Stroke& stroke) const {
+    if (stroke.met != -2) return false;
     if (!stroke.hosts.empty()) return stroke.kind != "boundary";
     return stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
   }

@@ -152,12 +152,13 @@ class StrokeCollector {
   struct PlacedShape {
     Entity shape;
     geometry::Affine to_world;
+    int object = -1;  // its number, if an object shows it
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
   void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
   // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
-  void add_meeting_of_leaves(const geometry::ShapePtr& solid, const geometry::Affine& to_world,
-                             const PlacedShape& other, const Style& style, const HiddenLines& hidden);
+  void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                             const HiddenLines& hidden);
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
   void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
                            const Style& style, const HiddenLines& hidden);
@@ -181,7 +182,7 @@ class StrokeCollector {
   static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
   // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.
   static Cutter cutter_of(const std::vector<PlacedShape>& leaves, size_t on, const geometry::ShapePtr& placed_solid);
-  std::vector<geometry::Interval> kept_parts(const Stroke& stroke) const;
+  std::vector<geometry::Interval> kept_parts(const Stroke& whole) const;
   void add_part(const Stroke& whole, const geometry::Interval& t);
 
   // The edges at which the object's clip planes cut it, of one kind: `sharp` where caps close the cut, else `boundary`.
@@ -230,6 +231,7 @@ class StrokeCollector {
   geometry::CurvePtr aside_;         // likewise
   geometry::SurfacePtr cap_;         // on which strokes lie, if any
   std::vector<Cutter> cutters_;      // of strokes
+  int met_ = -2;                     // Stroke::met
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;

@@ -4,6 +4,7 @@
 
 #include "geometry/curves/curve_part.h"
 #include "geometry/curves/segment.h"
+#include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/surfaces/plane.h"
@@ -61,9 +62,13 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const ClipPlane& plane) {
       [=](const Vec3& point) { return glm::dot(normal, point - origin); });
 }
 
-std::vector<Interval> StrokeCollector::kept_parts(const Stroke& stroke) const {
-  const Interval domain = stroke.curve->domain();
+std::vector<Interval> StrokeCollector::kept_parts(const Stroke& whole) const {
+  const Interval domain = whole.curve->domain();
   if (cutters_.empty()) return {domain};
+  // Contours that solve their equations at every point are asked too often for that.
+  Stroke stroke = whole;
+  for (Stroke::Host& host : stroke.hosts) host.image = contour_approximation(stroke.curve, *host.surface, host.image);
+  stroke.curve = contour_approximation(stroke.curve);
   const double size = bounds(*transformed(stroke.curve, stroke.to_world)).diameter();
   std::vector<double> cuts{domain.lo, domain.hi};
   for (const Cutter& cutter : cutters_) cutter.add_cuts(stroke, cuts);

@@ -65,17 +65,17 @@ const Vec3 kProbes[] = {{0.61, 0.53, 0.59}, {-0.67, 0.49, 0.56}, {0.28, -0.83, 0
 
 // The leaves of a solid, each as a body where it is one, placed in the world.
 template <class Placed>
-void add_leaves(const ShapePtr& shape, const Affine& to_world, std::vector<Placed>& leaves) {
+void add_leaves(const ShapePtr& shape, const Affine& to_world, int object, std::vector<Placed>& leaves) {
   if (const auto* moved = dynamic_cast<const TransformedShape*>(shape.get()))
-    return add_leaves(moved->original(), to_world * moved->map(), leaves);
+    return add_leaves(moved->original(), to_world * moved->map(), object, leaves);
   if (const auto* solid = dynamic_cast<const Csg*>(shape.get())) {
-    for (const ShapePtr& operand : solid->operands()) add_leaves(operand, to_world, leaves);
+    for (const ShapePtr& operand : solid->operands()) add_leaves(operand, to_world, object, leaves);
     return;
   }
   if (const auto* body = dynamic_cast<const BodyShape*>(shape.get()))
-    leaves.push_back({body->body(), to_world});
+    leaves.push_back({body->body(), to_world, object});
   else
-    leaves.push_back({shape, to_world});
+    leaves.push_back({shape, to_world, object});
 }
 
 }  // namespace
@@ -86,18 +86,19 @@ std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const E
     for (const Object& object : objects) {
       const Affine map = to_world * object.transform;
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
-      if (&object != object_ && identity(object.shape) == identity(shape)) found.push_back({shape, map});
+      if (&object != object_ && identity(object.shape) == identity(shape))
+        found.push_back({shape, map, numbers_.at(&object)});
     }
   };
   visit(visit, model_.objects, Affine());
-  if (found.empty()) found.push_back({shape, Affine()});
+  if (found.empty()) found.push_back({shape, Affine(), -1});
   return found;
 }
 
 void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
   const Affine to_world = to_world_;
   for (const PlacedShape& placed : placements_of(other)) {
-    add_meeting({object_->shape, to_world}, placed, style, hidden);
+    add_meeting({object_->shape, to_world, object_number_}, placed, style, hidden);
     to_world_ = to_world;
   }
 }
@@ -118,8 +119,7 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
   }
   for (const bool swapped : {false, true}) {
     const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
-    if (solid_of<Csg>(one.shape))
-      return add_meeting_of_leaves(std::get<ShapePtr>(one.shape), one.to_world, other, style, hidden);
+    if (solid_of<Csg>(one.shape)) return add_meeting_of_leaves(one, other, style, hidden);
   }
   for (const PlacedShape* one : {&a, &b})
     each_surface(one->shape, [&](const SurfacePtr& surface) {
@@ -164,6 +164,7 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
   to_world_ = to_world;
   const Affine to_solid = solid.to_world.inverse() * to_world;
   const size_t before = cutters_.size();
+  met_ = solid.object;
   if (const auto* implicit = solid_of<ImplicitSurface>(solid.shape)) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
     add_meeting_of_face(face.surface, *implicit, to_solid, style, hidden);
@@ -179,6 +180,7 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
   cutters_.resize(before);
+  met_ = -2;
 }
 
 void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const ImplicitSurface& other, const Affine& to_other,
@@ -254,11 +256,12 @@ void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const Balls& o
   to_world_ = to_face_world;
 }
 
-void StrokeCollector::add_meeting_of_leaves(const ShapePtr& solid, const Affine& to_world, const PlacedShape& other,
-                                            const Style& style, const HiddenLines& hidden) {
+void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                                            const HiddenLines& hidden) {
+  const auto& solid = std::get<ShapePtr>(whole.shape);
   std::vector<PlacedShape> leaves;
-  add_leaves(solid, to_world, leaves);
-  const ShapePtr placed = transformed(solid, to_world);
+  add_leaves(solid, whole.to_world, whole.object, leaves);
+  const ShapePtr placed = transformed(solid, whole.to_world);
   for (size_t k = 0; k < leaves.size(); ++k) {
     cutters_.push_back(cutter_of(leaves, k, placed));
     add_meeting(leaves[k], other, style, hidden);

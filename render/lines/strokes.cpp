@@ -189,6 +189,7 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   if (hidden.way == HiddenLines::Way::faded) stroke.fade = kFadeOfLayer;
   stroke.most_layers = hidden.most_layers;
   stroke.object = object_number_;
+  stroke.met = met_;
   stroke.order = order_++;
   stroke.kind = kind_;
   stroke.drawn = !undrawn_;
