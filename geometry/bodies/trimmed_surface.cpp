@@ -29,6 +29,8 @@ struct Loop2 {
   double area = 0;              // positive where it runs counterclockwise
   int depth = 0;                // loops around it
   int around = -1;              // the innermost of them
+  // Of the border: opposite sides are one seam where the surface is closed.
+  bool closed_u = false, closed_v = false;
 };
 
 class Trimming {
@@ -64,13 +66,18 @@ class Trimming {
     const auto is_closed = [](const Interval& range, double period) {
       return period > 0 && range.width() >= period * (1 - kDomainSlack);
     };
-    if (is_closed(d.u, periods.u)) cut_open(0, periods.u, d.u);
-    if (is_closed(d.v, periods.v)) cut_open(1, periods.v, d.v);
+    const bool closed_u = is_closed(d.u, periods.u), closed_v = is_closed(d.v, periods.v);
+    if (closed_u) cut_open(0, periods.u, d.u);
+    if (closed_v) cut_open(1, periods.v, d.v);
     const Vec2 corners[] = {{d.u.lo, d.v.lo}, {d.u.hi, d.v.lo}, {d.u.hi, d.v.hi}, {d.u.lo, d.v.hi}};
     Loop2& border = loops_.emplace_back();
+    border.closed_u = closed_u, border.closed_v = closed_v;
     for (int k = 0; k < 4; ++k) {
-      curves_.push_back(image_line({0, 1}, corners[k], corners[(k + 1) % 4]));
-      border.uses.push_back({static_cast<int>(curves_.size()) - 1, true, curves_.back()});
+      // A seam has one direction for both of its sides.
+      const bool backward = (k == 2 && closed_v) || (k == 3 && closed_u);
+      const Vec2 &from = corners[k], &to = corners[(k + 1) % 4];
+      curves_.push_back(backward ? image_line({0, 1}, to, from) : image_line({0, 1}, from, to));
+      border.uses.push_back({static_cast<int>(curves_.size()) - 1, !backward, curves_.back()});
     }
   }
 
@@ -297,11 +304,20 @@ Body Trimming::body() const {
     // Along a pole the surface stays at one point.
     std::vector<char> is_pole;
     std::vector<int> vertices;
+    // Corners of the border that a seam makes one.
+    const auto same_corner = [&](size_t k) -> size_t {
+      constexpr size_t kAcrossU[] = {0, 0, 2, 2}, kAcrossV[] = {0, 1, 1, 0};
+      if (loop.closed_u) k = kAcrossU[k];
+      return loop.closed_v ? kAcrossV[k] : k;
+    };
     for (const Body::Use& use : loop.uses) {
       const Vec2 p = place(use);
       const Vec3 at = surface_->point(p.x, p.y);
       const bool after_pole = !is_pole.empty() && is_pole.back() != 0;
-      vertices.push_back(after_pole ? vertices.back() : result.add_vertex(at));
+      const size_t corner = same_corner(vertices.size());
+      vertices.push_back(corner < vertices.size() ? vertices[corner]
+                         : after_pole             ? vertices.back()
+                                                  : result.add_vertex(at));
       bool pole = true;
       for (const double part : {0.13, 0.31, 0.5, 0.69, 0.87, 1.0}) {
         const Interval t = use.image->domain();
@@ -313,12 +329,18 @@ Body Trimming::body() const {
     if (is_pole.back()) vertices.back() = vertices.front();
     for (size_t i = 0; i < loop.uses.size(); ++i) {
       const Body::Use& use = loop.uses[i];
+      const bool is_seam = i % 2 == 0 ? loop.closed_v : loop.closed_u;
+      if (is_seam && i >= 2) {
+        edge_of[use.edge] = edge_of[loop.uses[i - 2].edge];
+        continue;
+      }
       const int from = vertices[i], to = vertices[(i + 1) % vertices.size()];
       const Origin origin{"", "edge", use.edge};
-      edge_of[use.edge] = is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point),
-                                                       from, from, origin, EdgeKind::pole)
-                                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image),
-                                                       use.forward ? from : to, use.forward ? to : from, origin);
+      edge_of[use.edge] =
+          is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point), from, from,
+                                       origin, EdgeKind::pole)
+                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image), use.forward ? from : to,
+                                       use.forward ? to : from, origin, is_seam ? EdgeKind::seam : EdgeKind::regular);
     }
   };
   for (const Loop2& loop : loops_) add_edges(loop);

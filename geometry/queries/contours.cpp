@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
 #include "geometry/curves/surface_curve.h"
@@ -9,6 +11,7 @@
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/closed_contours.h"
 #include "geometry/queries/contour_assembly.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/picture_cusps.h"
 #include "geometry/shapes/implicit_formula.h"
 #include "geometry/surfaces/plane.h"
@@ -23,23 +26,78 @@ void demand_bounded(const Surface& surface) {
 
 Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-// Whether the surface goes on beyond the upper borders of a piece, by u and v.
-std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
-  const Rectangle all = surface.domain();
-  const Periods periods = closed_periods(surface);
-  return {piece.u.hi < all.u.hi || periods.u > 0, piece.v.hi < all.v.hi || periods.v > 0};
+// Where the normal jumps by more, contours that depend on it do not go on.
+constexpr double kJump = 1e-7;
+
+// The pieces between creases, those of each part together; and what of the surface closes within a part.
+struct SmoothParts {
+  std::map<std::array<size_t, 2>, std::vector<SurfacePiece>> parts;
+  Periods periods;
+};
+SmoothParts smooth_parts(const Surface& surface) {
+  SmoothParts result;
+  result.periods = closed_periods(surface);
+  std::array<std::vector<double>, 2> cuts;
+  for (const Crease& crease : creases(surface, kJump)) {
+    const bool u = crease.held == HeldParameter::u;
+    (u ? result.periods.u : result.periods.v) = 0;
+    if (!crease.seam) cuts[u ? 0 : 1].push_back(crease.at);
+  }
+  for (auto& at : cuts) {
+    std::sort(at.begin(), at.end());
+    at.erase(std::unique(at.begin(), at.end()), at.end());
+  }
+  const auto before = [](const std::vector<double>& at, double lo) {
+    return static_cast<size_t>(std::upper_bound(at.begin(), at.end(), lo) - at.begin());
+  };
+  for (SurfacePiece& piece : surface.pieces())
+    result.parts[{before(cuts[0], piece.domain.u.lo), before(cuts[1], piece.domain.v.lo)}].push_back(std::move(piece));
+  return result;
 }
 
-Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function) {
+// Whether the part of a surface goes on beyond the upper border of a piece.
+std::array<bool, 2> goes_on(const Rectangle& part, const Periods& periods, const Rectangle& piece) {
+  return {piece.u.hi < part.u.hi || periods.u > 0, piece.v.hi < part.v.hi || periods.v > 0};
+}
+std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
+  return goes_on(surface.domain(), closed_periods(surface), piece);
+}
+
+Rectangle around(const std::vector<SurfacePiece>& pieces) {
+  Rectangle all = pieces.front().domain;
+  for (const SurfacePiece& piece : pieces) all = {hull(all.u, piece.domain.u), hull(all.v, piece.domain.v)};
+  return all;
+}
+
+using IsLeftOut = std::function<bool(const Rectangle& piece)>;
+
+// Those of smooth parts end at the creases between them. A part all of whose pieces are left out has none.
+Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function, const IsLeftOut& is_left_out = {}) {
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
-  const Periods periods = closed_periods(*surface);
-  ContourAssembly<2> assembly(size, kSamePoint * size, {periods.u, periods.v});
-  for (const SurfacePiece& piece : surface->pieces()) {
-    PieceSearch<2> search;
-    search.left_to_neighbour = goes_on(*surface, piece.domain);
-    assembly.add(function_equations(surface, piece.domain, function), search);
+  SmoothParts smooth;
+  if (function.needs_tangents)
+    smooth = smooth_parts(*surface);
+  else
+    smooth = {{{{0, 0}, surface->pieces()}}, closed_periods(*surface)};
+  Contours result;
+  for (const auto& [place, pieces] : smooth.parts) {
+    if (is_left_out &&
+        std::all_of(pieces.begin(), pieces.end(), [&](const SurfacePiece& piece) { return is_left_out(piece.domain); }))
+      continue;
+    ContourAssembly<2> assembly(size, kSamePoint * size, {smooth.periods.u, smooth.periods.v});
+    const Rectangle part = around(pieces);
+    for (const SurfacePiece& piece : pieces) {
+      PieceSearch<2> search;
+      search.left_to_neighbour = goes_on(part, smooth.periods, piece.domain);
+      assembly.add(function_equations(surface, piece.domain, function), search);
+    }
+    Contours found = assembly.joined();
+    std::move(found.branches.begin(), found.branches.end(), std::back_inserter(result.branches));
+    std::move(found.points.begin(), found.points.end(), std::back_inserter(result.points));
+    result.coincident = result.coincident || found.coincident;
+    result.complete = result.complete && found.complete;
   }
-  return assembly.joined();
+  return result;
 }
 
 // From the eye to the point, or the direction of sight.
@@ -179,15 +237,15 @@ Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula
   return found;
 }
 
-// Whether the way of sight runs in the surface everywhere: a cylinder along its axis, a cone from its tip. All that is
-// seen of it are its borders.
-static bool is_edge_on(const Surface& surface, const ViewOf& view) {
-  constexpr int kSteps = 5;
+// Whether the way of sight runs in the surface everywhere in a part of its domain: a cylinder along its axis, a cone
+// from its tip, a facet. All that is seen of it are its borders.
+static bool is_edge_on(const Surface& surface, const Rectangle& part, const ViewOf& view) {
+  constexpr int kSteps = 6;
   constexpr double kFlat = 1e-12;
-  const Rectangle domain = surface.domain();
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; j <= kSteps; ++j) {
-      const double u = domain.u.lo + domain.u.width() * i / kSteps, v = domain.v.lo + domain.v.width() * j / kSteps;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double u = part.u.lo + part.u.width() * (i + 0.5) / kSteps,
+                   v = part.v.lo + part.v.width() * (j + 0.5) / kSteps;
       const Vec3 sight = view.central ? surface.point(u, v) - view.direction_or_eye : view.direction_or_eye;
       if (std::abs(glm::dot(surface.normal(u, v), sight)) > kFlat * glm::length(sight)) return false;
     }
@@ -197,9 +255,10 @@ static bool is_edge_on(const Surface& surface, const ViewOf& view) {
 Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
   demand_bounded(*surface);
   const ViewOf view = checked(given);
-  if (is_edge_on(*surface, view)) return {};
+  if (is_edge_on(*surface, surface->domain(), view)) return {};
   if (auto exact = closed_silhouette(surface, view, kSamePoint * bounds(*surface).diameter())) return *exact;
-  Contours found = contours_of(surface, outline(view));
+  Contours found =
+      contours_of(surface, outline(view), [&](const Rectangle& piece) { return is_edge_on(*surface, piece, view); });
   for (Contour& contour : found.branches) contour.cusps = picture_cusps(*surface, contour, view);
   return found;
 }

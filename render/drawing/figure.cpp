@@ -119,6 +119,10 @@ class ViewDrawing {
     sum.seconds_of_lines += one.seconds_of_lines, sum.seconds_of_crossings += one.seconds_of_crossings;
     sum.seconds_of_rays += one.seconds_of_rays;
     figure_.incomplete += lines.incomplete;
+    for (const std::string& name : lines.incomplete_objects)
+      if (std::find(figure_.incomplete_objects.begin(), figure_.incomplete_objects.end(), name) ==
+          figure_.incomplete_objects.end())
+        figure_.incomplete_objects.push_back(name);
   }
 
   // The picture as rendered, pixel by pixel where the view has it.

@@ -23,9 +23,10 @@ struct Figure {
   Sheet sheet;
   LineStatistics statistics;
   double seconds_of_ground = 0, seconds_of_layout = 0;
-  int incomplete = 0;                 // surfaces of which not all lines are known
-  int open_areas = 0;                 // areas of fills whose border is not known all around
-  std::vector<std::string> left_out;  // what the scene asks for and drawings do not show
+  int incomplete = 0;                           // surfaces of which not all lines are known
+  std::vector<std::string> incomplete_objects;  // theirs, in words
+  int open_areas = 0;                           // areas of fills whose border is not known all around
+  std::vector<std::string> left_out;            // what the scene asks for and drawings do not show
 };
 
 // Throws std::runtime_error where something does not fit on the paper (by how much), or a font is missing.

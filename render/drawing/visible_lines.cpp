@@ -108,6 +108,7 @@ class Drawing {
   VisibleLines run(LineWork work) {
     auto begin = std::chrono::steady_clock::now();
     result_.incomplete = work.incomplete;
+    result_.incomplete_objects = std::move(work.incomplete_objects);
     for (Stroke& stroke : work.strokes) {
       simplify(stroke);
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
@@ -197,6 +198,7 @@ class Drawing {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
     add_own_outlines(stroke, events);
+    add_outlines_of_twins(line, events);
     add_piercings(line, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
     // a place is known better than as a crossing.
@@ -267,6 +269,22 @@ class Drawing {
     }
   }
 
+  // Where it goes round surfaces that join its own along it.
+  void add_outlines_of_twins(int line, std::vector<double>& events) const {
+    const Stroke& stroke = strokes_[line];
+    for (const int twin : twins_[line]) {
+      const Stroke& other = strokes_[twin];
+      std::vector<double> turns;
+      add_own_outlines(other, turns);
+      const Affine map = stroke.to_world.inverse() * other.to_world;
+      for (const double turn : turns) {
+        const Vec3 point = map.point(other.curve->point(turn));
+        const double t = nearest(*stroke.curve, point);
+        if (glm::length(stroke.curve->point(t) - point) < kNear * world_.radius()) events.push_back(t);
+      }
+    }
+  }
+
   static void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<double>& events) {
     constexpr int kPlaces = 64;
     const auto value = [&](double x) { return system.evaluate({x}).value[0]; };
@@ -290,7 +308,7 @@ class Drawing {
     add_self_piercings(stroke, events);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Box3 box = bounds(*curve);
-    add_shape_entries(*curve, box, stroke.object, events);
+    add_shape_entries(*curve, box, stroke, events);
     std::optional<CurveCells> cells;
     tree_.around(box, [&](int number) {
       WorldSurface& other = surfaces_[number];
@@ -359,9 +377,9 @@ class Drawing {
   }
 
   // Where a curve enters or leaves shapes that no surfaces describe.
-  void add_shape_entries(const Curve& curve, const Box3& box, int object, std::vector<double>& events) const {
+  void add_shape_entries(const Curve& curve, const Box3& box, const Stroke& stroke, std::vector<double>& events) const {
     for (const WorldShape& other : shapes_)
-      if (other.object != object && BoxTree::meets(other.box, box))
+      if (other.object != stroke.object && other.object != stroke.met && BoxTree::meets(other.box, box))
         add_entries(curve, other.box, world_.radius(), other.add_hits, events);
   }
 
@@ -459,6 +477,7 @@ class Drawing {
 
   // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.
   bool lies_on_own(const Stroke& stroke) const {
+    if (stroke.met != -2) return false;
     if (!stroke.hosts.empty()) return stroke.kind != "boundary";
     return stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
   }

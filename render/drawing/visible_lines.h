@@ -48,7 +48,8 @@ struct VisibleLines {
   std::vector<VisibleLine> lines;  // drawn ones and borders of fills, in their order
   std::vector<VisibleMark> marks;
   std::vector<VisibleText> texts;
-  int incomplete = 0;  // surfaces whose outlines are not all known
+  int incomplete = 0;                           // surfaces whose outlines are not all known
+  std::vector<std::string> incomplete_objects;  // theirs, in words
   LineStatistics statistics;
 };
 

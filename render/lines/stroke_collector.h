@@ -1,5 +1,6 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
-// looks, stroke_shapes.cpp the lines of curves, surfaces, bodies and solids, stroke_helpers.cpp the helpers.
+// looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
+// where they are cut or met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -8,9 +9,11 @@
 #include "geometry/curves/parameter_line.h"
 #include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
+#include "geometry/queries/trim.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -33,6 +36,10 @@ class StrokeCollector {
   void add(const std::vector<Object>& objects, const geometry::Affine& to_world);
 
   void leave_out(const std::string& what);
+  // Of the object not all lines are known.
+  void is_incomplete();
+  // In messages.
+  std::string name_of_object() const;
 
   // The line or the sign that stands for an object: what there is of it first.
   void add_legend(const Object& object);
@@ -57,10 +64,14 @@ class StrokeCollector {
   void add_kind(std::string_view kind, const Style& style, const Lines& lines);
 
   template <class Visit>
-  void each_surface(const Visit& visit) const {
-    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&object_->shape)) visit(*surface);
-    if (const auto* set = std::get_if<SurfaceSet>(&object_->shape))
+  static void each_surface(const Entity& shape, const Visit& visit) {
+    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&shape)) visit(*surface);
+    if (const auto* set = std::get_if<SurfaceSet>(&shape))
       for (const geometry::SurfacePtr& surface : *set) visit(surface);
+  }
+  template <class Visit>
+  void each_surface(const Visit& visit) const {
+    each_surface(object_->shape, visit);
   }
   // Those of bodies too.
   template <class Visit>
@@ -72,11 +83,27 @@ class StrokeCollector {
 
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
+  // Of a body's faces as far as the faces go.
+  void add_creases(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
+  void add_creases(const geometry::Body& body, const Style& style, const HiddenLines& hidden);
+  void add_crease(const geometry::SurfacePtr& surface, const geometry::Crease& crease, const geometry::Interval& along,
+                  const Style& style, const HiddenLines& hidden);
+
   void add_parameter_lines(const geometry::SurfacePtr& surface, geometry::HeldParameter held,
                            const geometry::ParameterValues& asked, const Style& style, const HiddenLines& hidden);
 
-  // Of a body's faces, as far as the faces go.
   void add_parameter_lines(const geometry::Body& body, const Lines& lines, const Style& style);
+
+  // A face; without a region it fills its surface's domain.
+  struct FaceRegion {
+    geometry::SurfacePtr surface;
+    std::shared_ptr<const geometry::TrimRegion> region;
+    std::vector<geometry::Curve2Ptr> borders;
+  };
+  static std::vector<FaceRegion> trimmed_faces(const geometry::Body& body);
+  // The parts of a parameter line that lie in a region, in the surface's domain.
+  static void each_line_of_face(const FaceRegion& face, geometry::HeldParameter held, double at,
+                                const std::function<void(double at, const geometry::Interval& along)>& visit);
 
   void add_edges(const geometry::Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden);
 
@@ -119,9 +146,52 @@ class StrokeCollector {
   static geometry::ViewOf seen_through(geometry::ViewOf view, const geometry::Affine& map);
   geometry::ViewOf view_from(const geometry::Affine& map) const { return seen_through(view_, map); }
 
-  void add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
+  // Where a plane of the world cuts a shape that to_world_ places.
+  void add_section(const Entity& shape, const SectionPlane& plane, const Style& style, const HiddenLines& hidden);
 
+  // With another shape, as the objects that show it place it; one that none shows stands as it is written.
   void add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden);
+  struct PlacedShape {
+    Entity shape;
+    geometry::Affine to_world;
+    int object = -1;  // its number, if an object shows it
+  };
+  std::vector<PlacedShape> placements_of(const Entity& shape) const;
+  void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
+  void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                             const HiddenLines& hidden);
+  // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
+  void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
+                           const Style& style, const HiddenLines& hidden);
+  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::ImplicitSurface& other,
+                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
+  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::Balls& other,
+                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
+
+  // What is kept of strokes: where along them that may change, and whether a point is kept (`size` is that of the
+  // stroke's curve in the world).
+  struct Cutter {
+    std::function<void(const Stroke& stroke, std::vector<double>& cuts)> add_cuts;
+    std::function<bool(const Stroke& stroke, double t, double size)> keeps;
+  };
+  // What is kept where a function of the place is not positive; it is given in coordinates that to_world maps.
+  static Cutter cut_where(const geometry::Affine& to_world,
+                          const std::function<geometry::Interval(const geometry::Box3&)>& range,
+                          const std::function<double(const Vec3&)>& value);
+  static Cutter cutter_of(const ClipPlane& plane);
+  // The part of a surface that a face is.
+  static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
+  // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.
+  static Cutter cutter_of(const std::vector<PlacedShape>& leaves, size_t on, const geometry::ShapePtr& placed_solid);
+  std::vector<geometry::Interval> kept_parts(const Stroke& whole) const;
+  void add_part(const Stroke& whole, const geometry::Interval& t);
+
+  // The edges at which the object's clip planes cut it, of one kind: `sharp` where caps close the cut, else `boundary`.
+  void add_cut_edges(std::string_view kind, const Style& style, const HiddenLines& hidden);
+  // The part of a clip plane around the object, in its coordinates.
+  geometry::SurfacePtr cap_of(const ClipPlane& plane) const;
+  void lies_on_cap(const geometry::CurvePtr& curve, const geometry::SurfacePtr& cap);
 
   static std::string_view kind_of(const geometry::Body& body, const geometry::Edge& edge);
 
@@ -161,6 +231,9 @@ class StrokeCollector {
   std::vector<Stroke::Host> hosts_;  // of the next stroke
   std::vector<double> cusps_;        // likewise
   geometry::CurvePtr aside_;         // likewise
+  geometry::SurfacePtr cap_;         // on which strokes lie, if any
+  std::vector<Cutter> cutters_;      // of strokes
+  int met_ = -2;                     // Stroke::met
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;

@@ -5,6 +5,7 @@
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/box_tree.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/queries/trim.h"
@@ -16,13 +17,6 @@
 namespace lekalo::render {
 
 using namespace geometry;
-
-namespace {
-
-// Faces meet smoothly where their normals differ by less than this: what a modeller means by it.
-constexpr double kSmoothEdge = 1e-3;
-
-}  // namespace
 
 std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
   std::vector<double> values;
@@ -87,43 +81,6 @@ void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParamet
   }
 }
 
-void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, const Style& style) {
-  for (size_t index = 0; index < body.faces.size(); ++index) {
-    const Face& face = body.faces[index];
-    const auto region = trim_of(body, static_cast<int>(index));
-    if (!region) {
-      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
-        add_parameter_lines(face.surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style,
-                            lines.hidden);
-      continue;
-    }
-    std::vector<Curve2Ptr> borders;
-    for (const int loop : face.loops)
-      for (const int coedge : body.loops[loop].coedges) borders.push_back(body.coedges[coedge].image);
-    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-      const bool u = held == HeldParameter::u;
-      const Interval range = u ? region->u_range() : region->v_range(),
-                     along = u ? region->v_range() : region->u_range();
-      for (const double at : values_in(u ? lines.at_u : lines.at_v, range, false)) {
-        const auto place = [&](double t) { return u ? Vec3(at, t, 0) : Vec3(t, at, 0); };
-        const Segment line(place(along.lo), place(along.hi));
-        std::vector<double> cuts{along.lo, along.hi};
-        for (const Curve2Ptr& border : borders)
-          for (const CurveMeeting& meeting : intersect(line, *border).points)
-            cuts.push_back(along.lo + meeting.s * along.width());
-        std::sort(cuts.begin(), cuts.end());
-        for (size_t k = 0; k + 1 < cuts.size(); ++k) {
-          const Interval t{cuts[k], cuts[k + 1]};
-          const Vec3 middle = place(t.middle());
-          if (t.width() <= 1e-9 * along.width() || !region->contains(middle.x, middle.y)) continue;
-          lies_on_line(face.surface, held, at, t);
-          stroke(std::make_shared<ParameterLine>(face.surface, held, at, t), style, lines.hidden);
-        }
-      }
-    }
-  }
-}
-
 void StrokeCollector::add_edges(const Body& body, std::string_view kind, const Style& style,
                                 const HiddenLines& hidden) {
   for (const Edge& edge : body.edges)
@@ -155,7 +112,7 @@ void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held
 
 void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr>& surfaces, const Style& style,
                           const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const Contour& contour : contours.branches) {
     for (size_t k = 0; k < contour.images.size() && k < surfaces.size(); ++k)
       hosts_.push_back({surfaces[k], contour.images[k]});
@@ -166,7 +123,7 @@ void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr
 
 void StrokeCollector::add(const BodyContours& contours, const Body& body, const Style& style,
                           const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const BodyContour& branch : contours.branches)
     for (const BodyContourPart& part : branch.parts) {
       const Interval all = part.contour.curve->domain();
@@ -235,8 +192,8 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
-  if (!outlines.complete && (!edges || kind_ == "section")) ++work_.incomplete;
-  if (outlines.meets_itself && edges) leave_out("the edges along which a tube goes through itself");
+  if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
+  if (outlines.meets_itself && edges) leave_out("the edges along which " + name_of_object() + " goes through itself");
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
     aside_ = line.aside, cusps_ = line.turns;
@@ -245,7 +202,7 @@ void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style
 }
 
 void StrokeCollector::add(const ImplicitContours& contours, const Style& style, const HiddenLines& hidden) {
-  if (!contours.complete) ++work_.incomplete;
+  if (!contours.complete) is_incomplete();
   for (const ImplicitContour& line : contours.lines) {
     aside_ = line.aside, cusps_ = line.turns;
     stroke(line.curve, style, hidden);
@@ -259,7 +216,7 @@ void StrokeCollector::add(const CsgLine& line, const Style& style, const HiddenL
 }
 
 void StrokeCollector::note(const CsgLines& lines) {
-  if (!lines.complete) ++work_.incomplete;
+  if (!lines.complete) is_incomplete();
   for (const std::string& what : lines.left_out) leave_out(what);
 }
 
@@ -286,6 +243,8 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
   each_face([&](const SurfacePtr& surface) {
     if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
   });
+  for (const ClipPlane& plane : object_->clips)
+    if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_});
 }
 
 void StrokeCollector::add_meetings() {
@@ -303,48 +262,6 @@ void StrokeCollector::add_meetings() {
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });
   undrawn_ = borders_ = false;
-}
-
-void StrokeCollector::add_section(const SectionPlane& plane, const Style& style, const HiddenLines& hidden) {
-  // A plane of the world in the object's coordinates.
-  const Affine back = to_world_.inverse();
-  const Vec3 through = back.point(plane.through), normal = glm::transpose(to_world_.linear) * plane.normal;
-  if (const auto* body = std::get_if<BodyPtr>(&object_->shape))
-    add(plane_section(**body, through, normal), **body, style, hidden);
-  each_surface(
-      [&](const SurfacePtr& surface) { add(plane_section(surface, through, normal), {surface}, style, hidden); });
-  if (const auto* shape = std::get_if<ShapePtr>(&object_->shape))
-    in_own_coordinates(*shape, [&](const Shape& original, const Affine& own) {
-      const Vec3 own_through = own.point(through), own_normal = glm::transpose(own.inverse().linear) * normal;
-      if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original))
-        return add(plane_section(*surface, own_through, own_normal, seen_through(view_from(back), own)), style, hidden);
-      const ViewOf own_view = seen_through(view_from(back), own);
-      if (const auto* balls = dynamic_cast<const Balls*>(&original))
-        return add(plane_section(*balls, own_through, own_normal, own_view), true, style, hidden);
-      if (const auto* tube = dynamic_cast<const Tube*>(&original))
-        return add(plane_section(*tube, own_through, own_normal, own_view), true, style, hidden);
-      const auto* solid = dynamic_cast<const Csg*>(&original);
-      if (!solid) return;
-      const CsgLines found = csg_section(*solid, own_through, own_normal, own_view);
-      note(found);
-      for (const CsgLine& line : found.lines) add(line, style, hidden);
-    });
-  if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape))
-    for (const CurvePtr& line : plane_section(**mesh, through, normal)) stroke(line, style, hidden);
-}
-
-void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
-  const auto* body = std::get_if<BodyPtr>(&object_->shape);
-  const auto* with_body = std::get_if<BodyPtr>(&other);
-  const auto* with_surface = std::get_if<SurfacePtr>(&other);
-  bool known = body && (with_body || with_surface);
-  if (body && with_body) add(intersect(**body, **with_body), **body, style, hidden);
-  if (body && with_surface) add(intersect(**body, *with_surface), **body, style, hidden);
-  each_surface([&](const SurfacePtr& surface) {
-    if (with_body) known = true, add(intersect(**with_body, surface), **with_body, style, hidden);
-    if (with_surface) known = true, add(intersect(surface, *with_surface), {surface, *with_surface}, style, hidden);
-  });
-  if (!known) leave_out("intersections of what is neither a surface nor a body");
 }
 
 std::string_view StrokeCollector::kind_of(const Body& body, const Edge& edge) {

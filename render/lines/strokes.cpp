@@ -7,6 +7,7 @@
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/queries/self_intersections.h"
+#include "geometry/surfaces/plane.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
@@ -121,8 +122,11 @@ void StrokeCollector::add(const std::vector<Object>& objects, const Affine& to_w
     const bool is_point = std::holds_alternative<Vec3>(object.shape),
                is_curve = std::holds_alternative<CurvePtr>(object.shape);
     const bool says = object.look && object.look->lines;
+    cutters_.clear();
+    for (const ClipPlane& plane : object.clips) cutters_.push_back(cutter_of(plane));
     if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
     if (work_.fills) add_borders_of_fill(fill_of(model_, object));
+    cutters_.clear();
     if (object.look)
       for (const Helper& helper : object.look->helpers) {
         kind_ = helper.type;
@@ -135,6 +139,20 @@ void StrokeCollector::add(const std::vector<Object>& objects, const Affine& to_w
 void StrokeCollector::leave_out(const std::string& what) {
   if (std::find(work_.left_out.begin(), work_.left_out.end(), what) == work_.left_out.end())
     work_.left_out.push_back(what);
+}
+
+void StrokeCollector::is_incomplete() {
+  ++work_.incomplete;
+  const std::string name = name_of_object();
+  if (std::find(work_.incomplete_objects.begin(), work_.incomplete_objects.end(), name) ==
+      work_.incomplete_objects.end())
+    work_.incomplete_objects.push_back(name);
+}
+
+std::string StrokeCollector::name_of_object() const {
+  for (const auto& [object, number] : numbers_)
+    if (number == object_number_ && !object->name.empty()) return "'" + object->name + "'";
+  return "object " + std::to_string(object_number_);
 }
 
 void StrokeCollector::add_legend(const Object& object) {
@@ -171,6 +189,7 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   if (hidden.way == HiddenLines::Way::faded) stroke.fade = kFadeOfLayer;
   stroke.most_layers = hidden.most_layers;
   stroke.object = object_number_;
+  stroke.met = met_;
   stroke.order = order_++;
   stroke.kind = kind_;
   stroke.drawn = !undrawn_;
@@ -183,7 +202,13 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   stroke.arrow_at_start = style.arrows == "start" || style.arrows == "both";
   stroke.arrow_at_end = style.arrows == "end" || style.arrows == "both";
   stroke.arrow_size = style.arrow_size;
-  work_.strokes.push_back(std::move(stroke));
+  if (cap_) {
+    hosts_ = std::move(stroke.hosts);
+    lies_on_cap(stroke.curve, cap_);
+    stroke.hosts = std::move(hosts_);
+    hosts_.clear();
+  }
+  for (const Interval& t : kept_parts(stroke)) add_part(stroke, t);
 }
 
 void StrokeCollector::polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden) {
@@ -257,19 +282,25 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     add_silhouettes(view_from(to_world_.inverse()), style, lines.hidden);
     add_mesh_lines(MeshLineKind::silhouette, style, lines.hidden);
   } else if (kind == "section") {
-    for (const SectionPlane& plane : lines.planes) add_section(plane, style, lines.hidden);
+    for (const SectionPlane& plane : lines.planes) add_section(object_->shape, plane, style, lines.hidden);
   } else if (kind == "intersection") {
     for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
   } else if (kind == "self_intersection") {
+    if (std::holds_alternative<ShapePtr>(object_->shape)) leave_out("self-intersections of " + name_of_object());
     each_surface([&](const SurfacePtr& surface) {
-      add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+      if (surface->bounded())
+        add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+      else
+        leave_out("lines of " + name_of_object() + ", which is unbounded");
     });
   } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
     if (kind == "parameter")
       add_parameter_lines(**body, lines, style);
     else
       add_edges(**body, kind, style, lines.hidden);
+    if (kind == "sharp") add_creases(**body, style, lines.hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+    if (kind == "parameter") leave_out("parameter lines of " + name_of_object());
     if (kind == "sharp" || kind == "smooth" || kind == "boundary")
       add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
   } else if (std::holds_alternative<MeshPtr>(object_->shape)) {
@@ -278,12 +309,16 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     if (kind == "smooth") add_mesh_lines(MeshLineKind::smooth, style, lines.hidden);
   } else {
     each_surface([&](const SurfacePtr& surface) {
+      if (!undrawn_ && !surface->bounded() && (kind == "parameter" || !dynamic_cast<const Plane*>(surface.get())))
+        leave_out("lines of " + name_of_object() + ", which is unbounded");
       if (kind == "boundary") add_boundary(surface, style, lines.hidden);
+      if (kind == "sharp") add_creases(surface, style, lines.hidden);
       if (kind == "parameter")
         for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
           add_parameter_lines(surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style, lines.hidden);
     });
   }
+  if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, lines.hidden);
 }
 
 ViewOf StrokeCollector::seen_through(ViewOf view, const Affine& map) {

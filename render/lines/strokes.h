@@ -46,6 +46,7 @@ struct Stroke {
   double fade = 1;                 // of drawings: of its opacity for each layer beyond the first
   int most_layers = 1 << 30;       // of drawings: what lies behind more is not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
+  int met = -2;                    // likewise of a shape without surfaces that it runs along, not exactly; -2: none
   int order = 0;                   // of lines at the same depth the one of the higher order is seen
   bool arrow_at_start = false, arrow_at_end = false;  // of drawings
   double arrow_size = 2;                              // millimetres
@@ -88,9 +89,10 @@ struct LineWork {
   std::vector<Mark> marks;
   std::vector<PointText> texts;  // of drawings, as the legend
   std::vector<LegendEntry> legend;
-  int incomplete = 0;
-  bool fills = false;                 // areas are filled: their borders are among the strokes
-  std::vector<std::string> left_out;  // of drawings: what has no lines of its own yet, in words
+  int incomplete = 0;                           // searches for lines that did not find all
+  std::vector<std::string> incomplete_objects;  // of these, in words
+  bool fills = false;                           // areas are filled: their borders are among the strokes
+  std::vector<std::string> left_out;            // of drawings: what has no lines of its own yet, in words
 };
 
 // How a style's lines look in a drawing, widths in millimetres; and what lies behind something (none: not drawn), with

@@ -168,6 +168,7 @@ class Builder {
   std::optional<Built> placed(Built built, const Affine& transform, const Value& place);
   std::optional<std::vector<std::any>> read_helpers(const Value& value, const Counters& counters);
   bool check_helpers(const Value& object, const Fields& fields);
+  bool check_lines(const Value& object, const Fields& fields);
 
   // --- builder_references.cpp, builder_repeats.cpp: names, families.
   void declare_section(const char* section);

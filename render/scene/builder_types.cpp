@@ -135,6 +135,7 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   Fields fields;
   bool good = read_fields_into(fields, declared_fields(type), map, counters, what, also);
   good = (type.category != Category::object || check_helpers(map, fields)) && good;
+  good = (type.category != Category::object || !good || check_lines(map, fields)) && good;
   if (!good || !check(type, fields, map)) return std::nullopt;
   auto value = attempt(map, what, [&] { return type.build(fields); });
   if (!value || !is_geometry(type.category)) return value;
@@ -320,6 +321,33 @@ bool Builder::check_helpers(const Value& object, const Fields& fields) {
           break;
         }
     }
+  }
+  return good;
+}
+
+// Whether one of the object's shapes can have each kind of lines that it asks for.
+bool Builder::check_lines(const Value& object, const Fields& fields) {
+  const Value* lines = object.find("lines");
+  if (!lines || !lines->is_map() || !fields.has("shape")) return true;
+  const std::vector<std::any>& shapes = fields.references("shape");
+  std::vector<std::string> had;
+  for (const std::any& one : shapes)
+    for (const std::string& kind : line_kinds_of(entity_of(one)))
+      if (std::find(had.begin(), had.end(), kind) == had.end()) had.push_back(kind);
+  if (shapes.empty()) return true;
+  const auto found = types_.find(identity(entity_of(shapes.front())));
+  const std::string what = shapes.size() > 1       ? "none of these shapes has"
+                           : found == types_.end() ? "this shape has no"
+                                                   : "'" + found->second->name + "' has no";
+  bool good = true;
+  for (const Entry& entry : lines->entries) {
+    static const std::set<std::string, std::less<>> kKinds = {
+        "boundary",          "sharp", "smooth", "silhouette", "parameter", "section", "intersection",
+        "self_intersection", "curve"};
+    const std::string& kind = entry.key.name;
+    if (kKinds.count(kind) == 0 || std::find(had.begin(), had.end(), kind) != had.end()) continue;
+    diagnostics_.error(entry.key.place, fmt::format("{} lines '{}'", what, kind), "it has " + listed(had));
+    good = false;
   }
   return good;
 }

@@ -1,7 +1,9 @@
 #include "render/scene/objects.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "geometry/surfaces/plane.h"
 #include "render/scene/types.h"
 
 namespace lekalo::render {
@@ -34,7 +36,49 @@ const void* identity(const Entity& entity) {
       entity);
 }
 
+std::vector<std::string> line_kinds_of(const Entity& entity) {
+  if (std::holds_alternative<Vec3>(entity) || std::holds_alternative<CurvePtr>(entity)) return {"curve"};
+  if (std::holds_alternative<SurfacePtr>(entity) || std::holds_alternative<SurfaceSet>(entity))
+    return {"boundary", "sharp", "silhouette", "parameter", "section", "intersection", "self_intersection"};
+  std::vector<std::string> kinds{"boundary", "sharp", "smooth", "silhouette", "section", "intersection"};
+  if (std::holds_alternative<BodyPtr>(entity)) kinds.push_back("parameter");
+  // Known of none of these yet.
+  if (std::holds_alternative<ShapePtr>(entity)) kinds.insert(kinds.end(), {"parameter", "self_intersection"});
+  return kinds;
+}
+
 namespace {
+
+bool is_unbounded(const Entity& entity) {
+  if (const auto* surface = std::get_if<SurfacePtr>(&entity)) return !(*surface)->bounded();
+  if (const auto* set = std::get_if<SurfaceSet>(&entity))
+    return std::any_of(set->begin(), set->end(), [](const SurfacePtr& surface) { return !surface->bounded(); });
+  return false;
+}
+
+bool is_plane(const Entity& entity) {
+  const auto* surface = std::get_if<SurfacePtr>(&entity);
+  return surface && dynamic_cast<const geometry::Plane*>(surface->get());
+}
+
+// What surfaces without an end cannot be cut by or meet.
+void check_unbounded(const Object& object) {
+  if (!object.look || !object.look->lines) return;
+  const Lines& lines = *object.look->lines;
+  const char* hint = "give the surface a domain";
+  if (is_unbounded(object.shape))
+    for (const char* kind : {"section", "self_intersection"})
+      if (lines.styles.count(kind) > 0)
+        throw FieldError(std::string("lines.") + kind, "the surface is unbounded: these lines have no end", hint);
+  for (const std::any& one : lines.with) {
+    const Entity other = entity_of(one);
+    // A plane cuts what has an end.
+    if (is_unbounded(object.shape) && (!is_plane(object.shape) || is_unbounded(other)))
+      throw FieldError("lines.intersection", "the surface is unbounded: these lines have no end", hint);
+    if (is_unbounded(other) && !is_plane(other))
+      throw FieldError("lines.intersection.with", "what is met is an unbounded surface", hint);
+  }
+}
 
 uint32_t visibility(const std::vector<std::string>& words) {
   uint32_t bits = 0;
@@ -87,6 +131,7 @@ Objects objects_of(const Fields& fields) {
   for (const std::any& one : fields.references("shape")) {
     object.shape = entity_of(one);
     check_caps(object);
+    check_unbounded(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
       for (const char* field :
            {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show", "fill"})

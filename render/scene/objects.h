@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <string>
 #include <vector>
 
 #include "geometry/describe.h"
@@ -19,5 +20,8 @@ Entity entity_of(const std::any& thing);
 // What objects show, for finding an object or a declaration by its shape: the same for the same shape only. Null for
 // points, which are values.
 const void* identity(const Entity& entity);
+
+// The kinds of `lines` that things like this can have, though this one may have none.
+std::vector<std::string> line_kinds_of(const Entity& entity);
 
 }  // namespace lekalo::render

@@ -101,8 +101,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       if (!settings.quiet && !figure.left_out.empty())
         fmt::print(stderr, "note: not in the drawing: {}\n", fmt::join(figure.left_out, ", "));
       if (figure.incomplete > 0)
-        fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide\n",
-                   figure.incomplete, figure.incomplete == 1 ? "" : "s");
+        fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide ({})\n",
+                   figure.incomplete, figure.incomplete == 1 ? "" : "s", fmt::join(figure.incomplete_objects, ", "));
       if (figure.open_areas > 0)
         fmt::print(stderr,
                    "warning: the borders of {} filled area{} are not known all around; straight lines close them\n",

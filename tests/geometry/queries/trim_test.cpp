@@ -226,6 +226,27 @@ TEST(TrimmedSurface, AreasAndCentroids) {
   EXPECT_NEAR(inside + outside, 4 * kPi * kPi, 1e-10);
 }
 
+// Where a closed surface is cut open for its outside there is no border but a seam.
+TEST(TrimmedSurface, OutsidesOfClosedSurfacesHaveSeams) {
+  const struct {
+    SurfacePtr surface;
+    int seams, borders;
+  } cases[] = {{std::make_shared<CylinderSurface>(Frame{}, 1, 1.5), 1, 3},
+               {std::make_shared<SphereSurface>(Frame{}, 1.2), 1, 1},
+               {std::make_shared<TorusSurface>(Frame{}, 1.2, 0.5), 2, 1}};
+  for (const auto& [surface, seams, borders] : cases)
+    for (const double at : {0.1, 3.0}) {
+      const Body sheet = trimmed_surface(surface, {circle_at(at, 0.5, 0.3)}, true);
+      EXPECT_TRUE(sheet.is_valid()) << sheet.violations().front().condition;
+      const auto count = [&](EdgeKind kind, size_t uses) {
+        return std::count_if(sheet.edges.begin(), sheet.edges.end(),
+                             [&](const Edge& edge) { return edge.kind == kind && edge.coedges.size() == uses; });
+      };
+      EXPECT_EQ(count(EdgeKind::seam, 2), seams);
+      EXPECT_EQ(count(EdgeKind::regular, 1), borders);
+    }
+}
+
 // Lines meet what is left of a whole surface's hits, on every kind of surface, and the mesh has the same area.
 TEST(TrimmedSurface, HitsAreThoseInsideTheLoops) {
   Grid<Vec3> net{4, 4, {}};

@@ -1,0 +1,344 @@
+// Where shapes meet one another: the lines `intersection` of an object.
+//
+// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Tubes and meshes are met by
+// plane faces. What is put together is met through its leaves, as far as the lines lie on the whole.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/curves/surface_curve.h"
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/half_space.h"
+#include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/transformed.h"
+#include "render/lines/stroke_collector.h"
+#include "render/scene/objects.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+bool has_faces(const Entity& shape) {
+  return std::holds_alternative<SurfacePtr>(shape) || std::holds_alternative<SurfaceSet>(shape) ||
+         std::holds_alternative<BodyPtr>(shape);
+}
+
+template <class T>
+const T* solid_of(const Entity& shape) {
+  const auto* solid = std::get_if<ShapePtr>(&shape);
+  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
+}
+
+// A plane that goes on everywhere.
+std::optional<SectionPlane> whole_plane(const Entity& shape, const Affine& to_world) {
+  const Frame* frame = nullptr;
+  if (const auto* surface = std::get_if<SurfacePtr>(&shape))
+    if (const auto* plane = dynamic_cast<const Plane*>(surface->get()); plane && !plane->bounded())
+      frame = &plane->frame();
+  if (const auto* half = solid_of<HalfSpaceShape>(shape)) frame = &half->frame();
+  if (!frame) return std::nullopt;
+  return SectionPlane{to_world.point(frame->origin), glm::normalize(to_world.normal(frame->z))};
+}
+
+std::string words_of(const Entity& shape) {
+  return has_faces(shape)                         ? "curved faces"
+         : std::holds_alternative<MeshPtr>(shape) ? "a mesh"
+         : solid_of<ImplicitSurface>(shape)       ? "an implicit surface"
+         : solid_of<Balls>(shape)                 ? "balls"
+         : solid_of<Tube>(shape)                  ? "a tube"
+                                                  : "what has neither";
+}
+
+// How deep in a ball the points of a box are.
+Interval depth_in(const Balls::Ball& ball, const Box3& box) {
+  Interval sum(0);
+  for (int k = 0; k < 3; ++k) sum += sqr(Interval(box.lo[k], box.hi[k]) - Interval(ball.center[k]));
+  return Interval(ball.radius) - sqrt(sum);
+}
+
+// Whether a point lies on a solid is asked along these, so far to both sides, of its size.
+constexpr double kBesideSolid = 1e-6;
+const Vec3 kProbes[] = {{0.61, 0.53, 0.59}, {-0.67, 0.49, 0.56}, {0.28, -0.83, 0.48}};
+
+// The leaves of a solid, each as a body where it is one, placed in the world.
+template <class Placed>
+void add_leaves(const ShapePtr& shape, const Affine& to_world, int object, std::vector<Placed>& leaves) {
+  if (const auto* moved = dynamic_cast<const TransformedShape*>(shape.get()))
+    return add_leaves(moved->original(), to_world * moved->map(), object, leaves);
+  if (const auto* solid = dynamic_cast<const Csg*>(shape.get())) {
+    for (const ShapePtr& operand : solid->operands()) add_leaves(operand, to_world, object, leaves);
+    return;
+  }
+  if (const auto* body = dynamic_cast<const BodyShape*>(shape.get()))
+    leaves.push_back({body->body(), to_world, object});
+  else
+    leaves.push_back({shape, to_world, object});
+}
+
+}  // namespace
+
+std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
+  std::vector<PlacedShape> found;
+  const auto visit = [&](const auto& self, const std::vector<Object>& objects, const Affine& to_world) -> void {
+    for (const Object& object : objects) {
+      const Affine map = to_world * object.transform;
+      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
+      if (&object != object_ && identity(object.shape) == identity(shape))
+        found.push_back({shape, map, numbers_.at(&object)});
+    }
+  };
+  visit(visit, model_.objects, Affine());
+  if (found.empty()) found.push_back({shape, Affine(), -1});
+  return found;
+}
+
+void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
+  const Affine to_world = to_world_;
+  for (const PlacedShape& placed : placements_of(other)) {
+    add_meeting({object_->shape, to_world, object_number_}, placed, style, hidden);
+    to_world_ = to_world;
+  }
+}
+
+void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden) {
+  for (PlacedShape* one : {&a, &b}) {
+    const auto* moved = solid_of<TransformedShape>(one->shape);
+    if (!moved) continue;
+    one->to_world = one->to_world * moved->map();
+    one->shape = ShapePtr(moved->original());
+  }
+  for (const bool swapped : {false, true}) {
+    const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
+    const auto plane = whole_plane(one.shape, one.to_world);
+    if (!plane || whole_plane(other.shape, other.to_world)) continue;
+    to_world_ = other.to_world;
+    return add_section(other.shape, *plane, style, hidden);
+  }
+  for (const bool swapped : {false, true}) {
+    const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
+    if (solid_of<Csg>(one.shape)) return add_meeting_of_leaves(one, other, style, hidden);
+  }
+  for (const PlacedShape* one : {&a, &b})
+    each_surface(one->shape, [&](const SurfacePtr& surface) {
+      if (!surface->bounded()) leave_out("intersections of unbounded surfaces (" + name_of_object() + ")");
+    });
+  const bool a_has_faces = has_faces(a.shape), b_has_faces = has_faces(b.shape);
+  if (a_has_faces && b_has_faces) {
+    to_world_ = a.to_world;
+    const Affine to_a = a.to_world.inverse() * b.to_world;
+    const auto* body = std::get_if<BodyPtr>(&a.shape);
+    if (const auto* other = std::get_if<BodyPtr>(&b.shape)) {
+      const Body moved = to_a.is_identity() ? **other : transformed(**other, to_a);
+      if (body) add(intersect(**body, moved), **body, style, hidden);
+      each_surface(a.shape, [&](const SurfacePtr& surface) {
+        if (surface->bounded()) add(intersect(moved, surface), moved, style, hidden);
+      });
+    }
+    each_surface(b.shape, [&](const SurfacePtr& other) {
+      if (!other->bounded()) return;
+      const SurfacePtr moved = transformed(other, to_a);
+      if (body) add(intersect(**body, moved), **body, style, hidden);
+      each_surface(a.shape, [&](const SurfacePtr& surface) {
+        if (surface->bounded()) add(intersect(surface, moved), {surface, moved}, style, hidden);
+      });
+    });
+    return;
+  }
+  if (!a_has_faces && !b_has_faces)
+    return leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() +
+                     ")");
+  const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
+  each_surface(faces.shape, [&](const SurfacePtr& surface) {
+    if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
+  });
+  if (const auto* body = std::get_if<BodyPtr>(&faces.shape))
+    for (const FaceRegion& face : trimmed_faces(**body))
+      add_meeting_of_face(face, faces.to_world, solid, style, hidden);
+}
+
+void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& to_world, const PlacedShape& solid,
+                                          const Style& style, const HiddenLines& hidden) {
+  to_world_ = to_world;
+  const Affine to_solid = solid.to_world.inverse() * to_world;
+  const size_t before = cutters_.size();
+  met_ = solid.object;
+  if (const auto* implicit = solid_of<ImplicitSurface>(solid.shape)) {
+    if (face.region) cutters_.push_back(cutter_of(face, to_world));
+    add_meeting_of_face(face.surface, *implicit, to_solid, style, hidden);
+  } else if (const auto* balls = solid_of<Balls>(solid.shape)) {
+    if (face.region) cutters_.push_back(cutter_of(face, to_world));
+    add_meeting_of_face(face.surface, *balls, to_solid, style, hidden);
+  } else if (const auto* plane = dynamic_cast<const Plane*>(face.surface.get())) {
+    cutters_.push_back(cutter_of(face, to_world));
+    to_world_ = solid.to_world;
+    const Frame& frame = plane->frame();
+    add_section(solid.shape, {to_world.point(frame.origin), glm::normalize(to_world.normal(frame.z))}, style, hidden);
+  } else {
+    leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
+  }
+  cutters_.resize(before);
+  met_ = -2;
+}
+
+void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const ImplicitSurface& other, const Affine& to_other,
+                                          const Style& style, const HiddenLines& hidden) {
+  const SurfacePtr moved = transformed(face, to_other);
+  const Affine to_face_world = to_world_, to_world = to_world_ * to_other.inverse();
+  to_world_ = to_world;
+  const ImplicitFormula& formula = other.formula();
+  const ImplicitRegion& region = other.region();
+  const size_t before = cutters_.size();
+  const Vec3 center = region.box.center();
+  const Balls::Ball around{center, region.radius()};
+  std::vector<ClipPlane> sides;
+  for (int axis = 0; axis < 3 && !region.is_ball; ++axis)
+    for (const bool upper : {false, true}) {
+      Vec3 normal(0);
+      normal[axis] = upper ? 1 : -1;
+      sides.push_back({upper ? region.box.hi : region.box.lo, normal});
+    }
+  const auto cut_by_side = [&](const ClipPlane& side) {
+    cutters_.push_back(
+        cutter_of(ClipPlane{to_world.point(side.through), glm::normalize(to_world.normal(side.normal)), false}));
+  };
+  for (const ClipPlane& side : sides) cut_by_side(side);
+  if (region.is_ball)
+    cutters_.push_back(cut_where(
+        to_world, [around](const Box3& box) { return -depth_in(around, box); },
+        [around](const Vec3& p) { return glm::length(p - around.center) - around.radius; }));
+  if (moved->bounded()) add(level_section(moved, formula), {moved}, style, hidden);
+  cutters_.resize(before);
+  // Of a solid what its region cuts off is closed there.
+  if (other.is_closed()) {
+    cutters_.push_back(cut_where(
+        to_world, [formula](const Box3& box) { return formula.enclose(box); },
+        [formula](const Vec3& p) { return formula(p); }));
+    for (size_t k = 0; k < sides.size(); ++k) {
+      for (size_t i = 0; i < sides.size(); ++i)
+        if (i != k) cut_by_side(sides[i]);
+      add(plane_section(moved, sides[k].through, sides[k].normal), {moved}, style, hidden);
+      cutters_.resize(before + 1);
+    }
+    if (region.is_ball) {
+      Frame frame;
+      frame.origin = center;
+      const auto border = std::make_shared<SphereSurface>(frame, region.radius());
+      add(intersect(moved, SurfacePtr(border)), {moved, border}, style, hidden);
+    }
+    cutters_.resize(before);
+  }
+  to_world_ = to_face_world;
+}
+
+void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const Balls& other, const Affine& to_other,
+                                          const Style& style, const HiddenLines& hidden) {
+  const SurfacePtr moved = transformed(face, to_other);
+  const Affine to_face_world = to_world_;
+  to_world_ = to_world_ * to_other.inverse();
+  const size_t before = cutters_.size();
+  for (size_t k = 0; k < other.balls().size(); ++k) {
+    other.near(k, [&](size_t i) {
+      const Balls::Ball ball = other.balls()[i];
+      if (i != k)
+        cutters_.push_back(cut_where(
+            to_world_, [ball](const Box3& box) { return depth_in(ball, box); },
+            [ball](const Vec3& p) { return ball.radius - glm::length(p - ball.center); }));
+    });
+    Frame frame;
+    frame.origin = other.balls()[k].center;
+    const auto sphere = std::make_shared<SphereSurface>(frame, other.balls()[k].radius);
+    add(intersect(moved, SurfacePtr(sphere)), {moved, sphere}, style, hidden);
+    cutters_.resize(before);
+  }
+  to_world_ = to_face_world;
+}
+
+void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                                            const HiddenLines& hidden) {
+  const auto& solid = std::get<ShapePtr>(whole.shape);
+  std::vector<PlacedShape> leaves;
+  add_leaves(solid, whole.to_world, whole.object, leaves);
+  const ShapePtr placed = transformed(solid, whole.to_world);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    cutters_.push_back(cutter_of(leaves, k, placed));
+    add_meeting(leaves[k], other, style, hidden);
+    cutters_.pop_back();
+  }
+}
+
+StrokeCollector::Cutter StrokeCollector::cutter_of(const FaceRegion& face, const Affine& to_world) {
+  const Affine back = to_world.inverse();
+  std::vector<CurvePtr> borders;
+  for (const Curve2Ptr& image : face.borders) borders.push_back(std::make_shared<SurfaceCurve>(face.surface, image));
+  const Rectangle domain = face.surface->domain();
+  if (!face.region) {
+    for (const double at : {domain.u.lo, domain.u.hi})
+      borders.push_back(std::make_shared<ParameterLine>(face.surface, HeldParameter::u, at));
+    for (const double at : {domain.v.lo, domain.v.hi})
+      borders.push_back(std::make_shared<ParameterLine>(face.surface, HeldParameter::v, at));
+  }
+  Cutter cutter;
+  cutter.add_cuts = [=](const Stroke& stroke, std::vector<double>& cuts) {
+    const CurvePtr curve = transformed(stroke.curve, back * stroke.to_world);
+    for (const CurvePtr& border : borders)
+      for (const CurveMeeting& meeting : intersect(*curve, *border).points) cuts.push_back(meeting.s);
+  };
+  cutter.keeps = [=](const Stroke& stroke, double t, double) {
+    Vec3 uv;
+    if (const auto* plane = dynamic_cast<const Plane*>(face.surface.get())) {
+      const Vec3 off = back.point(stroke.to_world.point(stroke.curve->point(t))) - plane->frame().origin;
+      uv = {glm::dot(off, plane->frame().x), glm::dot(off, plane->frame().y), 0};
+    } else if (!stroke.hosts.empty()) {
+      uv = stroke.hosts[0].image->point(t);  // the first is the face that meets something
+    }
+    return face.region ? face.region->contains(uv.x, uv.y) : domain.contains(uv.x, uv.y);
+  };
+  return cutter;
+}
+
+StrokeCollector::Cutter StrokeCollector::cutter_of(const std::vector<PlacedShape>& leaves, size_t on,
+                                                   const ShapePtr& placed_solid) {
+  std::vector<SurfacePtr> faces;
+  std::vector<Cutter> others;
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (k == on) continue;
+    const Affine to_world = leaves[k].to_world;
+    if (const auto* body = std::get_if<BodyPtr>(&leaves[k].shape)) {
+      for (const Face& face : (*body)->faces) faces.push_back(transformed(face.surface, to_world));
+    } else if (const auto plane = whole_plane(leaves[k].shape, to_world)) {
+      others.push_back(cutter_of(ClipPlane{plane->through, plane->normal, false}));
+    } else if (const auto* implicit = solid_of<ImplicitSurface>(leaves[k].shape)) {
+      const ImplicitFormula formula = implicit->formula();
+      others.push_back(cut_where(
+          to_world, [formula](const Box3& box) { return formula.enclose(box); },
+          [formula](const Vec3& p) { return formula(p); }));
+    } else if (const auto* balls = solid_of<Balls>(leaves[k].shape)) {
+      for (const Balls::Ball& ball : balls->balls())
+        others.push_back(cut_where(
+            to_world, [ball](const Box3& box) { return depth_in(ball, box); },
+            [ball](const Vec3& p) { return ball.radius - glm::length(p - ball.center); }));
+    }
+  }
+  Cutter cutter;
+  cutter.add_cuts = [=](const Stroke& stroke, std::vector<double>& cuts) {
+    const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
+    for (const SurfacePtr& face : faces)
+      for (const SurfaceMeeting& meeting : intersect(*curve, *face).points) cuts.push_back(meeting.t);
+    for (const Cutter& other : others) other.add_cuts(stroke, cuts);
+  };
+  const double reach = kBesideSolid * bounds(*placed_solid).diameter();
+  cutter.keeps = [placed_solid, reach](const Stroke& stroke, double t, double) {
+    const Vec3 point = stroke.to_world.point(stroke.curve->point(t));
+    return std::any_of(std::begin(kProbes), std::end(kProbes), [&](const Vec3& direction) {
+      std::vector<SurfaceHit> hits;
+      placed_solid->all_hits({point - reach * direction, direction}, {0, 2 * reach}, hits);
+      return hits.size() % 2 != 0;
+    });
+  };
+  return cutter;
+}
+
+}  // namespace lekalo::render
