@@ -17,8 +17,11 @@ using namespace geometry;
 
 namespace {
 
-constexpr double kFree = 1.5;  // millimetres around what a panel shows
-constexpr int kTrial = 1000;   // pixels of cameras by which sizes are found
+constexpr double kFree = 1.5;     // millimetres around what a panel shows
+constexpr int kTrial = 1000;      // pixels of cameras by which sizes are found
+constexpr double kTallest = 3;    // times its width: pictures whose height is found
+constexpr double kLeastRoom = 1;  // millimetres for what is shown beside its annotations
+constexpr const char* kAnchorFields[] = {"at", "from", "to"};
 
 double millimetres_of(const std::string& unit) {
   if (unit == "cm") return 10;
@@ -48,14 +51,6 @@ void include(const SheetItem& item, SheetBox& part) {
     for (const Path& one : path->parts) {
       part.include(one.from);
       for (const PathStep& step : one.steps) part.include(step.to);
-    }
-}
-
-void include(const std::vector<Stroke>& strokes, const View& view, SheetBox& part) {
-  for (const Stroke& stroke : strokes)
-    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Interval t = stroke.curve->domain();
-      part.include(view.place(stroke.curve->point(t.lo + x * t.width())));
     }
 }
 
@@ -94,11 +89,18 @@ struct Track {
 
 SheetBox shown_box(const Model& model, const Camera& camera, double millimetres) {
   SheetBox part;
-  const Shown shown(model.objects);
-  for (const Vec3& point : shown.points()) {
+  const auto add = [&](const Vec3& point) {
     const PicturePoint p = camera.project(point);
     if (p.visible_side) part.include(millimetres * Vec2(p.x, p.y));
-  }
+  };
+  const View view{model, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
+  LineWork work;
+  PageWork page;
+  add_annotations(view, work, page);
+  for (const Vec3& anchor : page.anchors) add(anchor);
+  // Where no object shows anything cameras frame a cube, which is not seen.
+  if (const Shown shown(model.objects); !shown.box.empty() || page.anchors.empty())
+    for (const Vec3& point : shown.points()) add(point);
   if (!(part.lo.x < kInfinity))
     part.include(Vec2(0)), part.include(millimetres * Vec2(camera.width(), camera.height()));
   return part;
@@ -108,7 +110,9 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   // Places on the page stay where they are.
   Model trial = model;
   std::erase_if(trial.drawing.annotations, [](const Annotation& one) {
-    return one.values.holds<Anchor>("at") && one.values.get<Anchor>("at").on_page;
+    return std::any_of(std::begin(kAnchorFields), std::end(kAnchorFields), [&](const char* field) {
+      return one.values.holds<Anchor>(field) && one.values.get<Anchor>(field).on_page;
+    });
   });
   const View view{trial, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
   LineWork work;
@@ -116,10 +120,15 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   add_annotations(view, work, page);
   SheetBox all = shown_box(model, camera, millimetres);
   for (const SheetItem& item : page.shapes) include(item, all);
-  include(work.strokes, view, all);
+  for (const Mark& mark : work.marks) {
+    const PicturePoint at = camera.project(mark.point);
+    if (!at.visible_side) continue;
+    all.include(view.place(Vec2(at.x, at.y)) - Vec2(mark.radius));
+    all.include(view.place(Vec2(at.x, at.y)) + Vec2(mark.radius));
+  }
   std::vector<Label> labels = std::move(page.labels);
   for (const PointText& text : work.texts) {
-    if (text.side.empty()) continue;  // finds a place on the paper
+    if (text.side.empty() || !camera.project(text.point).visible_side) continue;  // finds a place on the paper
     Label label;
     label.text = text_in(text.style, text.text);
     label.at = view.place(text.point), label.side = text.side, label.distance = text.distance;
@@ -138,47 +147,37 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   return all;
 }
 
-namespace {
-
-// What grows with the scene: the objects, and the lines of annotations in space.
-SheetBox content_box(const Model& model, const Camera& camera, double millimetres) {
-  const View view{model, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
-  LineWork work;
-  PageWork page;
-  add_annotations(view, work, page);
-  SheetBox all = shown_box(model, camera, millimetres);
-  include(work.strokes, view, all);
-  return all;
-}
-
-}  // namespace
-
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
+  const bool shows_objects = !Shown(model.objects).box.empty();
   CameraPtr camera = model.camera;
   double zoom = 1;
-  Vec2 corner(0);
-  const auto window = [&] {
-    return window_of(model.camera, corner.x, corner.y, zoom, static_cast<int>(std::lround(size.x / millimetres)),
-                     std::max(1, static_cast<int>(std::lround(size.y / millimetres))));
-  };
+  Vec2 corner(0);  // of the window in the model's own picture, pixels
   // What annotations take hardly depends on the scale: it is soon found.
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 12;
+  constexpr double kFound = 1e-3;  // of the scale
   for (int round = 0; round < kRounds; ++round) {
-    const SheetBox shown = content_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
-    if (all.lo.x >= 0 && all.lo.y >= 0 && all.hi.x <= size.x && all.hi.y <= size.y) break;
+    const SheetBox shown = shown_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
+    const bool fits = all.lo.x >= 0 && all.lo.y >= 0 && all.hi.x <= size.x && all.hi.y <= size.y;
+    if (round == 0 && fits && shows_objects) break;
     const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - shown.hi + Vec2(kFree);
-    const Vec2 room = size - before - after, content = shown.size();
-    double grow = content.x > 0 ? room.x / content.x : kInfinity;
-    if (!auto_height && content.y > 0) grow = std::min(grow, room.y / content.y);
-    if (!(grow > 0.05)) break;  // no room for both: the scene keeps its place
-    grow = std::min(grow, 1.0);
+    const Vec2 content = shown.size();
+    Vec2 room = size - before - after;
+    if (auto_height) room.y = std::max(kTallest * size.x, size.y) - before.y - after.y;
+    if (!(room.x > kLeastRoom && room.y > kLeastRoom)) break;  // for both: the scene keeps its place
+    double grow = kInfinity;
+    for (const int axis : {0, 1})
+      if (content[axis] > 0) grow = std::min(grow, room[axis] / content[axis]);
+    if (!(grow < kInfinity)) grow = 1;  // a point
+    // Objects are never larger than their camera shows them.
+    if (shows_objects) grow = std::min(grow, 1 / zoom);
     if (auto_height) size.y = before.y + after.y + grow * content.y;
-    // Of the model's own picture: the middle of what is shown comes to the middle of its room.
-    const SheetBox own = content_box(model, *model.camera, millimetres);
+    // The middle of what is shown comes to the middle of its room.
+    const Vec2 middle = corner + 0.5 * (shown.lo + shown.hi) / (millimetres * zoom);
     zoom *= grow;
-    const Vec2 middle = before + 0.5 * (size - before - after);
-    corner = (0.5 * (own.lo + own.hi) - middle / zoom) / millimetres;
-    camera = window();
+    corner = middle - (before + 0.5 * (size - before - after)) / (millimetres * zoom);
+    camera = window_of(model.camera, corner.x, corner.y, zoom, static_cast<int>(std::lround(size.x / millimetres)),
+                       std::max(1, static_cast<int>(std::lround(size.y / millimetres))));
+    if (std::abs(grow - 1) < kFound) break;
   }
   return camera;
 }
@@ -238,7 +237,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
           model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
             return window_of(camera, corner.x, corner.y, zoom, w, h);
           };
-          layout.panels.push_back({std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
+          layout.panels.push_back({rows[i][j], std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
         }
         x += across[j].size() + gap;
       }
@@ -257,7 +256,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
       if (name.empty()) continue;
       Model model = model_of(page, *panels.at(name));
       const Vec2 shown = shown_box(model, *model.make_camera(kTrial, kTrial), 1).size();
-      Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, 3.0) * width : width);
+      Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, kTallest) * width : width);
       const double per_pixel = millimetres_of_pixel(page);
       const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
       model.camera = model.make_camera(pixels(size.x), pixels(size.y));
@@ -280,7 +279,8 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
   for (size_t i = 0; i < rows.size(); ++i) {
     for (size_t j = 0; j < rows[i].size(); ++j)
       if (!rows[i][j].empty()) {
-        PlacedPanel placed{model_of(page, *panels.at(rows[i][j])),
+        PlacedPanel placed{rows[i][j],
+                           model_of(page, *panels.at(rows[i][j])),
                            {margin + static_cast<double>(j) * (width + gap), y},
                            {width, heights[i]}};
         layout.panels.push_back(std::move(placed));
