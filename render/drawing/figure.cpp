@@ -170,11 +170,10 @@ class ViewDrawing {
     LineLook pen;
     std::vector<PathInSpace> paths;
     std::vector<SheetItem> heads;
+    std::vector<bool> at_corner;  // of each path
   };
 
   SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
-    SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
-    clip(all);
     // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
     // lines along them.
     std::vector<DrawnLines> found;
@@ -183,35 +182,85 @@ class ViewDrawing {
       for (const VisiblePiece& piece : line->pieces)
         if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers) add_piece(*line, piece, found);
     }
-    // Lines of one kind that follow one another go on in one another.
+    std::vector<DrawnLines> all = by_pen(std::move(found));
+    close_corners(all);
+    SheetGroup result{hidden ? "hidden" : "lines", "", {}, {}, {}};
+    clip(result);
+    for (DrawnLines& one : all) {
+      if (one.paths.empty() && one.heads.empty()) continue;
+      const std::string object = name_of(one.stroke->object);
+      SheetGroup& owner = object.empty() ? result : group_of(result, hidden ? "object hidden" : "object", object);
+      SheetGroup& group = group_of(owner, one.kind, object);
+      for (size_t k = 0; k < one.paths.size(); ++k) {
+        LineLook pen = one.pen;
+        if (one.at_corner[k]) pen.cap = LineLook::Cap::round;
+        group.items.emplace_back(drawn(std::move(one.paths[k].path), pen));
+      }
+      for (SheetItem& head : one.heads) group.items.push_back(std::move(head));
+    }
+    return result;
+  }
+
+  // Lines of one kind and pen that follow one another go on in one another.
+  std::vector<DrawnLines> by_pen(std::vector<DrawnLines> found) const {
+    std::vector<DrawnLines> all;
     for (size_t last = found.size(); last > 0;) {
       size_t first = last - 1;
       const auto same_kind = [&](const DrawnLines& one) {
         return one.stroke->object == found[last - 1].stroke->object && one.stroke->kind == found[last - 1].stroke->kind;
       };
       while (first > 0 && same_kind(found[first - 1])) --first;
-      std::vector<DrawnLines> by_pen;
+      const size_t begin = all.size();
       for (size_t k = last; k-- > first;) {
         DrawnLines& one = found[k];
-        const auto same = std::find_if(by_pen.begin(), by_pen.end(), [&](const DrawnLines& other) {
-          return other.kind == one.kind && other.pen == one.pen;
-        });
-        if (same == by_pen.end()) {
-          by_pen.push_back(std::move(one));
+        const auto same =
+            std::find_if(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end(),
+                         [&](const auto& other) { return other.kind == one.kind && other.pen == one.pen; });
+        if (same == all.end()) {
+          all.push_back(std::move(one));
           continue;
         }
         same->paths.insert(same->paths.end(), one.paths.begin(), one.paths.end());
         same->heads.insert(same->heads.end(), one.heads.begin(), one.heads.end());
       }
-      for (DrawnLines& one : by_pen) {
-        SheetGroup& group = group_of(all, one.kind, name_of(one.stroke->object));
-        for (Path& path : joined(one.paths, kJoined * world_.radius()))
-          group.items.emplace_back(drawn(std::move(path), one.pen));
-        for (SheetItem& head : one.heads) group.items.push_back(std::move(head));
-      }
       last = first;
     }
+    for (DrawnLines& one : all) {
+      one.paths = joined(one.paths, kJoined * world_.radius());
+      // Lines that are seen along themselves.
+      std::erase_if(one.paths, [&](const PathInSpace& path) { return is_dot(path.path, kFitted * view_.millimetres); });
+    }
     return all;
+  }
+
+  static bool is_dot(const Path& path, double size) {
+    Vec2 begin = path.from;
+    for (const PathStep& step : path.steps) {
+      for (const double share : {0.25, 0.5, 0.75, 1.0})
+        if (glm::length(point_on(begin, step, share) - path.from) > size) return false;
+      begin = step.to;
+    }
+    return true;
+  }
+
+  // Solid lines of one pen that meet in a corner without being one path have round ends: there are no notches in it.
+  void close_corners(std::vector<DrawnLines>& all) const {
+    for (DrawnLines& one : all) one.at_corner.assign(one.paths.size(), false);
+    std::vector<bool> done(all.size(), false);
+    for (size_t k = 0; k < all.size(); ++k) {
+      const LineLook& pen = all[k].pen;
+      if (done[k] || !pen.dash.empty() || pen.opacity < 1 || pen.cap != LineLook::Cap::butt) continue;
+      std::vector<PathInSpace> paths;
+      for (size_t j = k; j < all.size(); ++j)
+        if (all[j].pen == pen) paths.insert(paths.end(), all[j].paths.begin(), all[j].paths.end());
+      const std::vector<bool> corners = ends_at_corners(paths, kJoined * world_.radius());
+      auto corner = corners.begin();
+      for (size_t j = k; j < all.size(); ++j) {
+        if (!(all[j].pen == pen)) continue;
+        done[j] = true;
+        for (auto&& at_corner : all[j].at_corner) at_corner = *corner++;
+      }
+    }
   }
 
   // A stretch of a line as far as nothing that has been drawn lies over it, with arrow heads.
@@ -222,6 +271,7 @@ class ViewDrawing {
     DrawnLines drawn{hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind,
                      &stroke,
                      hidden ? *stroke.hidden : stroke.look,
+                     {},
                      {},
                      {}};
     if (hidden) drawn.pen.opacity *= std::pow(stroke.fade, piece.layers - 1);
@@ -258,8 +308,8 @@ class ViewDrawing {
   // The last group, if it is of this kind and object, or a new one.
   static SheetGroup& group_of(SheetGroup& all, const std::string& kind, const std::string& object) {
     if (!all.items.empty()) {
-      auto& last = std::get<SheetGroup>(all.items.back());
-      if (last.kind == kind && last.object == object) return last;
+      auto* last = std::get_if<SheetGroup>(&all.items.back());
+      if (last && last->kind == kind && last->object == object) return *last;
     }
     all.items.push_back(SheetGroup{kind, object, {}, {}, {}});
     return std::get<SheetGroup>(all.items.back());
@@ -377,8 +427,13 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
   if (!model.panels.empty()) {
     PanelLayout layout = panel_layout(model, options.panel);
     figure.sheet.width = layout.width, figure.sheet.height = layout.height;
-    for (PlacedPanel& panel : layout.panels)
+    for (PlacedPanel& panel : layout.panels) {
+      std::vector<SheetItem> before;
+      std::swap(before, figure.sheet.items);
       add_view(std::move(panel.model), panel.at, panel.size, true, options, figure);
+      std::swap(before, figure.sheet.items);
+      figure.sheet.items.push_back(SheetGroup{"panel", panel.name, {}, {}, std::move(before)});
+    }
     return figure;
   }
   figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;

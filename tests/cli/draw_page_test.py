@@ -123,6 +123,96 @@ image: { size: [120 mm, 90 mm] }
             self.assertIn(f"{kind} at points behind the eye", errors)
             self.assertFalse(self.of_class(root, kind))
 
+    # ---------------------------------------------------------------- lines and their elements
+
+    def test_eye_on_lines(self):
+        """Lines towards the eye are points: nothing is drawn, least of all millions of cubics."""
+        cone = """lekalo: 1
+geometry: { s: { type: cone_surface, radius: 1, height: 2 } }
+objects: [{ shape: s, lines: { silhouette: thick, boundary: thick, parameter: { at_u: 12, at_v: 7 }, hidden: dashed } }]
+camera: { type: perspective, from: [0, 0, 2], at: [0, 0, 0], up: y }
+image: { size: [120 mm, 90 mm], margin: 3 mm }
+"""
+        self.drawn(cone)
+        self.assertLess(len(self.bytes_of("scene.svg")), 20000)
+        root, _ = self.drawn("""lekalo: 1
+geometry: { s: { type: segment, from: [-3, 0, 0], to: [8, 0, 0] } }
+camera: { type: perspective, from: [5, 0, 0], at: [0, 0.5, 0.2] }
+""")
+        self.assertEqual(list(root.iter(SVG + "path")), [])
+
+    def test_straight_lines(self):
+        """The edges of a block are lines in every file, closed loops where they are."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { b: { type: box, center: [0, 0, 0], size: [2, 2, 2] } }
+objects: [{ shape: b, lines: { sharp: thick, hidden: dashed } }]
+camera: { type: perspective, from: [3, 0, 0], at: [0, 0, 0], field_of_view: 80 }
+image: { size: [120 mm, 90 mm], margin: 3 mm }
+""")
+        for path in root.iter(SVG + "path"):
+            self.assertRegex(path.get("d"), r"^M[-\d. ]+( L[-\d. ]+)+( Z)?$")
+        front = self.of_class(root, "sharp")[0].findall(SVG + "path")
+        self.assertEqual(len(front), 1)
+        self.assertTrue(front[0].get("d").endswith(" Z"))
+
+    def test_corners_are_closed(self):
+        """Where three edges of a pen meet they have round ends; where two do they are one path; dashes keep their ends."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+objects: [{ shape: b, lines: { sharp: { width: 2 mm, color: blue }, hidden: dashed } }]
+camera: { view: isometric }
+image: { size: [60 mm, 60 mm] }
+""")
+        edges = self.of_class(root, "sharp")[0].findall(SVG + "path")
+        self.assertEqual(len(edges), 6)
+        self.assertEqual({path.get("stroke-linecap") for path in edges}, {"round"})
+        hidden = self.of_class(root, "sharp hidden layers-1")[0].findall(SVG + "path")
+        self.assertEqual({path.get("stroke-linecap") for path in hidden}, {None})
+        # A free end is none.
+        root, _ = self.drawn(CIRCLE.replace("c: { type: circle, radius: 1 }",
+                                            "c: { type: segment, from: [0, 0], to: [1, 0] }"))
+        self.assertIsNone(next(root.iter(SVG + "path")).get("stroke-linecap"))
+
+    def test_names(self):
+        """Every element has an id of its own that XML allows, made of object and kind."""
+        root, _ = self.drawn("""lekalo: 1
+geometry:
+  block: { type: box, size: [1, 2, 3] }
+  balls: { repeat: { i: 0..1 }, type: ball, center: [3, 3 * i, 1], radius: 1 }
+objects:
+  - { shape: block, name: '1st block & more', lines: { sharp: thick, hidden: dashed } }
+  - { shape: balls, lines: { silhouette: thick, parameter: { at_u: 4, at_v: 3 } } }
+  - { shape: block, name: lines, transform: { translate: [-3, 0, 0] }, lines: { sharp: thick } }
+camera: { view: isometric }
+drawing:
+  ground: fill
+  annotations:
+    - { type: label, at: [0, 0, 0], text: here }
+    - { type: label, at: [3, 0, 1], text: there }
+image: { size: [60 mm, 80 mm] }
+""")
+        ids = [element.get("id") for element in root.iter() if element.get("id")]
+        self.assertEqual(len(ids), len(set(ids)))
+        for name in ids:
+            self.assertRegex(name, r"^[A-Za-z_][\w.-]*$")
+        for element in root.iter():
+            if element.get("class") not in (None, "paper") or element.tag == SVG + "path":
+                self.assertTrue(element.get("id"))
+        for name in ("lines", "hidden", "_1st_block___more", "_1st_block___more-sharp", "_1st_block___more-sharp-1",
+                     "_1st_block___more-hidden", "balls", "balls-silhouette-1", "balls-silhouette_2-1", "lines_2",
+                     "lines-sharp-1"):
+            self.assertIn(name, ids)
+        # Object groups hold what the object has, kind by kind.
+        balls = next(group for group in root.iter(SVG + "g") if group.get("id") == "balls")
+        self.assertEqual({group.get("class") for group in balls}, {"parameter", "silhouette"})
+
+    def test_names_in_panels(self):
+        root, _ = self.drawn(CIRCLE + "panels: { left: {}, right: { camera: { view: bottom } } }\n")
+        ids = [element.get("id") for element in root.iter() if element.get("id")]
+        self.assertEqual(len(ids), len(set(ids)))
+        for name in ("left", "left-c", "left-c-curve-1", "right", "right-c", "right-c-curve-1"):
+            self.assertIn(name, ids)
+
 
 if __name__ == "__main__":
     unittest.main()
