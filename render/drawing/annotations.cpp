@@ -6,12 +6,10 @@
 #include <cmath>
 #include <memory>
 
-#include "geometry/body.h"
 #include "geometry/curves/circle.h"
-#include "geometry/curves/parameter_line.h"
 #include "geometry/curves/segment.h"
-#include "geometry/queries/roundness.h"
 #include "render/drawing/light_path.h"
+#include "render/drawing/page_shapes.h"
 
 namespace lekalo::render {
 
@@ -26,29 +24,6 @@ constexpr double kTextOff = 0.7;      // between a line and the text upon it
 constexpr double kShelf = 6;          // from a circle to the number of its radius
 constexpr double kLastPart = 0.4;     // of a light path, of the scene's radius
 constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
-
-// The circle of a round curve or surface.
-Circle circle_of(const Fields& f) {
-  CurvePtr curve;
-  if (f.holds<CurvePtr>("of")) {
-    curve = f.curve("of");
-  } else {
-    SurfacePtr surface;
-    if (f.holds<SurfacePtr>("of")) surface = f.surface("of");
-    if (f.holds<BodyPtr>("of"))
-      for (const Face& face : f.body("of")->faces)
-        if (!surface && is_round(*face.surface)) surface = face.surface;
-    const Rectangle domain = surface->domain();
-    const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
-    for (const HeldParameter held : {HeldParameter::v, HeldParameter::u}) {
-      curve = std::make_shared<ParameterLine>(surface, held, middle(held == HeldParameter::v ? domain.v : domain.u));
-      if (curve->domain().width() < kInfinity && is_round(*curve)) break;
-    }
-  }
-  const Interval t = curve->domain();
-  const auto at = [&](double x) { return curve->point(t.lo + x * t.width()); };
-  return arc_through(at(0), at(0.31), at(0.67));
-}
 
 class Annotator {
  public:
@@ -337,27 +312,10 @@ class Annotator {
     return label;
   }
 
-  static std::string side_towards(const Vec2& way) {
-    constexpr const char* kSides[] = {"right", "below right", "below", "below left",
-                                      "left",  "above left",  "above", "above right"};
-    const double eighth = std::atan2(way.y, way.x) / (kPi / 4);
-    return kSides[(static_cast<int>(std::lround(eighth)) + 8) % 8];
-  }
-
   void shape(std::vector<SheetItem> items) { page_.shapes.push_back(SheetGroup{kind_, "", {}, {}, std::move(items)}); }
 
   void page_line(const Vec2& from, const Vec2& to, bool start, bool end) {
-    const double length = glm::length(to - from);
-    if (!(length > 0)) return;
-    const Vec2 way = (to - from) / length;
-    const double size = std::min(style_->arrow_size, 0.5 * length);
-    std::vector<SheetItem> items;
-    items.push_back(drawn(
-        straight_path({from + (start ? shortened_by(size) : 0.0) * way, to - (end ? shortened_by(size) : 0.0) * way}),
-        look_));
-    if (start) items.push_back(arrow_head(from, -way, size, look_));
-    if (end) items.push_back(arrow_head(to, way, size, look_));
-    shape(std::move(items));
+    if (from != to) shape(line_with_heads(from, to, start, end, style_->arrow_size, look_));
   }
 
   void page_arc(const Vec2& apex, const Vec3& x, const Vec3& y, double radius) {
@@ -384,30 +342,15 @@ class Annotator {
     page_.labels.push_back(std::move(label));
   }
 
-  // Two quarter turns, a straight part, the tip, and the same back.
   void add_brace(const Fields& f) {
-    Vec2 from = place(f.get<Anchor>("from")), to = place(f.get<Anchor>("to"));
-    const double length = glm::length(to - from);
-    if (!(length > 0)) return;
-    const Vec2 way = (to - from) / length, out(way.y, -way.x);  // to the left of the way, as seen
+    const Vec2 from = place(f.get<Anchor>("from")), to = place(f.get<Anchor>("to"));
+    if (from == to) return;
     const double offset = f.number("offset"), depth = (offset < 0 ? -1 : 1) * f.number("depth");
-    from += offset * out, to += offset * out;
-    const Vec2 tip = 0.5 * (from + to) + depth * out;
-    const double turn = std::min(0.5 * std::abs(depth), 0.25 * length);
-    const auto place = [&](const Vec2& begin, double along, double high) { return begin + along * way + high * out; };
-    const double half = 0.5 * depth, round = 0.55 * turn;
-    Path path;
-    path.from = from;
-    path.steps = {curve_to(place(from, 0, 0.55 * half), place(from, turn - round, half), place(from, turn, half)),
-                  line_to(place(tip, -turn, -half)),
-                  curve_to(place(tip, -turn + round, -half), place(tip, 0, -0.55 * half), tip),
-                  curve_to(place(tip, 0, -0.55 * half), place(tip, turn - round, -half), place(tip, turn, -half)),
-                  line_to(place(to, -turn, half)),
-                  curve_to(place(to, -turn + round, half), place(to, 0, 0.55 * half), to)};
-    shape({drawn(path, look_)});
+    const Brace brace = brace_along(from, to, offset, depth);
+    shape({drawn(brace.path, look_)});
     if (!f.has("label")) return;
-    Label label = page_label(f.get<TextTemplate>("label").text(), tip);
-    label.side = side_towards(depth > 0 ? out : -out);
+    Label label = page_label(f.get<TextTemplate>("label").text(), brace.tip);
+    label.side = side_towards(brace.out);
     label.distance = kTextOff;
     page_.labels.push_back(std::move(label));
   }
@@ -417,7 +360,10 @@ class Annotator {
     if (f.has("text")) return f.get<TextTemplate>("text").text();
     std::string words;
     if (f.has("prefix")) words += f.get<TextTemplate>("prefix").text();
-    words += sign + dimension_number(value, f.integer("decimals")) + unit;
+    words += sign +
+             (f.given("decimals") || !unit.empty() ? dimension_number(value, f.integer("decimals"))
+                                                   : dimension_number(value)) +
+             unit;
     if (f.has("suffix")) words += f.get<TextTemplate>("suffix").text();
     return words;
   }
@@ -522,15 +468,6 @@ class Annotator {
 };
 
 }  // namespace
-
-std::string dimension_number(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
 
 void add_annotations(const View& view, LineWork& work, PageWork& page) {
   Annotator annotator(view, work, page);

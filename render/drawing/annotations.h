@@ -18,7 +18,4 @@ struct PageWork {
 // work.left_out.
 void add_annotations(const View& view, LineWork& work, PageWork& page);
 
-// The number of a dimension: at most so many decimals, zeros at its end left out.
-std::string dimension_number(double value, int decimals);
-
 }  // namespace lekalo::render

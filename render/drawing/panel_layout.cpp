@@ -10,6 +10,7 @@
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
+#include "render/scene/diagnostics.h"
 
 namespace lekalo::render {
 
@@ -68,8 +69,9 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
   Extent extent;
   extent.camera = model.make_camera(kTrial, kTrial);
   if (!extent.camera->is_parallel())
-    throw std::runtime_error(
-        fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name));
+    does_not_fit(model.layout.scale_place,
+                 fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name),
+                 "a parallel camera, or scale: fit");
   extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
   extent.shown = shown_box(model, *extent.camera, extent.millimetres);
   extent.half = 0.5 * extent.shown.size();
@@ -182,10 +184,106 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
   return camera;
 }
 
+void does_not_fit(const Place& place, std::string message, std::string hint) {
+  Diagnostics found;
+  found.error(place, std::move(message), std::move(hint));
+  throw SceneError(std::move(found));
+}
+
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+using PanelsByName = std::map<std::string, const Panel*>;
+
+// Rows and columns of panels at a scale.
+struct Tracks {
+  std::map<std::string, Extent> extents;
+  std::vector<Track> across, down;
+  Vec2 size{0};  // of the page that they need
+};
+
+Tracks tracks_at(const Model& page, const Rows& rows, const PanelsByName& panels, size_t columns, double scale) {
+  Tracks result;
+  std::vector<Track>&across = result.across, &down = result.down;
+  across.resize(columns), down.resize(rows.size());
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (size_t j = 0; j < rows[i].size(); ++j) {
+      if (rows[i][j].empty()) continue;
+      const Extent extent = extent_at(model_of(page, *panels.at(rows[i][j])), scale, rows[i][j]);
+      across[j].before = std::max(across[j].before, extent.half.x + extent.before.x);
+      across[j].after = std::max(across[j].after, extent.half.x + extent.after.x);
+      down[i].before = std::max(down[i].before, extent.half.y + extent.before.y);
+      down[i].after = std::max(down[i].after, extent.half.y + extent.after.y);
+      result.extents.emplace(rows[i][j], extent);
+    }
+  const auto sum = [&](const std::vector<Track>& tracks) {
+    double total = 2 * page.paper.margin + page.layout.gap * static_cast<double>(tracks.size() - 1);
+    for (const Track& track : tracks) total += track.size();
+    return total;
+  };
+  result.size = {sum(across), sum(down)};
+  return result;
+}
+
+// What to do where panels need more than the page has at a scale.
+std::string fitting_scale(const Model& page, const Vec2& needed, const Vec2& fixed, const Vec2& size) {
+  double share = 1;
+  for (const int axis : {0, 1})
+    if (needed[axis] > size[axis]) share = std::min(share, (size[axis] - fixed[axis]) / (needed[axis] - fixed[axis]));
+  const std::string larger =
+      fmt::format("a larger `size` of the image, scale: fit{}", share > 0 ? "" : ", fewer panels");
+  if (!(share > 0)) return larger;
+  const double scale = share * page.layout.scale, digit = std::pow(10, std::floor(std::log10(scale)) - 1);
+  return fmt::format("scale: {:g} fits; or {}", std::floor(scale / digit) * digit, larger);
+}
+
+// All at the page's scale.
+void add_scaled(const Model& page, const Rows& rows, const PanelsByName& panels, size_t columns, bool alone,
+                PanelLayout& layout) {
+  const double scale = page.layout.scale * millimetres_of(page.unit);
+  const Tracks tracks = tracks_at(page, rows, panels, columns, scale);
+  const Vec2& needed = tracks.size;
+  if (page.paper.auto_width || alone) layout.width = needed.x;
+  if (page.paper.auto_height || alone) layout.height = needed.y;
+  if (needed.x > layout.width + 1e-6 || needed.y > layout.height + 1e-6) {
+    constexpr double kSmall = 1e-6;  // times the scale: what hardly depends on it is left
+    const Vec2 fixed = tracks_at(page, rows, panels, columns, kSmall * scale).size;
+    does_not_fit(page.layout.scale_place,
+                 fmt::format("the panels do not fit at this scale: they need {:.1f} x {:.1f} mm, the page has {:.1f} x "
+                             "{:.1f} mm",
+                             needed.x, needed.y, layout.width, layout.height),
+                 fitting_scale(page, needed, fixed, {layout.width, layout.height}));
+  }
+  const std::vector<Track>&across = tracks.across, &down = tracks.down;
+  // What is free stands around all.
+  Vec2 at = Vec2(page.paper.margin) + 0.5 * (Vec2(layout.width, layout.height) - needed);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    double x = at.x;
+    for (size_t j = 0; j < rows[i].size(); ++j) {
+      if (!rows[i][j].empty()) {
+        const Extent& extent = tracks.extents.at(rows[i][j]);
+        Model model = model_of(page, *panels.at(rows[i][j]));
+        // A window of the trial's picture, its middle on the lines of row and column.
+        const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
+        const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
+        const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
+        model.camera_frames = false;  // all has its room
+        model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
+          return window_of(camera, corner.x, corner.y, zoom, w, h);
+        };
+        layout.panels.push_back({rows[i][j], std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
+      }
+      x += across[j].size() + page.layout.gap;
+    }
+    at.y += down[i].size() + page.layout.gap;
+  }
+}
+
+}  // namespace
+
 PanelLayout panel_layout(const Model& page, const std::string& only) {
-  const std::vector<std::vector<std::string>> rows =
-      only.empty() ? page.layout.rows : std::vector<std::vector<std::string>>{{only}};
-  std::map<std::string, const Panel*> panels;
+  const Rows rows = only.empty() ? page.layout.rows : Rows{{only}};
+  PanelsByName panels;
   for (const Panel& panel : page.panels) panels.emplace(panel.name, &panel);
   if (!only.empty() && !panels.contains(only))
     throw std::runtime_error(fmt::format("there is no panel called '{}'", only));
@@ -196,53 +294,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
   layout.width = page.paper.width, layout.height = page.paper.height;
 
   if (page.layout.scale > 0) {
-    const double scale = page.layout.scale * millimetres_of(page.unit);
-    std::map<std::string, Extent> extents;
-    std::vector<Track> across(columns), down(rows.size());
-    for (size_t i = 0; i < rows.size(); ++i)
-      for (size_t j = 0; j < rows[i].size(); ++j) {
-        if (rows[i][j].empty()) continue;
-        const Extent extent = extent_at(model_of(page, *panels.at(rows[i][j])), scale, rows[i][j]);
-        across[j].before = std::max(across[j].before, extent.half.x + extent.before.x);
-        across[j].after = std::max(across[j].after, extent.half.x + extent.after.x);
-        down[i].before = std::max(down[i].before, extent.half.y + extent.before.y);
-        down[i].after = std::max(down[i].after, extent.half.y + extent.after.y);
-        extents.emplace(rows[i][j], extent);
-      }
-    const auto sum = [&](const std::vector<Track>& tracks) {
-      double total = 2 * margin + gap * static_cast<double>(tracks.size() - 1);
-      for (const Track& track : tracks) total += track.size();
-      return total;
-    };
-    const double width = sum(across), height = sum(down);
-    if (page.paper.auto_width || !only.empty()) layout.width = width;
-    if (page.paper.auto_height || !only.empty()) layout.height = height;
-    if (width > layout.width + 1e-6 || height > layout.height + 1e-6)
-      throw std::runtime_error(fmt::format(
-          "the panels do not fit at the scale {:g}: they need {:.1f} x {:.1f} mm, the page has {:.1f} x {:.1f} mm",
-          page.layout.scale, width, height, layout.width, layout.height));
-    // What is free stands around all.
-    Vec2 at(margin + 0.5 * (layout.width - width), margin + 0.5 * (layout.height - height));
-    for (size_t i = 0; i < rows.size(); ++i) {
-      double x = at.x;
-      for (size_t j = 0; j < rows[i].size(); ++j) {
-        if (!rows[i][j].empty()) {
-          const Extent& extent = extents.at(rows[i][j]);
-          Model model = model_of(page, *panels.at(rows[i][j]));
-          // A window of the trial's picture, its middle on the lines of row and column.
-          const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
-          const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
-          const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
-          model.camera_frames = false;  // all has its room
-          model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
-            return window_of(camera, corner.x, corner.y, zoom, w, h);
-          };
-          layout.panels.push_back({rows[i][j], std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
-        }
-        x += across[j].size() + gap;
-      }
-      at.y += down[i].size() + gap;
-    }
+    add_scaled(page, rows, panels, columns, !only.empty(), layout);
     return layout;
   }
 
@@ -273,8 +325,10 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const double height : heights) layout.height += height;
   }
   if (!(width > 1) || !(*std::min_element(heights.begin(), heights.end()) > 1))
-    throw std::runtime_error(fmt::format("margins and gaps leave no room for {} x {} panels on {:.1f} x {:.1f} mm",
-                                         columns, rows.size(), layout.width, layout.height));
+    does_not_fit(page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
+                 fmt::format("margins and gaps leave no room for {} x {} panels on {:.1f} x {:.1f} mm", columns,
+                             rows.size(), layout.width, layout.height),
+                 "smaller ones, or a larger `size` of the image");
   double y = margin;
   for (size_t i = 0; i < rows.size(); ++i) {
     for (size_t j = 0; j < rows[i].size(); ++j)

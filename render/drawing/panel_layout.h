@@ -40,8 +40,11 @@ struct PanelLayout {
   std::vector<PlacedPanel> panels;
 };
 
-// `only`: the name of one panel, which gets a sheet of its own; empty: all. Throws std::runtime_error where they do not
-// fit, with what would.
+// Throws SceneError: something does not fit on the paper.
+[[noreturn]] void does_not_fit(const Place& place, std::string message, std::string hint);
+
+// `only`: the name of one panel, which gets a sheet of its own; empty: all. Throws SceneError where they do not fit,
+// with what would.
 PanelLayout panel_layout(const Model& model, const std::string& only);
 
 }  // namespace lekalo::render

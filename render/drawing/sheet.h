@@ -89,6 +89,7 @@ struct SheetGroup {
 
 struct Sheet {
   double width = 0, height = 0;
+  Vec2 corner{0};  // upper left one of the part that is shown; width and height are its
   Spectrum paper;
   std::string title;
   std::vector<SheetItem> items;

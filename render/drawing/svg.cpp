@@ -113,13 +113,13 @@ class Writer {
     text_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     text_ += fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" "
-        "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
-        number(sheet_.width), number(sheet_.height));
+        "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {0} {1}\">\n",
+        number(sheet_.width), number(sheet_.height), point(sheet_.corner));
     if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(sheet_.title));
     write_fonts();
     text_ += definitions_;
-    text_ += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(sheet_.width),
-                         number(sheet_.height), color_text(sheet_.paper));
+    text_ += fmt::format("<rect class=\"paper\"{} width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", paper_corner(),
+                         number(sheet_.width), number(sheet_.height), color_text(sheet_.paper));
     text_ += "<g fill=\"none\" stroke-linejoin=\"round\">\n" + body + "</g>\n</svg>\n";
     return std::move(text_);
   }
@@ -127,6 +127,11 @@ class Writer {
  private:
   void items(const std::vector<SheetItem>& list) {
     for (const SheetItem& item : list) std::visit([&](const auto& one) { write(one); }, item);
+  }
+
+  std::string paper_corner() const {
+    const Vec2& at = sheet_.corner;
+    return at == Vec2(0) ? std::string() : fmt::format(" x=\"{}\" y=\"{}\"", number(at.x), number(at.y));
   }
 
   // A name that no other element has.

@@ -213,6 +213,117 @@ image: { size: [60 mm, 80 mm] }
         for name in ("left", "left-c", "left-c-curve-1", "right", "right-c", "right-c-curve-1"):
             self.assertIn(name, ids)
 
+    # ---------------------------------------------------------------- size and part of the page
+
+    def test_crop(self):
+        """The part that the scene or --crop names, in the page's pixels; the drawing stays where it is."""
+        whole, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\nimage: { size: [80, 80] }\n")
+        part, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\n"
+                             "image: { size: [80, 80], crop: [0, 0, 40, 20] }\n")
+        pixel = 25.4 / 96
+        box = [float(x) for x in part.get("viewBox").split()]
+        self.assert_near(box, [0, 0, 40 * pixel, 20 * pixel], 1e-3)
+        self.assert_near(float(part.get("width").removesuffix("mm")), 40 * pixel, 1e-3)
+        self.assertEqual([path.get("d") for path in whole.iter(SVG + "path")],
+                         [path.get("d") for path in part.iter(SVG + "path")])
+        part, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\nimage: { size: [80, 80] }\n",
+                             "--crop", "40,40,80,60", "-o", "part.png", "-o", "part.pdf")
+        self.assert_near([float(x) for x in part.get("viewBox").split()],
+                         [40 * pixel, 40 * pixel, 40 * pixel, 20 * pixel], 1e-3)
+        self.assertEqual(self.png_size("part.png"), (40, 20))
+        self.assertIn(b"/MediaBox [ 0 0 30 15 ]", self.bytes_of("part.pdf"))
+        errors = self.run_program("draw", "scene.yaml", "--crop", "40,40,90,60", code=USAGE)[1]
+        self.assertIn("does not lie inside", errors)
+
+    def png_size(self, name):
+        data = self.bytes_of(name)
+        return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+
+    def test_size(self):
+        """So many pixels; the page keeps its width, lines and texts theirs."""
+        scene = CIRCLE + "drawing: { annotations: [{ type: label, at: [0, 0], text: a }] }\n"
+        for size, page in (("400x300", (80, 60)), ("300x300", (80, 80))):
+            root, _ = self.drawn(scene, "--size", size, "--threads", "1", "-o", "scene.png")
+            self.assertEqual((root.get("width"), root.get("height")), (f"{page[0]}mm", f"{page[1]}mm"))
+            self.assertEqual(self.png_size("scene.png"), tuple(int(x) for x in size.split("x")))
+            self.assertEqual(next(root.iter(SVG + "path")).get("stroke-width"), "0.5")
+        self.run_program("draw", "scene.yaml", "--size", "300", code=USAGE)
+
+    def test_places_on_the_page(self):
+        """They count from the page's lower left corner, whatever the margin."""
+        root, _ = self.drawn(self.annotated("{ type: point, at: { page: [10 mm, 20 mm] }, marker: square }"))
+        point = self.of_class(root, "point")[0]
+        x, y = self.box(point)[0] + self.box(point)[2], self.box(point)[1] + self.box(point)[3]
+        self.assert_near([x / 2, y / 2], [10, 40], 1e-3)
+
+    # ---------------------------------------------------------------- what does not fit
+
+    def test_too_large(self):
+        """What does not fit is an error of the scene: where, and what would."""
+        panels = """lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+panels: { a: { camera: { view: top } }, b: { camera: { view: front } } }
+layout: { rows: [[a, b]], scale: SCALE }
+image: { size: [80 mm, auto] }
+"""
+        self.write("wide.yaml", panels.replace("SCALE", "50"))
+        errors = self.run_program("draw", "wide.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("wide.yaml:4:34: the panels do not fit at this scale: they need ", errors)
+        scale = re.search(r"hint: scale: ([\d.]+) fits", errors).group(1)
+        self.write("fits.yaml", panels.replace("SCALE", scale))
+        self.run_program("draw", "fits.yaml")
+        self.write("next.yaml", panels.replace("SCALE", str(1.1 * float(scale))))
+        self.run_program("draw", "next.yaml", code=SCENE_ERROR)
+        self.write("margin.yaml", CIRCLE.replace("margin: 4 mm", "margin: 30 mm"))
+        errors = self.run_program("draw", "margin.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("margin.yaml:4:40: a margin of 30 mm leaves nothing of a page of 80.0 x 60.0 mm", errors)
+        self.assertIn("hint: less than 29.5 mm", errors)
+        self.write("panels.yaml", panels.replace(", scale: SCALE", "").replace("auto]", "auto], margin: 45 mm"))
+        errors = self.run_program("draw", "panels.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 x 1 panels", errors)
+
+    # ---------------------------------------------------------------- numbers, graphs, notes
+
+    def test_small_models_have_numbers(self):
+        root, _ = self.drawn("""lekalo: 1
+geometry:
+  c: { type: circle, radius: 5e-5 }
+drawing:
+  annotations:
+    - { type: linear_dimension, from: [0, 0], to: [1e-4, 0] }
+    - { type: linear_dimension, from: [0, 0], to: [0, 1e-4], decimals: 2 }
+    - { type: radius_dimension, of: c }
+camera: { view: top }
+""")
+        self.assertEqual(sorted(self.texts(root)), ["0", "0.0001", "R5·10−5"])
+
+    def test_graphs_are_cut_with_their_labels(self):
+        """A control point beyond the range has no label; a legend in a corner lies on a ground of its own."""
+        graph = """lekalo: 1
+geometry: { b: { type: bezier_curve, points: [[-3, 1], [-1, 3], [1, -3], [3, 1]] } }
+objects:
+  - { shape: b, lines: { curve: thick }, show: { control_polygon: { label: '$p_%i$' } }, legend: Bezier }
+camera: { type: graph, x: [-4, 4], y: [-2, 2] }
+drawing:
+  axes: { x: { ticks: none }, y: { ticks: none } }
+  legend: { side: SIDE }
+  annotations: [{ type: label, at: [0, -2.2], text: under }]
+"""
+        root, _ = self.drawn(graph.replace("SIDE", "below"))
+        self.assertEqual(sorted(self.texts(root)), ["Bezier", "p0", "p3", "under"])
+        marks = [path for group in self.of_class(root, "mark") for path in group.findall(SVG + "path")]
+        self.assertEqual(len(marks), 2)
+        grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
+        self.assertEqual(grounds, [])
+        root, _ = self.drawn(graph.replace("SIDE", "above right"))
+        grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
+        self.assertEqual([path.get("fill") for path in grounds], ["#ffffff"])
+
+    def test_notes_on_lights(self):
+        """The studio is named where something is lit by it."""
+        self.assertNotIn("studio", self.drawn(CIRCLE)[1])
+        self.assertIn("studio", self.drawn(CIRCLE + "drawing: { ground: shaded }\n", "--size", "40x30")[1])
+
 
 if __name__ == "__main__":
     unittest.main()
