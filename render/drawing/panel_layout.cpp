@@ -18,9 +18,10 @@ using namespace geometry;
 
 namespace {
 
-constexpr double kFree = 1.5;     // millimetres around what a panel shows
-constexpr int kTrial = 1000;      // pixels of cameras by which sizes are found
-constexpr double kTallest = 3;    // times its width: pictures whose height is found
+constexpr double kFree = 1.5;   // millimetres around what a panel shows
+constexpr int kTrial = 1000;    // pixels of cameras by which sizes are found
+constexpr double kTallest = 3;  // times its width: pictures whose height is found
+constexpr double kRounding = 1e-6;
 constexpr double kLeastRoom = 1;  // millimetres for what is shown beside its annotations
 constexpr const char* kAnchorFields[] = {"at", "from", "to"};
 
@@ -89,27 +90,39 @@ struct Track {
 
 }  // namespace
 
-SheetBox shown_box(const Model& model, const Camera& camera, double millimetres) {
-  SheetBox part;
-  const auto add = [&](const Vec3& point) {
-    const PicturePoint p = camera.project(point);
-    if (p.visible_side) part.include(millimetres * Vec2(p.x, p.y));
-  };
+namespace {
+
+void include(const Vec3& point, const Camera& camera, double millimetres, SheetBox& part) {
+  const PicturePoint p = camera.project(point);
+  if (p.visible_side) part.include(millimetres * Vec2(p.x, p.y));
+}
+
+void include(const SheetBox& other, SheetBox& part) {
+  if (other.lo.x <= other.hi.x) part.include(other.lo), part.include(other.hi);
+}
+
+// Of the points that annotations speak of.
+SheetBox anchors_box(const Model& model, const Camera& camera, double millimetres) {
   const View view{model, camera, Vec2(0), millimetres, {0, millimetres * camera.height()}};
   LineWork work;
   PageWork page;
   add_annotations(view, work, page);
-  for (const Vec3& anchor : page.anchors) add(anchor);
-  // Where no object shows anything cameras frame a cube, which is not seen.
-  if (const Shown shown(model.objects); !shown.box.empty() || page.anchors.empty())
-    for (const Vec3& point : shown.points()) add(point);
-  if (!(part.lo.x < kInfinity))
-    part.include(Vec2(0)), part.include(millimetres * Vec2(camera.width(), camera.height()));
+  SheetBox part;
+  for (const Vec3& anchor : page.anchors) include(anchor, camera, millimetres, part);
   return part;
 }
 
-SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres) {
-  // Places on the page stay where they are.
+// Empty where no object shows anything: then cameras frame a cube, which is not seen.
+SheetBox objects_box(const Model& model, const Camera& camera, double millimetres) {
+  SheetBox part;
+  const Shown shown(model.objects);
+  if (shown.box.empty()) return part;
+  for (const Vec3& point : shown.points()) include(point, camera, millimetres, part);
+  return part;
+}
+
+// Of all that annotations draw, but for what is held on the page: that stays where it is.
+SheetBox annotations_box(const Model& model, const Camera& camera, double millimetres) {
   Model trial = model;
   std::erase_if(trial.drawing.annotations, [](const Annotation& one) {
     return std::any_of(std::begin(kAnchorFields), std::end(kAnchorFields), [&](const char* field) {
@@ -120,7 +133,7 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   LineWork work;
   PageWork page;
   add_annotations(view, work, page);
-  SheetBox all = shown_box(model, camera, millimetres);
+  SheetBox all;
   for (const SheetItem& item : page.shapes) include(item, all);
   for (const Mark& mark : work.marks) {
     const PicturePoint at = camera.project(mark.point);
@@ -149,17 +162,45 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
   return all;
 }
 
+}  // namespace
+
+SheetBox shown_box(const Model& model, const Camera& camera, double millimetres) {
+  SheetBox part = anchors_box(model, camera, millimetres);
+  include(objects_box(model, camera, millimetres), part);
+  if (!(part.lo.x < kInfinity))
+    part.include(Vec2(0)), part.include(millimetres * Vec2(camera.width(), camera.height()));
+  return part;
+}
+
+SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres) {
+  SheetBox all = shown_box(model, camera, millimetres);
+  include(annotations_box(model, camera, millimetres), all);
+  return all;
+}
+
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
-  const bool shows_objects = !Shown(model.objects).box.empty();
+  const SheetBox objects = objects_box(model, *model.camera, millimetres), picture{Vec2(0), size};
+  const bool shows_objects = objects.lo.x < kInfinity;
+  // A camera may frame some of the objects: then its picture counts, not what lies outside of it.
+  const bool frames_all = glm::all(glm::greaterThan(objects.lo, picture.lo - Vec2(kFree))) &&
+                          glm::all(glm::lessThan(objects.hi, picture.hi + Vec2(kFree)));
   CameraPtr camera = model.camera;
   double zoom = 1;
   Vec2 corner(0);  // of the window in the model's own picture, pixels
+  const auto now = [&](const Vec2& place) { return zoom * (place - millimetres * corner); };
   // What annotations take hardly depends on the scale: it is soon found.
   constexpr int kRounds = 12;
   constexpr double kFound = 1e-3;  // of the scale
   for (int round = 0; round < kRounds; ++round) {
-    const SheetBox shown = shown_box(model, *camera, millimetres), all = annotated_box(model, *camera, millimetres);
-    const bool fits = all.lo.x >= 0 && all.lo.y >= 0 && all.hi.x <= size.x && all.hi.y <= size.y;
+    SheetBox shown = anchors_box(model, *camera, millimetres);
+    if (frames_all || !shows_objects)
+      shown = shown_box(model, *camera, millimetres);
+    else
+      shown.include(now(picture.lo)), shown.include(now(picture.hi));
+    SheetBox all = shown;
+    include(annotations_box(model, *camera, millimetres), all);
+    const bool fits = all.lo.x >= -kRounding && all.lo.y >= -kRounding && all.hi.x <= size.x + kRounding &&
+                      all.hi.y <= size.y + kRounding;
     if (round == 0 && fits && shows_objects) break;
     const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - shown.hi + Vec2(kFree);
     const Vec2 content = shown.size();

@@ -103,6 +103,22 @@ image: { size: [80 mm, 60 mm], margin: 4 mm }
         self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
         self.assertGreater(hi_x - lo_x, 60)
 
+    def test_cameras_that_frame_some(self):
+        """What a camera leaves out of its picture gets no room; a dimension of what it frames does."""
+        scene = """lekalo: 1
+geometry: { c: { type: circle, radius: 1 }, far: { type: circle, center: [40, 0], radius: 1 } }
+camera: { view: top, frame: [c], margin: 0 }
+image: { size: [80 mm, 60 mm], margin: 4 mm }
+"""
+        root, _ = self.drawn(scene)
+        self.assert_near(self.radius(root), 26, 0.1)
+        root, _ = self.drawn(scene + "drawing: { annotations: "
+                             "[{ type: linear_dimension, from: [-1, 0], to: [1, 0], offset: -30 mm }] }\n")
+        self.assertEqual(self.texts(root), ["2"])
+        self.assertGreater(self.radius(root), 15)
+        lo_x, lo_y, hi_x, hi_y = self.box(root)
+        self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
+
     def test_behind_the_eye(self):
         """Nothing is drawn at the mirrored pictures of points behind the eye, and that is said."""
         root, errors = self.drawn("""lekalo: 1
