@@ -145,17 +145,23 @@ class ViewDrawing {
   }
 
   void clip(SheetGroup& group) const {
-    if (!clipped_) return;
+    if (!clipped_ && !sticks_out()) return;
     group.clip_at = view_.at - Vec2(kClipFree);
     group.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
   }
 
-  // Where the lines of objects are cut there is nothing that belongs to them.
-  bool is_cut_off(const Vec2& place) const {
-    const Vec2 off = place - view_.at;
-    return clipped_ && !(off.x > -kClipFree && off.y > -kClipFree && off.x < view_.width() + kClipFree &&
-                         off.y < view_.height() + kClipFree);
+  // Whether a line goes on beyond the picture: how far is chance.
+  bool sticks_out() const {
+    return std::any_of(obstacles_.segments.begin(), obstacles_.segments.end(),
+                       [&](const auto& segment) { return is_beyond(segment.first) || is_beyond(segment.second); });
   }
+  bool is_beyond(const Vec2& place) const {
+    const Vec2 off = place - view_.at;
+    return !(off.x > -kClipFree && off.y > -kClipFree && off.x < view_.width() + kClipFree &&
+             off.y < view_.height() + kClipFree);
+  }
+  // Where the lines of objects are cut there is nothing that belongs to them.
+  bool is_cut_off(const Vec2& place) const { return clipped_ && is_beyond(place); }
 
   std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
 

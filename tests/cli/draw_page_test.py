@@ -112,6 +112,11 @@ image: { size: [80 mm, 60 mm], margin: 4 mm }
 """
         root, _ = self.drawn(scene)
         self.assert_near(self.radius(root), 26, 0.1)
+        self.assertIsNone(self.of_class(root, "lines")[0].get("clip-path"))
+        # What goes on beyond the picture ends at it, not somewhere in the margin.
+        root, _ = self.drawn(scene.replace("far: { type: circle, center: [40, 0], radius: 1 }",
+                                           "far: { type: segment, from: [0, 0], to: [40, 0] }"))
+        self.assertEqual(self.of_class(root, "lines")[0].get("clip-path"), "url(#clip)")
         root, _ = self.drawn(scene + "drawing: { annotations: "
                              "[{ type: linear_dimension, from: [-1, 0], to: [1, 0], offset: -30 mm }] }\n")
         self.assertEqual(self.texts(root), ["2"])
