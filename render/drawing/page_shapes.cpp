@@ -91,8 +91,11 @@ std::string dimension_number(double value) {
   const int power = size > 0 ? static_cast<int>(std::floor(std::log10(size) + 1e-9)) : 0;
   const int decimals = std::max(kDecimals, kDigits - 1 - power);
   if (decimals <= kMostDecimals) return dimension_number(value, decimals);
-  const std::string digits = dimension_number(value / std::pow(10, power), kDigits - 1);
-  return fmt::format("${}10^{{{}}}$", digits == "1" ? "" : digits + "\\cdot ", power);
+  // One digit before the point and the others, then the power: 5.0e-05.
+  const std::string text = fmt::format("{:.{}e}", value, kDigits - 1);
+  const std::string digits = dimension_number(std::stod(text.substr(0, text.find('e'))), kDigits - 1);
+  return fmt::format("${}10^{{{}}}$", digits == "1" ? "" : digits + "\\cdot ",
+                     std::stoi(text.substr(text.find('e') + 1)));
 }
 
 }  // namespace lekalo::render

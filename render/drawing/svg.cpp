@@ -136,8 +136,10 @@ class Writer {
 
   // A name that no other element has.
   std::string unique(const std::string& name) {
-    std::string id = name_token(name);
-    for (int k = 2; !ids_.insert(id).second; ++k) id = fmt::format("{}_{}", name_token(name), k);
+    const std::string token = name_token(name);
+    int& number = last_number_[token];
+    std::string id = token;
+    while (!ids_.insert(id).second) id = fmt::format("{}_{}", token, number = std::max(number, 1) + 1);
     return id;
   }
   // Of what stands in a group without being one.
@@ -279,8 +281,9 @@ class Writer {
   std::string text_, definitions_;
   std::map<Font, std::string> used_;  // characters
   std::set<std::string> ids_;
-  std::string within_, panel_;  // id of the group that is written; how ids in its panel begin
-  int number_ = 0;              // of elements so far in the group
+  std::map<std::string, int> last_number_;  // behind names that were taken
+  std::string within_, panel_;              // id of the group that is written; how ids in its panel begin
+  int number_ = 0;                          // of elements so far in the group
 };
 
 }  // namespace

@@ -120,6 +120,8 @@ TEST(Drawing, Numbers) {
   EXPECT_EQ(dimension_number(1e-4), "0.0001");
   EXPECT_EQ(dimension_number(5e-5), "$5\\cdot 10^{-5}$");
   EXPECT_EQ(dimension_number(1e-6), "$10^{-6}$");
+  EXPECT_EQ(dimension_number(9.99e-6), "$10^{-5}$");
+  EXPECT_EQ(dimension_number(1.25e-7), "$1.2\\cdot 10^{-7}$");
   EXPECT_EQ(dimension_number(0), "0");
   EXPECT_EQ(round_values({0, 6}, 6), (std::vector<double>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(round_values({0.1, 1.05}, 5).size(), 5u);  // 0.2, 0.4, .., 1
