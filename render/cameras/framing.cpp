@@ -54,6 +54,9 @@ ViewDirection view_from_angles(double azimuth, double elevation) {
 
 namespace {
 
+// Between the eye and the nearest point, of the extent of all.
+constexpr double kLeastDistance = 1e-3;
+
 struct Range {
   double lo = kInfinity, hi = -kInfinity;
   void include(double x) {
@@ -140,11 +143,16 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
   };
   double distance = std::max(nearest(across, tangent.x), nearest(upward, tangent.y));
   // The eye must not touch a point (all on one line of sight, or a single point).
-  distance = std::max(distance, -depth.lo + 1e-3 * std::max(depth.width(), 1.0));
+  Range sides;
+  for (const Vec2& p : across) sides.include(p.x - across[0].x);
+  for (const Vec2& p : upward) sides.include(p.x - upward[0].x);
+  double size = std::max(depth.width(), sides.width());
+  if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(across[0].x), std::abs(upward[0].x)});
+  distance = std::max(distance, -depth.lo + kLeastDistance * size);
   const double x = centred(across, distance), y = centred(upward, distance);
   PerspectiveView result;
   result.from = x * axes.right + y * axes.up - distance * forward;
-  result.at = result.from + std::max(depth.middle() + distance, 1e-6) * forward;
+  result.at = result.from + std::max(depth.middle() + distance, kLeastDistance * size) * forward;
   result.up = view.up;
   result.field_of_view = field_of_view;
   return result;

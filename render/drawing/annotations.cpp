@@ -6,12 +6,10 @@
 #include <cmath>
 #include <memory>
 
-#include "geometry/body.h"
 #include "geometry/curves/circle.h"
-#include "geometry/curves/parameter_line.h"
 #include "geometry/curves/segment.h"
-#include "geometry/queries/roundness.h"
 #include "render/drawing/light_path.h"
+#include "render/drawing/page_shapes.h"
 
 namespace lekalo::render {
 
@@ -27,29 +25,6 @@ constexpr double kShelf = 6;          // from a circle to the number of its radi
 constexpr double kLastPart = 0.4;     // of a light path, of the scene's radius
 constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
 
-// The circle of a round curve or surface.
-Circle circle_of(const Fields& f) {
-  CurvePtr curve;
-  if (f.holds<CurvePtr>("of")) {
-    curve = f.curve("of");
-  } else {
-    SurfacePtr surface;
-    if (f.holds<SurfacePtr>("of")) surface = f.surface("of");
-    if (f.holds<BodyPtr>("of"))
-      for (const Face& face : f.body("of")->faces)
-        if (!surface && is_round(*face.surface)) surface = face.surface;
-    const Rectangle domain = surface->domain();
-    const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
-    for (const HeldParameter held : {HeldParameter::v, HeldParameter::u}) {
-      curve = std::make_shared<ParameterLine>(surface, held, middle(held == HeldParameter::v ? domain.v : domain.u));
-      if (curve->domain().width() < kInfinity && is_round(*curve)) break;
-    }
-  }
-  const Interval t = curve->domain();
-  const auto at = [&](double x) { return curve->point(t.lo + x * t.width()); };
-  return arc_through(at(0), at(0.31), at(0.67));
-}
-
 class Annotator {
  public:
   Annotator(const View& view, LineWork& work, PageWork& page) : view_(view), work_(work), page_(page) {}
@@ -60,6 +35,7 @@ class Annotator {
     look_ = drawn_look(annotation.style);
     const Fields& f = annotation.values;
     const std::string& type = annotation.type;
+    if (is_behind_eye(type, f)) return leave_out();
     if (type == "label")
       add_label(f);
     else if (type == "point")
@@ -87,6 +63,30 @@ class Annotator {
   }
 
  private:
+  void leave_out() { work_.left_out.push_back(kind_ + " at points behind the eye"); }
+
+  bool is_seen(const Vec3& point) const { return view_.camera.project(point).visible_side; }
+
+  // What is drawn on the page from the pictures of its points has none there; lines in space are cut before the eye.
+  bool is_behind_eye(const std::string& type, const Fields& f) const {
+    const auto hides = [&](const char* field) {
+      return f.holds<Anchor>(field) && !f.get<Anchor>(field).on_page && !is_seen(f.get<Anchor>(field).point);
+    };
+    if (type == "angle") return hides("at");
+    if (type == "angle_dimension") return hides("at") || hides("from") || hides("to");
+    if (type == "leader") return hides("at") || hides("to");
+    if (type == "brace" || type == "linear_dimension") return hides("from") || hides("to");
+    if (type == "arrow" && f.has("to") && (f.get<Anchor>("from").on_page || f.get<Anchor>("to").on_page))
+      return hides("from") || hides("to");
+    return false;
+  }
+
+  // A place on the page that an annotation speaks of.
+  Vec2 place(const Anchor& anchor) {
+    if (!anchor.on_page) page_.anchors.push_back(anchor.point);
+    return view_.place(anchor);
+  }
+
   // ---------------------------------------------------------------- in space
 
   HiddenLines hidden(const Fields& f) const { return hidden_of(f); }
@@ -106,8 +106,14 @@ class Annotator {
     work_.strokes.push_back(std::move(stroke));
   }
 
+  void segment(const Vec3& from, const Vec3& to, const HiddenLines& hidden, bool start, bool end) {
+    page_.anchors.push_back(from), page_.anchors.push_back(to);
+    stroke(std::make_shared<Segment>(from, to), hidden, start, end);
+  }
+
   void text(const Vec3& point, std::string words, const std::string& side, double distance, const HiddenLines& hidden,
             bool leader = false) {
+    page_.anchors.push_back(point);
     PointText text;
     text.point = point;
     text.text = std::move(words);
@@ -128,7 +134,7 @@ class Annotator {
     const std::string words = f.get<TextTemplate>("text").text();
     const double distance = f.has("distance") ? f.number("distance") : at.on_page ? 0.0 : 1.2;
     if (!at.on_page) return text(at.point, words, side_of(f), distance, hidden(f), f.boolean("leader"));
-    Label label = page_label(words, view_.place(at));
+    Label label = page_label(words, place(at));
     label.side = f.has("side") ? f.text("side") : "center";
     label.distance = distance;
     page_.labels.push_back(std::move(label));
@@ -148,6 +154,7 @@ class Annotator {
     if (at.on_page) {
       page_.shapes.push_back(SheetGroup{kind_, "", {}, {}, drawn_mark(mark, view_.place(at), style_->opacity, view_)});
     } else {
+      page_.anchors.push_back(mark.point);
       work_.marks.push_back(mark);
     }
     if (!f.has("label")) return;
@@ -173,7 +180,7 @@ class Annotator {
     else
       to.point = from.point + f.number("length") * f.vec3("along");
     if (from.on_page || to.on_page) {
-      const Vec2 a = view_.place(from), b = view_.place(to);
+      const Vec2 a = place(from), b = place(to);
       page_line(a, b, start, end);
       if (words.empty()) return;
       Label label = page_label(words, b);
@@ -183,7 +190,7 @@ class Annotator {
     }
     if (to.point == from.point) return;
     const HiddenLines ways = hidden(f);
-    stroke(std::make_shared<Segment>(from.point, to.point), ways, start, end);
+    segment(from.point, to.point, ways, start, end);
     if (!words.empty()) text(to.point, words, side_of(f), 0.8, ways);
   }
 
@@ -204,8 +211,7 @@ class Annotator {
     const auto [start, end] = heads();
     for (size_t k = 0; k + 1 < corners.size(); ++k)
       if (corners[k] != corners[k + 1])
-        stroke(std::make_shared<Segment>(corners[k], corners[k + 1]), ways, start && k == 0,
-               end && k + 2 == corners.size());
+        segment(corners[k], corners[k + 1], ways, start && k == 0, end && k + 2 == corners.size());
   }
 
   void add_triad(const Vec3& origin, const std::array<Vec3, 3>& axes, const Fields& f) {
@@ -215,7 +221,7 @@ class Annotator {
     const HiddenLines ways = hidden(f);
     for (size_t k = 0; k < 3; ++k) {
       const Vec3 tip = origin + length * axes[k];
-      stroke(std::make_shared<Segment>(origin, tip), ways, start, end);
+      segment(origin, tip, ways, start, end);
       if (k < labels.size() && seen_from_the_side(origin, tip)) text(tip, labels[k].text(), "", 0.6, ways);
     }
   }
@@ -253,7 +259,7 @@ class Annotator {
   void add_angle(const Fields& f, double radius, const std::string& words, bool dimension) {
     const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
     if (at.on_page || from.on_page || to.on_page) {
-      const Vec2 apex = view_.place(at), a = view_.place(from) - apex, b = view_.place(to) - apex;
+      const Vec2 apex = place(at), a = place(from) - apex, b = place(to) - apex;
       const auto space = [](const Vec2& p) { return Vec3(p.x, -p.y, 0); };
       page_arc(apex, space(a), space(b), radius);
       return;
@@ -262,6 +268,7 @@ class Annotator {
     const Vec3 z = glm::cross(x, other);
     const double angle = std::atan2(glm::length(z), glm::dot(x, other));
     if (!(angle > 1e-9) || !(glm::length(z) > 0)) return;
+    page_.anchors.push_back(at.point);
     const Frame frame = frame_from(at.point, glm::normalize(z), glm::normalize(x));
     const double size = radius / view_.millimetres * view_.camera.pixel_size(at.point);
     const auto [start, end] = heads();
@@ -280,7 +287,7 @@ class Annotator {
   void add_angle_dimension(const Fields& f) {
     const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
     if (at.on_page || from.on_page || to.on_page) return;
-    const Vec2 apex = view_.place(at), a = view_.place(from), b = view_.place(to);
+    const Vec2 apex = place(at), a = place(from), b = place(to);
     const double nearest = std::min(glm::length(a - apex), glm::length(b - apex));
     const double radius = nearest + f.number("offset");
     const Vec3 x = from.point - at.point, y = to.point - at.point;
@@ -305,27 +312,10 @@ class Annotator {
     return label;
   }
 
-  static std::string side_towards(const Vec2& way) {
-    constexpr const char* kSides[] = {"right", "below right", "below", "below left",
-                                      "left",  "above left",  "above", "above right"};
-    const double eighth = std::atan2(way.y, way.x) / (kPi / 4);
-    return kSides[(static_cast<int>(std::lround(eighth)) + 8) % 8];
-  }
-
   void shape(std::vector<SheetItem> items) { page_.shapes.push_back(SheetGroup{kind_, "", {}, {}, std::move(items)}); }
 
   void page_line(const Vec2& from, const Vec2& to, bool start, bool end) {
-    const double length = glm::length(to - from);
-    if (!(length > 0)) return;
-    const Vec2 way = (to - from) / length;
-    const double size = std::min(style_->arrow_size, 0.5 * length);
-    std::vector<SheetItem> items;
-    items.push_back(drawn(
-        straight_path({from + (start ? shortened_by(size) : 0.0) * way, to - (end ? shortened_by(size) : 0.0) * way}),
-        look_));
-    if (start) items.push_back(arrow_head(from, -way, size, look_));
-    if (end) items.push_back(arrow_head(to, way, size, look_));
-    shape(std::move(items));
+    if (from != to) shape(line_with_heads(from, to, start, end, style_->arrow_size, look_));
   }
 
   void page_arc(const Vec2& apex, const Vec3& x, const Vec3& y, double radius) {
@@ -338,7 +328,7 @@ class Annotator {
   }
 
   void add_leader(const Fields& f) {
-    const Vec2 at = view_.place(f.get<Anchor>("at")), to = view_.place(f.get<Anchor>("to"));
+    const Vec2 at = place(f.get<Anchor>("at")), to = place(f.get<Anchor>("to"));
     const std::string& head = f.text("head");
     page_line(to, at, false, head == "arrow");
     if (head == "dot") {
@@ -352,30 +342,15 @@ class Annotator {
     page_.labels.push_back(std::move(label));
   }
 
-  // Two quarter turns, a straight part, the tip, and the same back.
   void add_brace(const Fields& f) {
-    Vec2 from = view_.place(f.get<Anchor>("from")), to = view_.place(f.get<Anchor>("to"));
-    const double length = glm::length(to - from);
-    if (!(length > 0)) return;
-    const Vec2 way = (to - from) / length, out(way.y, -way.x);  // to the left of the way, as seen
+    const Vec2 from = place(f.get<Anchor>("from")), to = place(f.get<Anchor>("to"));
+    if (from == to) return;
     const double offset = f.number("offset"), depth = (offset < 0 ? -1 : 1) * f.number("depth");
-    from += offset * out, to += offset * out;
-    const Vec2 tip = 0.5 * (from + to) + depth * out;
-    const double turn = std::min(0.5 * std::abs(depth), 0.25 * length);
-    const auto place = [&](const Vec2& begin, double along, double high) { return begin + along * way + high * out; };
-    const double half = 0.5 * depth, round = 0.55 * turn;
-    Path path;
-    path.from = from;
-    path.steps = {curve_to(place(from, 0, 0.55 * half), place(from, turn - round, half), place(from, turn, half)),
-                  line_to(place(tip, -turn, -half)),
-                  curve_to(place(tip, -turn + round, -half), place(tip, 0, -0.55 * half), tip),
-                  curve_to(place(tip, 0, -0.55 * half), place(tip, turn - round, -half), place(tip, turn, -half)),
-                  line_to(place(to, -turn, half)),
-                  curve_to(place(to, -turn + round, half), place(to, 0, 0.55 * half), to)};
-    shape({drawn(path, look_)});
+    const Brace brace = brace_along(from, to, offset, depth);
+    shape({drawn(brace.path, look_)});
     if (!f.has("label")) return;
-    Label label = page_label(f.get<TextTemplate>("label").text(), tip);
-    label.side = side_towards(depth > 0 ? out : -out);
+    Label label = page_label(f.get<TextTemplate>("label").text(), brace.tip);
+    label.side = side_towards(brace.out);
     label.distance = kTextOff;
     page_.labels.push_back(std::move(label));
   }
@@ -385,7 +360,10 @@ class Annotator {
     if (f.has("text")) return f.get<TextTemplate>("text").text();
     std::string words;
     if (f.has("prefix")) words += f.get<TextTemplate>("prefix").text();
-    words += sign + dimension_number(value, f.integer("decimals")) + unit;
+    words += sign +
+             (f.given("decimals") || !unit.empty() ? dimension_number(value, f.integer("decimals"))
+                                                   : dimension_number(value)) +
+             unit;
     if (f.has("suffix")) words += f.get<TextTemplate>("suffix").text();
     return words;
   }
@@ -394,9 +372,12 @@ class Annotator {
     const Vec3 a = f.get<Anchor>("from").point, b = f.get<Anchor>("to").point;
     const Vec3 along = f.has("along") ? f.vec3("along") : b - a;
     const double value = f.has("along") ? std::abs(glm::dot(b - a, along)) : glm::length(b - a);
-    const Vec2 p = view_.place(a), q = view_.place(b);
-    const Vec2 shown = view_.place(a + along) - p;
-    if (!(glm::length(shown) > 1e-6) || !(value > 0)) return;  // seen along itself
+    if (!(value > 0)) return;
+    const Vec2 p = place(f.get<Anchor>("from")), q = place(f.get<Anchor>("to"));
+    const Vec3 beyond = f.has("along") ? a + value * along : b;
+    if (!is_seen(beyond)) return leave_out();
+    const Vec2 shown = view_.place(beyond) - p;
+    if (!(glm::length(shown) > 1e-6)) return;  // seen along itself
     Vec2 way = glm::normalize(shown);
     if (glm::dot(q - p, way) < 0) way = -way;
     const Vec2 forward = glm::normalize(shown), out(forward.y, -forward.x);  // to the left, as seen
@@ -441,6 +422,13 @@ class Annotator {
     const Circle circle = circle_of(f);
     const Frame& frame = circle.frame();
     const double radius = circle.radius();
+    const Vec3 corner = radius * (frame.x + frame.y), other = radius * (frame.x - frame.y);
+    const std::array<Vec3, 4> around = {frame.origin + corner, frame.origin - corner, frame.origin + other,
+                                        frame.origin - other};
+    if (!std::all_of(around.begin(), around.end(), [&](const Vec3& point) { return is_seen(point); }))
+      return leave_out();
+    page_.anchors.push_back(frame.origin + radius * frame.x), page_.anchors.push_back(frame.origin - radius * frame.x);
+    page_.anchors.push_back(frame.origin + radius * frame.y), page_.anchors.push_back(frame.origin - radius * frame.y);
     const double leader = f.number("leader");
     const Vec2 way(std::cos(leader), -std::sin(leader));
     const Vec2 center = view_.place(frame.origin);
@@ -480,15 +468,6 @@ class Annotator {
 };
 
 }  // namespace
-
-std::string dimension_number(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
 
 void add_annotations(const View& view, LineWork& work, PageWork& page) {
   Annotator annotator(view, work, page);

@@ -11,12 +11,11 @@ namespace lekalo::render {
 struct PageWork {
   std::vector<SheetItem> shapes;
   std::vector<Label> labels;
+  std::vector<Vec3> anchors;  // points in space that the annotations speak of, those of the lines in space too
 };
 
-// Adds the annotations of the view's model.
+// Adds the annotations of the view's model. What stands on the page at points behind the eye is left out, and named in
+// work.left_out.
 void add_annotations(const View& view, LineWork& work, PageWork& page);
-
-// The number of a dimension: at most so many decimals, zeros at its end left out.
-std::string dimension_number(double value, int decimals);
 
 }  // namespace lekalo::render

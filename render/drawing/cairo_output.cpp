@@ -76,6 +76,7 @@ class Painter {
     set_color(sheet.paper, 1);
     cairo_rectangle(cairo_, 0, 0, sheet.width, sheet.height);
     cairo_fill(cairo_);
+    cairo_translate(cairo_, -sheet.corner.x, -sheet.corner.y);
     items(sheet.items);
     check(cairo_status(cairo_));
   }

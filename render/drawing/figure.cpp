@@ -12,8 +12,8 @@
 #include "render/drawing/annotations.h"
 #include "render/drawing/fills.h"
 #include "render/drawing/graph_axes.h"
-#include "render/drawing/joined_paths.h"
 #include "render/drawing/label_placement.h"
+#include "render/drawing/line_groups.h"
 #include "render/drawing/overlaps.h"
 #include "render/drawing/panel_layout.h"
 #include "render/film/render.h"
@@ -134,6 +134,7 @@ class ViewDrawing {
     model->film.crop = {};
     model->film.layers = {"color"};
     RenderOptions settings;
+    settings.threads = options_.threads;
     if (options_.rendering) settings.progress = [&](double done, uint64_t) { options_.rendering(done); };
     const World world(model, false);
     const RenderResult rendered = render(world, settings);
@@ -160,10 +161,23 @@ class ViewDrawing {
   }
 
   void clip(SheetGroup& group) const {
-    if (!clipped_) return;
+    if (!clipped_ && !sticks_out()) return;
     group.clip_at = view_.at - Vec2(kClipFree);
     group.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
   }
+
+  // Whether a line goes on beyond the picture: how far is chance.
+  bool sticks_out() const {
+    return std::any_of(obstacles_.segments.begin(), obstacles_.segments.end(),
+                       [&](const auto& segment) { return is_beyond(segment.first) || is_beyond(segment.second); });
+  }
+  bool is_beyond(const Vec2& place) const {
+    const Vec2 off = place - view_.at;
+    return !(off.x > -kClipFree && off.y > -kClipFree && off.x < view_.width() + kClipFree &&
+             off.y < view_.height() + kClipFree);
+  }
+  // Where the lines of objects are cut there is nothing that belongs to them.
+  bool is_cut_off(const Vec2& place) const { return clipped_ && is_beyond(place); }
 
   std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
 
@@ -179,18 +193,7 @@ class ViewDrawing {
     return far;
   }
 
-  // What one pen draws of an object's lines of one kind.
-  struct DrawnLines {
-    std::string kind;  // with classes of hidden ones
-    const Stroke* stroke;
-    LineLook pen;
-    std::vector<PathInSpace> paths;
-    std::vector<SheetItem> heads;
-  };
-
   SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
-    SheetGroup all{hidden ? "hidden" : "lines", "", {}, {}, {}};
-    clip(all);
     // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
     // lines along them.
     std::vector<DrawnLines> found;
@@ -199,35 +202,9 @@ class ViewDrawing {
       for (const VisiblePiece& piece : line->pieces)
         if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers) add_piece(*line, piece, found);
     }
-    // Lines of one kind that follow one another go on in one another.
-    for (size_t last = found.size(); last > 0;) {
-      size_t first = last - 1;
-      const auto same_kind = [&](const DrawnLines& one) {
-        return one.stroke->object == found[last - 1].stroke->object && one.stroke->kind == found[last - 1].stroke->kind;
-      };
-      while (first > 0 && same_kind(found[first - 1])) --first;
-      std::vector<DrawnLines> by_pen;
-      for (size_t k = last; k-- > first;) {
-        DrawnLines& one = found[k];
-        const auto same = std::find_if(by_pen.begin(), by_pen.end(), [&](const DrawnLines& other) {
-          return other.kind == one.kind && other.pen == one.pen;
-        });
-        if (same == by_pen.end()) {
-          by_pen.push_back(std::move(one));
-          continue;
-        }
-        same->paths.insert(same->paths.end(), one.paths.begin(), one.paths.end());
-        same->heads.insert(same->heads.end(), one.heads.begin(), one.heads.end());
-      }
-      for (DrawnLines& one : by_pen) {
-        SheetGroup& group = group_of(all, one.kind, name_of(one.stroke->object));
-        for (Path& path : joined(one.paths, kJoined * world_.radius()))
-          group.items.emplace_back(drawn(std::move(path), one.pen));
-        for (SheetItem& head : one.heads) group.items.push_back(std::move(head));
-      }
-      last = first;
-    }
-    return all;
+    SheetGroup result = line_groups(std::move(found), hidden, kJoined * world_.radius(), kFitted * view_.millimetres);
+    clip(result);
+    return result;
   }
 
   // A stretch of a line as far as nothing that has been drawn lies over it, with arrow heads.
@@ -235,11 +212,10 @@ class ViewDrawing {
     const Stroke& stroke = line.stroke;
     const bool hidden = piece.layers > 0;
     // The number of layers before it is one of its classes.
-    DrawnLines drawn{hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind,
-                     &stroke,
-                     hidden ? *stroke.hidden : stroke.look,
-                     {},
-                     {}};
+    DrawnLines drawn;
+    drawn.object = stroke.object, drawn.name = name_of(stroke.object), drawn.line = stroke.kind;
+    drawn.kind = hidden ? fmt::format("{} hidden layers-{}", stroke.kind, piece.layers) : stroke.kind;
+    drawn.pen = hidden ? *stroke.hidden : stroke.look;
     if (hidden) drawn.pen.opacity *= std::pow(stroke.fade, piece.layers - 1);
     const Interval domain = stroke.curve->domain();
     Interval t = piece.t;
@@ -273,16 +249,6 @@ class ViewDrawing {
     if (!drawn.paths.empty() || !drawn.heads.empty()) found.push_back(std::move(drawn));
   }
 
-  // The last group, if it is of this kind and object, or a new one.
-  static SheetGroup& group_of(SheetGroup& all, const std::string& kind, const std::string& object) {
-    if (!all.items.empty()) {
-      auto& last = std::get<SheetGroup>(all.items.back());
-      if (last.kind == kind && last.object == object) return last;
-    }
-    all.items.push_back(SheetGroup{kind, object, {}, {}, {}});
-    return std::get<SheetGroup>(all.items.back());
-  }
-
   void add_obstacles(const Path& path) {
     Vec2 at = path.from;
     for (const PathStep& step : path.steps) {
@@ -302,6 +268,7 @@ class ViewDrawing {
       const double opacity = visible.layers > 0 ? visible.mark.hidden_opacity.value_or(0) : visible.mark.line.opacity;
       if (!(opacity > 0)) continue;
       const Vec2 at = view_.place(visible.place);
+      if (visible.mark.object >= 0 && is_cut_off(at)) continue;
       obstacles_.discs.emplace_back(at, visible.mark.radius);
       SheetGroup& group = group_of(all, "mark", name_of(visible.mark.object));
       for (SheetItem& item : drawn_mark(visible.mark, at, opacity, view_)) group.items.push_back(std::move(item));
@@ -313,7 +280,7 @@ class ViewDrawing {
     for (const VisibleText& visible : lines.texts) {
       const PointText& text = visible.text;
       const double opacity = visible.layers > 0 ? text.hidden_opacity : 1;
-      if (!(opacity > 0)) continue;
+      if (!(opacity > 0) || (text.object >= 0 && is_cut_off(view_.place(visible.place)))) continue;
       Label label;
       label.text = text_in(text.style, text.text);
       label.text.brush.opacity *= opacity;
@@ -361,9 +328,11 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
     corner += Vec2(insets.left, insets.top);
     room -= Vec2(insets.left + insets.right, insets.top + insets.bottom);
     if (!(room.x > 1 && room.y > 1))
-      throw std::runtime_error(fmt::format(
-          "axes, numbers and legend leave no room for the graph: they take {:.1f} x {:.1f} mm of {:.1f} x {:.1f} mm",
-          insets.left + insets.right, insets.top + insets.bottom, size.x, size.y));
+      does_not_fit(model.paper.size_place,
+                   fmt::format("axes, numbers and legend leave no room for the graph: they take {:.1f} x {:.1f} mm of "
+                               "{:.1f} x {:.1f} mm",
+                               insets.left + insets.right, insets.top + insets.bottom, size.x, size.y),
+                   "a larger `size` of the image, or a smaller `text_size`");
     model.camera = camera_for(room);
   }
   if (!graph && model.camera_frames && !model.drawing.annotations.empty()) {
@@ -373,8 +342,30 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
     figure.sheet.height = size.y + free;
   }
   const auto shared = std::make_shared<const Model>(std::move(model));
-  const View view{*shared, *shared->camera, corner, per_pixel, {at.x, at.y + size.y}};
+  const View view{*shared, *shared->camera, corner, per_pixel,
+                  panel ? Vec2(at.x, at.y + size.y) : Vec2(0, figure.sheet.height)};
   ViewDrawing(shared, view, graph || panel, options, figure).draw();
+}
+
+// Of the page's pixels those that the scene keeps.
+void crop(Sheet& sheet, const Model& model) {
+  const Film::Crop& kept = model.film.crop;
+  if (kept.x1 == 0) return;
+  const double per_pixel = millimetres_of_pixel(model);
+  sheet.corner = per_pixel * Vec2(kept.x0, kept.y0);
+  sheet.width = per_pixel * (kept.x1 - kept.x0), sheet.height = per_pixel * (kept.y1 - kept.y0);
+}
+
+void add_page(Model model, const FigureOptions& options, Figure& figure) {
+  figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;
+  const Vec2 margin(model.paper.margin);
+  const Vec2 size = Vec2(figure.sheet.width, figure.sheet.height) - 2.0 * margin;
+  if (!(size.x > 1 && size.y > 1))
+    does_not_fit(model.paper.margin_place,
+                 fmt::format("a margin of {:g} mm leaves nothing of a page of {:.1f} x {:.1f} mm", model.paper.margin,
+                             figure.sheet.width, figure.sheet.height),
+                 fmt::format("less than {:.1f} mm", 0.5 * (std::min(figure.sheet.width, figure.sheet.height) - 1)));
+  add_view(std::move(model), margin, size, false, options, figure);
 }
 
 }  // namespace
@@ -395,17 +386,19 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
   if (!model.panels.empty()) {
     PanelLayout layout = panel_layout(model, options.panel);
     figure.sheet.width = layout.width, figure.sheet.height = layout.height;
-    for (PlacedPanel& panel : layout.panels)
+    for (PlacedPanel& panel : layout.panels) {
+      std::vector<SheetItem> before;
+      std::swap(before, figure.sheet.items);
       add_view(std::move(panel.model), panel.at, panel.size, true, options, figure);
+      std::swap(before, figure.sheet.items);
+      figure.sheet.items.push_back(SheetGroup{"panel", panel.name, {}, {}, std::move(before)});
+    }
+    crop(figure.sheet, model);
     return figure;
   }
-  figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;
-  const Vec2 margin(model.paper.margin);
-  const Vec2 size = Vec2(figure.sheet.width, figure.sheet.height) - 2.0 * margin;
-  if (!(size.x > 1 && size.y > 1))
-    throw std::runtime_error(fmt::format("a margin of {} mm leaves nothing of a page of {:.1f} x {:.1f} mm",
-                                         model.paper.margin, figure.sheet.width, figure.sheet.height));
-  add_view(std::move(model), margin, size, false, options, figure);
+  const Model page = model;
+  add_page(std::move(model), options, figure);
+  crop(figure.sheet, page);
   return figure;
 }
 

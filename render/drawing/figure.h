@@ -15,6 +15,7 @@ namespace lekalo::render {
 struct FigureOptions {
   std::string panel;                      // only this one; empty: the page
   double width = 0;                       // of the sheet in millimetres, its height in proportion; 0: the scene's
+  int threads = 0;                        // of a ground that is rendered; 0: all
   std::function<void(double)> progress;   // the share of the lines that is done
   std::function<void(double)> rendering;  // of a ground that is rendered
 };
@@ -29,7 +30,8 @@ struct Figure {
   std::vector<std::string> left_out;            // what the scene asks for and drawings do not show
 };
 
-// Throws std::runtime_error where something does not fit on the paper (by how much), or a font is missing.
+// Of the page's pixels those that the film's crop keeps. Throws SceneError where something does not fit on the paper
+// (with what would), std::runtime_error where a font is missing.
 Figure figure_of(const std::shared_ptr<const Model>& model, const FigureOptions& options);
 
 }  // namespace lekalo::render

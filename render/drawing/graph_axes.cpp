@@ -277,6 +277,8 @@ class Axes {
     const std::string& side = view_.model.drawing.legend->side;
     return side == "above" || side == "below";
   }
+  // In a corner of the graph.
+  bool is_inside() const { return view_.model.drawing.legend->side.find(' ') != std::string::npos; }
   double row_width() const {
     double width = -2 * kLegendFree;
     for (const SheetText& text : texts_) width += kSample + kSampleToText + text.width + 2 * kLegendFree;
@@ -310,6 +312,19 @@ class Axes {
     if (legend.side == "right" || legend.side == "left")
       at.y = std::max(view_.at.y - room.top, std::min(at.y, bottom() + room.bottom - size.y));
     std::vector<SheetItem> samples;
+    if (is_inside()) {
+      // Over the lines of the graph, with a free border.
+      const Vec2 free(kEntry);
+      SheetPath ground = drawn(straight_path({at - free,
+                                              {at.x + size.x + kEntry, at.y - kEntry},
+                                              at + size + free,
+                                              {at.x - kEntry, at.y + size.y + kEntry}},
+                                             true),
+                               {});
+      ground.pen.reset();
+      ground.brush = Brush{legend.style.fill ? rgb(*legend.style.fill) : rgb(view_.model.drawing.paper), 1};
+      samples.push_back(std::move(ground));
+    }
     if (legend.title && !in_a_row()) {
       const SheetText text = text_in(legend.style, legend.title->text());
       put(text, {at.x, at.y + text.ascent}, "legend", 0);

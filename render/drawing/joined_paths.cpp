@@ -43,11 +43,11 @@ class Joining {
       if (paths[k].end)
         add({static_cast<int>(k), true, paths[k].path.end(), *paths[k].end, way_out(paths[k].path), -1});
     }
-    join_nodes();
   }
 
-  std::vector<Path> run() {
-    std::vector<Path> result;
+  std::vector<PathInSpace> run() {
+    visit_nodes([&](std::vector<int>& node) { join(node); });
+    std::vector<PathInSpace> result;
     std::vector<bool> used(paths_.size(), false);
     for (size_t k = 0; k < paths_.size(); ++k) {
       if (used[k] || paths_[k].path.steps.empty()) continue;
@@ -64,11 +64,14 @@ class Joining {
         end = of_path_[first][backwards ? 1 : 0];
       }
       if (loop) first = static_cast<int>(k), backwards = false;
-      Path chain;
+      PathInSpace whole;
+      Path& chain = whole.path;
       for (int path = first; path >= 0 && !used[path];) {
         used[path] = true;
         const Path part = backwards ? reversed(paths_[path].path) : paths_[path].path;
-        if (chain.steps.empty()) chain.from = part.from;
+        const PathInSpace& given = paths_[path];
+        if (chain.steps.empty()) chain.from = part.from, whole.begin = backwards ? given.end : given.begin;
+        whole.end = backwards ? given.begin : given.end;
         chain.steps.insert(chain.steps.end(), part.steps.begin(), part.steps.end());
         chain.closed = part.closed && chain.steps.size() == part.steps.size();
         const int end = of_path_[path][backwards ? 0 : 1];
@@ -76,9 +79,18 @@ class Joining {
         const End& next = ends_[ends_[end].other];
         path = next.path, backwards = next.last;
       }
-      if (loop) chain.closed = true, chain.steps.back().to = chain.from;
-      result.push_back(std::move(chain));
+      if (loop) chain.closed = true, chain.steps.back().to = chain.from, whole.begin.reset(), whole.end.reset();
+      result.push_back(std::move(whole));
     }
+    return result;
+  }
+
+  std::vector<bool> at_corners() const {
+    std::vector<bool> result(paths_.size(), false);
+    visit_nodes([&](const std::vector<int>& node) {
+      if (node.size() < 2) return;
+      for (const int end : node) result[ends_[end].path] = true;
+    });
     return result;
   }
 
@@ -88,7 +100,9 @@ class Joining {
     ends_.push_back(end);
   }
 
-  void join_nodes() {
+  // The ends that are one point.
+  template <typename Visitor>
+  void visit_nodes(const Visitor& visit) const {
     std::vector<int> order(ends_.size());
     for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -107,7 +121,7 @@ class Joining {
         node.push_back(order[j]);
         done[order[j]] = true;
       }
-      join(node);
+      visit(node);
     }
   }
 
@@ -138,6 +152,12 @@ class Joining {
 
 }  // namespace
 
-std::vector<Path> joined(const std::vector<PathInSpace>& paths, double same) { return Joining(paths, same).run(); }
+std::vector<PathInSpace> joined(const std::vector<PathInSpace>& paths, double same) {
+  return Joining(paths, same).run();
+}
+
+std::vector<bool> ends_at_corners(const std::vector<PathInSpace>& paths, double same) {
+  return Joining(paths, same).at_corners();
+}
 
 }  // namespace lekalo::render

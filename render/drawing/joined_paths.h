@@ -16,6 +16,9 @@ struct PathInSpace {
 
 // Ends that are one point in space (to `same`) and in the picture are joined: two that are alone there, and of more
 // those that go on smoothly in one another. The paths are in the order of the first of each, and run as it does.
-std::vector<Path> joined(const std::vector<PathInSpace>& paths, double same);
+std::vector<PathInSpace> joined(const std::vector<PathInSpace>& paths, double same);
+
+// Of each path, whether one of its ends is one point with another end: a corner at which it stays a path of its own.
+std::vector<bool> ends_at_corners(const std::vector<PathInSpace>& paths, double same);
 
 }  // namespace lekalo::render

@@ -202,7 +202,7 @@ std::vector<Path> Overlaps::left_of(const Path& given) {
       if (to - from < (covered.empty() ? 0 : kShortest)) return;
       Path part;
       part.from = own.from + from * along;
-      part.steps.push_back(line_to(own.from + to * along));
+      part.steps.push_back(line_to(to == length ? own.to : own.from + to * along));
       left.push_back(std::move(part));
     };
     for (const auto& [from, to] : covered) {

@@ -19,7 +19,8 @@ struct SheetBox {
   Vec2 size() const { return hi - lo; }
 };
 
-// What the objects take of a picture whose pixels have so many millimetres, and what their annotations take with them.
+// What the objects, and the points of which annotations speak, take of a picture whose pixels have so many millimetres:
+// it grows with the scene. And what the annotations take with them.
 SheetBox shown_box(const Model& model, const Camera& camera, double millimetres);
 SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres);
 
@@ -28,6 +29,7 @@ SheetBox annotated_box(const Model& model, const Camera& camera, double millimet
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres);
 
 struct PlacedPanel {
+  std::string name;
   Model model;  // with the panel's camera, objects and drawing, without panels
   Vec2 at{0};   // upper left corner on the sheet, millimetres
   Vec2 size{0};
@@ -38,8 +40,11 @@ struct PanelLayout {
   std::vector<PlacedPanel> panels;
 };
 
-// `only`: the name of one panel, which gets a sheet of its own; empty: all. Throws std::runtime_error where they do not
-// fit, with what would.
+// Throws SceneError: something does not fit on the paper.
+[[noreturn]] void does_not_fit(const Place& place, std::string message, std::string hint);
+
+// `only`: the name of one panel, which gets a sheet of its own; empty: all. Throws SceneError where they do not fit,
+// with what would.
 PanelLayout panel_layout(const Model& model, const std::string& only);
 
 }  // namespace lekalo::render

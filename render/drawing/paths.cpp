@@ -73,12 +73,14 @@ class Fitting {
     const double length = glm::length(chord);
     if (!(length > 0)) return false;
     const Vec2 across(-chord.y / length, chord.x / length), along = chord / length;
-    double before = 0;
+    const double off_by = kStraight * tolerance_;
+    double farthest = 0;
     for (const Vec2& place : places) {
       const Vec2 off = place - from;
       const double ahead = glm::dot(off, along);
-      if (std::abs(glm::dot(off, across)) > kStraight * tolerance_ || ahead < before || ahead > length) return false;
-      before = ahead;
+      if (std::abs(glm::dot(off, across)) > off_by || ahead < farthest - off_by || ahead > length + off_by)
+        return false;
+      farthest = std::max(farthest, ahead);
     }
     return true;
   }

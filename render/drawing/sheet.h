@@ -78,8 +78,10 @@ struct SheetGroup;
 using SheetItem = std::variant<SheetPath, SheetText, SheetPicture, SheetGroup>;
 
 struct SheetGroup {
-  std::string kind;    // boundary, silhouette hidden, label, ...: classes of a style sheet
-  std::string object;  // whose it is; empty: of the drawing
+  // Classes of a style sheet: boundary, silhouette hidden, label, ...; object: of all that an object has, panel: of
+  // one.
+  std::string kind;
+  std::string object;  // whose it is, or the panel's name; empty: of the drawing
   std::optional<Vec2> clip_at;
   Vec2 clip_size{0};  // of a group that is cut at a rectangle
   std::vector<SheetItem> items;
@@ -87,6 +89,7 @@ struct SheetGroup {
 
 struct Sheet {
   double width = 0, height = 0;
+  Vec2 corner{0};  // upper left one of the part that is shown; width and height are its
   Spectrum paper;
   std::string title;
   std::vector<SheetItem> items;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "render/drawing/cairo_output.h"
 #include "render/drawing/fonts.h"
@@ -80,6 +81,19 @@ std::string step_text(const PathStep& step) {
   return {};
 }
 
+// As XML has it for an id: letters, digits, - and ., the first a letter. All beyond ASCII are taken for letters.
+std::string name_token(std::string_view name) {
+  std::string result;
+  for (const char c : name) {
+    const bool letter =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+    const bool other = (c >= '0' && c <= '9') || c == '-' || c == '.';
+    if (result.empty() && !letter) result += '_';
+    result += letter || other ? c : '_';
+  }
+  return result;
+}
+
 // Behind what is there already.
 void append(std::string& data, const Path& path) {
   data += fmt::format("{}M{}", data.empty() ? "" : " ", point(path.from));
@@ -99,13 +113,13 @@ class Writer {
     text_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     text_ += fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" "
-        "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
-        number(sheet_.width), number(sheet_.height));
+        "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {0} {1}\">\n",
+        number(sheet_.width), number(sheet_.height), point(sheet_.corner));
     if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(sheet_.title));
     write_fonts();
     text_ += definitions_;
-    text_ += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(sheet_.width),
-                         number(sheet_.height), color_text(sheet_.paper));
+    text_ += fmt::format("<rect class=\"paper\"{} width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", paper_corner(),
+                         number(sheet_.width), number(sheet_.height), color_text(sheet_.paper));
     text_ += "<g fill=\"none\" stroke-linejoin=\"round\">\n" + body + "</g>\n</svg>\n";
     return std::move(text_);
   }
@@ -115,41 +129,74 @@ class Writer {
     for (const SheetItem& item : list) std::visit([&](const auto& one) { write(one); }, item);
   }
 
+  std::string paper_corner() const {
+    const Vec2& at = sheet_.corner;
+    return at == Vec2(0) ? std::string() : fmt::format(" x=\"{}\" y=\"{}\"", number(at.x), number(at.y));
+  }
+
+  // A name that no other element has.
+  std::string unique(const std::string& name) {
+    const std::string token = name_token(name);
+    int& number = last_number_[token];
+    std::string id = token;
+    while (!ids_.insert(id).second) id = fmt::format("{}_{}", token, number = std::max(number, 1) + 1);
+    return id;
+  }
+  // Of what stands in a group without being one.
+  std::string next_id() {
+    if (within_.empty()) return {};
+    return fmt::format(" id=\"{}\"", unique(fmt::format("{}-{}", within_, ++number_)));
+  }
+
+  // Objects have their names, their lines name and kind: block, block-sharp, block-hidden, block-sharp-hidden-layers-1.
+  std::string id_of(const SheetGroup& group) {
+    std::string classes = group.kind;
+    std::replace(classes.begin(), classes.end(), ' ', '-');
+    if (group.object.empty()) return unique(panel_ + classes);
+    for (const std::string_view whole : {"object", "panel"})
+      if (group.kind.starts_with(whole)) return unique(panel_ + group.object + classes.substr(whole.size()));
+    return unique(panel_ + group.object + "-" + classes);
+  }
+
   void write(const SheetGroup& group) {
     if (group.items.empty()) return;
-    text_ += fmt::format("<g class=\"{}\"", escaped(group.kind));
+    const std::string id = id_of(group), within = std::exchange(within_, id), panel = panel_;
+    const int before = std::exchange(number_, 0);
+    if (group.kind == "panel") panel_ = id + "-";
+    text_ += fmt::format("<g id=\"{}\" class=\"{}\"", id, escaped(group.kind));
     if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", escaped(group.object));
     if (group.clip_at) {
-      const int id = ++clip_count_;
+      const std::string clip = unique("clip");
       definitions_ += fmt::format(
-          "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", id,
+          "<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", clip,
           number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x), number(group.clip_size.y));
-      text_ += fmt::format(" clip-path=\"url(#clip{})\"", id);
+      text_ += fmt::format(" clip-path=\"url(#{})\"", clip);
     }
     text_ += ">\n";
     items(group.items);
     text_ += "</g>\n";
+    within_ = within, number_ = before, panel_ = panel;
   }
 
   void write(const SheetPath& path) {
     std::string data;
     for (const Path& part : path.parts) append(data, part);
-    text_ += fmt::format("<path d=\"{}\"", data);
+    text_ += fmt::format("<path{} d=\"{}\"", next_id(), data);
     if (path.brush) {
       text_ += fmt::format(" fill=\"{}\"", color_text(path.brush->color));
       if (path.brush->opacity < 1) text_ += fmt::format(" fill-opacity=\"{}\"", number(path.brush->opacity));
     } else if (path.gradient) {
-      text_ += fmt::format(" fill=\"url(#gradient{})\"", define(*path.gradient));
+      text_ += fmt::format(" fill=\"url(#{})\"", define(*path.gradient));
     }
     if ((path.brush || path.gradient) && path.parts.size() > 1) text_ += " fill-rule=\"evenodd\"";
     if (path.pen) text_ += pen_text(*path.pen);
     text_ += "/>\n";
   }
 
-  int define(const Gradient& gradient) {
-    const int id = ++gradient_count_;
+  std::string define(const Gradient& gradient) {
+    const std::string id = unique("gradient");
     const char* const kind = gradient.radial ? "radialGradient" : "linearGradient";
-    definitions_ += fmt::format("<{} id=\"gradient{}\" gradientUnits=\"userSpaceOnUse\"", kind, id);
+    definitions_ += fmt::format("<{} id=\"{}\" gradientUnits=\"userSpaceOnUse\"", kind, id);
     const Vec2 &a = gradient.from, &b = gradient.to;
     definitions_ += gradient.radial ? fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\">", number(a.x), number(a.y),
                                                   number(glm::length(b - a)))
@@ -182,7 +229,7 @@ class Writer {
     const std::string color = color_text(text.brush.color);
     const std::string opacity =
         text.brush.opacity < 1 ? fmt::format(" opacity=\"{}\"", number(text.brush.opacity)) : std::string();
-    text_ += fmt::format("<g transform=\"translate({})", point(text.at));
+    text_ += fmt::format("<g{} transform=\"translate({})", next_id(), point(text.at));
     if (text.angle != 0) text_ += fmt::format(" rotate({})", number(-text.angle * 180 / geometry::kPi));
     text_ += fmt::format("\"{}>", opacity);
     if (options_.outlines) {
@@ -211,9 +258,9 @@ class Writer {
 
   void write(const SheetPicture& picture) {
     text_ += fmt::format(
-        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+        "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
         "xlink:href=\"data:image/png;base64,{}\"/>\n",
-        number(picture.at.x), number(picture.at.y), number(picture.width), number(picture.height),
+        next_id(), number(picture.at.x), number(picture.at.y), number(picture.width), number(picture.height),
         base64(png_bytes(*picture.picture)));
   }
 
@@ -233,7 +280,10 @@ class Writer {
   const SvgOptions& options_;
   std::string text_, definitions_;
   std::map<Font, std::string> used_;  // characters
-  int clip_count_ = 0, gradient_count_ = 0;
+  std::set<std::string> ids_;
+  std::map<std::string, int> last_number_;  // behind names that were taken
+  std::string within_, panel_;              // id of the group that is written; how ids in its panel begin
+  int number_ = 0;                          // of elements so far in the group
 };
 
 }  // namespace

@@ -19,6 +19,9 @@ constexpr double kShort = 0.05;
 constexpr double kPlace = 0.01;
 // Parts of a domain that are not divided, relative to it: there the enclosures tell nothing.
 constexpr double kNarrowest = 1e-13;
+// At depths that are a smaller part of the numbers of which they are the sum, places in the picture are told by
+// rounding.
+constexpr double kLeastDepth = 1e-10;
 // Enough for any curve that can be told from a blot; what is left then are chords.
 constexpr size_t kMostCells = size_t{1} << 20;
 // Cells are joined where they meet, in pixels.
@@ -37,6 +40,13 @@ Interval over(const Vec4& form, const Box3& box, double at_points) {
 }
 
 double apply(const Vec4& form, const Vec3& p, double at_points) { return glm::dot(Vec3(form), p) + form.w * at_points; }
+
+// The largest of these terms over the box.
+double largest_term(const Vec4& form, const Box3& box) {
+  double largest = std::abs(form.w);
+  for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(form[k]) * magnitude(range(box, k)));
+  return largest;
+}
 
 double hypotenuse(const Interval& x, const Interval& y) { return std::hypot(magnitude(x), magnitude(y)); }
 
@@ -84,7 +94,8 @@ void ProjectedCurve::cut(const Interval& t) {
   const CurveEnclosure boxes = curve_->enclose(t, 2);
   const auto& [row_x, row_y, row_w] = map_.row;
   const Interval w = over(row_w, boxes.d[0], 1);
-  if (w.hi <= 0) return;
+  const double least = kLeastDepth * largest_term(row_w, boxes.d[0]);
+  if (w.hi <= least) return;
   // Outside: x < -reach w, x > (width + reach) w, and the same of y, for points before the eye.
   const auto is_beyond = [&](const Vec4& row, double size) {
     return over(row + reach_ * row_w, boxes.d[0], 1).hi < 0 ||
@@ -97,7 +108,7 @@ void ProjectedCurve::cut(const Interval& t) {
     cut({t.lo, middle});
     cut({middle, t.hi});
   };
-  if (w.lo <= 0) {  // through the eye's own plane: what is left of it in the end is nothing
+  if (w.lo <= least) {  // through the eye's own plane: what is left of it in the end is nothing
     if (!is_narrow) halve();
     return;
   }

@@ -131,6 +131,8 @@ void Builder::build_layout(Model& model) {
   const auto fields = read_fields(section_declaration("layout").fields, *given, {}, "'layout'");
   if (!fields) return;
   model.layout = layout_of(*fields);
+  if (const Value* scale = given->find("scale")) model.layout.scale_place = scale->place;
+  if (const Value* gap = given->find("gap")) model.layout.gap_place = gap->place;
   const Value& rows = *given->find("rows");
   std::set<std::string> seen;
   for (const Value& row : rows.items)

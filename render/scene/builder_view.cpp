@@ -103,6 +103,11 @@ void Builder::build_camera(Model& model) {
   if (chosen) model.integrator = std::any_cast<IntegratorPtr>(chosen->value);
   if (image) build_film(*image, model);
   if (!image || !factory) return;
+  model.paper.size_place = model.paper.margin_place = scene_.root.place;
+  if (given) {
+    if (const Value* size = given->find("size")) model.paper.size_place = size->place;
+    if (const Value* margin = given->find("margin")) model.paper.margin_place = margin->place;
+  }
   const auto make = std::any_cast<CameraFactory>(factory->value);
   model.camera_frames = !camera || !camera->find("from");
   model.make_camera = [make, all](int w, int h) { return make(w, h, all); };

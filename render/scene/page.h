@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/scene/look.h"
+#include "render/scene/source.h"
 
 namespace lekalo::render {
 
@@ -51,8 +52,9 @@ struct DrawingChoices {
 // Where panels stand: rows from the top, each from the left; an empty name leaves the place free.
 struct Layout {
   std::vector<std::vector<std::string>> rows;
-  double scale = 0;  // millimetres of paper for one of the model, info.unit decides; 0: as large as fits
-  double gap = 5;    // between panels
+  double scale = 0;              // millimetres of paper for one of the model, info.unit decides; 0: as large as fits
+  double gap = 5;                // between panels
+  Place scale_place, gap_place;  // in the scene file, for messages; none where they are not given
 };
 
 // The sheet of drawings.
@@ -61,6 +63,7 @@ struct Paper {
   double height = 0;
   double margin = 0;
   bool auto_width = false, auto_height = false;  // as the panels want it
+  Place size_place, margin_place;                // as in Layout
 };
 
 std::vector<geometry::Field> drawing_fields();

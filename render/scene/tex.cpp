@@ -346,6 +346,7 @@ class Parser {
   // Up to the closing dollar sign, brace, or \right.
   TexNode formula_row(const Face& face, char end, std::size_t begin) {
     TexNode row;
+    row.in_formula = true;
     for (;;) {
       if (at_end())
         fail(begin, end == '$' ? "this dollar sign is not closed" : "this is not closed",
@@ -499,7 +500,11 @@ class Parser {
       upright.slant = Face::Slant::upright;
       return symbol(name, Role::function, upright);
     }
-    if (contains(kTextFonts, name)) return text_argument(with_font(Face{false, face.bold}, name), at);
+    if (contains(kTextFonts, name)) {
+      TexNode row = text_argument(with_font(Face{false, face.bold}, name), at);
+      row.in_formula = true;
+      return row;
+    }
     if (name == "operatorname") {
       TexNode row = argument(with_font(face, name), at);
       row.role = Role::function;

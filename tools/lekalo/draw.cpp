@@ -11,6 +11,8 @@
 #include <filesystem>
 
 #include "command.h"
+#include "engine.h"
+#include "picture.h"
 #include "progress.h"
 #include "render/drawing/cairo_output.h"
 #include "render/drawing/figure.h"
@@ -24,15 +26,35 @@ namespace {
 
 struct Options {
   SceneOptions scene;
+  EngineOptions engine;
+  std::string size, crop;
   std::vector<std::string> outputs;
   DrawSettings settings;
 };
 
+// The page keeps its width, and has as many pixels.
+void set_size(const std::pair<int, int>& size, render::Model& model) {
+  PictureOverrides overrides;
+  overrides.size = size;
+  model = *with_overrides(model, overrides);
+  model.paper.height = model.paper.width * size.second / size.first;
+  model.paper.auto_width = model.paper.auto_height = false;
+}
+
+// Whether something is rendered, so that its lights are seen.
+bool is_lit(const render::Model& model) {
+  const auto shaded = [](const render::DrawingChoices& drawing) { return drawing.ground == render::Ground::shaded; };
+  return shaded(model.drawing) || std::any_of(model.panels.begin(), model.panels.end(),
+                                              [&](const render::Panel& panel) { return shaded(panel.drawing); });
+}
+
 int draw(const Options& options) {
+  options.engine.apply();
   const render::LoadedScene scene = options.scene.load();
   const bool quiet = options.settings.quiet;
   if (!quiet)
-    for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
+    for (const std::string& line : scene.defaults_taken)
+      if (!line.starts_with("studio light") || is_lit(*scene.model)) fmt::print(stderr, "default: {}\n", line);
   std::vector<render::OutputFile> outputs;
   for (const std::string& path : options.outputs) {
     if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf and png", path));
@@ -47,7 +69,12 @@ int draw(const Options& options) {
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
          "drawing"});
-  draw_files(scene.model, outputs, options.settings);
+  const auto model = std::make_shared<render::Model>(*scene.model);
+  if (!options.size.empty()) set_size(parse_size(options.size), *model);
+  if (!options.crop.empty()) set_crop(options.crop, *model);
+  DrawSettings settings = options.settings;
+  settings.threads = options.engine.threads;
+  draw_files(model, outputs, settings);
   return kDone;
 }
 
@@ -93,7 +120,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       Progress progress(settings.quiet);
       render::FigureOptions options;
       options.panel = file.panel, options.width = file.width;
-      options.progress = options.rendering = [&](double done) { progress(done, 0); };
+      options.progress = options.rendering = [&](double done) { progress(done); };
+      options.threads = settings.threads;
       all.push_back({file.panel, file.width, render::figure_of(model, options)});
       found = std::prev(all.end());
       progress.end();
@@ -142,6 +170,10 @@ void add_draw(CLI::App& app, Action& action) {
   sub->add_option("-o,--output", options->outputs,
                   "file to write (svg, pdf, png) in place of the scene's outputs; repeatable")
       ->type_name("FILE");
+  sub->add_option("--size", options->size, "pixels of the page, which keeps its width: of png files, of the ground")
+      ->type_name("WxH");
+  sub->add_option("--crop", options->crop, "only this part of the page, in pixels")->type_name("X0,Y0,X1,Y1");
+  options->engine.add_to(*sub);
   sub->add_flag("--latex", options->settings.latex, "texts in FILE.tex, for LaTeX to set over the drawing (pdf, png)");
   sub->add_flag("--outlines", options->settings.outlines, "texts of svg files as outlines in place of text and fonts");
   sub->add_flag("--quiet", options->settings.quiet, "no progress and no notes");

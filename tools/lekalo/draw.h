@@ -10,13 +10,14 @@ struct DrawSettings {
   bool stats = false;
   bool latex = false;     // texts in a file of their own, for LaTeX
   bool outlines = false;  // texts of svg files as outlines
+  int threads = 0;        // 0: all cores
 };
 
 // Whether drawings of this kind of file are made.
 bool is_drawn(const std::string& path);
 
 // Writes the drawing of the model; `outputs` all satisfy is_drawn(). Throws ImageError, and
-// std::runtime_error where something does not fit.
+// SceneError where something does not fit.
 void draw_files(const std::shared_ptr<const render::Model>& model, const std::vector<render::OutputFile>& outputs,
                 const DrawSettings& settings);
 

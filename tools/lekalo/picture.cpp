@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <climits>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 
+#include "command.h"
 #include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/image/exr.h"
@@ -40,6 +42,27 @@ std::shared_ptr<render::Model> with_overrides(const render::Model& scene, const 
     for (render::Object& object : model->objects) object.representation = *overrides.representation;
   if (overrides.integrator) model->integrator = overrides.integrator;
   return model;
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  int used = 0, width = 0, height = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 || used != static_cast<int>(text.size()) ||
+      width < 1 || height < 1 || width > 65536 || height > 65536 || 1.0 * width * height > 1e8)
+    throw UsageError(fmt::format("--size takes WIDTHxHEIGHT in pixels, found '{}'", text));
+  return {width, height};
+}
+
+void set_crop(const std::string& text, render::Model& model) {
+  const std::vector<double> c = parse_numbers(text, 4, "--crop");
+  if (!(c[0] < c[2] && c[1] < c[3]))
+    throw UsageError(
+        fmt::format("--crop {}: nothing is left; write two corners X0,Y0,X1,Y1 with X0 < X1, Y0 < Y1", text));
+  auto& f = model.film;
+  f.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
+  if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&
+        f.crop.y1 <= f.height))
+    throw UsageError(
+        fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", text, f.width, f.height));
 }
 
 void add_metadata(render::RenderResult& result, const render::Model& model, const std::string& scene_file, bool stamp) {

@@ -21,6 +21,10 @@ struct PictureOverrides {
 
 std::shared_ptr<render::Model> with_overrides(const render::Model& model, const PictureOverrides& overrides);
 
+// What --size and --crop say. Both throw UsageError; a crop lies inside the model's picture.
+std::pair<int, int> parse_size(const std::string& text);
+void set_crop(const std::string& text, render::Model& model);
+
 // Version, scene (its name without folders), samples, title and parameters; with `stamp` also the date, and the
 // machine and the scene's full path unless SOURCE_DATE_EPOCH gives the date.
 void add_metadata(render::RenderResult& result, const render::Model& model, const std::string& scene_file, bool stamp);

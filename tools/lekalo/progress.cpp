@@ -23,6 +23,13 @@ std::string duration(double seconds) {
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void Progress::operator()(double done, uint64_t rays) {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  show(done, fmt::format("  {:.2f} Mrays/s", static_cast<double>(rays) / std::max(elapsed, 1e-9) / 1e6));
+}
+
+void Progress::operator()(double done) { show(done, {}); }
+
+void Progress::show(double done, const std::string& speed) {
   if (quiet_) return;
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
@@ -30,8 +37,8 @@ void Progress::operator()(double done, uint64_t rays) {
   if (since < (terminal_ ? 0.2 : 10.0)) return;
   last_ = now;
   const double left = done > 0 ? elapsed * (1 - done) / done : 0;
-  fmt::print(stderr, "{}{:3.0f}%  {:.2f} Mrays/s  {} left{}", terminal_ ? "\r" : "", 100 * done,
-             static_cast<double>(rays) / std::max(elapsed, 1e-9) / 1e6, duration(left), terminal_ ? "   " : "\n");
+  fmt::print(stderr, "{}{:3.0f}%{}  {} left{}", terminal_ ? "\r" : "", 100 * done, speed, duration(left),
+             terminal_ ? "   " : "\n");
   std::fflush(stderr);
   shown_ = true;
 }

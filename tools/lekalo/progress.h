@@ -11,10 +11,14 @@ class Progress {
  public:
   explicit Progress(bool quiet);
   void operator()(double done, uint64_t rays);
+  // Of work without rays.
+  void operator()(double done);
   // Clears the line.
   void end() const;
 
  private:
+  void show(double done, const std::string& speed);
+
   bool quiet_, terminal_, shown_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), last_ = begin_;
 };

@@ -47,14 +47,6 @@ struct Options {
   bool half = false, watch = false, stamp = false, quiet = false, stats = false;
 };
 
-std::pair<int, int> parse_size(const std::string& text) {
-  int used = 0, width = 0, height = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 || used != static_cast<int>(text.size()) ||
-      width < 1 || height < 1 || width > 65536 || height > 65536 || 1.0 * width * height > 1e8)
-    throw UsageError(fmt::format("--size takes WIDTHxHEIGHT in pixels, found '{}'", text));
-  return {width, height};
-}
-
 void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
   const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
   fmt::print(stderr,
@@ -116,19 +108,6 @@ PictureOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-void set_crop(const std::string& text, Model& model) {
-  const std::vector<double> c = parse_numbers(text, 4, "--crop");
-  if (!(c[0] < c[2] && c[1] < c[3]))
-    throw UsageError(
-        fmt::format("--crop {}: nothing is left; write two corners X0,Y0,X1,Y1 with X0 < X1, Y0 < Y1", text));
-  auto& f = model.film;
-  f.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
-  if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&
-        f.crop.y1 <= f.height))
-    throw UsageError(
-        fmt::format("--crop {} does not lie inside the picture of {} x {} pixels", text, f.width, f.height));
-}
-
 render::LoadedScene load(Run& run, const Frame& frame) {
   std::vector<std::filesystem::path> files;
   render::LoadOptions load = run.options.scene.load_options();
@@ -184,7 +163,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
                                               [](const OutputFile& file) { return file.kind == "render"; });
   const std::vector<OutputFile> drawn(drawings, outputs.end());
   outputs.erase(drawings, outputs.end());
-  if (!drawn.empty()) draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats});
+  if (!drawn.empty())
+    draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;

@@ -182,6 +182,22 @@ TEST(Framing, FitsTheOutlineOfABall) {
   EXPECT_LT(glm::length(glm::cross(Vec3(1, 2, 3) - view.from, sight)), 0.02);
 }
 
+// A model of any size, anywhere, looks the same.
+TEST(Framing, KnowsNoUnit) {
+  for (const double size : {1e-6, 1e-4, 1e6}) {
+    std::vector<Vec3> points = corners({Vec3(-1, -2, 0), Vec3(3, 1, 2)});
+    for (Vec3& p : points) p = size * (p + Vec3(40, 0, 7));
+    const auto camera =
+        make_camera(framed_perspective(preset_view("isometric"), 0.7, 400, 300, points, 0.05), 400, 300);
+    double lo = 400, hi = 0, top = 300, bottom = 0;
+    for (const Vec3& p : points) {
+      const PicturePoint at = camera->project(p);
+      lo = std::min(lo, at.x), hi = std::max(hi, at.x), top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+    }
+    EXPECT_NEAR(std::min({lo, 400 - hi, top, 300 - bottom}), 15, 1e-3) << size;
+  }
+}
+
 TEST(Framing, CopesWithAPointAndWithNothing) {
   const CameraPtr one = make_view_camera(preset_view("front"), 100, 100, corners({Vec3(3), Vec3(3)}), 0.1);
   EXPECT_NEAR(one->project(Vec3(3)).x, 50, 1e-9);

@@ -7,6 +7,7 @@
 
 #include "geometry/curves/bezier_curve.h"
 #include "geometry/curves/circle.h"
+#include "geometry/curves/segment.h"
 #include "render/drawing/ellipse_fit.h"
 #include "render/drawing/joined_paths.h"
 #include "render/drawing/random_views.h"
@@ -101,6 +102,28 @@ TEST_F(PathsOfCurves, OthersAreNot) {
   }
 }
 
+TEST_F(PathsOfCurves, StraightLinesAreOne) {
+  for (int k = 0; k < 400; ++k) {
+    const auto segment = std::make_shared<Segment>(2.0 * views_.direction(), 3.0 * views_.direction());
+    const Path path = path_of(segment, k % 2 == 0 ? segment->domain() : Interval{0.1, views_.number(0.2, 1)});
+    ASSERT_EQ(path.steps.size(), 1u) << k;
+    EXPECT_EQ(path.steps[0].kind, PathStep::Kind::line) << k;
+  }
+}
+
+// A line towards the eye is a point, to the eye and beyond too; one that passes it is straight as far as it is seen.
+TEST(PathsOfLines, ThroughTheEye) {
+  const Vec3 eye(5, 0, 0);
+  const CameraPtr camera = make_camera(PerspectiveView{eye, {0, 0.5, 0.2}, {0, 0, 1}, 0.7}, 600, 450);
+  const auto through = std::make_shared<Segment>(Vec3(-3, 0, 0), Vec3(8, 0, 0));
+  const ProjectedCurve picture(through, Affine(), *camera, 1);
+  ASSERT_FALSE(picture.cells().empty());
+  const Vec2 point = picture.cells().front().begin;
+  for (const ProjectedCurve::Cell& cell : picture.cells())
+    EXPECT_LT(std::max(glm::length(cell.begin - point), glm::length(cell.end - point)), kTolerance);
+  EXPECT_NEAR(picture.cells().back().t.hi, 8.0 / 11, 1e-9);
+}
+
 TEST(EllipticArc, IsToldFromPlaces) {
   const PictureEllipse ellipse{
       {300, 200}, {80 * std::cos(0.4), 80 * std::sin(0.4)}, {-30 * std::sin(0.4), 30 * std::cos(0.4)}};
@@ -139,15 +162,15 @@ TEST(JoinedPaths, GoOnWhereTheyMeet) {
   const auto square =
       joined({side({0, 0}, {4, 0}), side({4, 4}, {4, 0}), side({4, 4}, {0, 4}), side({0, 4}, {0, 0})}, 1e-6);
   ASSERT_EQ(square.size(), 1u);
-  EXPECT_EQ(square[0].steps.size(), 4u);
-  EXPECT_TRUE(square[0].closed);
-  EXPECT_EQ(square[0].from, Vec2(0, 0));
-  EXPECT_EQ(square[0].steps[1].to, Vec2(4, 4));
+  EXPECT_EQ(square[0].path.steps.size(), 4u);
+  EXPECT_TRUE(square[0].path.closed);
+  EXPECT_EQ(square[0].path.from, Vec2(0, 0));
+  EXPECT_EQ(square[0].path.steps[1].to, Vec2(4, 4));
   // Of three that meet the straight ones.
   const auto tee = joined({side({0, 0}, {4, 0}), side({4, 0}, {4, 3}), side({4, 0}, {9, 0})}, 1e-6);
   ASSERT_EQ(tee.size(), 2u);
-  EXPECT_EQ(tee[0].end(), Vec2(9, 0));
-  EXPECT_EQ(tee[1].end(), Vec2(4, 3));
+  EXPECT_EQ(tee[0].path.end(), Vec2(9, 0));
+  EXPECT_EQ(tee[1].path.end(), Vec2(4, 3));
   EXPECT_EQ(joined({side({0, 0}, {4, 0}), side({4, 0}, {4, 3}), side({4, 0}, {2, 4})}, 1e-6).size(), 3u);
   // One behind the other only looks so.
   EXPECT_EQ(joined({side({0, 0}, {4, 0}), side({4, 0}, {4, 3}, 1)}, 1e-6).size(), 2u);
@@ -158,8 +181,16 @@ TEST(JoinedPaths, GoOnWhereTheyMeet) {
   // A chain that is given from its middle on.
   const auto chain = joined({side({4, 0}, {6, 1}), side({6, 1}, {9, 0}), side({4, 0}, {0, 3})}, 1e-6);
   ASSERT_EQ(chain.size(), 1u);
-  EXPECT_EQ(chain[0].from, Vec2(0, 3));
-  EXPECT_EQ(chain[0].end(), Vec2(9, 0));
+  EXPECT_EQ(chain[0].path.from, Vec2(0, 3));
+  EXPECT_EQ(chain[0].path.end(), Vec2(9, 0));
+  EXPECT_EQ(chain[0].begin, Vec3(0, 3, 0));
+  EXPECT_EQ(chain[0].end, Vec3(9, 0, 0));
+}
+
+TEST(JoinedPaths, CornersOfThree) {
+  const std::vector<PathInSpace> paths{side({0, 0}, {4, 0}), side({4, 0}, {4, 3}), side({2, 4}, {4, 0}),
+                                       side({4, 3}, {9, 9}, 1)};
+  EXPECT_EQ(ends_at_corners(paths, 1e-6), (std::vector<bool>{true, true, true, false}));
 }
 
 }  // namespace

@@ -2,13 +2,13 @@
 // axes. Facts of TeX's own layout (The TeXbook, appendix G) and of plain arithmetic.
 #include <gtest/gtest.h>
 
-#include "render/drawing/annotations.h"
 #include "render/drawing/cairo_output.h"
 #include "render/drawing/fonts.h"
 #include "render/drawing/graph_axes.h"
 #include "render/drawing/label_placement.h"
 #include "render/drawing/latex.h"
 #include "render/drawing/overlaps.h"
+#include "render/drawing/page_shapes.h"
 #include "render/drawing/svg.h"
 #include "render/drawing/text_layout.h"
 #include "render/scene/tex.h"
@@ -59,6 +59,12 @@ TEST(TextLayout, Places) {
   const double plus = text_extent({"CMU Serif"}, "+").advance * em;
   EXPECT_NEAR(sum.width, 2 * one.width + plus + 4.0 / 9 * em, 1e-9);  // 2/9 em on each side
   EXPECT_NEAR(minus.width, one.width + text_extent({"CMU Serif"}, "−").advance * em, 1e-9);
+  // The same between letters of another font, and groups.
+  const double bold = laid_out("$\\mathbf{a}$", "serif", em).width;
+  EXPECT_NEAR(laid_out("$\\mathbf{a}+{\\mathbf{a}}$", "serif", em).width, 2 * bold + plus + 4.0 / 9 * em, 1e-9);
+  const double real = laid_out("$\\mathbb{R}$", "serif", em).width, to = laid_out("$\\to$", "serif", em).width;
+  EXPECT_NEAR(laid_out("$\\mathbb{R}\\to\\text{a}$", "serif", em).width,
+              real + to + laid_out("a", "serif", em).width + 10.0 / 18 * em, 1e-9);
   const SheetText scripts = laid_out("$a_1^2$", "serif", em);
   ASSERT_EQ(scripts.runs.size(), 3u);
   EXPECT_GT(scripts.runs[1].at.y, 0);  // below the line; y runs downwards
@@ -107,6 +113,16 @@ TEST(Drawing, Numbers) {
   EXPECT_EQ(dimension_number(10, 2), "10");
   EXPECT_EQ(dimension_number(-0.001, 2), "0");
   EXPECT_EQ(dimension_number(100, 0), "100");
+  // Where nobody has said how many decimals.
+  EXPECT_EQ(dimension_number(12.3456), "12.35");
+  EXPECT_EQ(dimension_number(0.123), "0.12");
+  EXPECT_EQ(dimension_number(0.0123), "0.012");
+  EXPECT_EQ(dimension_number(1e-4), "0.0001");
+  EXPECT_EQ(dimension_number(5e-5), "$5\\cdot 10^{-5}$");
+  EXPECT_EQ(dimension_number(1e-6), "$10^{-6}$");
+  EXPECT_EQ(dimension_number(9.99e-6), "$10^{-5}$");
+  EXPECT_EQ(dimension_number(1.25e-7), "$1.2\\cdot 10^{-7}$");
+  EXPECT_EQ(dimension_number(0), "0");
   EXPECT_EQ(round_values({0, 6}, 6), (std::vector<double>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(round_values({0.1, 1.05}, 5).size(), 5u);  // 0.2, 0.4, .., 1
   EXPECT_EQ(round_values({-3, 7}, 3), (std::vector<double>{0, 5}));

@@ -1,0 +1,350 @@
+"""Drawings on their page: what has room there, which way lines are written, what their elements are called."""
+
+import re
+import unittest
+import xml.etree.ElementTree as tree
+
+from program import ProgramTest, SCENE_ERROR, USAGE
+
+SVG = "{http://www.w3.org/2000/svg}"
+CIRCLE = """lekalo: 1
+geometry: { c: { type: circle, radius: 1 } }
+camera: { view: top }
+image: { size: [80 mm, 60 mm], margin: 4 mm }
+"""
+
+
+class Page(ProgramTest):
+    def drawn(self, scene, *arguments):
+        """The root of the scene's SVG file and what the program says."""
+        self.write("scene.yaml", scene)
+        errors = self.run_program("draw", "scene.yaml", "-o", "scene.svg", *arguments)[1]
+        return tree.fromstring(self.bytes_of("scene.svg")), errors
+
+    def of_class(self, root, name):
+        return [group for group in root.iter(SVG + "g") if group.get("class") == name]
+
+    def places(self, root):
+        """Of all paths the points that they go through or are drawn by."""
+        found = []
+        for path in root.iter(SVG + "path"):
+            data = re.sub(r"A\S+ \S+ \S+ \S+ \S+ ", "L", path.get("d"))
+            numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", data)]
+            found += list(zip(numbers[::2], numbers[1::2]))
+        return found
+
+    def box(self, root):
+        """Of all paths."""
+        places = self.places(root)
+        return min(x for x, _ in places), min(y for _, y in places), max(x for x, _ in places), max(y for _, y in places)
+
+    def texts(self, root):
+        return ["".join(text.itertext()) for text in root.iter(SVG + "text")]
+
+    def radius(self, root):
+        path = self.of_class(root, "curve")[0].find(SVG + "path")
+        return float(re.search(r" A([\d.]+)", path.get("d")).group(1))
+
+    def annotated(self, *annotations):
+        return CIRCLE + "drawing: { annotations: [" + ", ".join(annotations) + "] }\n"
+
+    # ---------------------------------------------------------------- room for annotations
+
+    def test_room_for_dimensions(self):
+        """A dimension that reaches three radii away leaves the circle as large as it can be."""
+        root, _ = self.drawn(self.annotated("{ type: linear_dimension, from: [0, 0], to: [0, -3] }"))
+        self.assertEqual(self.texts(root), ["3"])
+        # 4 radii and 3 mm in 52 mm.
+        self.assert_near(self.radius(root), (52 - 3) / 4, 0.6)
+        lo_x, lo_y, hi_x, hi_y = self.box(root)
+        self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
+
+    def test_room_for_what_stands_outside(self):
+        for annotation, name, words in (
+                ("{ type: point, at: [3, 0], label: B }", "point", ["B"]),
+                ("{ type: brace, from: [3, 0], to: [3, -2], label: B }", "brace", ["B"]),
+                ("{ type: leader, at: [1, 0], to: [4, 2], text: B }", "leader", ["B"]),
+                ("{ type: label, at: [0, 5], text: B }", "label", ["B"])):
+            root, errors = self.drawn(self.annotated(annotation))
+            self.assertNotIn("not in the drawing", errors)
+            self.assertEqual(self.texts(root), words, annotation)
+            self.assertTrue(self.of_class(root, name) or self.of_class(root, "mark"), annotation)
+            lo_x, lo_y, hi_x, hi_y = self.box(root)
+            self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (annotation, self.box(root)))
+            self.assertGreater(self.radius(root), 6, annotation)
+
+    def test_room_for_several(self):
+        root, _ = self.drawn(self.annotated("{ type: arrow, from: [0, 0], to: [-6, 0] }",
+                                            "{ type: linear_dimension, from: [0, 0], to: [0, -5] }"))
+        self.assertEqual(self.texts(root), ["5"])
+        heads = [path for path in self.of_class(root, "arrow")[0].findall(SVG + "path") if path.get("fill")]
+        self.assertEqual(len(heads), 1)
+        lo_x, lo_y, hi_x, hi_y = self.box(root)
+        self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
+
+    def test_annotations_alone(self):
+        """Without objects the annotations fill the page."""
+        root, _ = self.drawn("""lekalo: 1
+objects: []
+drawing:
+  annotations:
+    - { type: point, at: [0, 0], label: A }
+    - { type: point, at: [30, 0], label: B }
+    - { type: brace, from: [0, 0], to: [30, 0], label: l }
+    - { type: label, at: [10, 15], text: far }
+    - { type: angle, at: [0, 0], from: [30, 0], to: [10, 15], label: a }
+camera: { view: top }
+image: { size: [80 mm, 60 mm], margin: 4 mm }
+""")
+        self.assertEqual(sorted(self.texts(root)), ["A", "B", "a", "far", "l"])
+        marks = [path for group in self.of_class(root, "mark") for path in group.findall(SVG + "path")]
+        self.assertEqual(len(marks), 2)
+        lo_x, lo_y, hi_x, hi_y = self.box(root)
+        self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
+        self.assertGreater(hi_x - lo_x, 60)
+
+    def test_cameras_that_frame_some(self):
+        """What a camera leaves out of its picture gets no room; a dimension of what it frames does."""
+        scene = """lekalo: 1
+geometry: { c: { type: circle, radius: 1 }, far: { type: circle, center: [40, 0], radius: 1 } }
+camera: { view: top, frame: [c], margin: 0 }
+image: { size: [80 mm, 60 mm], margin: 4 mm }
+"""
+        root, _ = self.drawn(scene)
+        self.assert_near(self.radius(root), 26, 0.1)
+        self.assertIsNone(self.of_class(root, "lines")[0].get("clip-path"))
+        # What goes on beyond the picture ends at it, not somewhere in the margin.
+        root, _ = self.drawn(scene.replace("far: { type: circle, center: [40, 0], radius: 1 }",
+                                           "far: { type: segment, from: [0, 0], to: [40, 0] }"))
+        self.assertEqual(self.of_class(root, "lines")[0].get("clip-path"), "url(#clip)")
+        root, _ = self.drawn(scene + "drawing: { annotations: "
+                             "[{ type: linear_dimension, from: [-1, 0], to: [1, 0], offset: -30 mm }] }\n")
+        self.assertEqual(self.texts(root), ["2"])
+        self.assertGreater(self.radius(root), 15)
+        lo_x, lo_y, hi_x, hi_y = self.box(root)
+        self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
+
+    def test_behind_the_eye(self):
+        """Nothing is drawn at the mirrored pictures of points behind the eye, and that is said."""
+        root, errors = self.drawn("""lekalo: 1
+geometry: { s: { type: sphere_surface, radius: 1 } }
+camera: { type: perspective, from: [0.3, -4, 1], at: [0, 0, 0] }
+drawing:
+  annotations:
+    - { type: linear_dimension, from: [0, -3, 0], to: [0, -6, 0] }
+    - { type: angle_dimension, at: [0, 0, 0], from: [0, -6, 0], to: [1, 0, 0] }
+    - { type: brace, from: [-1, 0, 0], to: [-1, -9, 0], label: L }
+    - { type: leader, at: [0, 0, 1], to: [1, -9, 1], text: pole }
+    - { type: angle, at: [0, -5, 0], from: [1, -5, 0], to: [0, -5, 1], label: x }
+    - { type: point, at: [0, 0, 1], label: N }
+image: { size: [120 mm, 90 mm] }
+""")
+        self.assertEqual(self.texts(root), ["N"])
+        for kind in ("linear_dimension", "angle_dimension", "brace", "leader", "angle"):
+            self.assertIn(f"{kind} at points behind the eye", errors)
+            self.assertFalse(self.of_class(root, kind))
+
+    # ---------------------------------------------------------------- lines and their elements
+
+    def test_eye_on_lines(self):
+        """Lines towards the eye are points: nothing is drawn, least of all millions of cubics."""
+        cone = """lekalo: 1
+geometry: { s: { type: cone_surface, radius: 1, height: 2 } }
+objects: [{ shape: s, lines: { silhouette: thick, boundary: thick, parameter: { at_u: 12, at_v: 7 }, hidden: dashed } }]
+camera: { type: perspective, from: [0, 0, 2], at: [0, 0, 0], up: y }
+image: { size: [120 mm, 90 mm], margin: 3 mm }
+"""
+        self.drawn(cone)
+        self.assertLess(len(self.bytes_of("scene.svg")), 20000)
+        root, _ = self.drawn("""lekalo: 1
+geometry: { s: { type: segment, from: [-3, 0, 0], to: [8, 0, 0] } }
+camera: { type: perspective, from: [5, 0, 0], at: [0, 0.5, 0.2] }
+""")
+        self.assertEqual(list(root.iter(SVG + "path")), [])
+
+    def test_straight_lines(self):
+        """The edges of a block are lines in every file, closed loops where they are."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { b: { type: box, center: [0, 0, 0], size: [2, 2, 2] } }
+objects: [{ shape: b, lines: { sharp: thick, hidden: dashed } }]
+camera: { type: perspective, from: [3, 0, 0], at: [0, 0, 0], field_of_view: 80 }
+image: { size: [120 mm, 90 mm], margin: 3 mm }
+""")
+        for path in root.iter(SVG + "path"):
+            self.assertRegex(path.get("d"), r"^M[-\d. ]+( L[-\d. ]+)+( Z)?$")
+        front = self.of_class(root, "sharp")[0].findall(SVG + "path")
+        self.assertEqual(len(front), 1)
+        self.assertTrue(front[0].get("d").endswith(" Z"))
+
+    def test_corners_are_closed(self):
+        """Where three edges of a pen meet they have round ends; where two do they are one path; dashes keep their ends."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+objects: [{ shape: b, lines: { sharp: { width: 2 mm, color: blue }, hidden: dashed } }]
+camera: { view: isometric }
+image: { size: [60 mm, 60 mm] }
+""")
+        edges = self.of_class(root, "sharp")[0].findall(SVG + "path")
+        self.assertEqual(len(edges), 6)
+        self.assertEqual({path.get("stroke-linecap") for path in edges}, {"round"})
+        hidden = self.of_class(root, "sharp hidden layers-1")[0].findall(SVG + "path")
+        self.assertEqual({path.get("stroke-linecap") for path in hidden}, {None})
+        # A free end is none.
+        root, _ = self.drawn(CIRCLE.replace("c: { type: circle, radius: 1 }",
+                                            "c: { type: segment, from: [0, 0], to: [1, 0] }"))
+        self.assertIsNone(next(root.iter(SVG + "path")).get("stroke-linecap"))
+
+    def test_names(self):
+        """Every element has an id of its own that XML allows, made of object and kind."""
+        root, _ = self.drawn("""lekalo: 1
+geometry:
+  block: { type: box, size: [1, 2, 3] }
+  balls: { repeat: { i: 0..1 }, type: ball, center: [3, 3 * i, 1], radius: 1 }
+objects:
+  - { shape: block, name: '1st block & more', lines: { sharp: thick, hidden: dashed } }
+  - { shape: balls, lines: { silhouette: thick, parameter: { at_u: 4, at_v: 3 } } }
+  - { shape: block, name: lines, transform: { translate: [-3, 0, 0] }, lines: { sharp: thick } }
+camera: { view: isometric }
+drawing:
+  ground: fill
+  annotations:
+    - { type: label, at: [0, 0, 0], text: here }
+    - { type: label, at: [3, 0, 1], text: there }
+image: { size: [60 mm, 80 mm] }
+""")
+        ids = [element.get("id") for element in root.iter() if element.get("id")]
+        self.assertEqual(len(ids), len(set(ids)))
+        for name in ids:
+            self.assertRegex(name, r"^[A-Za-z_][\w.-]*$")
+        for element in root.iter():
+            if element.get("class") not in (None, "paper") or element.tag == SVG + "path":
+                self.assertTrue(element.get("id"))
+        for name in ("lines", "hidden", "_1st_block___more", "_1st_block___more-sharp", "_1st_block___more-sharp-1",
+                     "_1st_block___more-hidden", "balls", "balls-silhouette-1", "balls-silhouette_2-1", "lines_2",
+                     "lines-sharp-1"):
+            self.assertIn(name, ids)
+        # Object groups hold what the object has, kind by kind.
+        balls = next(group for group in root.iter(SVG + "g") if group.get("id") == "balls")
+        self.assertEqual({group.get("class") for group in balls}, {"parameter", "silhouette"})
+
+    def test_names_in_panels(self):
+        root, _ = self.drawn(CIRCLE + "panels: { left: {}, right: { camera: { view: bottom } } }\n")
+        ids = [element.get("id") for element in root.iter() if element.get("id")]
+        self.assertEqual(len(ids), len(set(ids)))
+        for name in ("left", "left-c", "left-c-curve-1", "right", "right-c", "right-c-curve-1"):
+            self.assertIn(name, ids)
+
+    # ---------------------------------------------------------------- size and part of the page
+
+    def test_crop(self):
+        """The part that the scene or --crop names, in the page's pixels; the drawing stays where it is."""
+        whole, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\nimage: { size: [80, 80] }\n")
+        part, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\n"
+                             "image: { size: [80, 80], crop: [0, 0, 40, 20] }\n")
+        pixel = 25.4 / 96
+        box = [float(x) for x in part.get("viewBox").split()]
+        self.assert_near(box, [0, 0, 40 * pixel, 20 * pixel], 1e-3)
+        self.assert_near(float(part.get("width").removesuffix("mm")), 40 * pixel, 1e-3)
+        self.assertEqual([path.get("d") for path in whole.iter(SVG + "path")],
+                         [path.get("d") for path in part.iter(SVG + "path")])
+        part, _ = self.drawn("lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\nimage: { size: [80, 80] }\n",
+                             "--crop", "40,40,80,60", "-o", "part.png", "-o", "part.pdf")
+        self.assert_near([float(x) for x in part.get("viewBox").split()],
+                         [40 * pixel, 40 * pixel, 40 * pixel, 20 * pixel], 1e-3)
+        self.assertEqual(self.png_size("part.png"), (40, 20))
+        self.assertIn(b"/MediaBox [ 0 0 30 15 ]", self.bytes_of("part.pdf"))
+        errors = self.run_program("draw", "scene.yaml", "--crop", "40,40,90,60", code=USAGE)[1]
+        self.assertIn("does not lie inside", errors)
+
+    def png_size(self, name):
+        data = self.bytes_of(name)
+        return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+
+    def test_size(self):
+        """So many pixels; the page keeps its width, lines and texts theirs."""
+        scene = CIRCLE + "drawing: { annotations: [{ type: label, at: [0, 0], text: a }] }\n"
+        for size, page in (("400x300", (80, 60)), ("300x300", (80, 80))):
+            root, _ = self.drawn(scene, "--size", size, "--threads", "1", "-o", "scene.png")
+            self.assertEqual((root.get("width"), root.get("height")), (f"{page[0]}mm", f"{page[1]}mm"))
+            self.assertEqual(self.png_size("scene.png"), tuple(int(x) for x in size.split("x")))
+            self.assertEqual(next(root.iter(SVG + "path")).get("stroke-width"), "0.5")
+        self.run_program("draw", "scene.yaml", "--size", "300", code=USAGE)
+
+    def test_places_on_the_page(self):
+        """They count from the page's lower left corner, whatever the margin."""
+        root, _ = self.drawn(self.annotated("{ type: point, at: { page: [10 mm, 20 mm] }, marker: square }"))
+        point = self.of_class(root, "point")[0]
+        x, y = self.box(point)[0] + self.box(point)[2], self.box(point)[1] + self.box(point)[3]
+        self.assert_near([x / 2, y / 2], [10, 40], 1e-3)
+
+    # ---------------------------------------------------------------- what does not fit
+
+    def test_too_large(self):
+        """What does not fit is an error of the scene: where, and what would."""
+        panels = """lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+panels: { a: { camera: { view: top } }, b: { camera: { view: front } } }
+layout: { rows: [[a, b]], scale: SCALE }
+image: { size: [80 mm, auto] }
+"""
+        self.write("wide.yaml", panels.replace("SCALE", "50"))
+        errors = self.run_program("draw", "wide.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("wide.yaml:4:34: the panels do not fit at this scale: they need ", errors)
+        scale = re.search(r"hint: scale: ([\d.]+) fits", errors).group(1)
+        self.write("fits.yaml", panels.replace("SCALE", scale))
+        self.run_program("draw", "fits.yaml")
+        self.write("next.yaml", panels.replace("SCALE", str(1.1 * float(scale))))
+        self.run_program("draw", "next.yaml", code=SCENE_ERROR)
+        self.write("margin.yaml", CIRCLE.replace("margin: 4 mm", "margin: 30 mm"))
+        errors = self.run_program("draw", "margin.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("margin.yaml:4:40: a margin of 30 mm leaves nothing of a page of 80.0 x 60.0 mm", errors)
+        self.assertIn("hint: less than 29.5 mm", errors)
+        self.write("panels.yaml", panels.replace(", scale: SCALE", "").replace("auto]", "auto], margin: 45 mm"))
+        errors = self.run_program("draw", "panels.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 x 1 panels", errors)
+
+    # ---------------------------------------------------------------- numbers, graphs, notes
+
+    def test_small_models_have_numbers(self):
+        root, _ = self.drawn("""lekalo: 1
+geometry:
+  c: { type: circle, radius: 5e-5 }
+drawing:
+  annotations:
+    - { type: linear_dimension, from: [0, 0], to: [1e-4, 0] }
+    - { type: linear_dimension, from: [0, 0], to: [0, 1e-4], decimals: 2 }
+    - { type: radius_dimension, of: c }
+camera: { view: top }
+""")
+        self.assertEqual(sorted(self.texts(root)), ["0", "0.0001", "R5·10−5"])
+
+    def test_graphs_are_cut_with_their_labels(self):
+        """A control point beyond the range has no label; a legend in a corner lies on a ground of its own."""
+        graph = """lekalo: 1
+geometry: { b: { type: bezier_curve, points: [[-3, 1], [-1, 3], [1, -3], [3, 1]] } }
+objects:
+  - { shape: b, lines: { curve: thick }, show: { control_polygon: { label: '$p_%i$' } }, legend: Bezier }
+camera: { type: graph, x: [-4, 4], y: [-2, 2] }
+drawing:
+  axes: { x: { ticks: none }, y: { ticks: none } }
+  legend: { side: SIDE }
+  annotations: [{ type: label, at: [0, -2.2], text: under }]
+"""
+        root, _ = self.drawn(graph.replace("SIDE", "below"))
+        self.assertEqual(sorted(self.texts(root)), ["Bezier", "p0", "p3", "under"])
+        marks = [path for group in self.of_class(root, "mark") for path in group.findall(SVG + "path")]
+        self.assertEqual(len(marks), 2)
+        grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
+        self.assertEqual(grounds, [])
+        root, _ = self.drawn(graph.replace("SIDE", "above right"))
+        grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
+        self.assertEqual([path.get("fill") for path in grounds], ["#ffffff"])
+
+    def test_notes_on_lights(self):
+        """The studio is named where something is lit by it."""
+        self.assertNotIn("studio", self.drawn(CIRCLE)[1])
+        self.assertIn("studio", self.drawn(CIRCLE + "drawing: { ground: shaded }\n", "--size", "40x30")[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
