@@ -197,7 +197,8 @@ class Drawing {
   std::vector<double> events_of(int line, const PictureCrossings& crossings) {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
-    add_own_outlines(stroke, events);
+    const std::vector<double>& own = own_outlines_of(line);
+    events.insert(events.end(), own.begin(), own.end());
     add_outlines_of_twins(line, events);
     add_piercings(line, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
@@ -269,18 +270,30 @@ class Drawing {
     }
   }
 
+  // Twins ask for one another's.
+  const std::vector<double>& own_outlines_of(int line) {
+    own_outlines_.resize(strokes_.size());
+    if (!own_outlines_[line]) add_own_outlines(strokes_[line], own_outlines_[line].emplace());
+    return *own_outlines_[line];
+  }
+
   // Where it goes round surfaces that join its own along it.
-  void add_outlines_of_twins(int line, std::vector<double>& events) const {
+  void add_outlines_of_twins(int line, std::vector<double>& events) {
     const Stroke& stroke = strokes_[line];
     for (const int twin : twins_[line]) {
       const Stroke& other = strokes_[twin];
-      std::vector<double> turns;
-      add_own_outlines(other, turns);
       const Affine map = stroke.to_world.inverse() * other.to_world;
-      for (const double turn : turns) {
+      for (const double turn : own_outlines_of(twin)) {
         const Vec3 point = map.point(other.curve->point(turn));
-        const double t = nearest(*stroke.curve, point);
-        if (glm::length(stroke.curve->point(t) - point) < kNear * world_.radius()) events.push_back(t);
+        const auto meets = [&](double t) {
+          return glm::length(stroke.curve->point(t) - point) < kNear * world_.radius();
+        };
+        // Most have the same parameter, or run the other way.
+        const Interval from = other.curve->domain(), to = stroke.curve->domain();
+        const double along = to.width() * (turn - from.lo) / from.width();
+        double t = meets(to.clamp(to.lo + along)) ? to.clamp(to.lo + along) : to.clamp(to.hi - along);
+        if (!meets(t)) t = nearest(*stroke.curve, point);
+        if (meets(t)) events.push_back(t);
       }
     }
   }
@@ -618,7 +631,8 @@ class Drawing {
   std::vector<Stroke> strokes_;
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> outline_of_;
-  std::vector<std::vector<int>> twins_;  // lines along the whole of which another lies
+  std::vector<std::vector<int>> twins_;                           // lines along the whole of which another lies
+  std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
   std::vector<WorldSurface> surfaces_;
   BoxTree tree_;  // of their boxes
   std::vector<WorldShape> shapes_;

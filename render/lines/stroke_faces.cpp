@@ -28,11 +28,12 @@ double shift_into(const Interval& range, double x, double period) {
 
 void StrokeCollector::add_crease(const SurfacePtr& surface, const Crease& crease, const Interval& along,
                                  const Style& style, const HiddenLines& hidden) {
-  // So far beside a crease its other side is asked for derivatives, of the domain.
-  constexpr double kOtherSide = 1e-13;
+  // So far beside a crease its sides are asked for derivatives, of the domain: bounds on it hold those of both.
+  constexpr double kAside = 1e-13;
   const Interval range = crease.held == HeldParameter::u ? surface->domain().u : surface->domain().v;
-  lies_on_line(surface, crease.held, crease.at, along);
-  lies_on_line(surface, crease.held, crease.seam ? range.hi : crease.at - kOtherSide * range.width(), along);
+  const double aside = kAside * range.width();
+  lies_on_line(surface, crease.held, crease.at + aside, along);
+  lies_on_line(surface, crease.held, (crease.seam ? range.hi : crease.at) - aside, along);
   stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, along), style, hidden);
 }
 

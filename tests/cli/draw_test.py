@@ -100,6 +100,61 @@ camera: { view: top }
         errors = self.run_program("draw", "wrong.yaml", code=SCENE_ERROR)[1]
         self.assertIn("labels do not know '\\aplha' (did you mean 'alpha'?)", errors)
 
+    def scene(self, geometry, objects):
+        self.write("scene.yaml", f"lekalo: 1\ngeometry: {{ {geometry} }}\nobjects: [{objects}]\n"
+                   "camera: { view: isometric }\n")
+        return "scene.yaml"
+
+    def test_lines_that_cannot_be(self):
+        """Kinds that a shape cannot have, and unbounded surfaces, are errors with a place and a hint; check finds them."""
+        cases = (("b: { type: box, size: [1, 1, 1] }", "{ shape: b, lines: { curve: thick } }",
+                  "'box' has no lines 'curve'", "it has boundary, sharp,"),
+                 ("c: { type: circle, radius: 1 }", "{ shape: c, lines: { sharp: thick } }",
+                  "'circle' has no lines 'sharp'", "it has curve"),
+                 ("p: { type: plane }", "{ shape: p, lines: { section: { planes: [{ normal: x }] } } }",
+                  "the surface is unbounded", "give the surface a domain"),
+                 ("s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }", "{ shape: s, lines: { self_intersection: thin } }",
+                  "the surface is unbounded", "give the surface a domain"),
+                 ("s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }, b: { type: ball, radius: 1 }",
+                  "{ shape: b, lines: { intersection: { with: s } } }", "what is met is an unbounded surface",
+                  "give the surface a domain"))
+        for geometry, objects, message, hint in cases:
+            scene = self.scene(geometry, objects)
+            for command in (("draw", scene, "-o", "x.svg"), ("check", scene)):
+                errors = self.run_program(*command, code=SCENE_ERROR)[1]
+                self.assertRegex(errors, r"scene\.yaml:3:\d+: ")
+                self.assertIn(message, errors)
+                self.assertIn("hint: " + hint, errors)
+        # Of a list it is enough that one has them.
+        self.run_program("draw", self.scene("b: { type: box, size: [1, 1, 1] }, c: { type: circle, radius: 1 }",
+                                            "{ shape: [b, c], lines: { curve: thick, sharp: thick } }"), "-o", "x.svg")
+
+    def test_what_is_left_out_has_a_name(self):
+        tube = "t: { type: tube, of: { type: segment, from: [-2, 0, 0], to: [2, 0, 0] }, radius: 0.3 }, " \
+               "b: { type: ball, radius: 1 }, s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }"
+        scene = self.scene(tube, "{ shape: t, lines: { parameter: { at_u: 3 }, self_intersection: thin, "
+                           "intersection: { with: b } } }, { shape: s, lines: { boundary: thick } }")
+        errors = self.run_program("draw", scene, "-o", "x.svg")[1]
+        for words in ("parameter lines of 't'", "self-intersections of 't'",
+                      "intersections of curved faces and a tube ('t')", "lines of 's', which is unbounded"):
+            self.assertIn(words, errors)
+        # The formula has kinks.
+        scene = self.scene("i: { type: implicit, formula: 'abs(x) + abs(y) + abs(z) - 1', ball: { radius: 1.5 } }",
+                           "{ shape: i, lines: { silhouette: thick } }")
+        self.assertIn("not all lines are known: they nearly touch or coincide ('i')",
+                      self.run_program("draw", scene, "-o", "x.svg")[1])
+
+    def test_creases(self):
+        """The corner of a turned polyline is a ring, seen from outside and through the mouth; silhouettes end there."""
+        scene = self.scene("v: { type: revolution_surface, axis: z, of: { type: polyline, "
+                           "points: [[1, 0, 0], [2, 0, 2], [1, 0, 4]] } }",
+                           "{ shape: v, lines: { sharp: thick, silhouette: thick, boundary: thick } }")
+        errors = self.run_program("draw", scene, "-o", "x.svg")[1]
+        self.assertNotIn("warning", errors)
+        paths = self.paths("x.svg")
+        self.assertEqual(len(paths["sharp"]), 2)
+        self.assertEqual(len(paths["silhouette"]), 4)
+
 
 if __name__ == "__main__":
     unittest.main()

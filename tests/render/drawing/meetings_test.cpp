@@ -1,0 +1,130 @@
+// The lines in which objects meet: the same ball given in several ways, placed by its object, against a box.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/bodies/primitives.h"
+#include "geometry/curves/segment.h"
+#include "geometry/queries/mass_properties.h"
+#include "geometry/shapes/balls.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/half_space.h"
+#include "geometry/shapes/implicit_surface.h"
+#include "geometry/shapes/tube.h"
+#include "geometry/transformed.h"
+#include "render/drawing/random_views.h"
+#include "render/lines/strokes.h"
+
+namespace lekalo::render {
+namespace {
+
+using namespace geometry;
+
+BodyPtr ball_at(const Vec3& center, double radius) {
+  Frame frame;
+  frame.origin = center;
+  return std::make_shared<Body>(ball(frame, radius));
+}
+
+std::any any_of(const Entity& entity) {
+  return std::visit([](const auto& shape) { return std::any(shape); }, entity);
+}
+
+void meet(SmallScene& scene, const Entity& shape, const Affine& transform, const Entity& with) {
+  show(scene, shape, {"intersection"});
+  Object& object = scene.model.objects.back();
+  object.transform = transform;
+  Look look = *object.look;
+  look.lines->with = {any_of(with)};
+  object.look = std::make_shared<const Look>(look);
+}
+
+struct Found {
+  double length = 0;
+  std::vector<Vec3> points;
+  std::vector<std::string> left_out;
+};
+Found meetings(const Entity& shape, const Affine& transform, const Entity& with, const std::optional<Affine>& placed) {
+  SmallScene scene;
+  meet(scene, shape, transform, with);
+  if (placed) {
+    show(scene, with, {});
+    scene.model.objects.back().transform = *placed;
+  }
+  Views views(3);
+  views.look(scene, false);
+  const LineWork work = drawing_work(*scene.world());
+  Found found;
+  found.left_out = work.left_out;
+  for (const Stroke& stroke : work.strokes) {
+    if (!stroke.drawn) continue;
+    const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
+    const Interval t = curve->domain();
+    found.length += arc_length(*curve, t.lo, t.hi).value;
+    for (const double share : {0.1, 0.4, 0.7}) found.points.push_back(curve->point(t.lo + share * t.width()));
+  }
+  return found;
+}
+
+TEST(Meetings, OneBallInManyWays) {
+  Frame frame = frame_from({0, 0, 0}, {1, 2, 3}, {0, 1, 0});
+  const BodyPtr block = std::make_shared<Body>(box(frame, {2, 2, 2}));
+  const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
+               placed = Affine::translation({0.8, 0.9, 0.7});
+  const BodyPtr exact = ball_at({0, 0, 0}, 1.3);
+  const Found expected = meetings(block, turned, exact, placed);
+  ASSERT_GT(expected.length, 2);
+  for (const Vec3& point : expected.points) {
+    EXPECT_NEAR(glm::length(point - Vec3(0.8, 0.9, 0.7)), 1.3, 1e-9);
+    const Vec3 in_box = turned.inverse().point(point) - frame.origin;
+    double outside = -kInfinity;
+    for (const Vec3& axis : {frame.x, frame.y, frame.z})
+      outside = std::max(outside, std::abs(glm::dot(in_box, axis) - 1) - 1);
+    EXPECT_NEAR(outside, 0, 1e-9);
+  }
+  auto formula = std::get<Expression>(Expression::parse("x^2 + y^2 + z^2"));
+  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+  ASSERT_FALSE(formula.bind(variables));
+  const Vec3 half(1.5);
+  const Entity others[] = {
+      ShapePtr(std::make_shared<ImplicitSurface>(formula, 1.3 * 1.3, ImplicitRegion{{-half, half}}, true)),
+      ShapePtr(std::make_shared<Balls>(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{1.3})),
+      ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
+                                     std::vector<ShapePtr>{std::make_shared<BodyShape>(exact),
+                                                           std::make_shared<BodyShape>(ball_at({0, 0, 0.1}, 0.2))})),
+      SurfaceSet{sphere({0, 0, 0}, 1.3), sphere({0, 0, 20}, 1)}};
+  for (const Entity& other : others) {
+    const Found found = meetings(block, turned, other, placed), turned_round = meetings(other, placed, block, turned);
+    EXPECT_NEAR(found.length, expected.length, 1e-6);
+    EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
+    EXPECT_TRUE(found.left_out.empty());
+  }
+}
+
+TEST(Meetings, PlanesAndHalfSpacesCut) {
+  const Entity cutting[] = {SurfacePtr(plane({0, 0, 0.5}, {0, 0, 1})),
+                            ShapePtr(std::make_shared<HalfSpaceShape>(Vec3(0, 0, 0.5), Vec3(0, 0, 1)))};
+  const auto segment = std::make_shared<Segment>(Vec3(0, 0, -3), Vec3(0, 0, 3));
+  const Entity cut[] = {ball_at({0, 0, 0}, 1.3),
+                        ShapePtr(std::make_shared<Tube>(segment, RadiusLaw(1.2), Caps::round))};
+  for (const Entity& knife : cutting)
+    for (const Entity& shape : cut)
+      // One that no object shows stands as it is written, whatever the object's own transform.
+      EXPECT_NEAR(meetings(shape, Affine::translation({5, 6, 0}), knife, std::nullopt).length, kTwoPi * 1.2, 1e-6);
+}
+
+TEST(Meetings, PlaneFacesCutTubes) {
+  const auto segment = std::make_shared<Segment>(Vec3(0, 0, -3), Vec3(0, 0, 3));
+  const ShapePtr tube = std::make_shared<Tube>(segment, RadiusLaw(0.5), Caps::round);
+  Frame frame;
+  frame.origin = {0, -2, -1};
+  // From below and above, each half a circle; the side x = 0 along two straight lines.
+  const Found found = meetings(std::make_shared<Body>(box(frame, {4, 4, 2})), Affine(), tube, Affine());
+  EXPECT_NEAR(found.length, kTwoPi * 0.5 + 2 * 2, 1e-6);
+  EXPECT_TRUE(found.left_out.empty());
+  EXPECT_EQ(meetings(ball_at({0, 0, 0}, 1), Affine(), tube, Affine()).left_out.size(), 1u);
+}
+
+}  // namespace
+}  // namespace lekalo::render
