@@ -78,7 +78,7 @@ TEST(Lines, WhatIsGivenIsDrawn) {
   const Model m = model(kCurve +
                         "styles: { net: { like: thin, color: red } }\n"
                         "objects:\n"
-                        "  - shape: { type: sphere_surface, radius: 1 }\n"
+                        "  - shape: [{ type: sphere_surface, radius: 1 }, r]\n"
                         "    lines:\n"
                         "      boundary: net\n"
                         "      silhouette: { width: 0.7 mm }\n"  // changes `thick`
@@ -90,7 +90,7 @@ TEST(Lines, WhatIsGivenIsDrawn) {
                         "  - { shape: r, lines: {} }\n"
                         "  - { shape: r, lines: { hidden: hairline } }\n"
                         "  - { shape: r }\n");
-  ASSERT_EQ(m.objects.size(), 4u);
+  ASSERT_EQ(m.objects.size(), 5u);
   const Lines& lines = *m.objects[0].look->lines;
   EXPECT_EQ(lines.styles.size(), 6u);
   EXPECT_EQ(lines.styles.at("boundary").name, "net");
@@ -106,18 +106,18 @@ TEST(Lines, WhatIsGivenIsDrawn) {
   EXPECT_EQ(lines.planes[0].normal, geometry::Vec3(1, 0, 0));
   EXPECT_EQ(lines.with.size(), 1u);
   EXPECT_EQ(lines.hidden.way, HiddenLines::Way::faded);
-  EXPECT_TRUE(m.objects[1].look->lines->styles.empty());
-  EXPECT_EQ(m.objects[2].look->lines->hidden.way, HiddenLines::Way::styled);
-  EXPECT_EQ(m.objects[2].look->lines->hidden.style.name, "hairline");
+  EXPECT_TRUE(m.objects[2].look->lines->styles.empty());
+  EXPECT_EQ(m.objects[3].look->lines->hidden.way, HiddenLines::Way::styled);
+  EXPECT_EQ(m.objects[3].look->lines->hidden.style.name, "hairline");
   // Without lines of its own an object has those of the drawing.
-  EXPECT_EQ(m.objects[3].look, nullptr);
+  EXPECT_EQ(m.objects[4].look, nullptr);
   EXPECT_EQ(m.drawing.lines.styles.size(), 4u);
   EXPECT_EQ(m.drawing.lines.styles.at("curve").name, "thick");
 }
 
 TEST(Lines, Errors) {
   const auto lines = [](const std::string& fields) {
-    return said(kCurve + "objects:\n  - shape: r\n    lines: " + fields + "\n");
+    return said(kCurve + "objects:\n  - shape: [r, { type: sphere_surface, radius: 1 }]\n    lines: " + fields + "\n");
   };
   EXPECT_EQ(lines("{ curve: thik }"), "6:21 there is no style called 'thik' (did you mean 'thick'?)\n");
   EXPECT_EQ(lines("{ curv: thick }"), "6:14 unknown field 'curv' of 'lines' (did you mean 'curve'?)\n");
