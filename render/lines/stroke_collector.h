@@ -27,6 +27,9 @@ bool is_closed_in(const geometry::Surface& surface, geometry::HeldParameter held
 // De Casteljau's and de Boor's triangles, which are shown of curves.
 bool is_triangle(const Helper& helper);
 
+// Whether a shape is made of surfaces: one, several, a body.
+bool has_faces(const Entity& shape);
+
 class StrokeCollector {
  public:
   StrokeCollector(const World& world, bool drawing);
@@ -244,6 +247,7 @@ class StrokeCollector {
     int object;
   };
   std::vector<PlacedFace> faces_;
+  std::vector<std::pair<const Object*, PlacedShape>> filled_;  // and what they belong to
 };
 
 }  // namespace lekalo::render

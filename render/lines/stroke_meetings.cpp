@@ -21,11 +21,6 @@ using namespace geometry;
 
 namespace {
 
-bool has_faces(const Entity& shape) {
-  return std::holds_alternative<SurfacePtr>(shape) || std::holds_alternative<SurfaceSet>(shape) ||
-         std::holds_alternative<BodyPtr>(shape);
-}
-
 template <class T>
 const T* solid_of(const Entity& shape) {
   const auto* solid = std::get_if<ShapePtr>(&shape);
@@ -79,6 +74,11 @@ void add_leaves(const ShapePtr& shape, const Affine& to_world, int object, std::
 }
 
 }  // namespace
+
+bool has_faces(const Entity& shape) {
+  return std::holds_alternative<SurfacePtr>(shape) || std::holds_alternative<SurfaceSet>(shape) ||
+         std::holds_alternative<BodyPtr>(shape);
+}
 
 std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
   std::vector<PlacedShape> found;

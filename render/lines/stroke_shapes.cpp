@@ -240,6 +240,7 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
     add_edges(**body, kind_, Style(), {});
   }
   undrawn_ = borders_ = false;
+  filled_.push_back({object_, {object_->shape, to_world_, object_number_}});
   each_face([&](const SurfacePtr& surface) {
     if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
   });
@@ -261,6 +262,18 @@ void StrokeCollector::add_meetings() {
       object_number_ = a.object;
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });
+  // What has no faces of its own, as far as its meetings are known: areas that stay open are told of later.
+  const std::vector<std::string> left_out = work_.left_out;
+  const auto box_of = [](const PlacedShape& placed) { return transformed(bounds(placed.shape), placed.to_world); };
+  for (size_t k = 0; k < filled_.size(); ++k)
+    for (size_t j = k + 1; j < filled_.size(); ++j) {
+      const PlacedShape &a = filled_[k].second, &b = filled_[j].second;
+      if (has_faces(a.shape) && has_faces(b.shape)) continue;
+      if (!BoxTree::meets(box_of(a), box_of(b))) continue;
+      object_ = filled_[k].first, object_number_ = a.object;
+      add_meeting(a, b, Style(), {});
+    }
+  work_.left_out = left_out;
   undrawn_ = borders_ = false;
 }
 
