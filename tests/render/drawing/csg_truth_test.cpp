@@ -172,7 +172,7 @@ TEST(CsgTruth, HelixCutByABox) {
 // A pipe seen along its axis: four circles, of which none is hidden and none changes.
 TEST(CsgTruth, PipeAlongItsAxis) {
   Views views(131);
-  for (int k = 0; k < 12; ++k) {
+  for (int k = 0; k < tests::least_of_slow(12); ++k) {
     SmallScene scene;
     const Frame frame = k == 0 ? Frame() : anywhere(views, 1);
     Frame below = frame;
