@@ -25,6 +25,7 @@ using namespace geometry;
 
 namespace {
 
+constexpr double kPoint = 1e-3;   // millimetres: a line that is seen end-on
 constexpr double kFitted = 0.01;  // pixels: how far a path may be from its curve
 // Ends of lines nearer in space than this, of the scene's radius, are one.
 constexpr double kJoined = 1e-8;
@@ -42,18 +43,6 @@ void collect_legend(const std::vector<Object>& objects, std::vector<LegendEntry>
     else if (!object.legend.empty())
       entries.push_back({object.legend, {}, {}});
   }
-}
-
-// Of a line that is seen end-on.
-bool is_point(const Path& path) {
-  constexpr double kSame = 1e-3;  // millimetres
-  Vec2 at = path.from;
-  for (const PathStep& step : path.steps) {
-    for (const double s : {0.25, 0.5, 0.75, 1.0})
-      if (glm::length(point_on(at, step, s) - path.from) > kSame) return false;
-    at = step.to;
-  }
-  return true;
 }
 
 // What of the objects only lines show is not rendered under them.
@@ -236,7 +225,7 @@ class ViewDrawing {
     for (const CurvePiece& one : stroke.curve->pieces()) breaks.push_back(one.domain.lo);
     const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
     // Without caps it shows nothing.
-    if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole)) return;
+    if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole, kPoint)) return;
     for (Path& path : overlaps_.left_of(whole)) {
       add_obstacles(path);
       // Where it is cut, or has a head, nothing goes on.

@@ -8,16 +8,6 @@ namespace lekalo::render {
 
 namespace {
 
-bool is_dot(const Path& path, double size) {
-  Vec2 begin = path.from;
-  for (const PathStep& step : path.steps) {
-    for (const double share : {0.25, 0.5, 0.75, 1.0})
-      if (glm::length(point_on(begin, step, share) - path.from) > size) return false;
-    begin = step.to;
-  }
-  return true;
-}
-
 // Lines of one kind and pen that follow one another go on in one another.
 std::vector<DrawnLines> by_pen(std::vector<DrawnLines> found, double same, double dot) {
   std::vector<DrawnLines> all;
@@ -38,7 +28,7 @@ std::vector<DrawnLines> by_pen(std::vector<DrawnLines> found, double same, doubl
   for (DrawnLines& one : all) {
     one.paths = joined(one.paths, same);
     // Lines that are seen along themselves.
-    std::erase_if(one.paths, [&](const PathInSpace& path) { return is_dot(path.path, dot); });
+    std::erase_if(one.paths, [&](const PathInSpace& path) { return is_point(path.path, dot); });
   }
   return all;
 }

@@ -147,6 +147,16 @@ Path fitted_path(const ProjectedCurve& curve, const Interval& t, const std::vect
   return path;
 }
 
+bool is_point(const Path& path, double size) {
+  Vec2 begin = path.from;
+  for (const PathStep& step : path.steps) {
+    for (const double share : {0.25, 0.5, 0.75, 1.0})
+      if (glm::length(point_on(begin, step, share) - path.from) > size) return false;
+    begin = step.to;
+  }
+  return true;
+}
+
 Path reversed(const Path& path) {
   Path result;
   result.closed = path.closed;

@@ -45,7 +45,10 @@ struct Path {
 Path fitted_path(const ProjectedCurve& curve, const geometry::Interval& t, const std::vector<double>& breaks,
                  double tolerance);
 
-// The same the other way.
+// Whether no place of the path is farther from its beginning than `size`: a line that is seen along itself.
+bool is_point(const Path& path, double size);
+
+// The path the other way.
 Path reversed(const Path& path);
 // Every point p at scale p + shift.
 Path moved(Path path, const Vec2& shift, double scale = 1);

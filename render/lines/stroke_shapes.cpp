@@ -264,12 +264,14 @@ void StrokeCollector::add_meetings() {
     });
   // What has no faces of its own, as far as its meetings are known: areas that stay open are told of later.
   const std::vector<std::string> left_out = work_.left_out;
-  const auto box_of = [](const PlacedShape& placed) { return transformed(bounds(placed.shape), placed.to_world); };
+  std::vector<Box3> boxes_of_all;
+  for (const auto& [object, placed] : filled_)
+    boxes_of_all.push_back(transformed(bounds(placed.shape), placed.to_world));
   for (size_t k = 0; k < filled_.size(); ++k)
     for (size_t j = k + 1; j < filled_.size(); ++j) {
       const PlacedShape &a = filled_[k].second, &b = filled_[j].second;
       if (has_faces(a.shape) && has_faces(b.shape)) continue;
-      if (!BoxTree::meets(box_of(a), box_of(b))) continue;
+      if (!BoxTree::meets(boxes_of_all[k], boxes_of_all[j])) continue;
       object_ = filled_[k].first, object_number_ = a.object;
       add_meeting(a, b, Style(), {});
     }
