@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kNodes = static_cast<int>(PolynomialCurve::kTerms);
 constexpr size_t kMostParts = 4096;
-constexpr int kMostHalvings = 16;  // of a piece
+constexpr int kMostHalvings = 24;  // of a piece
 constexpr double kLeftOut = 0.1;   // of the tolerance: terms as small together
 
 class Fitting {

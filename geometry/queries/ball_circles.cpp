@@ -130,24 +130,23 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
     const double k = std::clamp(share(at), -1.0, 1.0);
     return WallPlace{at, k, sign * std::sqrt(1 - k * k)};
   };
-  // Of a shallow bulge |k| falls less.
-  double least = 1;
-  for (int i = 1; i < kPlacesOfArc; ++i) least = std::min(least, std::abs(share(t.lo + t.width() * i / kPlacesOfArc)));
-  const double told = std::max(kShallow, 0.5 * (1 + least));
-  // From a join the first place at which |k| is that, if it falls all the way.
-  const auto end_of_arc = [&](double from, double to) -> std::optional<double> {
-    double at = from, value = 1;
-    for (int i = 1; i < kPlacesOfArc; ++i) {
-      const double next = from + (to - from) * i / kPlacesOfArc, next_value = std::abs(share(next));
-      if (next_value <= told) return zero_between([&](double x) { return std::abs(share(x)) - told; }, at, next);
-      if (!(next_value < value)) return std::nullopt;
-      at = next, value = next_value;
-    }
-    return std::nullopt;
+  // From a join where |k| is down to that, or half way down to its first least value, if that is more.
+  struct ArcEnd {
+    double t, k;
+  };
+  const auto end_of_arc = [&](double from, double to) -> std::optional<ArcEnd> {
+    const auto at = [&](int i) { return from + (to - from) * i / kPlacesOfArc; };
+    const auto size_of = [&](double x) { return std::abs(share(x)); };
+    double least = 1;
+    int last = 0;
+    while (last + 1 < kPlacesOfArc && least > kShallow && size_of(at(last + 1)) < least) least = size_of(at(++last));
+    const double told = std::max(kShallow, 0.5 * (1 + least));
+    if (!(told < 1)) return std::nullopt;
+    return ArcEnd{zero_between([&](double x) { return size_of(x) - told; }, from, at(last)), told};
   };
   std::vector<WallPath> paths;
-  const std::optional<double> lo = joins_lo ? end_of_arc(t.lo, t.hi) : t.lo,
-                              hi = joins_hi ? end_of_arc(t.hi, t.lo) : t.hi;
+  const std::optional<ArcEnd> lo = joins_lo ? end_of_arc(t.lo, t.hi) : ArcEnd{t.lo, 1},
+                              hi = joins_hi ? end_of_arc(t.hi, t.lo) : ArcEnd{t.hi, 1};
   if (!lo || !hi) {
     // One smooth curve by the root of the distance from where they join.
     if (joins_lo && joins_hi)
@@ -161,17 +160,18 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
                        }});
     return paths;
   }
-  const auto add_arc = [&](double from, double to) {
-    const double sign = share(from) > 0 ? 1 : -1, angle = std::acos(told);
-    paths.push_back({{-angle, angle}, [=](double s) {
-                       const double k = sign * std::cos(s);
-                       return WallPlace{zero_between([&](double x) { return share(x) - k; }, from, to), k, std::sin(s)};
-                     }});
+  const auto add_arc = [&](double from, const ArcEnd& to) {
+    const double sign = share(from) > 0 ? 1 : -1, angle = std::acos(to.k);
+    paths.push_back(
+        {{-angle, angle}, [=](double s) {
+           const double k = sign * std::cos(s);
+           return WallPlace{zero_between([&](double x) { return share(x) - k; }, from, to.t), k, std::sin(s)};
+         }});
   };
   if (joins_lo) add_arc(t.lo, *lo);
   if (joins_hi) add_arc(t.hi, *hi);
-  if (*lo < *hi)
-    for (const double sign : {1.0, -1.0}) paths.push_back({{*lo, *hi}, [=](double s) { return by_t(s, sign); }});
+  if (lo->t < hi->t)
+    for (const double sign : {1.0, -1.0}) paths.push_back({{lo->t, hi->t}, [=](double s) { return by_t(s, sign); }});
   return paths;
 }
 

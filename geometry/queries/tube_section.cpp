@@ -21,7 +21,11 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves that are approximated
+// Of the size: of curves that are approximated, with those that lie on the wall and in the plane though they do not go
+// along them at the path's own pace: where the two points of a circle nearly meet, rounding moves them along the
+// section.
+constexpr double kAgree = 1e-13, kAgreeInPace = 1e-9;
+constexpr int kCheckedPlaces = 7;  // of each piece of such a curve
 // |e . m| from which a loop about the tube is a function of the angle.
 constexpr double kSteep = 0.8;
 // Of g: less between two stretches is where the two points of a circle meet, and the section crosses itself.
@@ -254,8 +258,8 @@ class TubeSection {
     const auto point_at = [&](double s) { return path(s).point(); };
     CurvePtr curve = polynomial_approximation(point_at, parts, kAgree * size_);
     if (!curve) {
-      curve = polynomial_approximation(point_at, parts, kLeastAgree * size_);
-      result_.complete = false;
+      curve = polynomial_approximation(point_at, parts, kAgreeInPace * size_);
+      if (!curve || !lies_on_section(*curve, path)) result_.complete = false;
     }
     if (!curve) return;
     ShapeOutline line{curve, true, nullptr, {}};
@@ -267,6 +271,20 @@ class TubeSection {
       if (part.lo > range.lo) line.turns.push_back(part.lo);
     });
     result_.lines.push_back(std::move(line));
+  }
+
+  // By the balls that touch the wall at the path's own places: distances change by the square of what these are off.
+  bool lies_on_section(const Curve& curve, const std::function<WallPoint(double)>& path) const {
+    for (const CurvePiece& piece : curve.pieces())
+      for (int k = 0; k < kCheckedPlaces; ++k) {
+        const double s = piece.domain.lo + (k + 0.5) / kCheckedPlaces * piece.domain.width();
+        const Vec3 p = curve.point(s);
+        const BallJet ball = sweep_.ball(path(s).t);
+        if (std::abs(glm::dot(p - origin_, m_)) > kAgree * size_ ||
+            std::abs(glm::length(p - ball.center[0]) - ball.radius[0]) > kAgree * size_)
+          return false;
+      }
+    return true;
   }
 
   // The plane's circle on the ball between two pieces of the curve, or at one of its ends.
