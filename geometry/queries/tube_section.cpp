@@ -28,6 +28,7 @@ constexpr double kAgree = 1e-13, kAgreeInPace = 1e-9;
 constexpr int kCheckedPlaces = 7;  // of each piece of such a curve
 // |e . m| from which a loop about the tube is a function of the angle.
 constexpr double kSteep = 0.8;
+constexpr double kShortest = 1e-6;  // of the domain: on stretches as short g is rounding, or has one top
 // Of g: less between two stretches is where the two points of a circle meet, and the section crosses itself.
 constexpr double kMeets = 1e-12;
 constexpr int kPlaces = 256;  // a piece of the curve
@@ -191,15 +192,17 @@ class TubeSection {
         top);
   }
 
+  bool goes_across(const Interval& t) const {
+    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0})
+      if (std::abs(glm::dot(circle(t.lo + x * t.width()).axis, m_)) <= kSteep) return false;
+    return true;
+  }
+
   void add_stretch(const End& lo, const End& hi) {
     const Interval t{lo.t, hi.t};
-    if (lo.joins && hi.joins && lo.outer.above != hi.outer.above &&
-        std::abs(glm::dot(circle(t.middle()).axis, m_)) > kSteep)
-      return add_loop(lo.outer, hi.outer);
-    // Where the two points meet inside of the stretch each goes on as the other.
-    std::vector<End> ends{lo};
     const auto g = [&](double x) { return circle(x).g(); };
     const auto at = [&](int k) { return t.lo + t.width() * k / kPlaces; };
+    std::vector<double> least;  // places inside
     for (int k = 1; k + 1 < kPlaces; ++k) {
       if (!(g(at(k)) <= g(at(k - 1)) && g(at(k)) <= g(at(k + 1)))) continue;
       double a = at(k - 1), b = at(k + 1);
@@ -208,8 +211,22 @@ class TubeSection {
         const double first = a + (b - a) / 3, second = b - (b - a) / 3;
         (g(first) < g(second) ? b : a) = g(first) < g(second) ? second : first;
       }
-      if (g(0.5 * (a + b)) < kMeets) ends.push_back({0.5 * (a + b), false, {}});
+      const double place_of_least = 0.5 * (a + b);
+      if (g(place_of_least) < -kMeets) {
+        // A gap between the places that were looked at.
+        const Place gap = place(place_of_least);
+        add_stretch(lo, {change(place(at(k - 1)), gap), true, gap});
+        return add_stretch({change(gap, place(at(k + 1))), true, gap}, hi);
+      }
+      least.push_back(place_of_least);
     }
+    const bool is_plain = least.empty() || t.width() < kShortest * sweep_.curve().domain().width();
+    if (lo.joins && hi.joins && lo.outer.above != hi.outer.above && is_plain && goes_across(t))
+      return add_loop(lo.outer, hi.outer);
+    // Where the two points meet inside of the stretch each goes on as the other.
+    std::vector<End> ends{lo};
+    for (const double place : least)
+      if (g(place) < kMeets) ends.push_back({place, false, {}});
     ends.push_back(hi);
     for (size_t k = 0; k + 1 < ends.size(); ++k)
       if (ends[k].t < ends[k + 1].t) add_wall({ends[k].t, ends[k + 1].t}, ends[k].joins, ends[k + 1].joins);
