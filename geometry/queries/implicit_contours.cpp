@@ -49,8 +49,11 @@ class Collector {
       const std::vector<ImplicitNode> nodes = implicit_nodes(surface_, view_, search_box());
       const ImplicitArcs found = implicit_arcs(surface_, sight_, search_box(), nodes);
       note(found);
-      for (const ImplicitArc& arc : found.arcs)
-        each_inside(arc, [&](const CurvePtr& curve, bool closed) { add_silhouette(curve, closed, arc.regular); });
+      for (const ImplicitArc& arc : found.arcs) {
+        // A stretch of a closed line may go on beyond its end, which is next to no singular point.
+        const Interval regular{arc.regular.lo, arc.closed ? kInfinity : arc.regular.hi};
+        each_inside(arc, [&](const CurvePtr& curve, bool closed) { add_silhouette(curve, closed, regular); });
+      }
     }
     if (region_.is_ball && surface_.is_closed()) add_outline_of_ball();
     return std::move(result_);

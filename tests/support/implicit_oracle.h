@@ -48,6 +48,19 @@ class ImplicitSheets final : public Solid {
       if (closed_ || in_region({o.x + root * d.x, o.y + root * d.y, o.z + root * d.z})) own.push_back(root + near);
     const auto touches = [&](Real at) { return std::abs(at - 1) < contact; };
     if (std::count_if(own.begin(), own.end(), touches) > 1) std::erase_if(own, touches);
+    // Where the surface hardly bends along the way the crossings of one contact are farther apart; then they are told
+    // by how deep the way lies between them.
+    const Real far = contact * std::sqrt(dot(d, d)),
+               deep = far * far / size * slope({start.x + d.x, start.y + d.y, start.z + d.z});
+    for (size_t k = 0; contact > 0 && k + 1 < own.size(); ++k) {
+      if (own[k] > 1 + contact || own[k + 1] < 1 - contact) continue;
+      const Real middle = (own[k] + own[k + 1]) / 2 - near;
+      Real height = 0;
+      for (size_t i = f.c.size(); i-- > 0;) height = height * middle + f.c[i];
+      if (std::abs(height) > deep) continue;
+      own.erase(own.begin() + static_cast<std::ptrdiff_t>(k), own.begin() + static_cast<std::ptrdiff_t>(k + 2));
+      break;
+    }
     if (closed_) {
       std::vector<Real> border;
       if (is_ball_) {
@@ -65,13 +78,21 @@ class ImplicitSheets final : public Solid {
     }
     t.insert(t.end(), own.begin(), own.end());
   }
-  bool contains(const Real3& p) const override {
-    const auto constant = [](Real value) { return LinePolynomial(std::vector<Real>{value}); };
-    const LinePolynomial f = F()(constant(p.x), constant(p.y), constant(p.z));
-    return f.c[0] < 0 && (!closed_ || in_region(p));
-  }
+  bool contains(const Real3& p) const override { return value(p) < 0 && (!closed_ || in_region(p)); }
 
  private:
+  static Real value(const Real3& p) {
+    const auto constant = [](Real number) { return LinePolynomial(std::vector<Real>{number}); };
+    return F()(constant(p.x), constant(p.y), constant(p.z)).c[0];
+  }
+  // |grad F|.
+  static Real slope(const Real3& p) {
+    constexpr Real h = 1e-6L;
+    const Real3 g{(value({p.x + h, p.y, p.z}) - value({p.x - h, p.y, p.z})) / (2 * h),
+                  (value({p.x, p.y + h, p.z}) - value({p.x, p.y - h, p.z})) / (2 * h),
+                  (value({p.x, p.y, p.z + h}) - value({p.x, p.y, p.z - h})) / (2 * h)};
+    return std::sqrt(dot(g, g));
+  }
   bool in_region(const Real3& p) const {
     if (!is_ball_)
       return p.x >= lo_[0] && p.y >= lo_[1] && p.z >= lo_[2] && p.x <= hi_[0] && p.y <= hi_[1] && p.z <= hi_[2];
