@@ -9,11 +9,10 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Half the side of the square, of the reach and at least of the size; where surfaces touch, of the reach.
-constexpr double kAside = 1e-6, kLeastAside = 1e-7, kAsideOfContact = 1e-3;
-// Of the square of a short stretch's length over the reach; and of the size, well above what the solid takes for one
-// crossing (kSameHit).
-constexpr double kAsideOfStretch = 0.05, kLeastAsideOfStretch = 2e-9;
+// Half the side of the square, of the size: more than lines are off the boundary and than the solid takes for one
+// crossing (kSameHit), and no more, as a surface that goes on smoothly in another (a ball in a cylinder) is covered by
+// little there; where surfaces touch, of the reach.
+constexpr double kAside = 1e-9, kAsideOfContact = 1e-3;
 // Normals that differ by less are those of one smooth face. Across a contact both bend.
 constexpr double kSharp = 1e-3, kSharpAtContact = 0.5;
 // Of the reach: how far heights are asked for; and of its inverse: bends that differ by less are one.
@@ -33,10 +32,7 @@ class Asking {
   CsgBoundary answer() {
     if (question_.touching && on_square(kAsideOfContact * question_.reach, kSharpAtContact) == CsgBoundary::sharp_edge)
       return CsgBoundary::sharp_edge;
-    const double of_stretch = kAsideOfStretch * question_.length * question_.length / question_.reach;
-    const double half = std::min(std::max(kAside * question_.reach, kLeastAside * size_),
-                                 std::max(of_stretch, kLeastAsideOfStretch * size_));
-    const CsgBoundary found = on_square(half, kSharp);
+    const CsgBoundary found = on_square(kAside * size_, kSharp);
     return found == CsgBoundary::face && question_.smooth && bends_change() ? CsgBoundary::smooth_edge : found;
   }
 

@@ -1,8 +1,6 @@
 // What the boundary of a solid is about a point of a line on it. Along the four sides of a small square about the
 // point, across the line, the solid is crossed once on each side where the boundary is smooth, with normals that agree
-// but for its bending; at a sharp edge the normals differ; nothing is crossed off the boundary. The square is smaller
-// on short stretches: where a surface goes on smoothly in another (a ball in a cylinder), a stretch of the length l
-// behind the joint lies only some l^2 / (10 R) below the boundary in its middle.
+// but for its bending; at a sharp edge the normals differ; nothing is crossed off the boundary.
 //
 // Two faces that go on smoothly in one another differ in how they bend across the line: heights over the tangent at the
 // distances h and 2h on both sides give the second derivatives.
@@ -20,7 +18,6 @@ struct CsgBoundaryQuestion {
   Vec3 point{0};
   Vec3 tangent{0};        // of the line; of any length but zero
   double reach = 1;       // the length along which lines and surfaces about the point hardly bend, or less
-  double length = 1;      // of the stretch of the line that is asked for: what covers it may begin at its end
   bool touching = false;  // surfaces touch along the line: as far as they are one crossing, the square is larger
   bool smooth = false;    // whether faces and smooth edges need to be told apart
 };

@@ -359,8 +359,7 @@ class Lines {
     const CurveJet at = found.line.curve->evaluate(stretch.lo + kAskedAt * stretch.width(), 1);
     if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
     const bool is_edge = found.line.kind == Kind::sharp;
-    const double length = stretch.width() * glm::length(at.d[1]);
-    const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, length, found.touching, is_edge && !found.smooth};
+    const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, found.touching, is_edge && !found.smooth};
     const CsgBoundary boundary = boundary_at(solid_, size_, question);
     if (boundary == CsgBoundary::none) return std::nullopt;
     if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;
