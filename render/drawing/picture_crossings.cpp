@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace lekalo::render {
 
@@ -16,6 +17,7 @@ constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kAnyTurn = 4;      // nothing is known
 constexpr double kLastStep = 1e-8;  // of a part: Newton's iteration has come to rounding behind it
+constexpr double kPressed = 1e-12;  // of a part: Newton's iteration leads out of its end again and again
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
@@ -77,8 +79,13 @@ bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
   double s = a.t.lo + a.t.width() * (area != 0 ? cross(off, v) / area : 0.5),
          t = b.t.lo + b.t.width() * (area != 0 ? cross(off, u) / area : 0.5);
   constexpr int kSteps = 30;
+  double s_at = geometry::kInfinity, t_at = geometry::kInfinity;  // where it has been
   for (int step = 0; step < kSteps; ++step) {
-    s = a.t.clamp(s), t = b.t.clamp(t);
+    const double s_before = std::exchange(s_at, a.t.clamp(s)), t_before = std::exchange(t_at, b.t.clamp(t));
+    // Pressed against an end, where it stays.
+    if (std::abs(s_at - s_before) <= kPressed * a.t.width() && std::abs(t_at - t_before) <= kPressed * b.t.width())
+      break;
+    s = s_at, t = t_at;
     const auto at_a = a.curve->place(s), at_b = b.curve->place(t);
     const Vec2 apart = at_b.p - at_a.p;
     const double determinant = cross(at_a.tangent, at_b.tangent);
