@@ -13,6 +13,8 @@ constexpr int kBoundedLevels = 4;
 constexpr double kCrooked = 0.05;
 // Rounding of corners, and of what is computed from them, of the coordinates.
 constexpr double kRounding = 1e-14;
+// An end that is farther from a border, of the coordinates, does not lie on it.
+constexpr double kOffBorder = 1e-12;
 // A Newton iteration's place counts for a cell from so far outside of it, of its width.
 constexpr double kOutside = 1e-6;
 // Columns of a Jacobian whose components are taken at different places: their bounds are those of components.
@@ -28,14 +30,26 @@ double det(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::dot(a, glm
 
 CurveCells::CurveCells(const Curve& curve, double end_share) : curve_(curve) {
   const Interval domain = curve.domain();
-  const Interval inner{domain.lo + end_share * domain.width(), domain.hi - end_share * domain.width()};
+  const double left_out = end_share * domain.width();
+  inner_ = {domain.lo + left_out, domain.hi - left_out};
+  ends_[0] = {1, curve.point(domain.lo), left_out};
+  ends_[1] = {-1, curve.point(next_down(domain.hi)), left_out};
   for (const CurvePiece& piece : curve.pieces()) {
-    const Interval t = intersect(piece.domain, inner);
+    const Interval t = intersect(piece.domain, inner_);
     if (!(t.hi > t.lo)) continue;
-    const double second = magnitude(curve.enclose(t, 2).d[2]);
-    cells_.push_back(make(t, curve.point(t.lo), curve.point(t.hi), second, 0));
+    cells_.push_back(make(t, curve.point(t.lo), curve.point(t.hi), second_over(t), 0));
   }
   roots_ = static_cast<int>(cells_.size());
+}
+
+double CurveCells::second_over(const Interval& t) const {
+  const Interval up_to_ends{t.lo == inner_.lo ? curve_.domain().lo : t.lo,
+                            t.hi == inner_.hi ? curve_.domain().hi : t.hi};
+  return magnitude(curve_.enclose(up_to_ends, 2).d[2]);
+}
+
+const CurveCells::End* CurveCells::end_at(const Cell& cell) const {
+  return cell.t.lo == inner_.lo ? &ends_[0] : cell.t.hi == inner_.hi ? &ends_[1] : nullptr;
 }
 
 CurveCells::Cell CurveCells::make(const Interval& t, const Vec3& begin, const Vec3& end, double second,
@@ -61,7 +75,7 @@ int CurveCells::children(int index) {
   const bool anew = cell.depth < kBoundedLevels || !(cell.bulge <= kCrooked * glm::length(cell.end - cell.begin));
   cells_[index].children = static_cast<int>(cells_.size());
   for (int k = 0; k < 2; ++k) {
-    const double second = anew ? std::min(cell.second, magnitude(curve_.enclose(halves[k], 2).d[2])) : cell.second;
+    const double second = anew ? std::min(cell.second, second_over(halves[k])) : cell.second;
     cells_.push_back(make(halves[k], k == 0 ? cell.begin : at, k == 0 ? at : cell.end, second, cell.depth + 1));
   }
   return cells_[index].children;
@@ -171,6 +185,91 @@ bool SurfaceCells::is_foot_near(const Cell& cell, const Vec3& point, double tole
 
 namespace {
 
+// Where an end of the curve lies on a border v = v0 of the surface, P = s(u0, v0), another point of both in the cells
+// is
+//
+//   r(t) - P = t R = (u - u0) S_u + (v - v0) S_v,
+//
+// t counted from the end, R, S_u, S_v means of the derivatives along the way. Seen along the surface's normal n, with
+// D(a, b) = n . (a x b): t D(S_u, R) = (v - v0) D(S_u, S_v). So there is none if the signs of both D, which the bounds
+// of second derivatives tell, put v beyond the border. The same of borders u = u0. An end that is off the border by e
+// shifts t D(S_u, R) by |S_u| e, which the part at the end that is left out pays for.
+class BorderTest {
+ public:
+  BorderTest(const CurveCells::Cell& c, const CurveCells::End& end, const SurfaceCells::Cell& s, const Surface& surface)
+      : end_(end), s_(s), surface_(surface) {
+    const double ht = c.t.width() + end.left_out, hu = s.domain.u.width(), hv = s.domain.v.width();
+    const Vec3 chord = end.way > 0 ? c.end - end.point : end.point - c.begin;
+    r_ = {chord / ht, 0.5 * ht * c.second};
+    su_ = {(s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2]) / (2 * hu), hu * s.second_uu + hv * s.second_uv};
+    sv_ = {(s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1]) / (2 * hv), hu * s.second_uv + hv * s.second_vv};
+    const Vec3 normal = glm::cross(su_.middle, sv_.middle);
+    normal_ = normal / glm::length(normal);
+    area_ = across(su_, sv_);
+  }
+
+  bool leaves() const {
+    if (!(area_.lo > 0)) return false;
+    const Rectangle domain = surface_.domain();
+    for (const bool upper : {false, true}) {
+      const double side = upper ? end_.way : -end_.way;
+      const auto end_of = [&](const Interval& range) { return upper ? range.hi : range.lo; };
+      if (end_of(s_.domain.v) == end_of(domain.v) && leaves(side * across(su_, r_), su_, false, upper)) return true;
+      if (end_of(s_.domain.u) == end_of(domain.u) && leaves(side * across(r_, sv_), sv_, true, upper)) return true;
+    }
+    return false;
+  }
+
+ private:
+  // Vectors within `radius` of one.
+  struct Ball {
+    Vec3 middle{0};
+    double radius = 0;
+    double largest() const { return glm::length(middle) + radius; }
+  };
+  Interval across(const Ball& a, const Ball& b) const {
+    const double middle = glm::dot(normal_, glm::cross(a.middle, b.middle));
+    const double most = a.largest() * b.largest() - glm::length(a.middle) * glm::length(b.middle);
+    return {middle - most, middle + most};
+  }
+
+  // `speed`: of the way out; `along`: of the border.
+  bool leaves(const Interval& speed, const Ball& along, bool at_u, bool upper) const {
+    if (!(speed.lo > 0)) return false;
+    const double off = distance_from_border(at_u, upper);
+    return speed.lo * end_.left_out > along.largest() * (off + 4 * kRounding * largest(end_.point));
+  }
+
+  // Infinite where no place of the border within the cell is found.
+  double distance_from_border(bool at_u, bool upper) const {
+    constexpr int kSteps = 8;
+    const Interval range = at_u ? s_.domain.v : s_.domain.u;
+    const double border = at_u ? (upper ? s_.domain.u.hi : s_.domain.u.lo) : (upper ? s_.domain.v.hi : s_.domain.v.lo);
+    const int first = upper ? (at_u ? 1 : 2) : 0;
+    const Vec3 chord = s_.corners[first + (at_u ? 2 : 1)] - s_.corners[first], off = end_.point - s_.corners[first];
+    const double square = glm::dot(chord, chord), x = glm::dot(off, chord) / square;
+    if (!(glm::length(off - x * chord) <= s_.bulge + kOffBorder * largest(end_.point))) return kInfinity;
+    double t = range.clamp(range.lo + x * range.width()), least = kInfinity;
+    for (int step = 0; step < kSteps; ++step) {
+      const SurfaceJet s = surface_.evaluate(at_u ? border : t, at_u ? t : border, 1);
+      const Vec3 to = end_.point - s.point(), derivative = at_u ? s.dv() : s.du();
+      const double distance = glm::length(to);
+      // It comes nearer by halves and more, or no more.
+      if (!(distance < 0.5 * least)) return std::min(distance, least);
+      least = distance;
+      t = range.clamp(t + glm::dot(to, derivative) / glm::dot(derivative, derivative));
+    }
+    return least;
+  }
+
+  const CurveCells::End& end_;
+  const SurfaceCells::Cell& s_;
+  const Surface& surface_;
+  Ball r_, su_, sv_;
+  Vec3 normal_{0};
+  Interval area_;
+};
+
 class Passages {
  public:
   Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
@@ -249,6 +348,10 @@ class Passages {
     return std::abs(det(r, su, sv)) > (a + of_r) * (b + of_u) * (d + of_v) - a * b * d;
   }
 
+  bool leaves_border(const CurveCells::Cell& c, const CurveCells::End& end, const SurfaceCells::Cell& s) const {
+    return s.box.contains(end.point) && BorderTest(c, end, s, surface_.surface()).leaves();
+  }
+
   // Newton's iteration from the middle of the cells.
   bool solve(const CurveCells::Cell& c, const SurfaceCells::Cell& s, double& t) const {
     t = c.t.middle();
@@ -280,6 +383,7 @@ class Passages {
     const CurveCells::Cell c = curve_.cell(i);
     const SurfaceCells::Cell s = surface_.cell(j);
     if (is_apart(c, s)) return true;
+    if (const CurveCells::End* end = curve_.end_at(c); end && leaves_border(c, *end, s)) return true;
     if (meets_once(c, s)) {
       if (double t = 0; solve(c, s, t)) {
         places_.push_back(c.t.clamp(t));

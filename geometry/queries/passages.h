@@ -3,9 +3,10 @@
 // Both are cut into cells: chords of a curve and four corners of a surface, with how far the true thing is from these
 // at most (h^2 max|second derivative| / 8). Two cells are apart if one of a few directions parts them; they meet once
 // if no Jacobian of r(t) - s(u, v) between the bounds of its columns is singular, and then Newton's iteration finds the
-// place. Cells are made when they are first asked for and kept: a picture asks for many curves against the same
-// surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings with
-// their kinds.
+// place. A curve that ends on the surface's border and leaves it there, perhaps along its tangent plane (as lines of
+// the next patch do), meets it nowhere else near that end: see leaves_border(). Cells are made when they are first
+// asked for and kept: a picture asks for many curves against the same surface. That is some hundred times faster than
+// intersect() (curve_intersections.h), which isolates all meetings with their kinds.
 #pragma once
 
 #include <vector>
@@ -35,9 +36,21 @@ class CurveCells {
   const Cell& cell(int index) const { return cells_[index]; }
   int children(int index);  // of the cell: this and the next
 
+  // One of the curve's own ends, which no cell holds.
+  struct End {
+    double way;  // 1: the curve begins there; -1: it ends there
+    Vec3 point;
+    double left_out;  // so much of the domain is no cell's
+  };
+  // That next to a cell, if there is one. `second` of the cell bounds |r''| up to it.
+  const End* end_at(const Cell& cell) const;
+
  private:
   Cell make(const Interval& t, const Vec3& begin, const Vec3& end, double second, int depth) const;
+  double second_over(const Interval& t) const;
   const Curve& curve_;
+  Interval inner_;
+  End ends_[2];
   int roots_ = 0;
   std::vector<Cell> cells_;
 };

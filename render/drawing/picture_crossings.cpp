@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace lekalo::render {
 
@@ -17,7 +16,6 @@ constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kAnyTurn = 4;      // nothing is known
 constexpr double kLastStep = 1e-8;  // of a part: Newton's iteration has come to rounding behind it
-constexpr double kPressed = 1e-12;  // of a part: Newton's iteration leads out of its end again and again
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
@@ -72,22 +70,32 @@ bool is_apart(const Part& a, const Part& b) {
   return beyond(across, 0, 0) || beyond(along, 0, length);
 }
 
-// Newton's iteration for P_a(s) = P_b(t), of which there is at most one.
+bool is_beyond(const Interval& range, double x, double ahead, double most) {
+  return (x == range.hi && ahead > most) || (x == range.lo && -ahead > most);
+}
+
+// Newton's iteration for P_a(s) = P_b(t), of which there is at most one, the directions of both parts being apart.
+//
+// From a place (s, t) to the crossing (s', t') there are chords of the parts, P_b(t) - P_a(s) = (s' - s) A - (t' - t)
+// B, so that (s' - s) (A x B) = (P_b(t) - P_a(s)) x B, B being within the turn of b's chord. If that points out of the
+// part at its end, there is no crossing.
 bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
   const Vec2 u = a.chord(), v = b.chord(), off = b.begin - a.begin;
-  const double area = cross(u, v);
+  const double area = cross(u, v), orientation = area < 0 ? -1 : 1;
+  const double u_length = glm::length(u), v_length = glm::length(v), sin_a = std::sin(a.turn), sin_b = std::sin(b.turn);
   double s = a.t.lo + a.t.width() * (area != 0 ? cross(off, v) / area : 0.5),
          t = b.t.lo + b.t.width() * (area != 0 ? cross(off, u) / area : 0.5);
+  // At a break the curve's own place is that from the right.
+  const Interval of_a{a.t.lo, geometry::next_down(a.t.hi)}, of_b{b.t.lo, geometry::next_down(b.t.hi)};
   constexpr int kSteps = 30;
-  double s_at = geometry::kInfinity, t_at = geometry::kInfinity;  // where it has been
   for (int step = 0; step < kSteps; ++step) {
-    const double s_before = std::exchange(s_at, a.t.clamp(s)), t_before = std::exchange(t_at, b.t.clamp(t));
-    // Pressed against an end, where it stays.
-    if (std::abs(s_at - s_before) <= kPressed * a.t.width() && std::abs(t_at - t_before) <= kPressed * b.t.width())
-      break;
-    s = s_at, t = t_at;
+    s = of_a.clamp(s), t = of_b.clamp(t);
     const auto at_a = a.curve->place(s), at_b = b.curve->place(t);
     const Vec2 apart = at_b.p - at_a.p;
+    if (is_beyond(of_a, s, orientation * cross(apart, v) / v_length,
+                  glm::length(apart) * sin_b + kEndSlack * u_length) ||
+        is_beyond(of_b, t, orientation * cross(apart, u) / u_length, glm::length(apart) * sin_a + kEndSlack * v_length))
+      return false;
     const double determinant = cross(at_a.tangent, at_b.tangent);
     if (determinant == 0 || !std::isfinite(determinant)) return false;
     const double by_s = cross(apart, at_b.tangent) / determinant, by_t = cross(apart, at_a.tangent) / determinant;
