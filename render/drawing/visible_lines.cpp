@@ -112,6 +112,7 @@ class Drawing {
     for (Stroke& stroke : work.strokes) {
       simplify(stroke);
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
+      if (stroke.kind == "self_intersection") self_intersections_.push_back(static_cast<int>(strokes_.size()));
       strokes_.push_back(std::move(stroke));
     }
     find_repeated_lines();
@@ -345,8 +346,9 @@ class Drawing {
 
   // Where it meets the lines in which a surface on which it lies goes through itself.
   void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
-    for (const Stroke& other : strokes_) {
-      if (other.kind != "self_intersection" || &other == &stroke || !share_host(other, stroke)) continue;
+    for (const int line : self_intersections_) {
+      const Stroke& other = strokes_[line];
+      if (&other == &stroke || !share_host(other, stroke)) continue;
       if (!runs_along(*stroke.curve, *other.curve)) {
         for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
         continue;
@@ -630,6 +632,7 @@ class Drawing {
   const std::function<void(double)>& progress_;
   std::vector<Stroke> strokes_;
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
+  std::vector<int> self_intersections_;  // lines of this kind
   std::vector<int> outline_of_;
   std::vector<std::vector<int>> twins_;                           // lines along the whole of which another lies
   std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
