@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/queries/leaving_border.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -13,8 +15,6 @@ constexpr int kBoundedLevels = 4;
 constexpr double kCrooked = 0.05;
 // Rounding of corners, and of what is computed from them, of the coordinates.
 constexpr double kRounding = 1e-14;
-// An end that is farther from a border, of the coordinates, does not lie on it.
-constexpr double kOffBorder = 1e-12;
 // A Newton iteration's place counts for a cell from so far outside of it, of its width.
 constexpr double kOutside = 1e-6;
 // Columns of a Jacobian whose components are taken at different places: their bounds are those of components.
@@ -193,88 +193,6 @@ bool SurfaceCells::is_foot_near(const Cell& cell, const Vec3& point, double tole
 
 namespace {
 
-// Where an end of the curve lies on a border v = v0 of the surface, P = s(u0, v0), another point of both in the cells
-// is
-//
-//   r(t) - P = t R = (u - u0) S_u + (v - v0) S_v,
-//
-// t counted from the end, R, S_u, S_v means of the derivatives along the way. Seen along the surface's normal n, with
-// D(a, b) = n . (a x b): t D(S_u, R) = (v - v0) D(S_u, S_v). So there is none if the signs of both D, which the bounds
-// of second derivatives tell, put v beyond the border. The same of borders u = u0. An end that is off the border by e
-// shifts t D(S_u, R) by |S_u| e, which the part at the end that is left out pays for.
-class BorderTest {
- public:
-  BorderTest(const CurveCells::Cell& c, const CurveCells::End& end, const SurfaceCells::Cell& s, const Surface& surface)
-      : end_(end), c_(c), s_(s), surface_(surface) {
-    const Vec3 normal = glm::cross(s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
-                                   s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1]);
-    normal_ = normal / glm::length(normal);
-  }
-
-  bool leaves() const {
-    if (!(across(s_.first_u, s_.first_v).lo > 0)) return false;
-    const Rectangle domain = surface_.domain();
-    for (const bool upper : {false, true}) {
-      const double side = upper ? end_.way : -end_.way;
-      const auto end_of = [&](const Interval& range) { return upper ? range.hi : range.lo; };
-      if (end_of(s_.domain.v) == end_of(domain.v) &&
-          leaves(side * across(s_.first_u, c_.first), s_.first_u, false, upper))
-        return true;
-      if (end_of(s_.domain.u) == end_of(domain.u) &&
-          leaves(side * across(c_.first, s_.first_v), s_.first_v, true, upper))
-        return true;
-    }
-    return false;
-  }
-
- private:
-  // D(a, b).
-  Interval across(const VectorRange& a, const VectorRange& b) const {
-    const Vec3 of_a = glm::cross(b.middle, normal_), of_b = glm::cross(normal_, a.middle);
-    const Vec3 both{a.half.y * b.half.z + a.half.z * b.half.y, a.half.z * b.half.x + a.half.x * b.half.z,
-                    a.half.x * b.half.y + a.half.y * b.half.x};
-    const double most =
-        glm::dot(glm::abs(of_a), a.half) + glm::dot(glm::abs(of_b), b.half) + glm::dot(glm::abs(normal_), both);
-    const double middle = glm::dot(of_b, b.middle);
-    return {middle - most, middle + most};
-  }
-
-  // `speed`: of the way out; `along`: of the border.
-  bool leaves(const Interval& speed, const VectorRange& along, bool at_u, bool upper) const {
-    if (!(speed.lo > 0)) return false;
-    const double off = distance_from_border(at_u, upper);
-    return speed.lo * end_.left_out > along.largest * (off + 4 * kRounding * largest(end_.point));
-  }
-
-  // Infinite where no place of the border within the cell is found.
-  double distance_from_border(bool at_u, bool upper) const {
-    constexpr int kSteps = 8;
-    const Interval range = at_u ? s_.domain.v : s_.domain.u;
-    const double border = at_u ? (upper ? s_.domain.u.hi : s_.domain.u.lo) : (upper ? s_.domain.v.hi : s_.domain.v.lo);
-    const int first = upper ? (at_u ? 1 : 2) : 0;
-    const Vec3 chord = s_.corners[first + (at_u ? 2 : 1)] - s_.corners[first], off = end_.point - s_.corners[first];
-    const double square = glm::dot(chord, chord), x = glm::dot(off, chord) / square;
-    if (!(glm::length(off - x * chord) <= s_.bulge + kOffBorder * largest(end_.point))) return kInfinity;
-    double t = range.clamp(range.lo + x * range.width()), least = kInfinity;
-    for (int step = 0; step < kSteps; ++step) {
-      const SurfaceJet s = surface_.evaluate(at_u ? border : t, at_u ? t : border, 1);
-      const Vec3 to = end_.point - s.point(), derivative = at_u ? s.dv() : s.du();
-      const double distance = glm::length(to);
-      // It comes nearer by halves and more, or no more.
-      if (!(distance < 0.5 * least)) return std::min(distance, least);
-      least = distance;
-      t = range.clamp(t + glm::dot(to, derivative) / glm::dot(derivative, derivative));
-    }
-    return least;
-  }
-
-  const CurveCells::End& end_;
-  const CurveCells::Cell& c_;
-  const SurfaceCells::Cell& s_;
-  const Surface& surface_;
-  Vec3 normal_{0};
-};
-
 class Passages {
  public:
   Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
@@ -356,10 +274,6 @@ class Passages {
     return std::abs(det(r, su, sv)) > (a + of_r) * (b + of_u) * (d + of_v) - a * b * d;
   }
 
-  bool leaves_border(const CurveCells::Cell& c, const CurveCells::End& end, const SurfaceCells::Cell& s) const {
-    return s.box.contains(end.point) && BorderTest(c, end, s, surface_.surface()).leaves();
-  }
-
   // Newton's iteration from the middle of the cells.
   bool solve(const CurveCells::Cell& c, const SurfaceCells::Cell& s, double& t) const {
     t = c.t.middle();
@@ -391,7 +305,8 @@ class Passages {
     const CurveCells::Cell c = curve_.cell(i);
     const SurfaceCells::Cell s = surface_.cell(j);
     if (is_apart(c, s)) return true;
-    if (const CurveCells::End* end = curve_.end_at(c); end && leaves_border(c, *end, s)) return true;
+    if (const CurveCells::End* end = curve_.end_at(c); end && leaves_border(c, *end, s, surface_.surface()))
+      return true;
     if (meets_once(c, s)) {
       if (double t = 0; solve(c, s, t)) {
         places_.push_back(c.t.clamp(t));

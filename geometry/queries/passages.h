@@ -4,8 +4,8 @@
 // at most: with f the component along a direction, by -f'' h^2 / 8 for some f'' of the cell. Two cells are apart if one
 // of a few directions parts them; they meet once if no Jacobian of r(t) - s(u, v) between the bounds of its columns is
 // singular, and then Newton's iteration finds the place. A curve that ends on the surface's border and leaves it there,
-// perhaps along its tangent plane (as lines of the next patch do), meets it nowhere else near that end: see
-// leaves_border(). Cells are made when they are first asked for and kept: a picture asks for many curves against the
+// perhaps along its tangent plane (as lines of the next patch do), meets it nowhere else near that end
+// (leaving_border.h). Cells are made when they are first asked for and kept: a picture asks for many curves against the
 // same surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings
 // with their kinds.
 #pragma once
