@@ -23,7 +23,7 @@ CurveEnclosure PolynomialCurve::enclose(const Interval& t, int order) const {
   for (const Part& part : parts_) {
     const Interval common = intersect(part.t, t);
     if (common.empty() || (common.width() == 0 && t.width() > 0)) continue;
-    for (int k = 0; k <= order; ++k) result.d[k].include(part.enclose(k, common));
+    part.include_ranges(order, common, result.d.data());
   }
   return result;
 }

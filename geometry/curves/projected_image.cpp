@@ -166,7 +166,8 @@ std::optional<ProjectionEquations::Ranges> ProjectionEquations::enclose(const Po
   const CurveEnclosure curve = curve_->enclose(t, std::max(order, 1));
   const Triple<Interval> speed = triple_of(curve.d[1]);
   std::array<Interval, 2> x, rate;
-  const Box3 start = about.enclose(0, t);
+  Box3 start;
+  about.include_ranges(0, t, &start);
   const Vec3 speeds[2] = {at.du(), at.dv()};
   for (int i = 0; i < 2; ++i) {
     const double room =
@@ -279,7 +280,8 @@ void ProjectedImage::enclose_part(const PolynomialCurve::Part& part, const Inter
   }
   if (depth == kMostHalvings || !(t.width() > 0)) {
     // Next to a place where the equations are singular: nothing is known of the derivatives.
-    const Box3 box = part.enclose(0, t);
+    Box3 box;
+    part.include_ranges(0, t, &box);
     result.d[0].include(box.inflated(1e-9 * std::max(1.0, box.diameter())));
     for (int k = 1; k <= order; ++k) result.d[k] = Box3::everything();
     return;

@@ -48,27 +48,29 @@ struct PolynomialPart {
     return sum * scale_to(k);
   }
 
-  // A box of the k-th derivative over an interval inside of t.
-  Box3 enclose(int k, const Interval& over) const {
+  // Adds boxes of the derivatives up to `order` over an interval inside of t to boxes[0], ...
+  void include_ranges(int order, const Interval& over, Box3* boxes) const {
     const double middle = local(over.middle()), h = 0.5 * over.width() * scale * (1 + 1e-12);
-    Vec3 center(0), reach(0);
-    double power = 1, factorial = 1;  // h^(m - k), (m - k)!
-    for (int m = k; m < terms; ++m) {
-      Vec3 sum(0), size(0);
-      for (int i = terms; i-- > m;) {
-        const double factor = falling(i, m);
-        sum = sum * middle + factor * powers[i];
-        size = size + factor * glm::abs(powers[i]);
+    // Taylor's coefficients about the middle (Horner's scheme again and again), and the same with all terms added up.
+    std::array<Vec3, Terms> taylor, sizes;
+    for (int i = 0; i < terms; ++i) taylor[i] = powers[i], sizes[i] = glm::abs(powers[i]);
+    for (int m = 0; m < terms; ++m)
+      for (int i = terms - 2; i >= m; --i) taylor[i] += middle * taylor[i + 1], sizes[i] += sizes[i + 1];
+    constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+    double of_order = 1;  // scale^k
+    for (int k = 0; k <= order; ++k, of_order *= scale) {
+      Vec3 center(0), reach(0);
+      double factor = falling(k, k);  // m!/(m - k)! h^(m - k)
+      for (int m = k; m < terms; ++m) {
+        const Vec3 rounding = kRounding * sizes[m];
+        if (m == k)
+          center = factor * taylor[m], reach = factor * rounding;
+        else
+          reach += factor * (glm::abs(taylor[m]) + rounding);
+        factor *= h * (m + 1) / (m + 1 - k);
       }
-      const Vec3 rounding = 64 * std::numeric_limits<double>::epsilon() * size;
-      if (m == k)
-        center = sum, reach = rounding;
-      else
-        reach += (glm::abs(sum) + rounding) * (power / factorial);
-      power *= h;
-      factorial *= m - k + 1;
+      boxes[k].include(Box3{of_order * (center - reach), of_order * (center + reach)});
     }
-    return {scale_to(k) * (center - reach), scale_to(k) * (center + reach)};
   }
 
  private:

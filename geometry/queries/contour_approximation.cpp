@@ -13,6 +13,7 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kAgree = 1e-13;
+constexpr double kRounding = 4e-15;  // of coordinates: points of searched contours are no better
 
 // Of contours that are searched, and of curves on surfaces, each point takes long.
 bool takes_long(const Curve& curve) {
@@ -30,7 +31,9 @@ CurvePtr contour_approximation(const CurvePtr& curve) {
   constexpr int kPlaces = 8;
   for (int k = 0; k <= kPlaces; ++k)
     box.include(curve->point(curve->domain().lo + curve->domain().width() * k / kPlaces));
-  auto simple = polynomial_approximation(*curve, kAgree * box.diameter());
+  const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
+  const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
+  auto simple = polynomial_approximation(*curve, std::max(kAgree * box.diameter(), rounding));
   return simple ? simple : curve;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/queries/leaving_border.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -18,7 +20,21 @@ constexpr double kOutside = 1e-6;
 // Columns of a Jacobian whose components are taken at different places: their bounds are those of components.
 constexpr double kComponents = 1.8;
 
-double magnitude(const Box3& box) { return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))); }
+// The narrower one of what is known and the box.
+void narrow(VectorRange& range, const Box3& box) {
+  const Vec3 half = 0.5 * box.size();
+  if (glm::length(half) < glm::length(range.half))
+    range = {box.center(), half, glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)))};
+}
+
+Box3 common(const Box3& a, const Box3& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
+
+// Of f(t) - (the chord's place) along the axis, f'' being in the range and the chord over a stretch h.
+Interval off_chord(const Vec3& axis, const VectorRange& second, double h) {
+  const double middle = glm::dot(axis, second.middle), half = glm::dot(glm::abs(axis), second.half);
+  const double scale = -h * h / 8;
+  return {scale * std::max(0.0, middle + half), scale * std::min(0.0, middle - half)};
+}
 
 double largest(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -28,27 +44,39 @@ double det(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::dot(a, glm
 
 CurveCells::CurveCells(const Curve& curve, double end_share) : curve_(curve) {
   const Interval domain = curve.domain();
-  const Interval inner{domain.lo + end_share * domain.width(), domain.hi - end_share * domain.width()};
+  const double left_out = end_share * domain.width();
+  inner_ = {domain.lo + left_out, domain.hi - left_out};
+  ends_[0] = {1, curve.point(domain.lo), left_out};
+  ends_[1] = {-1, curve.point(next_down(domain.hi)), left_out};
   for (const CurvePiece& piece : curve.pieces()) {
-    const Interval t = intersect(piece.domain, inner);
+    const Interval t = intersect(piece.domain, inner_);
     if (!(t.hi > t.lo)) continue;
-    const double second = magnitude(curve.enclose(t, 2).d[2]);
-    cells_.push_back(make(t, curve.point(t.lo), curve.point(t.hi), second, 0));
+    cells_.push_back(make(t, curve.point(t.lo), curve.point(t.hi), nullptr));
   }
   roots_ = static_cast<int>(cells_.size());
 }
 
-CurveCells::Cell CurveCells::make(const Interval& t, const Vec3& begin, const Vec3& end, double second,
-                                  int depth) const {
-  Cell cell{t, begin, end, second};
-  cell.depth = depth;
-  cell.bulge = second * t.width() * t.width() / 8 + kRounding * std::max(largest(begin), largest(end));
-  if (std::isfinite(cell.bulge)) {
-    cell.box.include(begin), cell.box.include(end);
-    cell.box = cell.box.inflated(cell.bulge);
-  } else {
-    cell.box = curve_.enclose(t, 0).d[0];
+const CurveCells::End* CurveCells::end_at(const Cell& cell) const {
+  return cell.t.lo == inner_.lo ? &ends_[0] : cell.t.hi == inner_.hi ? &ends_[1] : nullptr;
+}
+
+CurveCells::Cell CurveCells::make(const Interval& t, const Vec3& begin, const Vec3& end, const Cell* above) const {
+  Cell cell{t, begin, end};
+  cell.rounding = kRounding * std::max(largest(begin), largest(end));
+  cell.box.include(begin), cell.box.include(end);
+  if (above) cell.depth = above->depth + 1, cell.first = above->first, cell.second = above->second;
+  const auto bulge = [&] { return cell.second.largest * t.width() * t.width() / 8 + cell.rounding; };
+  const bool inherits = above && cell.depth > kBoundedLevels && above->bulge <= kCrooked * glm::length(end - begin);
+  Box3 hull = Box3::everything();
+  if (!inherits) {
+    const Interval up_to_ends{t.lo == inner_.lo ? curve_.domain().lo : t.lo,
+                              t.hi == inner_.hi ? curve_.domain().hi : t.hi};
+    const CurveEnclosure bounds = curve_.enclose(up_to_ends, 2);
+    hull = bounds.d[0];
+    narrow(cell.first, bounds.d[1]), narrow(cell.second, bounds.d[2]);
   }
+  cell.bulge = bulge();
+  cell.box = std::isfinite(cell.bulge) ? common(cell.box.inflated(cell.bulge), hull.inflated(cell.rounding)) : hull;
   return cell;
 }
 
@@ -58,12 +86,9 @@ int CurveCells::children(int index) {
   const double middle = cell.t.middle();
   const Vec3 at = curve_.point(middle);
   const Interval halves[] = {{cell.t.lo, middle}, {middle, cell.t.hi}};
-  const bool anew = cell.depth < kBoundedLevels || !(cell.bulge <= kCrooked * glm::length(cell.end - cell.begin));
   cells_[index].children = static_cast<int>(cells_.size());
-  for (int k = 0; k < 2; ++k) {
-    const double second = anew ? std::min(cell.second, magnitude(curve_.enclose(halves[k], 2).d[2])) : cell.second;
-    cells_.push_back(make(halves[k], k == 0 ? cell.begin : at, k == 0 ? at : cell.end, second, cell.depth + 1));
-  }
+  for (int k = 0; k < 2; ++k)
+    cells_.push_back(make(halves[k], k == 0 ? cell.begin : at, k == 0 ? at : cell.end, &cell));
   return cells_[index].children;
 }
 
@@ -74,7 +99,6 @@ SurfaceCells::SurfaceCells(const Surface& surface) : surface_(surface) {
     for (int k = 0; k < 4; ++k)
       cell.corners[k] =
           surface.point(k % 2 ? cell.domain.u.hi : cell.domain.u.lo, k / 2 ? cell.domain.v.hi : cell.domain.v.lo);
-    cell.second_uu = cell.second_uv = cell.second_vv = kInfinity;
     complete(cell);
     cells_.push_back(cell);
   }
@@ -85,22 +109,20 @@ void SurfaceCells::complete(Cell& cell) const {
   const double hu = cell.domain.u.width(), hv = cell.domain.v.width();
   Box3 corners;
   for (const Vec3& corner : cell.corners) corners.include(corner);
-  const auto bulge = [&] { return (hu * hu * cell.second_uu + hv * hv * cell.second_vv) / 8; };
+  const auto bulge = [&] { return (hu * hu * cell.second_uu.largest + hv * hv * cell.second_vv.largest) / 8; };
+  Box3 hull = Box3::everything();
   if (cell.depth <= kBoundedLevels || !(bulge() <= kCrooked * corners.diameter())) {
     const SurfaceEnclosure bounds = surface_.enclose(cell.domain, 2);
-    cell.second_uu = std::min(cell.second_uu, magnitude(bounds.d(2, 0)));
-    cell.second_uv = std::min(cell.second_uv, magnitude(bounds.d(1, 1)));
-    cell.second_vv = std::min(cell.second_vv, magnitude(bounds.d(0, 2)));
+    hull = bounds.d(0, 0);
+    narrow(cell.first_u, bounds.d(1, 0)), narrow(cell.first_v, bounds.d(0, 1));
+    narrow(cell.second_uu, bounds.d(2, 0)), narrow(cell.second_uv, bounds.d(1, 1));
+    narrow(cell.second_vv, bounds.d(0, 2));
   }
-  double rounding = 0;
-  for (const Vec3& corner : cell.corners) rounding = std::max(rounding, kRounding * largest(corner));
+  cell.rounding = 0;
+  for (const Vec3& corner : cell.corners) cell.rounding = std::max(cell.rounding, kRounding * largest(corner));
   // The bilinear patch of the corners differs from the surface as interpolation along u and along v does.
-  cell.bulge = bulge() + rounding;
-  if (std::isfinite(cell.bulge)) {
-    cell.box = corners.inflated(cell.bulge);
-  } else {
-    cell.box = surface_.enclose(cell.domain, 0).d(0, 0);
-  }
+  cell.bulge = bulge() + cell.rounding;
+  cell.box = std::isfinite(cell.bulge) ? common(corners.inflated(cell.bulge), hull.inflated(cell.rounding)) : hull;
 }
 
 int SurfaceCells::children(int index) {
@@ -109,10 +131,10 @@ int SurfaceCells::children(int index) {
   // Across the longer way, as far as that is known.
   const double along_u = std::max(glm::length(cell.corners[1] - cell.corners[0]),
                                   glm::length(cell.corners[3] - cell.corners[2])) +
-                         std::min(cell.domain.u.width() * cell.domain.u.width() * cell.second_uu, 1e300) / 8,
+                         std::min(cell.domain.u.width() * cell.domain.u.width() * cell.second_uu.largest, 1e300) / 8,
                along_v = std::max(glm::length(cell.corners[2] - cell.corners[0]),
                                   glm::length(cell.corners[3] - cell.corners[1])) +
-                         std::min(cell.domain.v.width() * cell.domain.v.width() * cell.second_vv, 1e300) / 8;
+                         std::min(cell.domain.v.width() * cell.domain.v.width() * cell.second_vv.largest, 1e300) / 8;
   const bool by_u = along_u == along_v ? cell.depth % 2 == 0 : along_u > along_v;
   const double middle = by_u ? cell.domain.u.middle() : cell.domain.v.middle();
   const Vec3 at[2] = {by_u ? surface_.point(middle, cell.domain.v.lo) : surface_.point(cell.domain.u.lo, middle),
@@ -205,21 +227,23 @@ class Passages {
   static bool is_apart(const CurveCells::Cell& c, const SurfaceCells::Cell& s) {
     for (int k = 0; k < 3; ++k)
       if (c.box.lo[k] > s.box.hi[k] || s.box.lo[k] > c.box.hi[k]) return true;
-    const double reach = c.bulge + s.bulge;
-    if (!std::isfinite(reach)) return false;
+    if (!std::isfinite(c.bulge + s.bulge)) return false;
+    const double ht = c.t.width(), hu = s.domain.u.width(), hv = s.domain.v.width(), rounding = c.rounding + s.rounding;
     const Vec3 along_u = s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
                along_v = s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1];
     const Vec3 normal = glm::cross(along_u, along_v), chord = c.end - c.begin;
     for (const Vec3& axis : {normal, chord, glm::cross(normal, along_u), glm::cross(normal, along_v)}) {
-      const double length = glm::length(axis);
-      if (!(length > 0)) continue;
       double lo = kInfinity, hi = -kInfinity;
       for (const Vec3& corner : s.corners) {
         const double x = glm::dot(axis, corner - c.begin);
         lo = std::min(lo, x), hi = std::max(hi, x);
       }
-      const double end = glm::dot(axis, chord), more = length * reach;
-      if (lo > std::max(0.0, end) + more || hi < std::min(0.0, end) - more) return true;
+      const double end = glm::dot(axis, chord), slack = glm::length(axis) * rounding;
+      const Interval by_t = off_chord(axis, c.second, ht), by_u = off_chord(axis, s.second_uu, hu),
+                     by_v = off_chord(axis, s.second_vv, hv);
+      if (lo + by_u.lo + by_v.lo > std::max(0.0, end) + by_t.hi + slack ||
+          hi + by_u.hi + by_v.hi < std::min(0.0, end) + by_t.lo - slack)
+        return true;
     }
     return false;
   }
@@ -243,8 +267,9 @@ class Passages {
     const Vec3 r = (c.end - c.begin) / ht;
     const Vec3 su = (s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2]) / (2 * hu),
                sv = (s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1]) / (2 * hv);
-    const double of_r = kComponents * ht * c.second, of_u = kComponents * (hu * s.second_uu + hv * s.second_uv),
-                 of_v = kComponents * (hu * s.second_uv + hv * s.second_vv);
+    const double of_r = kComponents * ht * c.second.largest,
+                 of_u = kComponents * (hu * s.second_uu.largest + hv * s.second_uv.largest),
+                 of_v = kComponents * (hu * s.second_uv.largest + hv * s.second_vv.largest);
     const double a = glm::length(r), b = glm::length(su), d = glm::length(sv);
     return std::abs(det(r, su, sv)) > (a + of_r) * (b + of_u) * (d + of_v) - a * b * d;
   }
@@ -280,6 +305,8 @@ class Passages {
     const CurveCells::Cell c = curve_.cell(i);
     const SurfaceCells::Cell s = surface_.cell(j);
     if (is_apart(c, s)) return true;
+    if (const CurveCells::End* end = curve_.end_at(c); end && leaves_border(c, *end, s, surface_.surface()))
+      return true;
     if (meets_once(c, s)) {
       if (double t = 0; solve(c, s, t)) {
         places_.push_back(c.t.clamp(t));

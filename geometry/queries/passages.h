@@ -1,11 +1,13 @@
 // Where curves may pass through surfaces: no passage is lost, a few places may be none.
 //
 // Both are cut into cells: chords of a curve and four corners of a surface, with how far the true thing is from these
-// at most (h^2 max|second derivative| / 8). Two cells are apart if one of a few directions parts them; they meet once
-// if no Jacobian of r(t) - s(u, v) between the bounds of its columns is singular, and then Newton's iteration finds the
-// place. Cells are made when they are first asked for and kept: a picture asks for many curves against the same
-// surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings with
-// their kinds.
+// at most: with f the component along a direction, by -f'' h^2 / 8 for some f'' of the cell. Two cells are apart if one
+// of a few directions parts them; they meet once if no Jacobian of r(t) - s(u, v) between the bounds of its columns is
+// singular, and then Newton's iteration finds the place. A curve that ends on the surface's border and leaves it there,
+// perhaps along its tangent plane (as lines of the next patch do), meets it nowhere else near that end
+// (leaving_border.h). Cells are made when they are first asked for and kept: a picture asks for many curves against the
+// same surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings
+// with their kinds.
 #pragma once
 
 #include <vector>
@@ -14,6 +16,12 @@
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
+
+// A box of vectors by its middle.
+struct VectorRange {
+  Vec3 middle{0}, half{kInfinity};
+  double largest = kInfinity;  // length
+};
 
 class CurveCells {
  public:
@@ -24,8 +32,9 @@ class CurveCells {
   struct Cell {
     Interval t;
     Vec3 begin{0}, end{0};
-    double second = 0;  // bound of |r''|
-    double bulge = 0;   // of the distance from the chord
+    VectorRange first, second;  // r', r''
+    double rounding = 0;        // of the points
+    double bulge = 0;           // of the distance from the chord
     Box3 box;
     int depth = 0;
     int children = -1;  // the first of two
@@ -35,9 +44,21 @@ class CurveCells {
   const Cell& cell(int index) const { return cells_[index]; }
   int children(int index);  // of the cell: this and the next
 
+  // One of the curve's own ends, which no cell holds.
+  struct End {
+    double way;  // 1: the curve begins there; -1: it ends there
+    Vec3 point;
+    double left_out;  // so much of the domain is no cell's
+  };
+  // That next to a cell, if there is one. `second` of the cell bounds |r''| up to it.
+  const End* end_at(const Cell& cell) const;
+
  private:
-  Cell make(const Interval& t, const Vec3& begin, const Vec3& end, double second, int depth) const;
+  // Bounds are found anew, or are those of the cell above.
+  Cell make(const Interval& t, const Vec3& begin, const Vec3& end, const Cell* above) const;
   const Curve& curve_;
+  Interval inner_;
+  End ends_[2];
   int roots_ = 0;
   std::vector<Cell> cells_;
 };
@@ -49,9 +70,10 @@ class SurfaceCells {
 
   struct Cell {
     Rectangle domain;
-    Vec3 corners[4];                                     // at (lo, lo), (hi, lo), (lo, hi), (hi, hi)
-    double second_uu = 0, second_uv = 0, second_vv = 0;  // bounds of the lengths of second derivatives
-    double bulge = 0;                                    // of the distance from the corners' bilinear patch
+    Vec3 corners[4];                                                // at (lo, lo), (hi, lo), (lo, hi), (hi, hi)
+    VectorRange first_u, first_v, second_uu, second_uv, second_vv;  // derivatives
+    double rounding = 0;                                            // of the corners
+    double bulge = 0;                                               // of the distance from the corners' bilinear patch
     Box3 box;
     int depth = 0;
     int children = -1;

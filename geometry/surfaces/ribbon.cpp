@@ -306,7 +306,7 @@ SurfaceEnclosure Ribbon::enclose(const Rectangle& box, int order) const {
   for (const Part& part : parts_) {
     const Interval common = intersect(part.t, box.u);
     if (common.empty() || (common.width() == 0 && box.u.width() > 0)) continue;
-    for (int k = 0; k <= order; ++k) w[k].include(part.enclose(k, common));
+    part.include_ranges(order, common, w.data());
   }
   SurfaceEnclosure result;
   for (Box3& value : result.values) value = {Vec3(0), Vec3(0)};

@@ -16,6 +16,7 @@ constexpr double kTouching = 1e-4;                 // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kAnyTurn = 4;      // nothing is known
 constexpr double kLastStep = 1e-8;  // of a part: Newton's iteration has come to rounding behind it
+constexpr double kOneLine = 1e-7;   // pixels: what is no farther from one another touches
 constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its own too
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
@@ -70,17 +71,32 @@ bool is_apart(const Part& a, const Part& b) {
   return beyond(across, 0, 0) || beyond(along, 0, length);
 }
 
-// Newton's iteration for P_a(s) = P_b(t), of which there is at most one.
+bool is_beyond(const Interval& range, double x, double ahead, double most) {
+  return (x == range.hi && ahead > most) || (x == range.lo && -ahead > most);
+}
+
+// Newton's iteration for P_a(s) = P_b(t), of which there is at most one, the directions of both parts being apart.
+//
+// From a place (s, t) to the crossing (s', t') there are chords of the parts, P_b(t) - P_a(s) = (s' - s) A - (t' - t)
+// B, so that (s' - s) (A x B) = (P_b(t) - P_a(s)) x B, B being within the turn of b's chord. If that points out of the
+// part at its end, there is no crossing.
 bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
   const Vec2 u = a.chord(), v = b.chord(), off = b.begin - a.begin;
-  const double area = cross(u, v);
+  const double area = cross(u, v), orientation = area < 0 ? -1 : 1;
+  const double u_length = glm::length(u), v_length = glm::length(v), sin_a = std::sin(a.turn), sin_b = std::sin(b.turn);
   double s = a.t.lo + a.t.width() * (area != 0 ? cross(off, v) / area : 0.5),
          t = b.t.lo + b.t.width() * (area != 0 ? cross(off, u) / area : 0.5);
+  // At a break the curve's own place is that from the right.
+  const Interval of_a{a.t.lo, geometry::next_down(a.t.hi)}, of_b{b.t.lo, geometry::next_down(b.t.hi)};
   constexpr int kSteps = 30;
   for (int step = 0; step < kSteps; ++step) {
-    s = a.t.clamp(s), t = b.t.clamp(t);
+    s = of_a.clamp(s), t = of_b.clamp(t);
     const auto at_a = a.curve->place(s), at_b = b.curve->place(t);
     const Vec2 apart = at_b.p - at_a.p;
+    if (is_beyond(of_a, s, orientation * cross(apart, v) / v_length,
+                  glm::length(apart) * sin_b + kEndSlack * u_length) ||
+        is_beyond(of_b, t, orientation * cross(apart, u) / u_length, glm::length(apart) * sin_a + kEndSlack * v_length))
+      return false;
     const double determinant = cross(at_a.tangent, at_b.tangent);
     if (determinant == 0 || !std::isfinite(determinant)) return false;
     const double by_s = cross(apart, at_b.tangent) / determinant, by_t = cross(apart, at_a.tangent) / determinant;
@@ -97,10 +113,88 @@ bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
   return true;
 }
 
+// How a cell runs and bends along an axis: y' = Y'/X', y'' = (X' Y'' - Y' X'')/X'^3, X along the axis, Y across it.
+struct Bend {
+  Interval x, second;
+};
+std::optional<Bend> bend_along(const Vec2& axis, const ProjectedCurve::Cell& cell) {
+  const Vec2 across(-axis.y, axis.x), mean = (cell.end - cell.begin) / cell.t.width();
+  const auto second = [&](const Vec2& way) {
+    return Interval(way.x) * Interval(cell.second_lo.x, cell.second_hi.x) +
+           Interval(way.y) * Interval(cell.second_lo.y, cell.second_hi.y);
+  };
+  const Interval x2 = second(axis), y2 = second(across);
+  // P' differs from its mean by at most half the width times P''.
+  const auto first = [&](const Vec2& way, const Interval& of_second) {
+    const double middle = glm::dot(way, mean), reach = 0.5 * cell.t.width() * magnitude(of_second);
+    return Interval(middle - reach, middle + reach);
+  };
+  const Interval x1 = first(axis, x2), y1 = first(across, y2);
+  if (!(x1.lo > 0 || x1.hi < 0)) return std::nullopt;
+  const double begin = glm::dot(axis, cell.begin), end = glm::dot(axis, cell.end);
+  return Bend{{std::min(begin, end), std::max(begin, end)}, (x1 * y2 - y1 * x2) / (x1 * x1 * x1)};
+}
+
+// Two cells that run side by side, one bending more than the other: y_a - y_b is convex along the axis, or concave. It
+// has one extremum where both are parallel, found by Newton's iteration on y_a' = y_b' kept where both are. If they are
+// apart there, so they are everywhere, and if they touch there, then nowhere else. Otherwise nothing is told.
+enum class Kiss { unknown, apart, touching };
+Kiss kiss_of(const ProjectedCurve& a, const ProjectedCurve::Cell& of_a, const ProjectedCurve& b,
+             const ProjectedCurve::Cell& of_b, PictureCrossing& found) {
+  if (of_a.is_chord || of_b.is_chord) return Kiss::unknown;
+  const Vec2 axis = glm::normalize(of_a.end - of_a.begin), across(-axis.y, axis.x);
+  const std::optional<Bend> bend_a = bend_along(axis, of_a);
+  if (!bend_a) return Kiss::unknown;
+  const std::optional<Bend> bend_b = bend_along(axis, of_b);
+  if (!bend_b) return Kiss::unknown;
+  const bool convex = bend_a->second.lo > bend_b->second.hi;
+  if (!convex && !(bend_a->second.hi < bend_b->second.lo)) return Kiss::unknown;
+  const Interval both = intersect(bend_a->x, bend_b->x);
+  if (!(both.width() > kTouching)) return Kiss::unknown;
+  // Of a place on either: x, y, y', y''.
+  struct Graph {
+    double t, speed, x, y, slope, second;
+  };
+  const auto graph = [&](const ProjectedCurve& curve, double t) {
+    const auto [p, p1, p2] = curve.jet(t);
+    const double x1 = glm::dot(axis, p1);
+    return Graph{
+        t, x1, glm::dot(axis, p), glm::dot(across, p), glm::dot(across, p1) / x1, cross(p1, p2) / (x1 * x1 * x1)};
+  };
+  // At a break the curve's own place is that from the right.
+  const Interval range_a{of_a.t.lo, geometry::next_down(of_a.t.hi)}, range_b{of_b.t.lo, geometry::next_down(of_b.t.hi)};
+  const auto at = [&](const ProjectedCurve::Cell& cell, double x) {
+    const double begin = glm::dot(axis, cell.begin), end = glm::dot(axis, cell.end);
+    return cell.t.lo + cell.t.width() * (x - begin) / (end - begin);
+  };
+  double s = at(of_a, both.middle()), t = at(of_b, both.middle());
+  constexpr int kSteps = 12;
+  constexpr double kNear = 1e-3;  // pixels: from there the series tells the rest
+  for (int step = 0; step < kSteps; ++step) {
+    const Graph p = graph(a, range_a.clamp(s)), q = graph(b, range_b.clamp(t));
+    const double parallel = (q.slope - p.slope + p.second * p.x - q.second * q.x) / (p.second - q.second);
+    const double x = both.clamp(parallel), of_p = x - p.x, of_q = x - q.x;
+    s = p.t + of_p / p.speed, t = q.t + of_q / q.speed;
+    if (!(std::abs(of_p) <= kNear && std::abs(of_q) <= kNear)) continue;
+    const double gap = p.y - q.y + of_p * (p.slope + 0.5 * of_p * p.second) - of_q * (q.slope + 0.5 * of_q * q.second),
+                 apart = convex ? gap : -gap;
+    if (apart > kOneLine) return Kiss::apart;
+    // The two crossings are about as far from the extremum.
+    const double reach = std::sqrt(2 * std::max(0.0, -apart) / std::abs(p.second - q.second));
+    if (std::abs(parallel - x) > kTouching || reach > 0.5 * kTouching) return Kiss::unknown;
+    found = {range_a.clamp(s), range_b.clamp(t), true};
+    return Kiss::touching;
+  }
+  return Kiss::unknown;
+}
+
 // The crossings of two cells. Cells that run along one another would touch everywhere: then none is told.
 class CellPair {
  public:
-  void find(const Part& a, const Part& b) {
+  using Cell = ProjectedCurve::Cell;
+  CellPair(const ProjectedCurve& of_a, const Cell& cell_a, const ProjectedCurve& of_b, const Cell& cell_b)
+      : of_a_(of_a), of_b_(of_b), cell_a_(cell_a), cell_b_(cell_b) {
+    const Part a = part_of(of_a, cell_a), b = part_of(of_b, cell_b);
     cross_parts(a, b);
     if (runs_along_) common_ = common_part(a, b).value_or(a.t);
   }
@@ -126,6 +220,10 @@ class CellPair {
     }
     if (!asked_) {
       asked_ = true;
+      PictureCrossing touch;
+      const Kiss kiss = kiss_of(of_a_, cell_a_, of_b_, cell_b_, touch);
+      if (kiss == Kiss::touching) found_.push_back(touch);
+      if (kiss != Kiss::unknown) return;
       runs_along_ = common_part(a, b).has_value();
       if (runs_along_) return;
     }
@@ -181,8 +279,9 @@ class CellPair {
   }
 
   static constexpr int kMostTouching = 16, kMostSteps = 4000;
-  static constexpr double kOneLine = 1e-7;  // pixels
   static constexpr double kLeastCommon = 1e-3;
+  const ProjectedCurve &of_a_, &of_b_;
+  const Cell &cell_a_, &cell_b_;
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
   bool asked_ = false, runs_along_ = false;
@@ -236,8 +335,7 @@ void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<
         if (curves_[item.curve] == &curve &&
             (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
           continue;
-        CellPair pair;
-        pair.find(part_of(curve, cell), part_of(*curves_[item.curve], of_other));
+        const CellPair pair(curve, cell, *curves_[item.curve], of_other);
         for (const PictureCrossing& crossing : pair.found()) hits.push_back({item.curve, crossing});
         if (pair.common()) runs.push_back({item.curve, *pair.common()});
       }

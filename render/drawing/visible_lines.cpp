@@ -8,9 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "geometry/curves/surface_curve.h"
-#include "geometry/numerics/root_search.h"
-#include "geometry/numerics/triple.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/csg_leaves.h"
@@ -18,6 +15,7 @@
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/queries/passages.h"
+#include "geometry/queries/sight_turns.h"
 #include "geometry/transformed.h"
 #include "render/drawing/picture_crossings.h"
 
@@ -63,43 +61,6 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// i . (s_u x s_v) along the image of a curve on a surface, i from the eye to the point or the way of sight.
-struct SightAlong {
-  const Surface& surface;
-  const Curve& image;
-  bool central;
-  Vec3 from;
-
-  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& t) const {
-    const CurveJet x = image.evaluate(t[0], 1);
-    const SurfaceJet s = surface.evaluate(x.d[0].x, x.d[0].y, 2);
-    const double u1 = x.d[1].x, v1 = x.d[1].y;
-    const Vec3 sight = central ? s.point() - from : from;
-    const Vec3 turn = central ? s.du() * u1 + s.dv() * v1 : Vec3(0);
-    const Vec3 du1 = s.duu() * u1 + s.duv() * v1, dv1 = s.duv() * u1 + s.dvv() * v1;
-    const auto det = [](const Vec3& a, const Vec3& b, const Vec3& c) { return glm::dot(a, glm::cross(b, c)); };
-    return {{det(sight, s.du(), s.dv())},
-            {{{det(turn, s.du(), s.dv()) + det(sight, du1, s.dv()) + det(sight, s.du(), dv1)}}}};
-  }
-  SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& t) const {
-    const CurveEnclosure x = image.enclose(t[0], 1);
-    const auto range = [](const Box3& box, int axis) { return Interval(box.lo[axis], box.hi[axis]); };
-    const SurfaceEnclosure s = enclose_unwrapped(surface, {range(x.d[0], 0), range(x.d[0], 1)}, 2);
-    const Interval u1 = range(x.d[1], 0), v1 = range(x.d[1], 1);
-    const auto vec = [](const Box3& b) {
-      return Triple<Interval>{{b.lo.x, b.hi.x}, {b.lo.y, b.hi.y}, {b.lo.z, b.hi.z}};
-    };
-    const Triple<Interval> du = vec(s.d(1, 0)), dv = vec(s.d(0, 1));
-    const Triple<Interval> origin{Interval(from.x), Interval(from.y), Interval(from.z)};
-    const Triple<Interval> sight = central ? vec(s.d(0, 0)) - origin : origin;
-    const Triple<Interval> du1 = u1 * vec(s.d(2, 0)) + v1 * vec(s.d(1, 1)),
-                           dv1 = u1 * vec(s.d(1, 1)) + v1 * vec(s.d(0, 2));
-    Interval slope = dot(sight, cross(du1, dv)) + dot(sight, cross(du, dv1));
-    if (central) slope += dot(u1 * du + v1 * dv, cross(du, dv));
-    return {{dot(sight, cross(du, dv))}, {{{slope}}}};
-  }
-};
-
 class Drawing {
  public:
   Drawing(const World& world, const std::function<void(double)>& progress)
@@ -112,6 +73,7 @@ class Drawing {
     for (Stroke& stroke : work.strokes) {
       simplify(stroke);
       curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
+      if (stroke.kind == "self_intersection") self_intersections_.push_back(static_cast<int>(strokes_.size()));
       strokes_.push_back(std::move(stroke));
     }
     find_repeated_lines();
@@ -251,23 +213,10 @@ class Drawing {
   void add_own_outlines(const Stroke& stroke, std::vector<double>& events) const {
     if (stroke.kind == "silhouette") return;  // it is one
     const Affine back = stroke.to_world.inverse();
-    const bool central = !camera_.is_parallel();
-    const Vec3 from = central ? back.point(camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin)
-                              : back.direction(camera_.view_direction());
-    const Interval domain = stroke.curve->domain();
-    for (const Stroke::Host& host : stroke.hosts) {
-      for (const CurvePiece& piece : stroke.curve->pieces()) {
-        const SightAlong system{*host.surface, *host.image, central, from};
-        RootSearchOptions<1, 1> options;
-        options.slack = {1e-12 * domain.width()};
-        options.least = {kSameEvent * domain.width()};
-        options.most_boxes = 2000;
-        const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
-        for (const auto& root : found.isolated) events.push_back(root[0]);
-        // Where the bounds of a searched curve are too wide to tell: by changes of sign.
-        for (const auto& open : found.open) add_sign_changes(system, open[0], events);
-      }
-    }
+    const ViewOf view = camera_.is_parallel() ? ViewOf{false, back.direction(camera_.view_direction())}
+                                              : ViewOf{true, back.point(eye())};
+    for (const Stroke::Host& host : stroke.hosts)
+      add_sight_turns(*stroke.curve, *host.surface, *host.image, view, events);
   }
 
   // Twins ask for one another's.
@@ -295,22 +244,6 @@ class Drawing {
         if (!meets(t)) t = nearest(*stroke.curve, point);
         if (meets(t)) events.push_back(t);
       }
-    }
-  }
-
-  static void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<double>& events) {
-    constexpr int kPlaces = 64;
-    const auto value = [&](double x) { return system.evaluate({x}).value[0]; };
-    double lo = t.lo, at_lo = value(lo);
-    for (int k = 1; k <= kPlaces; ++k) {
-      const double hi = k == kPlaces ? t.hi : t.lo + t.width() * k / kPlaces, at_hi = value(hi);
-      if ((at_lo < 0) != (at_hi < 0)) {
-        double a = lo, b = hi;
-        for (double middle = 0.5 * (a + b); a < middle && middle < b; middle = 0.5 * (a + b))
-          ((value(middle) < 0) == (at_lo < 0) ? a : b) = middle;
-        events.push_back(a);
-      }
-      lo = hi, at_lo = at_hi;
     }
   }
 
@@ -345,8 +278,9 @@ class Drawing {
 
   // Where it meets the lines in which a surface on which it lies goes through itself.
   void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
-    for (const Stroke& other : strokes_) {
-      if (other.kind != "self_intersection" || &other == &stroke || !share_host(other, stroke)) continue;
+    for (const int line : self_intersections_) {
+      const Stroke& other = strokes_[line];
+      if (&other == &stroke || !share_host(other, stroke)) continue;
       if (!runs_along(*stroke.curve, *other.curve)) {
         for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
         continue;
@@ -630,6 +564,7 @@ class Drawing {
   const std::function<void(double)>& progress_;
   std::vector<Stroke> strokes_;
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
+  std::vector<int> self_intersections_;  // lines of this kind
   std::vector<int> outline_of_;
   std::vector<std::vector<int>> twins_;                           // lines along the whole of which another lies
   std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for

@@ -130,13 +130,13 @@ void ProjectedCurve::cut(const Interval& t) {
   const double slowest = speed - turn;
   const bool is_open = is_straight && reach_ * most2 < kBend * slowest * slowest;
   const double bow = 0.5 * most2 * h * h;
-  if (extent <= kLongest && is_open) return add(t, false, bow, bow);
-  if (extent <= kPlace || (is_straight && extent <= kShort) || is_narrow)
-    return add(t, true, std::min(extent, bow), bow);
-  halve();
+  const bool is_short = extent <= kLongest && is_open;
+  if (!is_short && !(extent <= kPlace || (is_straight && extent <= kShort) || is_narrow)) return halve();
+  Cell& cell = is_short ? add(t, false, bow, bow) : add(t, true, std::min(extent, bow), bow);
+  cell.second_lo = {x2.lo, y2.lo}, cell.second_hi = {x2.hi, y2.hi};
 }
 
-void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge, double bow) {
+ProjectedCurve::Cell& ProjectedCurve::add(const Interval& t, bool is_chord, double bulge, double bow) {
   // At a break the curve's own derivatives are those from the right.
   const Place begin = place(t.lo), end = place(t.hi), inside = place(next_down(t.hi));
   Cell cell;
@@ -149,7 +149,7 @@ void ProjectedCurve::add(const Interval& t, bool is_chord, double bulge, double 
   cell.bulge = bulge;
   cell.bow = bow;
   cell.is_chord = is_chord;
-  cells_.push_back(cell);
+  return cells_.emplace_back(cell);
 }
 
 void ProjectedCurve::link() {

@@ -30,6 +30,7 @@ class ProjectedCurve {
     Vec2 begin_tangent, end_tangent;  // P'; that of the chord where the chord stands for the cell
     double bulge = 0;                 // the curve lies this near the chord
     double bow = 0;                   // |P''| h^2 / 2 at most: the bulge by that alone
+    Vec2 second_lo{0}, second_hi{0};  // box of P''
     bool is_chord = false;
     bool follows = false;  // begins where the cell before it (of a closed curve, before the first: the last) ends
     bool is_followed = false;
@@ -58,6 +59,11 @@ class ProjectedCurve {
     Vec2 p, tangent;
   };
   Place place(double t) const;
+  // With P''.
+  struct Jet {
+    Vec2 p, p1, p2;
+  };
+  Jet jet(double t) const;
 
   // The point in the world, and the derivative of it.
   geometry::Line tangent(double t) const;
@@ -65,13 +71,9 @@ class ProjectedCurve {
   double length_up_to(int cell, double t) const;
 
  private:
-  struct Jet {
-    Vec2 p, p1, p2;
-  };
-  Jet jet(double t) const;
   Place place_of(const geometry::CurveJet& at, double w, double w1) const;
   void cut(const geometry::Interval& t);
-  void add(const geometry::Interval& t, bool is_chord, double bulge, double bow);
+  Cell& add(const geometry::Interval& t, bool is_chord, double bulge, double bow);
   void link();
   double length(const geometry::Interval& t) const;
 

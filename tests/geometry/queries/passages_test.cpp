@@ -80,6 +80,40 @@ TEST(Passages, AreTheCertifiedMeetings) {
   tests::report_figure("with_more_places", more);
 }
 
+// Curves that begin on the border of a patch, many in its tangent plane, away from it or into it, and come back.
+TEST(Passages, OfCurvesThatBeginOnABorder) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  int meetings = 0, more = 0;
+  for (int k = 0; k < tests::tier_count(20000, 200); ++k) {
+    Grid<Vec3> net{4, 4, {}};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        net.values.push_back({0.7 * i - 1 + 0.2 * unit(random), 0.7 * j - 1 + 0.2 * unit(random), 0.8 * unit(random)});
+    const NurbsSurface patch = bezier_surface(net);
+    const double along = k % 8 == 0 ? 0 : 0.5 + 0.5 * unit(random), border = k % 2;
+    const double u = k % 4 < 2 ? along : border, v = k % 4 < 2 ? border : along;
+    const SurfaceJet at = patch.evaluate(u, v, 1);
+    const Vec3 tangent = unit(random) * at.du() + unit(random) * at.dv() + (k % 3 == 0 ? 0.3 * point() : Vec3(0));
+    std::vector<Vec3> points{at.point(), at.point() + 0.5 * tangent, 1.5 * point(), 1.5 * point()};
+    if (k % 5 == 0) std::reverse(points.begin(), points.end());
+    const NurbsCurve curve = bezier_curve(points, {});
+    const std::vector<double> places = passages(curve, patch);
+    size_t expected = 0;
+    for (const SurfaceMeeting& one : intersect(curve, patch).points) {
+      if (one.t < 2e-6 || one.t > 1 - 2e-6 || one.contact) continue;
+      ++meetings, ++expected;
+      // Or the ends of a stretch where it is nearer than kTouch.
+      EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - one.t) < 1e-5; })) << k;
+    }
+    more += static_cast<int>(places.size() > expected);
+  }
+  EXPECT_GT(meetings, 50);
+  tests::report_figure("meetings", meetings);
+  tests::report_figure("with_more_places", more);
+}
+
 TEST(Passages, KnowWhatRunsAlong) {
   const auto ring = std::make_shared<TorusSurface>(Frame(), 2.0, 0.7);
   const ParameterLine line(ring, HeldParameter::v, 0.4);

@@ -1,0 +1,19 @@
+// Where a line on a surface goes round it, as seen: the way of sight i touches the surface there,
+//
+//   i . (s_u x s_v) = 0 at (u, v) = x(t), the line's image (Golovanov 2016, 4.6.5, along a line).
+#pragma once
+
+#include <vector>
+
+#include "geometry/queries/contours.h"
+
+namespace lekalo::geometry {
+
+// Adds the parameters of the line at such places to `turns`, in no order. The line, whose pieces these are, and its
+// image have one parameter; the view is that of the surface's own coordinates. A certified search; where the bounds of
+// a line are too wide to tell, changes of sign between many places: those of rounding where the surface is seen edge-on
+// along a stretch.
+void add_sight_turns(const Curve& line, const Surface& surface, const Curve& image, const ViewOf& view,
+                     std::vector<double>& turns);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,95 @@
+// Where circles cross in the picture, by closed form: those that touch from inside or outside, nearly touch, or cross
+// at small angles; at places of their own where pieces begin, too.
+#include "render/drawing/picture_crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "geometry/curves/circle.h"
+#include "render/cameras/cameras.h"
+#include "support/tier.h"
+
+namespace lekalo::render {
+namespace {
+
+using geometry::Affine;
+using geometry::Circle;
+using geometry::Frame;
+
+constexpr double kSize = 400;  // pixels, one for each unit
+
+struct Found {
+  std::vector<Vec2> places;
+  int touching = 0;
+};
+
+Found crossings(const geometry::CurvePtr& a, const geometry::CurvePtr& b) {
+  const CameraPtr camera =
+      make_camera(ParallelView{{0, 0, 1000}, {}, {0, 1, 0}, kSize}, static_cast<int>(kSize), static_cast<int>(kSize));
+  const ProjectedCurve of_a(a, Affine(), *camera, 0.01), of_b(b, Affine(), *camera, 0.01);
+  const PictureCrossings known({&of_b}, kSize, kSize);
+  Found found;
+  known.with(
+      of_a, [](int) { return false; },
+      [&](int, const PictureCrossing& crossing) {
+        EXPECT_LE(glm::length(of_a.place(crossing.t).p - of_b.place(crossing.t_other).p), 1e-4);
+        found.touching += crossing.touching;
+        const Vec2 place = of_a.place(crossing.t).p;
+        for (const Vec2& one : found.places)
+          if (glm::length(one - place) < 1e-6) return;
+        found.places.push_back(place);
+      });
+  return found;
+}
+
+TEST(PictureCrossings, OfCirclesThatTouch) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double largest = 0;
+  for (int k = 0; k < tests::tier_count(40000, 400); ++k) {
+    const double large = 60 + 40 * unit(random), small = 10 + 45 * unit(random);
+    const bool inside = k % 2 == 0, plain = k % 5 == 0;
+    // By so much they are deeper in one another than circles that touch: 0.1 to 1e-5 pixels.
+    const int kind = k % 3 - 1;
+    const double by = kind * std::pow(10, -1 - 4 * unit(random));
+    const double distance = inside ? large - small + by : large + small - by;
+    const double angle = plain ? geometry::kPi / 2 * (k % 4) : geometry::kTwoPi * unit(random);
+    const Vec3 way(std::cos(angle), std::sin(angle), 0), aside(-way.y, way.x, 0);
+    const auto circle = [&](const Vec3& center, double radius) {
+      const double turn = plain ? 0 : geometry::kTwoPi * unit(random);
+      const Vec3 x(std::cos(turn), std::sin(turn), 0);
+      return std::make_shared<Circle>(Frame{center, x, {-x.y, x.x, 0}, {0, 0, 1}}, radius);
+    };
+    const Found found = crossings(circle(Vec3(0), large), circle(distance * way, small));
+    if (kind < 0) {
+      EXPECT_TRUE(found.places.empty()) << k << " apart by " << by;
+      continue;
+    }
+    const double along = (distance * distance + large * large - small * small) / (2 * distance);
+    const double across = kind == 0 ? 0 : std::sqrt(large * large - along * along);
+    const auto picture = [&](double y) {
+      const Vec3 p = (kind == 0 ? large : along) * way + y * aside;
+      return Vec2(0.5 * kSize + p.x, 0.5 * kSize - p.y);
+    };
+    for (const double side : {-1.0, 1.0}) {
+      double nearest = geometry::kInfinity;
+      for (const Vec2& place : found.places) nearest = std::min(nearest, glm::length(place - picture(side * across)));
+      EXPECT_LT(nearest, kind == 0 ? 1e-4 : 1e-6) << k << " by " << by << (inside ? " inside" : " outside");
+      if (kind > 0) largest = std::max(largest, nearest);
+    }
+    if (kind > 0) {
+      EXPECT_EQ(found.places.size(), 2u) << k << " by " << by;
+    }
+    for (const Vec2& place : found.places)
+      EXPECT_LT(std::min(glm::length(place - picture(across)), glm::length(place - picture(-across))),
+                kind == 0 ? 1e-3 : 1e-6)
+          << k << " by " << by;
+  }
+  tests::report_figure("largest_error_pixels", largest);
+}
+
+}  // namespace
+}  // namespace lekalo::render
