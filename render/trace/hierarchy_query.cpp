@@ -68,8 +68,27 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
   }
 }
 
+// The same of a whole target for queries that do not want all hits: most of all there are.
+void test_whole_target(const GeometryRecord& record, int primitive, Query& query) {
+  LineHits hits(true, query.nearest && !record.bare);
+  record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
+  if (hits.size() == 0) return;
+  if (!query.nearest) {
+    query.found = true;
+    return;
+  }
+  for (int i = 0; i < hits.size(); ++i) {
+    const geometry::LineHit& h = hits[i];
+    query.accept_nearest({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
+  }
+}
+
 // Tests one primitive of a record in double and passes its hits on.
-void test(const GeometryRecord& record, int primitive, Query& query) {
+inline void test(const GeometryRecord& record, int primitive, Query& query) {
+  if (record.whole && !query.all) {
+    if (!query.has_left(record, primitive)) test_whole_target(record, primitive, query);
+    return;
+  }
   if (record.kind == GeometryRecord::Kind::instance)
     test_instance(record, query);
   else if (!(record.leaf->visible_to & query.kind) || query.has_left(record, primitive))
@@ -88,7 +107,7 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
 }
 
 // True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
-bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
+inline bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
   for (int k = 0; k < 3; ++k) {
     const double a = (box.lo[k] - line.origin[k]) * inverse[k], b = (box.hi[k] - line.origin[k]) * inverse[k];
     // In this order: a NaN, of a line that runs in the plane of a side, changes nothing.
@@ -126,7 +145,19 @@ class Shaft {
 
 constexpr size_t kLastBit = 63;
 
-bool is_listed(uint64_t set, size_t i) { return set >> std::min(i, kLastBit) & 1; }
+// Asked for one member of the lists after the other, whether it is among the obstacles.
+class Listed {
+ public:
+  explicit Listed(const Obstacles& obstacles) : rest_(static_cast<int64_t>(obstacles.listed)) {}
+  bool next() {
+    const bool result = rest_ & 1;
+    rest_ >>= 1;  // the last bit stays
+    return result;
+  }
+
+ private:
+  int64_t rest_;
+};
 
 }  // namespace
 
@@ -166,8 +197,9 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
 
 namespace {
 
-// The part of a query that Embree's hierarchy answers.
-void run_scene(const Hierarchy::Parts& p, Query& query) {
+// The part of a query that Embree's hierarchy answers. (Not inline: it would cost queries of lists alone their
+// registers.)
+__attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query) {
   const Stretch stretch = stretch_in(p, query.line(), query.t_min, query.t_max);
   if (stretch.empty) return;
   query.start = stretch.start;
@@ -212,14 +244,14 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
 
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
+  Listed listed(query.among);
   // What is bounded first: a ray that ends there asks less of a plane behind it.
-  size_t number = 0;
   if (!p.few.empty()) {
     const Vec3 inverse = 1.0 / query.line().direction;
     // Most rays miss the box of all.
     const bool any = p.few.size() < 3 || may_enter(p.few_box, query.line(), inverse, query.t_min, query.t_max);
     for (const Parts::Piece& piece : p.few) {
-      if (!is_listed(query.among.listed, number++) || !any || query.has_left(*piece.record)) continue;
+      if (!listed.next() || !any || query.has_left(*piece.record)) continue;
       if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
@@ -227,7 +259,7 @@ void Hierarchy::run(Query& query) const {
   }
   if (p.scene && query.among.scene) run_scene(p, query);
   for (const GeometryRecord* record : p.unbounded) {
-    if (!is_listed(query.among.listed, number++)) continue;
+    if (!listed.next()) continue;
     if (query.is_done()) return;
     for (int i = 0; i < record->count; ++i) test(*record, i, query);
   }
