@@ -2,6 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "render/trace/hierarchy_rays.h"
 
 namespace lekalo::render {
@@ -106,16 +110,52 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
   for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
 }
 
-// True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
-inline bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
-  for (int k = 0; k < 3; ++k) {
-    const double a = (box.lo[k] - line.origin[k]) * inverse[k], b = (box.hi[k] - line.origin[k]) * inverse[k];
-    // In this order: a NaN, of a line that runs in the plane of a side, changes nothing.
-    t_min = std::max(t_min, std::min(a, b));
-    t_max = std::min(t_max, std::max(a, b));
+// A line on its way through boxes. These are inflated beyond the rounding of the test.
+class LineThroughBoxes {
+ public:
+  explicit LineThroughBoxes(const Line& line)
+#ifdef __SSE2__
+      : origin_xy_(_mm_loadu_pd(&line.origin.x)),
+        origin_z_(_mm_load_sd(&line.origin.z)),
+        inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
+        inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))){}
+#else
+      : origin_(line.origin), inverse_(1.0 / line.direction) {
   }
-  return t_min <= t_max;
-}
+#endif
+
+        // True if the line may be in the box between t_min and t_max. The extremes are taken in an order in which a
+        // NaN, of a line that runs in the plane of a side, changes nothing.
+        bool may_enter(const Box3& box, double t_min, double t_max) const {
+#ifdef __SSE2__
+    // x and y together, then z.
+    const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
+                  b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
+                  c = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
+                  d = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
+    // The second operand where one is a NaN.
+    const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(d, c), out_z = _mm_max_sd(d, c);
+    __m128d begin = _mm_max_sd(in, _mm_set_sd(t_min)), end = _mm_min_sd(out, _mm_set_sd(t_max));
+    begin = _mm_max_sd(_mm_unpackhi_pd(in, in), begin);
+    end = _mm_min_sd(_mm_unpackhi_pd(out, out), end);
+    return _mm_comile_sd(_mm_max_sd(in_z, begin), _mm_min_sd(out_z, end));
+#else
+    for (int k = 0; k < 3; ++k) {
+      const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
+      t_min = std::max(t_min, std::min(a, b));
+      t_max = std::min(t_max, std::max(a, b));
+    }
+    return t_min <= t_max;
+#endif
+  }
+
+ private:
+#ifdef __SSE2__
+  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
+#else
+  Vec3 origin_, inverse_;
+#endif
+};
 
 // All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
 class Shaft {
@@ -247,12 +287,12 @@ void Hierarchy::run(Query& query) const {
   Listed listed(query.among);
   // What is bounded first: a ray that ends there asks less of a plane behind it.
   if (!p.few.empty()) {
-    const Vec3 inverse = 1.0 / query.line().direction;
+    const LineThroughBoxes line(query.line());
     // Most rays miss the box of all.
-    const bool any = p.few.size() < 3 || may_enter(p.few_box, query.line(), inverse, query.t_min, query.t_max);
+    const bool any = p.few.size() < 3 || line.may_enter(p.few_box, query.t_min, query.t_max);
     for (const Parts::Piece& piece : p.few) {
       if (!listed.next() || !any || query.has_left(*piece.record)) continue;
-      if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
+      if (!line.may_enter(piece.box, query.t_min, query.t_max)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
     }

@@ -185,6 +185,17 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
           .piece = hit.piece};
 }
 
+// `near` in the space of the leaf, which the way to the world stretches by so much.
+SurfacePoint point_in_leaf(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
+                           double error, double stretch) {
+  if (leaf.mesh) return point_of_mesh(leaf, hit, incoming, object, error);
+  if (!leaf.shape) return point_of_surface(leaf, hit, near, incoming, object, error);
+  const geometry::SurfaceHit of_shape{hit.t, hit.u, hit.v, hit.face, hit.piece};
+  const geometry::ShapePoint at =
+      leaf.parameters ? leaf.shape->point(of_shape, near) : leaf.shape->bare_point(of_shape, near);
+  return point_as_seen(at, {}, hit, incoming, object, error + at.error * stretch);
+}
+
 // Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
 // them.
 constexpr double kLeastCell = 4;
@@ -197,6 +208,13 @@ bool is_drawn_only(const Entity& entity) {
 
 struct World::Compiled {
   Hierarchy top;
+  // Hierarchy::place of all hits where nothing is in an instance; else empty.
+  struct Place {
+    const Leaf* leaf;
+    int object;
+    double error;
+  };
+  std::vector<Place> places;
   std::vector<const Object*> objects;  // by the number that hits carry
   WorldStatistics statistics;
   bool transmits = false;
@@ -206,6 +224,17 @@ struct World::Compiled {
   std::map<const Group*, std::shared_ptr<Hierarchy>> groups;
   CameraPtr camera;
 
+  void list_places() {
+    for (int i = 0; i < top.leaf_count(); ++i) {
+      const Hierarchy::Place place = top.place(i);
+      if (place.to_world) {
+        places.clear();
+        return;
+      }
+      places.push_back({place.leaf, place.object, place.error});
+    }
+  }
+
   void count_uses(const std::vector<Object>& list) {
     for (const Object& object : list) {
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
@@ -214,6 +243,35 @@ struct World::Compiled {
         ++uses[key_of(object)];
       }
     }
+  }
+
+  SurfacePoint point_in_world(const Leaf& leaf, const Ray& ray, const Hit& hit, int object, double error) const {
+    SurfacePoint point = point_in_leaf(leaf, hit, ray.at(hit.t), ray.direction, object, error, 1);
+    finish(leaf, ray, point);
+    return point;
+  }
+
+  SurfacePoint point_of_instance(const Hierarchy::Place& place, const Ray& ray, const Hit& hit) const {
+    const Affine &map = *place.to_world, to_leaf = map.inverse();
+    SurfacePoint point = point_in_leaf(*place.leaf, hit, to_leaf.point(ray.at(hit.t)), ray.direction, place.object,
+                                       place.error, geometry::largest_stretch(map));
+    const geometry::Mat3 normals = glm::transpose(to_leaf.linear);
+    point.position = map.point(point.position);
+    point.smooth_position = map.point(point.smooth_position);
+    point.du = map.direction(point.du);
+    point.dv = map.direction(point.dv);
+    point.geometric_normal = glm::normalize(normals * point.geometric_normal);
+    point.normal = glm::normalize(normals * point.normal);
+    finish(*place.leaf, ray, point);
+    return point;
+  }
+
+  // What only the world knows of a point.
+  void finish(const Leaf& leaf, const Ray& ray, SurfacePoint& point) const {
+    const auto size = [](const Vec3& v) { return Vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); };
+    const Vec3 sizes = size(point.position) + size(point.position - ray.origin);
+    point.error += kPositionError * (sizes.x + sizes.y + sizes.z);
+    if (leaf.parameters && camera) point.pixel_size = camera->pixel_size(point.position);
   }
 
   // Sag of a mesh at a place of its own space, for the map that shows it largest among those given.
@@ -406,6 +464,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
     c.add(c.top, model_->objects, Affine());
     c.top.commit();
   });
+  c.list_places();
   for (const Object* object : c.objects)
     for (const Material* material : {object->material.get(), object->back_material.get()})
       c.transmits = c.transmits || (material && material->transmits());
@@ -435,35 +494,14 @@ Vec3 World::center() const { return compiled_->top.center(); }
 double World::radius() const { return compiled_->top.radius(); }
 
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
-  const Hierarchy::Place place = compiled_->top.place(hit.instance);
-  const Leaf& leaf = *place.leaf;
-  const auto point_in_leaf = [&](const Vec3& near, double stretch) {
-    if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
-    if (!leaf.shape) return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
-    const geometry::SurfaceHit of_shape{hit.t, hit.u, hit.v, hit.face, hit.piece};
-    const geometry::ShapePoint at =
-        leaf.parameters ? leaf.shape->point(of_shape, near) : leaf.shape->bare_point(of_shape, near);
-    return point_as_seen(at, {}, hit, ray.direction, place.object, place.error + at.error * stretch);
-  };
-  std::optional<Affine> to_leaf;
-  if (place.to_world) to_leaf = place.to_world->inverse();
-  SurfacePoint point = to_leaf
-                           ? point_in_leaf(to_leaf->point(ray.at(hit.t)), geometry::largest_stretch(*place.to_world))
-                           : point_in_leaf(ray.at(hit.t), 1);
-  if (to_leaf) {
-    const Affine& map = *place.to_world;
-    const geometry::Mat3 normals = glm::transpose(to_leaf->linear);
-    point.position = map.point(point.position);
-    point.smooth_position = map.point(point.smooth_position);
-    point.du = map.direction(point.du);
-    point.dv = map.direction(point.dv);
-    point.geometric_normal = glm::normalize(normals * point.geometric_normal);
-    point.normal = glm::normalize(normals * point.normal);
+  const Compiled& c = *compiled_;
+  if (!c.places.empty()) {
+    const Compiled::Place& place = c.places[hit.instance];
+    return c.point_in_world(*place.leaf, ray, hit, place.object, place.error);
   }
-  const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
-  point.error += kPositionError * (size.x + size.y + size.z);
-  if (compiled_->camera && leaf.parameters) point.pixel_size = compiled_->camera->pixel_size(point.position);
-  return point;
+  const Hierarchy::Place place = c.top.place(hit.instance);
+  return place.to_world ? c.point_of_instance(place, ray, hit)
+                        : c.point_in_world(*place.leaf, ray, hit, place.object, place.error);
 }
 
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
