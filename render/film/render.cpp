@@ -219,11 +219,11 @@ class TileTracer {
   void trace_evenly(const Window& tile, Exposure& exposure) const {
     const int samples = sampler_->samples_per_pixel();
     const bool keeps_data = film_.keeps_data(), alone = samples == 1 && film_.reach() == 0;
-    std::vector<Shot> shots;  // of a row
+    std::vector<Shot> shots(static_cast<size_t>(tile.width()) * samples);  // of a row
     for (int y = tile.y0; y < tile.y1; ++y) {
-      shots.clear();
+      Shot* shot = shots.data();
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = 0; s < samples; ++s) add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
+        for (int s = 0; s < samples; ++s) *shot++ = {x, y, sampler_->pixel_position(x, y, s), s};
       double nearest = geometry::kInfinity;
       int counted = 0;
       take(shots, exposure, [&](const Shot& shot, const RaySample& sample, bool finite) {

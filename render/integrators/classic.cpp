@@ -247,10 +247,16 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   const bool diffuse = !c.diffuse.is_zero(), specular = !c.specular.is_zero();
   if (!diffuse && !specular) return sum;
   const double m_v = -glm::dot(seen.normal, ray.direction);
-  // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it.
+  // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it; made when
+  // the first is needed.
   Ray shadow_ray;
-  shadow_ray.kind = RayKind::shadow;
-  world_.leave(seen.point, seen.geometric_normal, shadow_ray);
+  bool has_left = false;
+  const auto leave = [&] {
+    if (has_left) return;
+    has_left = true;
+    shadow_ray.kind = RayKind::shadow;
+    world_.leave(seen.point, seen.geometric_normal, shadow_ray);
+  };
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
@@ -271,7 +277,10 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     }
     Obstacles obstacles;
     if (shadows && count > 1)
-      if (const Box3 places = light->places(); places.bounded()) obstacles = world_.obstacles(shadow_ray, places);
+      if (const Box3 places = light->places(); places.bounded()) {
+        leave();
+        obstacles = world_.obstacles(shadow_ray, places);
+      }
     // In air what meets nothing is in full light; inside a body light fades on any way.
     const bool asks_first = !tinted_ || media.filling() < 0;
     const bool clear = !shadows || (obstacles.none() && asks_first);
@@ -288,14 +297,16 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         return Taken();
       // R.V with R = 2 (m.L) m - L and V = -d
       const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(sample.direction, ray.direction);
-      // Beside diffuse light no float shows what of a highlight is below e^-20: cos^n <= e^(-n (1 - cos)).
-      const bool is_lost = diffuse && c.exponent * (1 - cos_alpha) > 20;
+      // Beside diffuse light no float shows what of a highlight is below e^-20, and alone none is as small as e^-104:
+      // cos^n <= e^(-n (1 - cos)).
+      const bool is_lost = c.exponent * (1 - cos_alpha) > (diffuse ? 20 : 104);
       taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       if (specular && !is_lost) {
         taken.lobe = phong_lobe(cos_alpha, c.exponent);
         taken.highlight = static_cast<float>(taken.lobe) * (c.specular * taken.light_per_pi).largest();
       }
       if (!diffuse && taken.highlight == 0) return std::nullopt;
+      leave();
       shadow_ray.direction = sample.direction;
       shadow_ray.t_max = sample.distance;
       return taken;

@@ -31,7 +31,7 @@ class ClassicMaterial final : public Material {
   bool transmits() const override { return interior_.has_value(); }
   bool uses_parameters() const override { return !is_even_; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
-    return deviated_normal(point, look_.normal_deviation);
+    return is_even_ ? point.normal : deviated_normal(point, look_.normal_deviation);
   }
 
   uint64_t cell(const SurfacePoint& point) const override {
