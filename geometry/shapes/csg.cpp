@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "geometry/bodies/sew.h"
 #include "geometry/describe.h"
@@ -34,7 +35,23 @@ std::optional<ConvexSolid> closed_form(const Shape& shape) {
 // A list that takes memory of its own only where it is longer than usual.
 template <class T, size_t kUsual>
 class GrowingRoom {
+  static_assert(std::is_trivially_copyable_v<T>);
+
  public:
+  GrowingRoom() : values_(few_) {}
+  explicit GrowingRoom(const std::vector<T>& values) : values_(few_), size_(values.size()) {
+    if (size_ > capacity_) {
+      many_ = values;
+      values_ = many_.data();
+      capacity_ = size_;
+    } else {
+      std::copy(values.begin(), values.end(), values_);
+    }
+  }
+  GrowingRoom(const GrowingRoom&) = delete;
+  GrowingRoom& operator=(const GrowingRoom&) = delete;
+  ~GrowingRoom() {}
+
   void add(const T& value) {
     if (size_ == capacity_) grow();
     values_[size_++] = value;
@@ -53,10 +70,12 @@ class GrowingRoom {
     capacity_ *= 2;
   }
 
-  size_t size_ = 0, capacity_ = kUsual;
-  std::array<T, kUsual> few_;  // not initialised
+  union {
+    T few_[kUsual];  // not initialised
+  };
   std::vector<T> many_;
-  T* values_ = few_.data();
+  T* values_;
+  size_t size_ = 0, capacity_ = kUsual;
 };
 
 }  // namespace
@@ -282,8 +301,7 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
   Crossing *const begin = search.crossings.begin(), *const end = begin + search.crossings.size();
   std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
 
-  GrowingRoom<int, 64> counts;
-  for (const int count : outside_) counts.add(count);
+  GrowingRoom<int, 64> counts(outside_);
   int* const inside_node = counts.begin();
   const auto is_inside = [&] { return inside_node[0] >= nodes_[0].needed; };
   Crossing* first = begin;
