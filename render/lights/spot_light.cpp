@@ -21,7 +21,7 @@ class SpotLamp final : public Light {
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.position - point;
     const double distance = glm::length(to_light);
-    const Vec3 direction = (1 / distance) * to_light;
+    const Vec3 direction = to_light / distance;
     const float share = static_cast<float>(cone_share(-glm::dot(direction, light_.direction)));
     return {direction, distance, share * irradiance_.at(distance), 1};
   }
