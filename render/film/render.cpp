@@ -223,7 +223,8 @@ class TileTracer {
     for (int y = tile.y0; y < tile.y1; ++y) {
       Shot* shot = shots.data();
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = 0; s < samples; ++s) *shot++ = {x, y, sampler_->pixel_position(x, y, s), s};
+        for (int s = 0; s < samples; ++s)
+          *shot++ = {x, y, samples == 1 ? Vec2(0.5) : sampler_->pixel_position(x, y, s), s};
       double nearest = geometry::kInfinity;
       int counted = 0;
       take(shots, exposure, [&](const Shot& shot, const RaySample& sample, bool finite) {
