@@ -2,10 +2,11 @@
 // so that a distant origin costs no figures; u and v are the coordinates of that point.
 #include "geometry/surfaces/plane.h"
 
+#include <cmath>
+
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/numerics/instruction_sets.h"
-#include "geometry/surfaces/local_line.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {

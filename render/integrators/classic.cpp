@@ -109,7 +109,7 @@ class Tracer {
   const World& world_;
   const ClassicOptions& options_;
   double reference_depth_;
-  bool transmits_;  // some material; else no body has a medium
+  bool transmits_;  // some material; where none does no body has a medium
   bool tinted_;     // shadows
   bool whole_;
   SampleStream& random_;

@@ -72,7 +72,7 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
   }
 }
 
-// The same of a whole target for queries that do not want all hits: most of all there are.
+// The same of a whole target for queries that do not want all hits, which most tests are.
 void test_whole_target(const GeometryRecord& record, int primitive, Query& query) {
   LineHits hits(true, query.nearest && !record.bare);
   record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
@@ -110,52 +110,53 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
   for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
 }
 
-// A line on its way through boxes. These are inflated beyond the rounding of the test.
+// A line on its way through boxes, which are inflated beyond the rounding of the test. `may_enter`: true if the line
+// may be in the box between t_min and t_max. The extremes are taken in an order in which a NaN, of a line that runs in
+// the plane of a side, changes nothing.
+#ifdef __SSE2__
+// x and y together, then z. The extremes of two are the second where one is a NaN.
 class LineThroughBoxes {
  public:
   explicit LineThroughBoxes(const Line& line)
-#ifdef __SSE2__
       : origin_xy_(_mm_loadu_pd(&line.origin.x)),
         origin_z_(_mm_load_sd(&line.origin.z)),
         inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
-        inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))){}
-#else
-      : origin_(line.origin), inverse_(1.0 / line.direction) {
-  }
-#endif
+        inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {}
 
-        // True if the line may be in the box between t_min and t_max. The extremes are taken in an order in which a
-        // NaN, of a line that runs in the plane of a side, changes nothing.
-        bool may_enter(const Box3& box, double t_min, double t_max) const {
-#ifdef __SSE2__
-    // x and y together, then z.
+  bool may_enter(const Box3& box, double t_min, double t_max) const {
     const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
                   b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
-                  c = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
-                  d = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
-    // The second operand where one is a NaN.
-    const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(d, c), out_z = _mm_max_sd(d, c);
+                  a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
+                  b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
+    const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(b_z, a_z),
+                  out_z = _mm_max_sd(b_z, a_z);
     __m128d begin = _mm_max_sd(in, _mm_set_sd(t_min)), end = _mm_min_sd(out, _mm_set_sd(t_max));
     begin = _mm_max_sd(_mm_unpackhi_pd(in, in), begin);
     end = _mm_min_sd(_mm_unpackhi_pd(out, out), end);
     return _mm_comile_sd(_mm_max_sd(in_z, begin), _mm_min_sd(out_z, end));
+  }
+
+ private:
+  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
+};
 #else
+class LineThroughBoxes {
+ public:
+  explicit LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
+
+  bool may_enter(const Box3& box, double t_min, double t_max) const {
     for (int k = 0; k < 3; ++k) {
       const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
       t_min = std::max(t_min, std::min(a, b));
       t_max = std::min(t_max, std::max(a, b));
     }
     return t_min <= t_max;
-#endif
   }
 
  private:
-#ifdef __SSE2__
-  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
-#else
   Vec3 origin_, inverse_;
-#endif
 };
+#endif
 
 // All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
 class Shaft {
