@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "geometry/bodies/sew.h"
 #include "geometry/describe.h"
@@ -34,7 +34,23 @@ std::optional<ConvexSolid> closed_form(const Shape& shape) {
 // A list that takes memory of its own only where it is longer than usual.
 template <class T, size_t kUsual>
 class GrowingRoom {
+  static_assert(std::is_trivially_copyable_v<T>);
+
  public:
+  GrowingRoom() : values_(few_) {}
+  explicit GrowingRoom(const std::vector<T>& values) : values_(few_), size_(values.size()) {
+    if (size_ > capacity_) {
+      many_ = values;
+      values_ = many_.data();
+      capacity_ = size_;
+    } else {
+      std::copy(values.begin(), values.end(), values_);
+    }
+  }
+  GrowingRoom(const GrowingRoom&) = delete;
+  GrowingRoom& operator=(const GrowingRoom&) = delete;
+  ~GrowingRoom() {}
+
   void add(const T& value) {
     if (size_ == capacity_) grow();
     values_[size_++] = value;
@@ -53,10 +69,12 @@ class GrowingRoom {
     capacity_ *= 2;
   }
 
-  size_t size_ = 0, capacity_ = kUsual;
-  std::array<T, kUsual> few_;  // not initialised
+  union {
+    T few_[kUsual];  // not initialised
+  };
   std::vector<T> many_;
-  T* values_ = few_.data();
+  T* values_;
+  size_t size_ = 0, capacity_ = kUsual;
 };
 
 }  // namespace
@@ -145,13 +163,13 @@ struct Csg::Stretch {
 
 struct Csg::Search {
   explicit Search(const Line& line, double size)
-      : solids(line), to_boxes(line), tolerance_at_zero(kSameHit * size * std::sqrt(solids.inverse_square)) {}
+      : solids(line), tolerance_at_zero(kSameHit * size * std::sqrt(solids.inverse_square)) {}
   double tolerance(double t) const { return tolerance_at_zero + 4e-16 * std::abs(t); }
   const Line& line() const { return solids.line; }
 
   LineOfSolids solids;
-  BoxTree::LineToBoxes to_boxes;
-  double tolerance_at_zero;  // in units of the line's direction
+  std::optional<BoxTree::LineToBoxes> to_boxes;  // for gather()
+  double tolerance_at_zero;                      // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
 };
 
@@ -195,7 +213,7 @@ Interval Csg::gather_leaf(int number, const Interval& range, Search& search) con
   const Node& node = nodes_[number];
   const Shape& shape = *leaves_[node.leaf].shape;
   const bool begins = !node.box.bounded() && shape.begins_inside(search.line());
-  if (node.box.bounded() && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
+  if (node.box.bounded() && !BoxTree::meets(node.box, *search.to_boxes, range)) return kNowhere;
   // The room is kept from call to call, but for calls within calls.
   static thread_local std::vector<SurfaceHit> room;
   std::vector<SurfaceHit> hits = std::move(room);
@@ -219,7 +237,7 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
   const Node& node = nodes_[number];
   if (node.convex) return gather_convex(number, range, search);
   if (node.leaf >= 0) return gather_leaf(number, range, search);
-  if (node.parent >= 0 && !BoxTree::meets(node.box, search.to_boxes, range)) return kNowhere;
+  if (node.parent >= 0 && !BoxTree::meets(node.box, *search.to_boxes, range)) return kNowhere;
   Interval result = range;
   if (node.operation == Operation::intersect) {
     const size_t before = search.crossings.size();
@@ -243,7 +261,7 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
     any = {std::min(any.lo, one.lo), std::max(any.hi, one.hi)};
   };
   for (int k = unite ? 0 : 1; k < node.first_in_tree; ++k) visit(k);
-  node.tree.along(search.to_boxes, within, [&](int k) { visit(node.first_in_tree + k); });
+  node.tree.along(*search.to_boxes, within, [&](int k) { visit(node.first_in_tree + k); });
   return unite ? any : result;
 }
 
@@ -275,14 +293,14 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
     if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out));
     return;
   }
+  search.to_boxes.emplace(line);
   // A crossing just beyond either end may be one with a crossing inside.
   const Interval range{t.lo - 4 * search.tolerance(t.lo), t.hi + 4 * search.tolerance(t.hi)};
   if (gather(0, range, search).empty()) return;
   Crossing *const begin = search.crossings.begin(), *const end = begin + search.crossings.size();
   std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
 
-  GrowingRoom<int, 64> counts;
-  for (const int count : outside_) counts.add(count);
+  GrowingRoom<int, 64> counts(outside_);
   int* const inside_node = counts.begin();
   const auto is_inside = [&] { return inside_node[0] >= nodes_[0].needed; };
   Crossing* first = begin;

@@ -2,9 +2,11 @@
 // so that a distant origin costs no figures; u and v are the coordinates of that point.
 #include "geometry/surfaces/plane.h"
 
+#include <cmath>
+
 #include "geometry/describe.h"
 #include "geometry/formula.h"
-#include "geometry/surfaces/local_line.h"
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -77,9 +79,12 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
   add_hit(line, range, rough, inverse, hits);
 }
 
-void Plane::add_hit(const Line& line, const Interval& range, double rough, double inverse, LineHits& hits) const {
-  // Anew from the rough hit.
-  const Vec3 from = fused_at(line, rough) - frame_.origin;
+LEKALO_FUSED void Plane::add_hit(const Line& line, const Interval& range, double rough, double inverse,
+                                 LineHits& hits) const {
+  // Anew from the rough hit: fused_at(), in line.
+  const Vec3 &o = line.origin, &d = line.direction;
+  const Vec3 from =
+      Vec3(std::fma(rough, d.x, o.x), std::fma(rough, d.y, o.y), std::fma(rough, d.z, o.z)) - frame_.origin;
   const double s = -glm::dot(from, frame_.z) * inverse;
   const double t = rough + s;
   if (!range.contains(t)) return;

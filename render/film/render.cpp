@@ -185,8 +185,8 @@ class TileTracer {
     shot.number = number;
   }
 
-  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample. Once the
-  // tile is given up no more of them.
+  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample and whether
+  // that is finite. Once the tile is given up no more of them.
   template <class Use>
   void take(std::span<const Shot> shots, Exposure& exposure, const Use& use) const {
     std::vector<Ray>& rays = exposure.rays;
@@ -209,8 +209,9 @@ class TileTracer {
         ++tally.camera_rays;
         tally.shadow_rays += sample.shadow_rays;
         tally.other_rays += sample.other_rays;
-        if (!is_finite(sample)) ++tally.not_finite;
-        use(shot, std::move(sample));
+        const bool finite = is_finite(sample);
+        tally.not_finite += !finite;
+        use(shot, std::move(sample), finite);
       }
     }
   }
@@ -218,15 +219,16 @@ class TileTracer {
   void trace_evenly(const Window& tile, Exposure& exposure) const {
     const int samples = sampler_->samples_per_pixel();
     const bool keeps_data = film_.keeps_data(), alone = samples == 1 && film_.reach() == 0;
-    std::vector<Shot> shots;  // of a row
+    std::vector<Shot> shots(static_cast<size_t>(tile.width()) * samples);  // of a row
     for (int y = tile.y0; y < tile.y1; ++y) {
-      shots.clear();
+      Shot* shot = shots.data();
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = 0; s < samples; ++s) add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
+        for (int s = 0; s < samples; ++s)
+          *shot++ = {x, y, samples == 1 ? Vec2(0.5) : sampler_->pixel_position(x, y, s), s};
       double nearest = geometry::kInfinity;
       int counted = 0;
-      take(shots, exposure, [&](const Shot& shot, const RaySample& sample) {
-        if (is_finite(sample)) {
+      take(shots, exposure, [&](const Shot& shot, const RaySample& sample, bool finite) {
+        if (finite) {
           ++counted;
           if (alone)
             exposure.set(shot.x, y, sample);
@@ -258,7 +260,7 @@ class TileTracer {
     std::vector<Shot> shots;
     for (int y = around.y0; y < around.y1; ++y)
       for (int x = around.x0; x < around.x1; ++x) add_shot(shots, x, y, Vec2(0.5), all);
-    take(shots, exposure, [&](const Shot&, RaySample&& sample) { centers.push_back(std::move(sample)); });
+    take(shots, exposure, [&](const Shot&, RaySample&& sample, bool) { centers.push_back(std::move(sample)); });
     if (exposure.given_up) return;
     const auto index = [&](int x, int y) {
       return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
@@ -300,7 +302,7 @@ class TileTracer {
           shots.clear();
           for (const int end = alike && s < kFewSamples ? kFewSamples : all; s < end; ++s)
             add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
-          take(shots, exposure, [&](const Shot& shot, RaySample&& sample) {
+          take(shots, exposure, [&](const Shot& shot, RaySample&& sample, bool) {
             alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
             taken.push_back({shot.place, std::move(sample)});
           });

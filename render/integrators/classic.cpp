@@ -38,7 +38,7 @@ const Spectrum kWhite{1, 1, 1, 0};
 struct Illumination {
   Spectrum diffuse;       // sum of V E / pi cos(theta)
   Spectrum specular;      // sum of V E / pi cos(alpha)^n
-  Spectrum unobstructed;  // sum of E / pi cos(theta)
+  Spectrum unobstructed;  // sum of E / pi cos(theta), where shadows are caught
 };
 
 // A surface point seen by a ray, all normals on the viewer's side.
@@ -78,7 +78,8 @@ class Tracer {
       : world_(world),
         options_(options),
         reference_depth_(reference_depth),
-        tinted_(options.shadows == ShadowMode::transparent && world.has_transmitting_materials()),
+        transmits_(world.has_transmitting_materials()),
+        tinted_(options.shadows == ShadowMode::transparent && transmits_),
         whole_(whole),
         random_(random),
         sample_(sample) {}
@@ -108,7 +109,8 @@ class Tracer {
   const World& world_;
   const ClassicOptions& options_;
   double reference_depth_;
-  bool tinted_;  // shadows
+  bool transmits_;  // some material; where none does no body has a medium
+  bool tinted_;     // shadows
   bool whole_;
   SampleStream& random_;
   RaySample& sample_;
@@ -141,7 +143,8 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
 
     const int32_t body = seen.point.instance;
     const Object& object = world_.object(seen.point);
-    const std::optional<Medium> medium = object.material->interior(kYellow);
+    std::optional<Medium> medium;
+    if (transmits_) medium = object.material->interior(kYellow);
     if (medium && !seen.front && !media.is_inside(body)) media.enter(body, *medium);  // the eye is inside the body
     if (!media.is_air()) through *= transmittance(media.current().absorption, hit.t);
     Media behind = media;
@@ -184,6 +187,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
   Spectrum sum = c.emission + direct;
 
   Spectrum mirror = c.mirror, transmission = c.transmission;
+  if (mirror.is_zero() && transmission.is_zero()) return sum;
   const double n0 = media.current().index, n1 = behind.current().index;
   // A smooth normal may look away from the viewer near the outline of a mesh; then the facet's own is taken.
   const Vec3 m = glm::dot(ray.direction, seen.normal) < 0 ? seen.normal : seen.geometric_normal;
@@ -243,10 +247,16 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   const bool diffuse = !c.diffuse.is_zero(), specular = !c.specular.is_zero();
   if (!diffuse && !specular) return sum;
   const double m_v = -glm::dot(seen.normal, ray.direction);
-  // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it.
+  // Shadow rays start on the lit side of the surface, from the smooth surface where a facet stands for it; made when
+  // the first is needed.
   Ray shadow_ray;
-  shadow_ray.kind = RayKind::shadow;
-  world_.leave(seen.point, seen.geometric_normal, shadow_ray);
+  bool has_left = false;
+  const auto leave = [&] {
+    if (has_left) return;
+    has_left = true;
+    shadow_ray.kind = RayKind::shadow;
+    world_.leave(seen.point, seen.geometric_normal, shadow_ray);
+  };
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
@@ -267,7 +277,10 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     }
     Obstacles obstacles;
     if (shadows && count > 1)
-      if (const Box3 places = light->places(); places.bounded()) obstacles = world_.obstacles(shadow_ray, places);
+      if (const Box3 places = light->places(); places.bounded()) {
+        leave();
+        obstacles = world_.obstacles(shadow_ray, places);
+      }
     // In air what meets nothing is in full light; inside a body light fades on any way.
     const bool asks_first = !tinted_ || media.filling() < 0;
     const bool clear = !shadows || (obstacles.none() && asks_first);
@@ -284,12 +297,16 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         return Taken();
       // R.V with R = 2 (m.L) m - L and V = -d
       const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(sample.direction, ray.direction);
-      // Beside diffuse light no float shows what of a highlight is below e^-20: cos^n <= e^(-n (1 - cos)).
-      const bool is_lost = diffuse && c.exponent * (1 - cos_alpha) > 20;
-      taken.lobe = specular && !is_lost ? phong_lobe(cos_alpha, c.exponent) : 0;
+      // Beside diffuse light no float shows what of a highlight is below e^-20, and alone none is as small as e^-104:
+      // cos^n <= e^(-n (1 - cos)).
+      const bool is_lost = c.exponent * (1 - cos_alpha) > (diffuse ? 20 : 104);
       taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
-      taken.highlight = static_cast<float>(taken.lobe) * (c.specular * taken.light_per_pi).largest();
+      if (specular && !is_lost) {
+        taken.lobe = phong_lobe(cos_alpha, c.exponent);
+        taken.highlight = static_cast<float>(taken.lobe) * (c.specular * taken.light_per_pi).largest();
+      }
       if (!diffuse && taken.highlight == 0) return std::nullopt;
+      leave();
       shadow_ray.direction = sample.direction;
       shadow_ray.t_max = sample.distance;
       return taken;
@@ -300,15 +317,15 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         mix(4);
         return;
       }
-      if (!cone) sum.unobstructed += static_cast<float>(taken.cosine) * taken.light_per_pi;
+      if (!cone && c.catches_shadows) sum.unobstructed += static_cast<float>(taken.cosine) * taken.light_per_pi;
       if (shadows) ++sample_.shadow_rays;
       Spectrum visible = kWhite;
       if (hidden) visible = tinted_ ? passing(to_light, media) : Spectrum();
       // A highlight jitters with the places on the light.
       if (jittered && (!cone || visible != kWhite || taken.highlight > kGrain)) sample_.noisy = true;
-      mix(visible.is_zero() ? 5 : 6);
+      if (whole_) mix(visible.is_zero() ? 5 : 6);
       sum.diffuse += static_cast<float>(taken.cosine) * ((cone ? visible - kWhite : visible) * taken.light_per_pi);
-      sum.specular += static_cast<float>(taken.lobe) * (visible * taken.light_per_pi);
+      if (taken.lobe != 0) sum.specular += static_cast<float>(taken.lobe) * (visible * taken.light_per_pi);
     };
     if (count == 1 || clear || !asks_first || !world_.gains_by_lists()) {
       for (int i = 0; i < count; ++i) {

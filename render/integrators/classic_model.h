@@ -20,11 +20,13 @@ inline Vec3 reflected(const Vec3& d, const Vec3& m) { return d - 2 * glm::dot(d,
 // Snell: unit direction behind a boundary of unit normal m (against the unit direction d) between the indices n0 and n1
 // behind; none beyond the critical angle (total internal reflection).
 //   eta = n0/n1, c = -d.m, k = 1 - eta^2 (1 - c^2), t = eta d + (eta c - sqrt(k)) m
+// t is as long as d and m are but for rounding, which a step of Newton's iteration for 1/sqrt(t.t) from 1 takes away.
 inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& m, double n0, double n1) {
   const double eta = n0 / n1, c = -glm::dot(d, m);
   const double k = 1 - eta * eta * (1 - c * c);
   if (k < 0) return std::nullopt;
-  return glm::normalize(eta * d + (eta * c - std::sqrt(k)) * m);
+  const Vec3 t = eta * d + (eta * c - std::sqrt(k)) * m;
+  return (1.5 - 0.5 * glm::dot(t, t)) * t;
 }
 
 // Bouguer: e^(-mu l); without absorption light comes from infinity as well.

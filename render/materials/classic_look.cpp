@@ -16,7 +16,16 @@ class ClassicMaterial final : public Material {
     for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
                                        &look_.transmission, &look_.emission})
       if (color->texture()) textures_.push_back(color->texture());
-    if (textures_.empty()) same_everywhere_ = coefficients({});
+    const auto same = [](const TexturedColor& color) { return color.texture() ? Spectrum() : color.at({}); };
+    same_everywhere_.emission = same(look_.emission);
+    same_everywhere_.ambient = same(look_.color) * same(look_.ambient);
+    same_everywhere_.diffuse = same(look_.color) * same(look_.diffuse);
+    same_everywhere_.specular = same(look_.specular);
+    same_everywhere_.exponent = static_cast<float>(look_.exponent);
+    same_everywhere_.mirror = same(look_.mirror);
+    same_everywhere_.transmission = same(look_.transmission);
+    same_everywhere_.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
+    same_everywhere_.two_sided = look_.two_sided;
     if (!look_.transmission.is_black())
       interior_ = Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
     is_even_ = textures_.empty() && look_.normal_deviation.amplitude == 0;
@@ -31,7 +40,7 @@ class ClassicMaterial final : public Material {
   bool transmits() const override { return interior_.has_value(); }
   bool uses_parameters() const override { return !is_even_; }
   Vec3 shading_normal(const SurfacePoint& point) const override {
-    return deviated_normal(point, look_.normal_deviation);
+    return is_even_ ? point.normal : deviated_normal(point, look_.normal_deviation);
   }
 
   uint64_t cell(const SurfacePoint& point) const override {
@@ -44,23 +53,25 @@ class ClassicMaterial final : public Material {
 
  private:
   ClassicCoefficients coefficients(const SurfacePoint& point) const {
-    ClassicCoefficients c;
-    const Spectrum color = look_.color.at(point);
-    c.emission = look_.emission.at(point);
-    c.ambient = color * look_.ambient.at(point);
-    c.diffuse = color * look_.diffuse.at(point);
-    c.specular = look_.specular.at(point);
-    c.exponent = static_cast<float>(look_.exponent);
-    c.mirror = look_.mirror.at(point);
-    c.transmission = look_.transmission.at(point);
-    c.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
-    c.two_sided = look_.two_sided;
+    ClassicCoefficients c = same_everywhere_;
+    const auto vary = [&](const TexturedColor& color, Spectrum& coefficient) {
+      if (color.texture()) coefficient = color.at(point);
+    };
+    vary(look_.emission, c.emission);
+    vary(look_.specular, c.specular);
+    vary(look_.mirror, c.mirror);
+    vary(look_.transmission, c.transmission);
+    if (look_.color.texture() || look_.ambient.texture() || look_.diffuse.texture()) {
+      const Spectrum color = look_.color.at(point);
+      c.ambient = color * look_.ambient.at(point);
+      c.diffuse = color * look_.diffuse.at(point);
+    }
     return c;
   }
 
   ClassicLook look_;
   std::vector<TexturePtr> textures_;     // of all coefficients
-  ClassicCoefficients same_everywhere_;  // where there are none
+  ClassicCoefficients same_everywhere_;  // those without textures
   std::optional<Medium> interior_;       // where light passes
   bool is_even_ = true;                  // neither textures nor deviations of the normal
 };

@@ -97,6 +97,7 @@ void Hierarchy::add(Leaf given) {
       r.target = leaf.targets[face].get();
       r.count = r.target->piece_count();
       r.bare = leaf.feet[face] != nullptr;
+      r.whole = leaf.clips.empty() && leaf.visible_to == kVisibleToAll;
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
   }

@@ -30,7 +30,8 @@ struct GeometryRecord {
   int primitive_count() const { return (count + together - 1) / together; }
   int first_piece(unsigned primitive) const { return together * static_cast<int>(primitive); }
   int end_of_pieces(unsigned primitive) const { return std::min(first_piece(primitive) + together, count); }
-  bool bare = false;  // the nearest hit needs no parameters
+  bool bare = false;   // the nearest hit needs no parameters
+  bool whole = false;  // a target that all rays see, without clips
   std::shared_ptr<const Hierarchy> child;
   Affine to_parent, to_child;
   int object = 0;
@@ -115,13 +116,17 @@ struct Hierarchy::Query {
   bool is_done() const { return found && !nearest && !all; }
 
   void accept(const Hit& hit) {
-    if (nearest) {
-      if (!found || comes_before(hit, *nearest)) {
-        *nearest = hit;
-        t_max = hit.t;
-      }
-    } else if (all) {
+    if (nearest)
+      accept_nearest(hit);
+    else if (all)
       all->push_back(hit);
+    found = true;
+  }
+  // The same where the nearest hit is wanted.
+  void accept_nearest(const Hit& hit) {
+    if (!found || comes_before(hit, *nearest)) {
+      *nearest = hit;
+      t_max = hit.t;
     }
     found = true;
   }

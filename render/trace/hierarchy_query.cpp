@@ -2,6 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "render/trace/hierarchy_rays.h"
 
 namespace lekalo::render {
@@ -68,8 +72,27 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
   }
 }
 
+// The same of a whole target for queries that do not want all hits, which most tests are.
+void test_whole_target(const GeometryRecord& record, int primitive, Query& query) {
+  LineHits hits(true, query.nearest && !record.bare);
+  record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
+  if (hits.size() == 0) return;
+  if (!query.nearest) {
+    query.found = true;
+    return;
+  }
+  for (int i = 0; i < hits.size(); ++i) {
+    const geometry::LineHit& h = hits[i];
+    query.accept_nearest({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
+  }
+}
+
 // Tests one primitive of a record in double and passes its hits on.
-void test(const GeometryRecord& record, int primitive, Query& query) {
+inline void test(const GeometryRecord& record, int primitive, Query& query) {
+  if (record.whole && !query.all) {
+    if (!query.has_left(record, primitive)) test_whole_target(record, primitive, query);
+    return;
+  }
   if (record.kind == GeometryRecord::Kind::instance)
     test_instance(record, query);
   else if (!(record.leaf->visible_to & query.kind) || query.has_left(record, primitive))
@@ -87,16 +110,53 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
   for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
 }
 
-// True if the line may enter the box between t_min and t_max. The box is inflated beyond the rounding of this test.
-bool may_enter(const Box3& box, const Line& line, const Vec3& inverse, double t_min, double t_max) {
-  for (int k = 0; k < 3; ++k) {
-    const double a = (box.lo[k] - line.origin[k]) * inverse[k], b = (box.hi[k] - line.origin[k]) * inverse[k];
-    // In this order: a NaN, of a line that runs in the plane of a side, changes nothing.
-    t_min = std::max(t_min, std::min(a, b));
-    t_max = std::min(t_max, std::max(a, b));
+// A line on its way through boxes, which are inflated beyond the rounding of the test. `may_enter`: true if the line
+// may be in the box between t_min and t_max. The extremes are taken in an order in which a NaN, of a line that runs in
+// the plane of a side, changes nothing.
+#ifdef __SSE2__
+// x and y together, then z. The extremes of two are the second where one is a NaN.
+class LineThroughBoxes {
+ public:
+  explicit LineThroughBoxes(const Line& line)
+      : origin_xy_(_mm_loadu_pd(&line.origin.x)),
+        origin_z_(_mm_load_sd(&line.origin.z)),
+        inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
+        inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {}
+
+  bool may_enter(const Box3& box, double t_min, double t_max) const {
+    const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
+                  b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
+                  a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
+                  b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
+    const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(b_z, a_z),
+                  out_z = _mm_max_sd(b_z, a_z);
+    __m128d begin = _mm_max_sd(in, _mm_set_sd(t_min)), end = _mm_min_sd(out, _mm_set_sd(t_max));
+    begin = _mm_max_sd(_mm_unpackhi_pd(in, in), begin);
+    end = _mm_min_sd(_mm_unpackhi_pd(out, out), end);
+    return _mm_comile_sd(_mm_max_sd(in_z, begin), _mm_min_sd(out_z, end));
   }
-  return t_min <= t_max;
-}
+
+ private:
+  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
+};
+#else
+class LineThroughBoxes {
+ public:
+  explicit LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
+
+  bool may_enter(const Box3& box, double t_min, double t_max) const {
+    for (int k = 0; k < 3; ++k) {
+      const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
+      t_min = std::max(t_min, std::min(a, b));
+      t_max = std::min(t_max, std::max(a, b));
+    }
+    return t_min <= t_max;
+  }
+
+ private:
+  Vec3 origin_, inverse_;
+};
+#endif
 
 // All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
 class Shaft {
@@ -126,7 +186,19 @@ class Shaft {
 
 constexpr size_t kLastBit = 63;
 
-bool is_listed(uint64_t set, size_t i) { return set >> std::min(i, kLastBit) & 1; }
+// Asked for one member of the lists after the other, whether it is among the obstacles.
+class Listed {
+ public:
+  explicit Listed(const Obstacles& obstacles) : rest_(static_cast<int64_t>(obstacles.listed)) {}
+  bool next() {
+    const bool result = rest_ & 1;
+    rest_ >>= 1;  // the last bit stays
+    return result;
+  }
+
+ private:
+  int64_t rest_;
+};
 
 }  // namespace
 
@@ -166,8 +238,9 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
 
 namespace {
 
-// The part of a query that Embree's hierarchy answers.
-void run_scene(const Hierarchy::Parts& p, Query& query) {
+// The part of a query that Embree's hierarchy answers. (Not inline: it would cost queries of lists alone their
+// registers.)
+__attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query) {
   const Stretch stretch = stretch_in(p, query.line(), query.t_min, query.t_max);
   if (stretch.empty) return;
   query.start = stretch.start;
@@ -212,22 +285,22 @@ void run_scene(const Hierarchy::Parts& p, Query& query) {
 
 void Hierarchy::run(Query& query) const {
   const Parts& p = *parts_;
+  Listed listed(query.among);
   // What is bounded first: a ray that ends there asks less of a plane behind it.
-  size_t number = 0;
   if (!p.few.empty()) {
-    const Vec3 inverse = 1.0 / query.line().direction;
+    const LineThroughBoxes line(query.line());
     // Most rays miss the box of all.
-    const bool any = p.few.size() < 3 || may_enter(p.few_box, query.line(), inverse, query.t_min, query.t_max);
+    const bool any = p.few.size() < 3 || line.may_enter(p.few_box, query.t_min, query.t_max);
     for (const Parts::Piece& piece : p.few) {
-      if (!is_listed(query.among.listed, number++) || !any || query.has_left(*piece.record)) continue;
-      if (!may_enter(piece.box, query.line(), inverse, query.t_min, query.t_max)) continue;
+      if (!listed.next() || !any || query.has_left(*piece.record)) continue;
+      if (!line.may_enter(piece.box, query.t_min, query.t_max)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
     }
   }
   if (p.scene && query.among.scene) run_scene(p, query);
   for (const GeometryRecord* record : p.unbounded) {
-    if (!is_listed(query.among.listed, number++)) continue;
+    if (!listed.next()) continue;
     if (query.is_done()) return;
     for (int i = 0; i < record->count; ++i) test(*record, i, query);
   }

@@ -16,15 +16,14 @@
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"
+#include "render/trace/leaf_point.h"
 
 namespace lekalo::render {
 
 using geometry::Affine;
 using geometry::BodyPtr;
 using geometry::MeshPtr;
-using geometry::Surface;
 using geometry::SurfacePtr;
-using geometry::Vec2;
 
 namespace {
 
@@ -67,124 +66,6 @@ ShareKey key_of(const Object& object) {
           uses_parameters(object)};
 }
 
-// The foot of a facet's point on the surface that the facet stands for: one Gauss-Newton step from the interpolated
-// parameters, within the triangle's own, so that it stays on its side of a crease or pole.
-Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const Vec2 (&corner)[3]) {
-  const geometry::SurfaceJet at = surface.evaluate(start.x, start.y, 1);
-  const Vec3 off = point - at.point();
-  const double e = glm::dot(at.du(), at.du()), f = glm::dot(at.du(), at.dv()), g = glm::dot(at.dv(), at.dv());
-  const double det = e * g - f * f;
-  if (!(det > 1e-14 * e * g)) return start;
-  const double a = glm::dot(at.du(), off), b = glm::dot(at.dv(), off);
-  const Vec2 foot = start + Vec2(g * a - f * b, e * b - f * a) / det;
-  const Vec2 lo = glm::min(glm::min(corner[0], corner[1]), corner[2]),
-             hi = glm::max(glm::max(corner[0], corner[1]), corner[2]);
-  const Vec2 inside = 1e-9 * (hi - lo);
-  return glm::clamp(foot, lo + inside, hi - inside);
-}
-
-// A point of a surface or shape in the space of its leaf. All members are written at once: this runs for every hit of
-// every ray.
-SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides& free_sides, const Hit& hit,
-                           const Vec3& incoming, int object, double error) {
-  return {.position = at.position,
-          .smooth_position = at.position,
-          .incoming = incoming,
-          .geometric_normal = at.normal,
-          .normal = at.normal,
-          .du = at.du,
-          .dv = at.dv,
-          .u = at.u,
-          .v = at.v,
-          .error = error,
-          .instance = hit.instance,
-          .object = object,
-          .face = hit.face,
-          .piece = hit.piece,
-          .free_sides = free_sides};
-}
-
-// What a hit on a surface shows; `near` is its place on the line that found it.
-SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near, const Vec3& incoming, int object,
-                              double error) {
-  const double sign = leaf.signs[hit.face];
-  const auto sides_of = [&](const Surface& surface) {
-    const geometry::Sides sides = surface.free_sides(hit.u, hit.v);
-    return sign * surface.normal_sign() < 0 ? sides.turned() : sides;
-  };
-  if (const Surface* bare = leaf.feet[hit.face]) {
-    const geometry::Foot foot = bare->foot(near);
-    return point_as_seen({foot.point, sign * foot.normal}, sides_of(*bare), hit, incoming, object, error);
-  }
-  const geometry::LineTarget& target = *leaf.targets[hit.face];
-  const Surface& surface = target.surface();
-  const geometry::Sides sides = sides_of(surface);
-  const geometry::SurfaceJet jet = target.jet_at(hit.piece, hit.u, hit.v, near);
-  return point_as_seen(geometry::point_on(surface, sign, hit.u, hit.v, jet), sides, hit, incoming, object, error);
-}
-
-SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incoming, int object, double error) {
-  const auto& number = leaf.mesh->triangles[hit.piece].vertex;
-  const PackedVertex &v0 = leaf.mesh->vertices[number[0]], &v1 = leaf.mesh->vertices[number[1]],
-                     &v2 = leaf.mesh->vertices[number[2]];
-  const Vec3& p0 = v0.point;
-  const Vec3 ab = v1.point - p0, ac = v2.point - p0;
-  const double w[3] = {1 - hit.b - hit.c, hit.b, hit.c};
-  const Vec3 from_a = w[1] * ab + w[2] * ac, position = p0 + from_a;
-  Vec3 geometric = glm::normalize(glm::cross(ab, ac)), shading = geometric, smooth_position = position;
-  Vec3 du(0), dv(0);
-  Vec2 at(hit.u, hit.v);
-  const Vec2 q[3] = {v0.parameter, v1.parameter, v2.parameter};
-  if (!leaf.mesh_surfaces.empty() && !leaf.flat) {
-    // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
-    const Surface& surface = *leaf.mesh_surfaces[hit.face];
-    at = foot_on(surface, position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
-    const geometry::SurfaceJet jet = surface.evaluate(at.x, at.y, 1);
-    du = jet.du();
-    dv = jet.dv();
-    shading = leaf.signs[hit.face] * surface.normal_sign() * parametric_normal(surface, at.x, at.y, jet);
-    if (glm::dot(shading, geometric) < 0) geometric = -geometric;
-    // Rays to lights start on the surface itself where it stands above the facet: no terminator along the facets.
-    const double above = glm::dot(jet.point() - position, geometric);
-    if (above > 0) smooth_position = jet.point();
-  } else {
-    const Vec3 &n0 = v0.normal, &n1 = v1.normal, &n2 = v2.normal, sum = w[0] * n0 + w[1] * n1 + w[2] * n2;
-    const double length2 = glm::dot(sum, sum);
-    if (!leaf.flat && length2 > 1e-20) {
-      shading = sum / std::sqrt(length2);
-      if (glm::dot(shading, geometric) < 0) geometric = -geometric;
-      // The mean of the point's projections on the vertices' tangent planes, where they stand above the facet: keeps
-      // the terminator off the facets (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-      const double above0 = w[0] * std::min(0.0, glm::dot(from_a, n0)),
-                   above1 = w[1] * std::min(0.0, glm::dot(from_a - ab, n1)),
-                   above2 = w[2] * std::min(0.0, glm::dot(from_a - ac, n2));
-      smooth_position -= above0 * n0 + above1 * n1 + above2 * n2;
-    }
-    // Texture directions of the facet.
-    const Vec2 a = q[1] - q[0], b = q[2] - q[0];
-    const double det = a.x * b.y - a.y * b.x;
-    if (det != 0) {
-      const double per_det = 1 / det;
-      du = (per_det * b.y) * ab - (per_det * a.y) * ac;
-      dv = (per_det * a.x) * ac - (per_det * b.x) * ab;
-    }
-  }
-  return {.position = position,
-          .smooth_position = smooth_position,
-          .incoming = incoming,
-          .geometric_normal = geometric,
-          .normal = shading,
-          .du = du,
-          .dv = dv,
-          .u = at.x,
-          .v = at.y,
-          .error = error,
-          .instance = hit.instance,
-          .object = object,
-          .face = hit.face,
-          .piece = hit.piece};
-}
-
 // Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
 // them.
 constexpr double kLeastCell = 4;
@@ -197,6 +78,13 @@ bool is_drawn_only(const Entity& entity) {
 
 struct World::Compiled {
   Hierarchy top;
+  // Hierarchy::place of all hits where nothing is in an instance; else empty.
+  struct Place {
+    const Leaf* leaf;
+    int object;
+    double error;
+  };
+  std::vector<Place> places;
   std::vector<const Object*> objects;  // by the number that hits carry
   WorldStatistics statistics;
   bool transmits = false;
@@ -206,6 +94,17 @@ struct World::Compiled {
   std::map<const Group*, std::shared_ptr<Hierarchy>> groups;
   CameraPtr camera;
 
+  void list_places() {
+    for (int i = 0; i < top.leaf_count(); ++i) {
+      const Hierarchy::Place place = top.place(i);
+      if (place.to_world) {
+        places.clear();
+        return;
+      }
+      places.push_back({place.leaf, place.object, place.error});
+    }
+  }
+
   void count_uses(const std::vector<Object>& list) {
     for (const Object& object : list) {
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
@@ -214,6 +113,35 @@ struct World::Compiled {
         ++uses[key_of(object)];
       }
     }
+  }
+
+  SurfacePoint point_in_world(const Leaf& leaf, const Ray& ray, const Hit& hit, int object, double error) const {
+    SurfacePoint point = point_in_leaf(leaf, hit, ray.at(hit.t), ray.direction, object, error, 1);
+    finish(leaf, ray, point);
+    return point;
+  }
+
+  SurfacePoint point_of_instance(const Hierarchy::Place& place, const Ray& ray, const Hit& hit) const {
+    const Affine &map = *place.to_world, to_leaf = map.inverse();
+    SurfacePoint point = point_in_leaf(*place.leaf, hit, to_leaf.point(ray.at(hit.t)), ray.direction, place.object,
+                                       place.error, geometry::largest_stretch(map));
+    const geometry::Mat3 normals = glm::transpose(to_leaf.linear);
+    point.position = map.point(point.position);
+    point.smooth_position = map.point(point.smooth_position);
+    point.du = map.direction(point.du);
+    point.dv = map.direction(point.dv);
+    point.geometric_normal = glm::normalize(normals * point.geometric_normal);
+    point.normal = glm::normalize(normals * point.normal);
+    finish(*place.leaf, ray, point);
+    return point;
+  }
+
+  // What only the world knows of a point.
+  void finish(const Leaf& leaf, const Ray& ray, SurfacePoint& point) const {
+    const auto size = [](const Vec3& v) { return Vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); };
+    const Vec3 sizes = size(point.position) + size(point.position - ray.origin);
+    point.error += kPositionError * (sizes.x + sizes.y + sizes.z);
+    if (leaf.parameters && camera) point.pixel_size = camera->pixel_size(point.position);
   }
 
   // Sag of a mesh at a place of its own space, for the map that shows it largest among those given.
@@ -406,6 +334,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
     c.add(c.top, model_->objects, Affine());
     c.top.commit();
   });
+  c.list_places();
   for (const Object* object : c.objects)
     for (const Material* material : {object->material.get(), object->back_material.get()})
       c.transmits = c.transmits || (material && material->transmits());
@@ -435,35 +364,14 @@ Vec3 World::center() const { return compiled_->top.center(); }
 double World::radius() const { return compiled_->top.radius(); }
 
 SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
-  const Hierarchy::Place place = compiled_->top.place(hit.instance);
-  const Leaf& leaf = *place.leaf;
-  const auto point_in_leaf = [&](const Vec3& near, double stretch) {
-    if (leaf.mesh) return point_of_mesh(leaf, hit, ray.direction, place.object, place.error);
-    if (!leaf.shape) return point_of_surface(leaf, hit, near, ray.direction, place.object, place.error);
-    const geometry::SurfaceHit of_shape{hit.t, hit.u, hit.v, hit.face, hit.piece};
-    const geometry::ShapePoint at =
-        leaf.parameters ? leaf.shape->point(of_shape, near) : leaf.shape->bare_point(of_shape, near);
-    return point_as_seen(at, {}, hit, ray.direction, place.object, place.error + at.error * stretch);
-  };
-  std::optional<Affine> to_leaf;
-  if (place.to_world) to_leaf = place.to_world->inverse();
-  SurfacePoint point = to_leaf
-                           ? point_in_leaf(to_leaf->point(ray.at(hit.t)), geometry::largest_stretch(*place.to_world))
-                           : point_in_leaf(ray.at(hit.t), 1);
-  if (to_leaf) {
-    const Affine& map = *place.to_world;
-    const geometry::Mat3 normals = glm::transpose(to_leaf->linear);
-    point.position = map.point(point.position);
-    point.smooth_position = map.point(point.smooth_position);
-    point.du = map.direction(point.du);
-    point.dv = map.direction(point.dv);
-    point.geometric_normal = glm::normalize(normals * point.geometric_normal);
-    point.normal = glm::normalize(normals * point.normal);
+  const Compiled& c = *compiled_;
+  if (!c.places.empty()) {
+    const Compiled::Place& place = c.places[hit.instance];
+    return c.point_in_world(*place.leaf, ray, hit, place.object, place.error);
   }
-  const Vec3 size = glm::abs(point.position) + glm::abs(point.position - ray.origin);
-  point.error += kPositionError * (size.x + size.y + size.z);
-  if (compiled_->camera && leaf.parameters) point.pixel_size = compiled_->camera->pixel_size(point.position);
-  return point;
+  const Hierarchy::Place place = c.top.place(hit.instance);
+  return place.to_world ? c.point_of_instance(place, ray, hit)
+                        : c.point_in_world(*place.leaf, ray, hit, place.object, place.error);
 }
 
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
