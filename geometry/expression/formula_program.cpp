@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "geometry/expression/apply_operation.h"
+#include "geometry/numerics/majorant.h"
 
 namespace lekalo::geometry {
 
@@ -115,5 +116,6 @@ template void FormulaProgram::evaluate(std::span<const Jet3<Interval, 2>>, std::
 template void FormulaProgram::evaluate(std::span<const Jet3<double, 3>>, std::span<Jet3<double, 3>>) const;
 template void FormulaProgram::evaluate(std::span<const Gradient<double>>, std::span<Gradient<double>>) const;
 template void FormulaProgram::evaluate(std::span<const Gradient<Interval>>, std::span<Gradient<Interval>>) const;
+template void FormulaProgram::evaluate(std::span<const Majorant<4>>, std::span<Majorant<4>>) const;
 
 }  // namespace lekalo::geometry
