@@ -120,10 +120,12 @@ DisplayResult to_display(const Image& image, const DisplayTransform& transform) 
     for (std::size_t i = rows.begin() * width; i < rows.end() * width; ++i) {
       const double rgb[3] = {planes.r[i], planes.g[i], planes.b[i]};
       const double opacity = alpha ? planes.alpha[i] : 1;
-      if (!std::isfinite(rgb[0]) || !std::isfinite(rgb[1]) || !std::isfinite(rgb[2]) || !std::isfinite(opacity)) ++bad;
+      if (!std::isfinite(rgb[0] + rgb[1] + rgb[2] + opacity)) ++bad;  // sums of floats are no larger than doubles
       std::uint16_t* out = &display.samples[i * static_cast<std::size_t>(display.channels)];
       for (int c = 0; c < colors; ++c) {
-        out[c] = opacity > 0 ? quantizer.color_level(rgb[c] / opacity) : std::uint16_t{0};
+        out[c] = !alpha        ? quantizer.color_level(rgb[c])
+                 : opacity > 0 ? quantizer.color_level(rgb[c] / opacity)
+                               : std::uint16_t{0};
       }
       if (alpha) out[colors] = quantizer.level(opacity);
     }
