@@ -61,6 +61,9 @@ void FormulaProgram::evaluate(std::span<const T> values, std::span<T> results) c
       case Operation::multiply:
         at[step.to] = product(a, b);
         break;
+      case Operation::multiply_add:
+        at[step.to] = product(a, b) + at[step.c];
+        break;
       case Operation::square:
         at[step.to] = sqr(a);
         break;

@@ -6,9 +6,8 @@
 //
 //   error >= |D^4 F [w, w, w, w]| / 24,   slope_error >= |D^4 F [w, w, w, v]| / 6
 //
-// Taylor's formula gives |F(u) - T(u)| <= error and |D(F - T)(u) [v]| <= slope_error. They come from enclosures (jets
-// of intervals, the directions intervals too), mostly of a larger box: in one that is smaller by r they are smaller by
-// r^4.
+// Taylor's formula gives |F(u) - T(u)| <= error and |D(F - T)(u) [v]| <= slope_error. They come from a majorant
+// (numerics/majorant.h), mostly of a larger box: in one that is smaller by r they are smaller by r^4.
 //
 // A line goes through the cells in order, by a grid (Amanatides, Woo 1987). In most of them a straight function that
 // is near F tells that there is no zero: T with each of its terms in Chebyshev's polynomials of the coordinates, cut
