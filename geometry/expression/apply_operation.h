@@ -9,6 +9,7 @@
 #include "geometry/numerics/gradient.h"
 #include "geometry/numerics/interval.h"
 #include "geometry/numerics/jet.h"
+#include "geometry/numerics/sine_cosine.h"
 
 namespace lekalo::geometry::operations {
 
@@ -118,9 +119,11 @@ T quotient(const T& a, const T& b) {
 
 template <class T>
 void sine_and_cosine(const T& a, T& sine, T& cosine) {
-  using std::cos, std::sin;
-  if constexpr (kIsFirstOrder<T>) {
-    const double x = a.c[0], s = std::sin(x), c = std::cos(x);
+  if constexpr (std::is_same_v<T, double>) {
+    geometry::sine_and_cosine(a, sine, cosine);
+  } else if constexpr (kIsFirstOrder<T>) {
+    double s, c;
+    geometry::sine_and_cosine(a.c[0], s, c);
     sine.c[0] = s;
     cosine.c[0] = c;
     for (int k = 1; k < T::kCount; ++k) {
@@ -129,13 +132,12 @@ void sine_and_cosine(const T& a, T& sine, T& cosine) {
     }
   } else if constexpr (kIsJetInOne<T>) {
     // Along a line most arguments are straight: each coefficient is made from the one before it alone.
-    for (int k = 2; k < T::kCount; ++k)
-      if (a.c[k] != 0) return sin_cos(a, sine, cosine);
-    sine.c[0] = std::sin(a.c[0]);
-    cosine.c[0] = std::cos(a.c[0]);
+    bool is_straight = true;
+    for (int k = 2; k < T::kCount; ++k) is_straight = is_straight && a.c[k] == 0;
+    geometry::sine_and_cosine(a.c[0], sine.c[0], cosine.c[0]);
     for (int k = 1; k < T::kCount; ++k) {
-      sine.c[k] = a.c[1] * cosine.c[k - 1] / k;
-      cosine.c[k] = -(a.c[1] * sine.c[k - 1] / k);
+      sine.c[k] = is_straight ? a.c[1] * cosine.c[k - 1] / k : T::chain_coefficient(cosine, a, k);
+      cosine.c[k] = -(is_straight ? a.c[1] * sine.c[k - 1] / k : T::chain_coefficient(sine, a, k));
     }
   } else if constexpr (kIsJet<T>) {
     sin_cos(a, sine, cosine);
@@ -227,7 +229,7 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
       return chosen(truth(b), a, c);
     case Operation::sin:
     case Operation::cos:
-      if constexpr (kIsFirstOrder<T>) {
+      if constexpr (std::is_same_v<T, double> || kIsFirstOrder<T> || kIsJetInOne<T>) {
         T sine, cosine;
         sine_and_cosine(a, sine, cosine);
         return operation == Operation::sin ? sine : cosine;

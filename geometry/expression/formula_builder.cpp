@@ -206,8 +206,25 @@ class FormulaProgram::Builder {
     const int partner = partner_of(i);
     return partner >= 0 ? std::min(i, partner) : i;
   }
+  // A product that was computed last, and is needed for this sum alone, becomes one step with it.
+  bool add_to_product(int i) {
+    const Value& value = values_[i];
+    if (value.operation != Operation::add || program_.steps_.empty()) return false;
+    Step& last = program_.steps_.back();
+    for (const auto& [product, other] : {std::pair(value.a, value.b), std::pair(value.b, value.a)}) {
+      if (last.operation != Operation::multiply || values_[product].operation != Operation::multiply) continue;
+      if (place_[product] != last.to || last_use_[product] != i || product == other || place_[other] < 0) continue;
+      last.operation = Operation::multiply_add;
+      last.c = place_[other];
+      if (last_use_[other] == i) free_.push_back(place_[other]);
+      place_[i] = last.to;
+      return true;
+    }
+    return false;
+  }
   void emit(int i) {
     if (place_[i] >= 0) return;  // with its partner
+    if (add_to_product(i)) return;
     const Value& value = values_[i];
     const int partner = partner_of(i);
     Step step;

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "geometry/expression/apply_operation.h"
+#include "geometry/numerics/majorant.h"
 
 namespace lekalo::geometry {
 
@@ -60,6 +61,9 @@ void FormulaProgram::evaluate(std::span<const T> values, std::span<T> results) c
       case Operation::multiply:
         at[step.to] = product(a, b);
         break;
+      case Operation::multiply_add:
+        at[step.to] = product(a, b) + at[step.c];
+        break;
       case Operation::square:
         at[step.to] = sqr(a);
         break;
@@ -115,5 +119,6 @@ template void FormulaProgram::evaluate(std::span<const Jet3<Interval, 2>>, std::
 template void FormulaProgram::evaluate(std::span<const Jet3<double, 3>>, std::span<Jet3<double, 3>>) const;
 template void FormulaProgram::evaluate(std::span<const Gradient<double>>, std::span<Gradient<double>>) const;
 template void FormulaProgram::evaluate(std::span<const Gradient<Interval>>, std::span<Gradient<Interval>>) const;
+template void FormulaProgram::evaluate(std::span<const Majorant<4>>, std::span<Majorant<4>>) const;
 
 }  // namespace lekalo::geometry

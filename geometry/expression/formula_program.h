@@ -1,8 +1,9 @@
 // Formulas compiled for evaluation: one flat program over the values that several expressions have in common.
 //
-// Equal parts are computed once (value numbering), the sine and the cosine of one argument together, constant parts at
-// build time, over doubles and over intervals each by its own arithmetic. Whole powers are products. Values live in few
-// numbered places that are used again once nothing needs them, so that nothing is allocated and all stays in cache.
+// Equal parts are computed once (value numbering), the sine and the cosine of one argument together, a product with the
+// sum that needs it alone, constant parts at build time, over doubles and over intervals each by its own arithmetic.
+// Whole powers are products. Values live in few numbered places that are used again once nothing needs them, so that
+// nothing is allocated and all stays in cache.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ class FormulaProgram {
 
   // The value of each formula with `values` for the variables.
   // T: double, Interval, Jet<double, 1..6>, Jet2<double, 1..4>, Jet<Interval, 1..2>, Jet2<Interval, 1, 2, 4>,
-  // Jet3<double, 2..3>, Jet3<Interval, 2>, Gradient<double>, Gradient<Interval>.
+  // Jet3<double, 2..3>, Jet3<Interval, 2>, Gradient<double>, Gradient<Interval>, Majorant<4>.
   template <class T>
   void evaluate(std::span<const T> values, std::span<T> results) const;
 

@@ -66,7 +66,8 @@ enum class Operation : std::uint8_t {
   hypot,
   mod,
   clamp,
-  // what FormulaProgram makes of the others: one operand, and a constant in the step
+  // what FormulaProgram makes of the others: a sum with a product, one operand and a constant in the step, two results
+  multiply_add,  // a * b + c
   square,
   scale,        // a * constant
   shift,        // a + constant

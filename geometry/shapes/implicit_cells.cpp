@@ -7,7 +7,7 @@
 #include <deque>
 
 #include "geometry/numerics/instruction_sets.h"
-#include "geometry/numerics/jet2.h"
+#include "geometry/numerics/majorant.h"
 #include "geometry/shapes/sign_changes.h"
 
 namespace lekalo::geometry {
@@ -17,7 +17,7 @@ namespace {
 // Cells are taken so much larger, of the coordinates' size, than where a line is followed through them.
 constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
-constexpr double kGoodModel = 1.0 / 64;
+constexpr double kGoodModel = 1.0 / 8;
 // Fourth derivatives are enclosed anew in boxes down to this part of the region, and in smaller ones as long as that
 // makes the bounds smaller by kGain than what follows from those of the box around.
 constexpr double kSmallBox = 0.13;
@@ -157,16 +157,10 @@ bool ImplicitCells::may_be_zero(const Box3& given) const {
 }
 
 ImplicitCells::FourthDerivatives ImplicitCells::enclose_fourth(const Box3& box, const Vec3& half) const {
-  using Pair = Jet2<Interval, 4>;
-  const auto over = [&](int axis) {
-    Pair r(side(box, axis));
-    r.c[Pair::index(1, 0)] = r.c[Pair::index(0, 1)] = Interval(-half[axis], half[axis]);
-    return r;
-  };
-  const Pair all = formula_(over(0), over(1), over(2));
-  FourthDerivatives result{half, magnitude(all.c[Pair::index(4, 0)]), magnitude(all.c[Pair::index(3, 1)])};
-  if (!(std::isfinite(result.error) && std::isfinite(result.slope_error))) return {half};
-  return result;
+  const auto over = [&](int axis) { return Majorant<4>::variable(side(box, axis), half[axis]); };
+  const double error = magnitude(formula_(over(0), over(1), over(2)).c[4]);
+  if (!std::isfinite(error)) return {half};
+  return {half, error, 4 * error};  // D^4 F [w, w, w, v] / 6 is the coefficient of s^3 t
 }
 
 bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell& cell) const {
@@ -191,10 +185,11 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
   for (int k = 0; k < 3; ++k) cell.g[k] = at.c[1 + k];
   for (int k = 0; k < 6; ++k) bend += std::abs(cell.second[k] = at.c[4 + k]);
   for (int k = 0; k < 10; ++k) bend += std::abs(cell.third[k] = at.c[10 + k]);
-  for (const int pure : {0, 3, 5}) cell.second[pure] *= 2;
-  for (const int pure : {0, 6, 9}) cell.third[pure] *= 3;
-  // Twice the rounding at the middle stands for that of F and of the model elsewhere in the cell.
-  const double slope = sum(glm::abs(cell.g)), rounding = 2 * cell.rounding + cell.slope_rounding + 1e-14 * bend;
+  // Twice the rounding at the middle stands for that of F elsewhere in the cell. The model's values have at most
+  // twelve roundings in each term, and its coefficients six times theirs.
+  const double slope = sum(glm::abs(cell.g));
+  cell.model_rounding = 2e-14 * (std::abs(cell.f) + slope + bend);
+  const double rounding = 2 * cell.rounding + cell.slope_rounding + cell.model_rounding;
   if (std::isfinite(bend + slope + cell.f)) {
     const auto inherit = [&] {
       const double smaller = fourth_power(std::min(largest(half / fourth.half), 1.0));
@@ -209,11 +204,29 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
     }
     cell.error = fourth.error + rounding;
     cell.slope_error = fourth.slope_error + rounding;
-    cell.bend = cell.error + bend;
-    if (std::abs(cell.f) > cell.bend + slope) return false;
-    if (cell.error <= kGoodModel * slope) return true;
+    if (!straighten(cell.error, half, cell)) return false;
+    // Where boxes are large, and few, the formula's own range may still tell more.
+    if (cell.error <= kGoodModel * slope && glm::length(given.size()) < kSmallBox * size_) return true;
   }
   return formula_.enclose(box).contains(0.0);
+}
+
+// x^2 = 1/2 + T_2(x)/2, x^3 = 3/4 x + T_3(x)/4, x^2 y = y/2 + T_2(x) y/2, and |T_n| <= 1: what is left out is half or a
+// quarter of the terms.
+bool ImplicitCells::straighten(double error, const Vec3& half, Cell& cell) const {
+  const auto& [xx, xy, xz, yy, yz, zz] = cell.second;
+  const auto& [xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz] = cell.third;
+  const double f = cell.f + 0.5 * (xx + yy + zz);
+  const Vec3 g = cell.g + 0.75 * Vec3(xxx, yyy, zzz) + 0.5 * Vec3(xyy + xzz, xxy + yzz, xxz + yyz);
+  const auto size = [](auto... terms) { return (std::abs(terms) + ...); };
+  const double left_out = 0.5 * size(xx, yy, zz) + size(xy, xz, yz) + 0.25 * size(xxx, yyy, zzz) +
+                          0.5 * size(xxy, xxz, xyy, xzz, yyz, yzz) + std::abs(xyz);
+  cell.slope = g / half;
+  cell.offset = f - glm::dot(cell.slope, cell.center);
+  // The rounding of these, and of offset + slope (o + t d) for lines that begin near the region.
+  const double far = std::abs(f) + sum(glm::abs(cell.slope) * (glm::abs(cell.center) + 4 * size_));
+  cell.bend = error + left_out + 1e-14 * (far + left_out);
+  return std::abs(f) <= cell.bend + sum(glm::abs(g));
 }
 
 void ImplicitCells::make_grid(const Box3& region, int rounds) {
@@ -250,6 +263,16 @@ void ImplicitCells::fill_grid(int node, const std::array<int, 3>& first, const s
   above[axis] += half[axis];
   fill_grid(nodes_[node].child, first, half);
   fill_grid(nodes_[node].child + 1, above, half);
+}
+
+inline void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1,
+                                       SignChanges& changes) const {
+  const double at_origin = cell.offset + glm::dot(cell.slope, line.origin), rate = glm::dot(cell.slope, line.direction);
+  const double begin = at_origin + t0 * rate, end = at_origin + t1 * rate;
+  if (std::min(begin, end) > cell.bend || std::max(begin, end) < -cell.bend)
+    changes.pass(t0, begin > 0);
+  else
+    follow_model(cell, line, t0, t1, changes);
 }
 
 // From box to box of the grid (Amanatides, Woo 1987), each place computed from the box and not from the one before.
@@ -359,38 +382,35 @@ Told tell(const Stretch& stretch) {
 
 }  // namespace
 
-LEKALO_WIDE void ImplicitCells::follow_cell(const Cell& cell, const Line& line, double t0, double t1,
-                                            SignChanges& changes) const {
+LEKALO_WIDE void ImplicitCells::follow_model(const Cell& cell, const Line& line, double t0, double t1,
+                                             SignChanges& changes) const {
   if (cell.error == kInfinity) return follow_by_intervals(formula_, line, t0, t1, size_, changes);
   const Vec3 origin = (line.origin - cell.center) * cell.scale, direction = line.direction * cell.scale;
-  const Vec3 p = origin + t0 * direction, q = origin + t1 * direction;
-  const double gp = cell.f + glm::dot(cell.g, p), gq = cell.f + glm::dot(cell.g, q);
-  if (std::min(gp, gq) > cell.bend || std::max(gp, gq) < -cell.bend) return changes.pass(t0, gp > 0);
+  const Vec3 p = origin + t0 * direction, step = (t1 - t0) * direction;
   // How fast the line goes through the cell: a stretch of length t is at most t * speed in any coordinate.
   const double speed = largest(glm::abs(direction)), length = t1 - t0;
   constexpr int kRoom = 64;
   Stretch stack[kRoom];
   int top = 0;
   {
-    // The model and its slope at both ends.
-    using Pair = double __attribute__((vector_size(16)));
-    const Pair x{p.x, q.x}, y{p.y, q.y}, z{p.z, q.z};
-    const auto& [s0, s1, s2, s3, s4, s5] = cell.second;
-    const auto& c = cell.third;
-    const Pair xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
-    const Pair xy2 = xy + xy, xz2 = xz + xz, yz2 = yz + yz;
-    const Pair hx = s0 * x + s1 * y + s2 * z, hy = s1 * x + s3 * y + s4 * z, hz = s2 * x + s4 * y + s5 * z;
-    const Pair kx = c[0] * xx + c[1] * xy2 + c[2] * xz2 + c[3] * yy + c[4] * yz + c[5] * zz;
-    const Pair ky = c[1] * xx + c[3] * xy2 + c[4] * xz + c[6] * yy + c[7] * yz2 + c[8] * zz;
-    const Pair kz = c[2] * xx + c[4] * xy + c[5] * xz2 + c[7] * yy + c[8] * yz2 + c[9] * zz;
-    const Pair value = Pair{gp, gq} + 0.5 * (x * hx + y * hy + z * hz) + (1.0 / 3) * (x * kx + y * ky + z * kz);
-    const Vec3 step = (length / 3) * direction;
-    const Pair third = step.x * (cell.g.x + hx + kx) + step.y * (cell.g.y + hy + ky) + step.z * (cell.g.z + hz + kz);
+    // The model at four places, which tell its Bernstein coefficients.
+    using Four = double __attribute__((vector_size(32)));
+    const Four s{0, 1.0 / 3, 2.0 / 3, 1};
+    const Four x = p.x + s * step.x, y = p.y + s * step.y, z = p.z + s * step.z;
+    const auto& [xx, xy, xz, yy, yz, zz] = cell.second;
+    const auto& [xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz] = cell.third;
+    const Four by_x =
+        cell.g.x + x * (xx + xxx * x + xxy * y + xxz * z) + y * (xy + xyy * y + xyz * z) + z * (xz + xzz * z);
+    const Four by_y = cell.g.y + y * (yy + yyy * y + yyz * z) + z * (yz + yzz * z);
+    const Four by_z = cell.g.z + z * (zz + zzz * z);
+    const Four at = cell.f + x * by_x + y * by_y + z * by_z;
+    constexpr double kSixth = 1.0 / 6;
     stack[0] = {t0,
                 t1,
-                {value[0], value[0] + third[0], value[1] - third[1], value[1]},
+                {at[0], kSixth * (18 * at[1] - 9 * at[2] - 5 * at[0] + 2 * at[3]),
+                 kSixth * (18 * at[2] - 9 * at[1] - 5 * at[3] + 2 * at[0]), at[3]},
                 cell.error,
-                cell.slope_error * speed * length};
+                cell.slope_error * speed * length + 6 * cell.model_rounding};
   }
   const auto sign_at = [&](double model, double error, double t) {
     return model > error || (!(model < -error) && is_positive(formula_(line.at(t))));
@@ -417,7 +437,11 @@ LEKALO_WIDE void ImplicitCells::follow_cell(const Cell& cell, const Line& line, 
         changes.pass(stretch.t0, b.b0 > 0);
         break;
       case Told::monotone: {
-        const bool from = sign_at(b.b0, stretch.error, stretch.t0), to = sign_at(b.b3, stretch.error, stretch.t1);
+        // What lies before ends with the same sign.
+        const bool from = std::abs(b.b0) <= stretch.error && changes.has_begun()
+                              ? changes.positive()
+                              : sign_at(b.b0, stretch.error, stretch.t0);
+        const bool to = sign_at(b.b3, stretch.error, stretch.t1);
         changes.pass(stretch.t0, from);
         if (from != to) changes.add(zero_in(cell, line, speed, stretch.t0, stretch.t1, to, b.zero()));
         break;

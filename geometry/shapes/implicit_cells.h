@@ -6,18 +6,18 @@
 //
 //   error >= |D^4 F [w, w, w, w]| / 24,   slope_error >= |D^4 F [w, w, w, v]| / 6
 //
-// Taylor's formula gives |F(u) - T(u)| <= error and |D(F - T)(u) [v]| <= slope_error. They come from enclosures (jets
-// of intervals, the directions intervals too), mostly of a larger box: in one that is smaller by r they are smaller by
-// r^4.
+// Taylor's formula gives |F(u) - T(u)| <= error and |D(F - T)(u) [v]| <= slope_error. They come from a majorant
+// (numerics/majorant.h), mostly of a larger box: in one that is smaller by r they are smaller by r^4.
 //
-// A line goes through the cells in order, by a grid (Amanatides, Woo 1987). In each the model is a cubic polynomial in
-// Bernstein form: stretches where it exceeds the error have no zero; where its slope exceeds its own error F is
-// monotone, and the signs at the ends tell whether there is a zero. A stretch that stays open is halved, or gets a
-// model of its own, the jet of F along the line in the stretch's middle, whose error shrinks with the fourth power of
-// the length. What is left at the size of the rounding (lines that graze, singular points), and formulas with kinks or
-// jumps, are searched by interval arithmetic along the line (Moore, Kearfott, Cloud 2009, ch. 8). Zeros are those of
-// F's own jets of the third order along the line: from where the model has its zero one mostly suffices, by the same
-// bounds.
+// A line goes through the cells in order, by a grid (Amanatides, Woo 1987). In most of them a straight function that
+// is near F tells that there is no zero: T with each of its terms in Chebyshev's polynomials of the coordinates, cut
+// off after the first degree. In the others the model is a cubic polynomial in Bernstein form: stretches where it
+// exceeds the error have no zero; where its slope exceeds its own error F is monotone, and the signs at the ends tell
+// whether there is a zero. A stretch that stays open is halved, or gets a model of its own, the jet of F along the line
+// in the stretch's middle, whose error shrinks with the fourth power of the length. What is left at the size of the
+// rounding (lines that graze, singular points), and formulas with kinks or jumps, are searched by interval arithmetic
+// along the line (Moore, Kearfott, Cloud 2009, ch. 8). Zeros are those of F's own jets of the third order along the
+// line: from where the model has its zero one mostly suffices, by the same bounds.
 //
 // The sign at a place is the model's where that is certain and else that of the computed F, zero counted as positive:
 // neighbours agree on it, and crossings alternate.
@@ -55,14 +55,18 @@ class ImplicitCells {
   void follow(const Line& line, double t0, double t1, SignChanges& changes) const;
 
  private:
-  // All but the middle in the cell's own coordinates.
   struct Cell {
+    // |F(p) - (offset + slope p)| <= bend for the places p of the cell: most lines ask for no more.
+    double offset = 0;
+    Vec3 slope{0};
+    double bend = kInfinity;
+    // All but the middle in the cell's own coordinates.
     Vec3 center{0}, scale{0};  // scale: one over half the sides
     double f = 0;
     Vec3 g{0};
-    double bend = kInfinity;         // bounds |F(u) - (f + g u)|
-    std::array<double, 6> second{};  // derivatives: xx, xy, xz, yy, yz, zz
-    std::array<double, 10> third{};  // halves of the derivatives xxx, xxy, xxz, xyy, xyz (all of it), xzz, yyy, ...
+    std::array<double, 6> second{};  // coefficients of xx, xy, xz, yy, yz, zz
+    std::array<double, 10> third{};  // of xxx, xxy, xxz, xyy, xyz, xzz, yyy, ...
+    double model_rounding = 0;       // of the model's values and Bernstein coefficients
     double error = kInfinity;        // infinite: there is no model
     double slope_error = 0;
     double rounding = 0;        // of F
@@ -93,11 +97,15 @@ class ImplicitCells {
   bool may_be_zero(const Box3& box) const;
   // The same, with a model. `fourth` holds for a box around this one; better bounds are put there.
   bool make_cell(const Box3& box, FourthDerivatives& fourth, Cell& cell) const;
+  // The straight function nearest to the model, which differs from F by at most the model's error, is put there.
+  // False where it tells that there is no zero.
+  bool straighten(double error, const Vec3& half, Cell& cell) const;
   // Of nodes whose parts are halved up to `rounds` times along all their long axes.
   void make_grid(const Box3& region, int rounds);
   void fill_grid(int node, const std::array<int, 3>& first, const std::array<int, 3>& count);
   void follow_node(int node, const Line& line, double t0, double t1, SignChanges& changes) const;
   void follow_cell(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const;
+  void follow_model(const Cell& cell, const Line& line, double t0, double t1, SignChanges& changes) const;
   double zero_in(const Cell& cell, const Line& line, double speed, double t0, double t1, bool rising,
                  double share) const;
 

@@ -31,8 +31,11 @@ png_voidp allocate(png_structp, png_alloc_size_t size) {
 }
 void release(png_structp, png_voidp memory) { std::free(memory); }
 
-// libpng packs a 1280 x 960 rendering in 0.07 s at this level and in 0.16 s at its default 6, for 8% fewer bytes.
-constexpr int kCompressionLevel = 4;
+// Of renderings each pixel less the one before (PNG_FILTER_SUB) packs about as well as the best filter of each row,
+// which libpng would look for. Packing takes a quarter of the time at libpng's defaults (level 6, all filters), for 5
+// to 20% more bytes.
+constexpr int kCompressionLevel = 3;
+constexpr int kFilter = PNG_FILTER_SUB;
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
   *static_cast<std::string*>(png_get_error_ptr(png)) = message;
@@ -181,6 +184,7 @@ struct PngWriter::State {
                                    PNG_COLOR_TYPE_RGB_ALPHA};
     png_set_write_fn(png, this, write_bytes, nullptr);
     png_set_compression_level(png, kCompressionLevel);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, kFilter);
     png_set_IHDR(png, info, static_cast<png_uint_32>(format.width), static_cast<png_uint_32>(format.height),
                  format.bits, kColorTypes[format.channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace lekalo::geometry {
 namespace {
@@ -219,6 +220,30 @@ TEST(Expression, programs_of_several_formulas_share_their_parts) {
     EXPECT_NEAR(gradients[k].c[1], jet.c[1], 1e-13 * (1 + std::abs(jet.c[1]))) << k;
     EXPECT_EQ(gradients[k].c[2], 0) << k;
     EXPECT_NEAR(gradients[k].c[3], jet.c[2], 1e-13 * (1 + std::abs(jet.c[2]))) << k;
+  }
+}
+
+// Whole numbers are exact: sums and products of parts that are used once and more than once, in any order.
+TEST(Expression, sums_of_products_that_are_used_again) {
+  std::mt19937 random(1);
+  const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
+  for (int n = 0; n < 200; ++n) {
+    std::vector<std::pair<std::string, double>> parts{{"u", 2}, {"v", -3}, {"w", 5}};
+    while (parts.size() < 14) {
+      const auto [a, x] = parts[below(parts.size())];
+      const auto [b, y] = parts[below(parts.size())];
+      const bool is_product = below(2) == 0;
+      if (a.size() + b.size() > 300 || std::abs(x * y) > 1e12) continue;
+      parts.push_back({"(" + a + (is_product ? "*" : "+") + b + ")", is_product ? x * y : x + y});
+    }
+    std::vector<Expression> formulas;
+    for (const auto& part : parts) formulas.push_back(bound(part.first, {{"u"}, {"v"}, {"w"}}));
+    std::vector<double> values(parts.size());
+    FormulaProgram(formulas).evaluate(std::span<const double>(std::array{2.0, -3.0, 5.0}), std::span<double>(values));
+    for (size_t k = 0; k < parts.size(); ++k) {
+      EXPECT_EQ(values[k], parts[k].second) << parts[k].first;
+      EXPECT_EQ(formulas[k](2.0, -3.0, 5.0), parts[k].second) << parts[k].first;
+    }
   }
 }
 

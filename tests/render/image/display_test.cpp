@@ -40,6 +40,22 @@ TEST(Display, EverySrgbLevelSurvives) {
   EXPECT_EQ(result.non_finite, 0u);
 }
 
+// By the curve itself, at even steps of light and on both sides of every change of level.
+TEST(Display, LevelsAreThoseOfTheCurve) {
+  std::vector<float> values;
+  for (int i = 0; i <= 100000; ++i) values.push_back(static_cast<float>(i) / 100000);
+  for (int i = 1; i < 256; ++i) {
+    float value = static_cast<float>(srgb_decode((i - 0.5) / 255));
+    for (int k = 0; k < 3; ++k) value = std::nextafter(value, 0.0f);
+    for (int k = 0; k < 7; ++k, value = std::nextafter(value, 1.0f)) values.push_back(value);
+  }
+  for (const int bits : {8, 16}) {
+    const DisplayImage shown = to_display(grey(values), {.bits = bits}).image;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      ASSERT_EQ(shown.samples[i], std::lround(((1 << bits) - 1) * srgb_encode(values[i]))) << values[i];
+  }
+}
+
 TEST(Display, ExposureIsInStops) {
   EXPECT_EQ(to_display(grey({0.125f}), {.exposure = 2}).image.samples[0], 188);  // half light: level 187.5
   EXPECT_EQ(to_display(grey({1.0f}), {.exposure = -1, .bits = 16}).image.samples[0],
