@@ -1,11 +1,17 @@
 #include "geometry/queries/ball_circles.h"
 
+#include <array>
+
+#include "geometry/curves/polynomial_approximation.h"
+
 namespace lekalo::geometry {
 
 namespace {
 
 constexpr double kShallow = 0.7;  // |k| down to which angles tell points near joins
 constexpr int kPlacesOfArc = 64;
+constexpr double kAgreeInPace = 1e-9;  // of the size
+constexpr int kCheckedPlaces = 7;      // of each piece of a fitted line
 
 }  // namespace
 
@@ -173,6 +179,20 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
   if (lo->t < hi->t)
     for (const double sign : {1.0, -1.0}) paths.push_back({{lo->t, hi->t}, [=](double s) { return by_t(s, sign); }});
   return paths;
+}
+
+CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec3(double)>& point_at,
+                     const std::function<bool(double, const Vec3&)>& is_on_line) {
+  const std::array<Interval, 1> whole{range};
+  if (auto curve = polynomial_approximation(point_at, whole, kAgreeOnBalls * size)) return curve;
+  const auto curve = polynomial_approximation(point_at, whole, kAgreeInPace * size);
+  if (!curve) return nullptr;
+  for (const CurvePiece& piece : curve->pieces())
+    for (int k = 0; k < kCheckedPlaces; ++k) {
+      const double s = piece.domain.lo + (k + 0.5) / kCheckedPlaces * piece.domain.width();
+      if (!is_on_line(s, curve->point(s))) return nullptr;
+    }
+  return curve;
 }
 
 }  // namespace lekalo::geometry

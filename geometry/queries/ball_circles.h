@@ -17,7 +17,8 @@ namespace lekalo::geometry {
 inline constexpr double kBesideBalls = 1e-7;
 // Directions of a curve that differ by less go on smoothly.
 inline constexpr double kCorner = 1e-6;
-inline constexpr double kSameOnBalls = 1e-12;  // of parameters: parts as short are none
+inline constexpr double kAgreeOnBalls = 1e-13;  // of the size: lines that are fitted
+inline constexpr double kSameOnBalls = 1e-12;   // of parameters: parts as short are none
 
 // The circle of the points c + R n of a ball with n = k axis + s (cos x + sin y).
 struct BallCircle {
@@ -83,6 +84,12 @@ struct WallPath {
 // `share` is k by t.
 std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi,
                                  const std::function<double(double)>& share);
+
+// A line on a tube as a polynomial curve that agrees to 1e-13 of the size. Where the two points of a circle nearly meet
+// rounding moves them along the line: there the curve goes on at a pace of its own, as long as its points are on the
+// line as exactly, by is_on_line(parameter, point). Null where neither can be had.
+CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec3(double)>& point_at,
+                     const std::function<bool(double, const Vec3&)>& is_on_line);
 
 // Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
 // ends of stretches by halving.

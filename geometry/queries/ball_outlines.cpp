@@ -15,7 +15,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves that are approximated
 constexpr double kAgreeAside = 1e-4;
 // Of h, relative: less is the end-on view, where n is not determined.
 constexpr double kEndOn = 1e-13;
@@ -151,6 +150,7 @@ class TubeOutlines {
   }
 
   void add_path(const Interval& range, const std::function<WallPlace(double)>& place) {
+    const auto t_at = [&](double s) { return place(s).t; };
     const auto normal_at = [&](double s) { return normal(place(s)); };
     const auto point_at = [&](double s) {
       const WallPlace at = place(s);
@@ -173,20 +173,39 @@ class TubeOutlines {
     each_stretch(range, kCuspPlaces, bends_away, [&](const Interval& smooth, bool away) {
       const int share = static_cast<int>(std::ceil(places * smooth.width() / range.width()));
       each_stretch(smooth, std::max(8, share), is_outside, [&](const Interval& part, bool outside) {
-        if (outside) put(part, point_at, normal_at, away ? 1 : -1);
+        if (outside) put(part, t_at, point_at, normal_at, away ? 1 : -1);
       });
     });
   }
 
-  void put(const Interval& range, const std::function<Vec3(double)>& point_at,
-           const std::function<Vec3(double)>& normal_at, double side) {
-    std::vector<Interval> parts{range};
-    CurvePtr curve = polynomial_approximation(point_at, parts, kAgree * size_);
-    if (!curve) {
-      curve = polynomial_approximation(point_at, parts, kLeastAgree * size_);
-      result_.complete = false;
+  // The ball that touches the wall at a point of it, (p - c) . c' = -R R', near t.
+  BallJet touching_ball(const Vec3& p, double t) const {
+    constexpr int kSteps = 3;
+    const Interval domain = sweep_.curve().domain();
+    for (int step = 0; step < kSteps; ++step) {
+      const BallJet at = sweep_.ball(t);
+      const Vec3 off = p - at.center[0];
+      const double value = glm::dot(off, at.center[1]) + at.radius[0] * at.radius[1];
+      const double slope = glm::dot(off, at.center[2]) - glm::dot(at.center[1], at.center[1]) +
+                           at.radius[1] * at.radius[1] + at.radius[0] * at.radius[2];
+      if (slope != 0) t = std::clamp(t - value / slope, domain.lo, before_end(domain.hi));
     }
-    const CurvePtr aside = polynomial_approximation([&](double s) { return side * normal_at(s); }, parts, kAgreeAside);
+    return sweep_.ball(t);
+  }
+
+  void put(const Interval& range, const std::function<double(double)>& t_at,
+           const std::function<Vec3(double)>& point_at, const std::function<Vec3(double)>& normal_at, double side) {
+    const std::array<Interval, 1> whole{range};
+    // Off the outline by d, along the wall, the way of sight is off the tangent plane by d/R.
+    const auto is_on_outline = [&](double s, const Vec3& p) {
+      const BallJet ball = touching_ball(p, t_at(s));
+      const Vec3 n = (p - ball.center[0]) / ball.radius[0];
+      const Vec3 sight = glm::normalize(view_.central ? p - view_.direction_or_eye : view_.direction_or_eye);
+      return std::abs(glm::length(n) - 1) * ball.radius[0] <= kAgreeOnBalls * size_ &&
+             std::abs(glm::dot(n, sight)) * ball.radius[0] <= kAgreeOnBalls * size_;
+    };
+    const CurvePtr curve = fitted_line(range, size_, point_at, is_on_outline);
+    const CurvePtr aside = polynomial_approximation([&](double s) { return side * normal_at(s); }, whole, kAgreeAside);
     if (!curve || !aside) {
       result_.complete = false;
       return;

@@ -10,9 +10,7 @@
 // where the curve goes nearly straight through the plane it is a function of the angle, at each angle the t of the
 // wall's line that lies in the plane. (By t alone a section across a tube, which is all of one circle, could not be
 // told.)
-#include <array>
 
-#include "geometry/curves/polynomial_approximation.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/ball_circles.h"
 #include "geometry/queries/ball_outlines.h"
@@ -21,11 +19,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Of the size: of curves that are approximated, with those that lie on the wall and in the plane though they do not go
-// along them at the path's own pace: where the two points of a circle nearly meet, rounding moves them along the
-// section.
-constexpr double kAgree = 1e-13, kAgreeInPace = 1e-9;
-constexpr int kCheckedPlaces = 7;  // of each piece of such a curve
 // |e . m| from which a loop about the tube is a function of the angle.
 constexpr double kSteep = 0.8;
 constexpr double kShortest = 1e-6;  // of the domain: on stretches as short g is rounding, or has one top
@@ -271,14 +264,18 @@ class TubeSection {
   }
 
   void put(const Interval& range, const std::function<WallPoint(double)>& path) {
-    const std::array<Interval, 1> parts{range};
-    const auto point_at = [&](double s) { return path(s).point(); };
-    CurvePtr curve = polynomial_approximation(point_at, parts, kAgree * size_);
+    // By the balls that touch the wall at the path's own places: distances change by the square of what these are off.
+    const auto is_on_section = [&](double s, const Vec3& p) {
+      const BallJet ball = sweep_.ball(path(s).t);
+      return std::abs(glm::dot(p - origin_, m_)) <= kAgreeOnBalls * size_ &&
+             std::abs(glm::length(p - ball.center[0]) - ball.radius[0]) <= kAgreeOnBalls * size_;
+    };
+    const CurvePtr curve = fitted_line(
+        range, size_, [&](double s) { return path(s).point(); }, is_on_section);
     if (!curve) {
-      curve = polynomial_approximation(point_at, parts, kAgreeInPace * size_);
-      if (!curve || !lies_on_section(*curve, path)) result_.complete = false;
+      result_.complete = false;
+      return;
     }
-    if (!curve) return;
     ShapeOutline line{curve, true, nullptr, {}};
     const auto faces_viewer = [&](double s) {
       const WallPoint at = path(s);
@@ -288,20 +285,6 @@ class TubeSection {
       if (part.lo > range.lo) line.turns.push_back(part.lo);
     });
     result_.lines.push_back(std::move(line));
-  }
-
-  // By the balls that touch the wall at the path's own places: distances change by the square of what these are off.
-  bool lies_on_section(const Curve& curve, const std::function<WallPoint(double)>& path) const {
-    for (const CurvePiece& piece : curve.pieces())
-      for (int k = 0; k < kCheckedPlaces; ++k) {
-        const double s = piece.domain.lo + (k + 0.5) / kCheckedPlaces * piece.domain.width();
-        const Vec3 p = curve.point(s);
-        const BallJet ball = sweep_.ball(path(s).t);
-        if (std::abs(glm::dot(p - origin_, m_)) > kAgree * size_ ||
-            std::abs(glm::length(p - ball.center[0]) - ball.radius[0]) > kAgree * size_)
-          return false;
-      }
-    return true;
   }
 
   // The plane's circle on the ball between two pieces of the curve, or at one of its ends.
@@ -335,7 +318,7 @@ class TubeSection {
       const Vec3 middle = end.point + glm::dot(origin_ - end.point, m_) / (sine * sine) * across;
       const Vec3 way = along / sine;
       std::vector<SurfaceHit> hits;
-      tube_.all_hits({middle + kAgree * size_ * end.inward, way}, {-kInfinity, kInfinity}, hits);
+      tube_.all_hits({middle + kAgreeOnBalls * size_ * end.inward, way}, {-kInfinity, kInfinity}, hits);
       const Interval domain = sweep_.curve().domain();
       double reach = 0;
       for (int cell = end.begin; cell < end.end; ++cell)
@@ -373,7 +356,7 @@ ShapeOutlines edge_of_end(const Tube& tube, int side, const ViewOf& view) {
   if (end.begin >= end.end) return {};
   const Interval range{cells[static_cast<size_t>(end.begin)].t.lo, cells[static_cast<size_t>(end.end - 1)].t.hi};
   // Behind the plane by what lines are told to: on it rounding would cut them off or not.
-  const Vec3 origin = end.point + kAgree * tube.bounds().diameter() * end.inward;
+  const Vec3 origin = end.point + kAgreeOnBalls * tube.bounds().diameter() * end.inward;
   return TubeSection(tube, origin, end.inward, view).find_wall(range);
 }
 
