@@ -212,13 +212,8 @@ class TubeOutlines {
     const double R = b.radius[0];
     const Vec3 inward = second - first, across = glm::cross(first, second);
     if (glm::length(inward) < kCorner) return;
-    const auto is_straight = [](const BallJet& at) {
-      return glm::length(glm::cross(at.center[1], at.center[2])) <
-                 kSameOnBalls * glm::dot(at.center[1], at.center[1]) &&
-             at.radius[1] == 0;
-    };
     const double cosine = glm::length(first + second) / 2;  // of half the turn
-    if (!is_straight(a) || !is_straight(b) || !(glm::length(across) > kCorner)) return;
+    if (!is_straight_corner(sweep_, before, after) || !(glm::length(across) > kCorner)) return;
     Frame frame;
     frame.origin = b.center[0];
     frame.x = glm::normalize(across), frame.y = glm::normalize(inward), frame.z = glm::cross(frame.x, frame.y);

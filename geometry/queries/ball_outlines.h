@@ -25,6 +25,7 @@ struct ShapeOutline {
   // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the shape.
   CurvePtr aside;
   std::vector<double> turns;  // of edges, by t: where a surface at the edge turns away from the viewer
+  Curve2Ptr image;            // of the line in which a surface is met: on that surface
 };
 
 struct ShapeOutlines {

@@ -33,10 +33,10 @@ std::array<std::array<S, kMaxSurfaceOrder + 1>, 2> waves(const S& v) {
 
 }  // namespace
 
-CanalSurface::CanalSurface(const BallSweep& sweep, const Interval& range)
-    : range_(range), is_closed_(sweep.curve().is_closed() && range == sweep.curve().domain()) {
+CanalSurface::CanalSurface(const BallSweep& sweep, const Interval& range, bool closes)
+    : range_(range), is_closed_(closes && sweep.curve().is_closed() && range == sweep.curve().domain()) {
   const CurvePtr whole(CurvePtr(), &sweep.curve());  // which outlives the ribbon
-  const CurvePtr curve = range == whole->domain() ? whole : std::make_shared<CurvePart>(whole, range);
+  const CurvePtr curve = is_closed_ ? whole : std::make_shared<CurvePart>(whole, range);
   const Ribbon ribbon(curve, sweep.size(), {});
   const auto circle = [&](double t) -> std::array<Vec3, 3> {
     const BallJet ball = sweep.ball(t);
@@ -117,6 +117,14 @@ SurfaceEnclosure CanalSurface::enclose(const Rectangle& box, int order) const {
     }
   }
   return result;
+}
+
+Vec3 CanalSurface::outward(double u, double v) const {
+  if (is_closed_) u = wrapped(u, range_);
+  const Part& at = part(u);
+  const double x = at.center.local(u);
+  const Vec3 from_axis = std::cos(v) * at.x.value(x) + std::sin(v) * at.y.value(x), n = normal(u, v);
+  return glm::dot(n, from_axis) < 0 ? -n : n;
 }
 
 std::vector<SurfacePiece> CanalSurface::pieces() const {

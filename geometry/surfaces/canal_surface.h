@@ -21,9 +21,10 @@ namespace lekalo::geometry {
 // than its radius allows.
 class CanalSurface final : public Surface {
  public:
-  // Over a range of the curve's parameter. Throws FieldError where there is no such surface: the curve has a corner or
-  // rests, the radius jumps, or changes so fast, |R'| >= |c'|, that balls hold others.
-  CanalSurface(const BallSweep& sweep, const Interval& range);
+  // Over a range of the curve's parameter; `closes`: where that is all of a closed curve the wall is closed, too.
+  // Throws FieldError where there is no such surface: the curve has a corner or rests, the radius jumps, or changes so
+  // fast, |R'| >= |c'|, that balls hold others.
+  CanalSurface(const BallSweep& sweep, const Interval& range, bool closes = true);
 
   Rectangle domain() const override { return {range_, {0, kTwoPi}}; }
   Periods periods() const override { return {is_closed_ ? range_.width() : 0, kTwoPi}; }
@@ -31,6 +32,9 @@ class CanalSurface final : public Surface {
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return kMaxSurfaceOrder; }
   std::vector<SurfacePiece> pieces() const override;
+
+  // The unit normal on the side that is outside of the ball; the surface's own where it bends no more than its radius.
+  Vec3 outward(double u, double v) const;
 
  private:
   static constexpr int kTerms = 14;
