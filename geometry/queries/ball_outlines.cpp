@@ -42,7 +42,6 @@ class TubeOutlines {
       add_ball(before_end(curve.domain().hi), std::nullopt);
       if (tube_.caps() != Caps::round) add_ends();
     }
-    if (creases_ > 0) result_.meets_itself = false;  // at its corners
     return std::move(result_);
   }
 
@@ -163,9 +162,7 @@ class TubeOutlines {
     const auto is_outside = [&](double s) {
       const Vec3 p = point_at(s);
       if (tube_.is_cut_off(p, place(s).t)) return false;
-      if (!tube_.holds(p + kBesideBalls * size_ * normal_at(s))) return true;
-      result_.meets_itself = true;
-      return false;
+      return !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
     };
     // Cut at cusps, and where it enters or leaves the tube itself or what its ends cut away.
     constexpr int kCuspPlaces = 1024;
@@ -230,7 +227,6 @@ class TubeOutlines {
           },
           point, view_, {0, kPi}, crease.turns);
     result_.lines.push_back(std::move(crease));
-    ++creases_;
   }
 
   // What of it other parts of the tube do not hide.
@@ -269,7 +265,6 @@ class TubeOutlines {
   const BallSweep& sweep_;
   const ViewOf& view_;
   double size_;
-  int creases_ = 0;
   ShapeOutlines result_;
 };
 

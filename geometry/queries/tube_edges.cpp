@@ -59,6 +59,11 @@ bool TubeBoundary::bends_too_much(const CanalSurface& wall) const {
   return false;
 }
 
+bool TubeBoundary::bends_too_much() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [this](const Part& part) { return part.wall && bends_too_much(*part.wall); });
+}
+
 bool TubeBoundary::may_meet_itself(const CanalSurface& wall) const {
   const std::vector<Cell> cells = cells_in(tube_.sweep(), wall.domain().u);
   const double radius = cells.front().middle.radius[0];
@@ -92,7 +97,7 @@ std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, con
   if (!part.wall) return part;
   const BallSweep& sweep = tube_.sweep();
   const Interval whole = sweep.curve().domain();
-  Interval range = part.wall->domain().u;
+  const Interval range = part.wall->domain().u;
   const auto is_one = [&](double a, double b) {
     return std::abs(a - b) <= kSameOnBalls * whole.width() ||
            (sweep.curve().is_closed() && std::abs(std::abs(a - b) - whole.width()) <= kSameOnBalls * whole.width());
@@ -104,15 +109,17 @@ std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, con
   if (other.wall) ends = {other.wall->domain().u.lo, other.wall->domain().u.hi};
   if (other.end >= 0) ends = {other.end == 0 ? whole.lo : whole.hi};
   const std::vector<Cell> cells = cells_in(sweep, range);
-  size_t first = 0, last = cells.size();
+  const int count = static_cast<int>(cells.size());
+  int first = 0, last = count;
   for (const double end : ends) {
-    if (is_one(range.lo, end)) first = other.end == 0 ? static_cast<size_t>(tube_.end(0).end) : 1;
-    if (is_one(range.hi, end)) last -= other.end == 1 ? cells.size() - static_cast<size_t>(tube_.end(1).begin) : 1;
+    const int own = other.end >= 0 ? tube_.end(other.end).end - tube_.end(other.end).begin : 0;  // of a flat end
+    if (is_one(range.lo, end)) first = std::max(1, own);
+    if (is_one(range.hi, end)) last = count - std::max(1, own);
   }
-  if (first == 0 && last == cells.size()) return part;
+  if (first == 0 && last == count) return part;
   if (first >= last) return std::nullopt;
   const auto wall = std::make_shared<CanalSurface>(
-      sweep, Interval{std::max(range.lo, cells[first].t.lo), std::min(range.hi, cells[last - 1].t.hi)}, false);
+      sweep, Interval{cells[static_cast<size_t>(first)].t.lo, cells[static_cast<size_t>(last - 1)].t.hi}, false);
   return Part{wall, wall, {}, {}, -1};
 }
 
@@ -129,7 +136,7 @@ bool TubeBoundary::meet_in_curved_corner(const CanalSurface& a, const CanalSurfa
 
 ShapeOutlines TubeBoundary::edges(const ViewOf& view) const {
   ShapeOutlines found;
-  found.meets_itself = !complete_;
+  found.complete = complete_;
   const auto add = [&](const Contours& contours, const Part& a, const Part& b) {
     found.complete = found.complete && contours.complete;
     for (const Contour& contour : contours.branches)
@@ -138,10 +145,7 @@ ShapeOutlines TubeBoundary::edges(const ViewOf& view) const {
   for (size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (part.wall) {
-      if (bends_too_much(*part.wall))
-        found.meets_itself = true;
-      else if (may_meet_itself(*part.wall))
-        add(self_intersection(part.surface), part, part);
+      if (!bends_too_much(*part.wall) && may_meet_itself(*part.wall)) add(self_intersection(part.surface), part, part);
     }
     for (size_t k = i + 1; k < parts_.size(); ++k) {
       const Part& other = parts_[k];

@@ -38,9 +38,10 @@ class TubeBoundary {
   ShapeOutlines meeting(const ImplicitFormula& formula, const Affine& to_formula, const ViewOf& view) const;
   ShapeOutlines meeting(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const;
 
-  // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h).
-  // meets_itself: where the curve bends more than the radius, and there are more.
+  // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h) and
+  // for parts without corners that bend more than the radius allows somewhere, whose own edges are not told.
   ShapeOutlines edges(const ViewOf& view) const;
+  bool bends_too_much() const;
 
   // Of a part at a place: the direction out of the tube, and whether the place is on the boundary, as seen from so far
   // outside, of the size.

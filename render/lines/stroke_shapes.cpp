@@ -186,6 +186,11 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
         if (line.kind == asked) add(line, style, hidden);
     } else if ((tube || balls) && kind_ != "smooth") {
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
+      if (!tube || !edges) return;
+      const TubeBoundary& boundary = boundary_of(*tube);
+      if (boundary.bends_too_much())
+        leave_out("the edges where " + name_of_object() + " bends more than its radius allows");
+      add_on_tube(boundary.edges(own_view), nullptr, style, hidden);
     }
   });
 }
@@ -193,7 +198,6 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
   if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
-  if (outlines.meets_itself && edges) leave_out("the edges along which " + name_of_object() + " goes through itself");
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
     aside_ = line.aside, cusps_ = line.turns;
