@@ -104,9 +104,9 @@ class Lines {
     if (leaf.implicit) add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
     if (leaf.tube) {
       add(tube_outlines(leaf), leaf.map, true, sharp);
-      add(boundary_of(k).edges(view_of(leaf)), leaf.map, true, sharp);
-      if (boundary_of(k).bends_too_much())
-        result_.left_out.insert("the edges where a tube bends more than its radius allows");
+      const TubeBoundary::Edges own = boundary_of(k).edges(view_of(leaf));
+      add(own.lines, leaf.map, true, sharp);
+      if (!own.all_of_bends) result_.left_out.insert("edges where a tube bends more than its radius allows");
     }
     if (!leaf.body || leaf.is_region) return;
     const Body& body = *leaf.body;

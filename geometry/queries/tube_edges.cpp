@@ -8,10 +8,12 @@
 #include <cmath>
 #include <optional>
 
-#include "geometry/describe.h"
+#include "geometry/point_formulas.h"
 #include "geometry/queries/ball_circles.h"
 #include "geometry/queries/box_tree.h"
+#include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/self_intersections.h"
+#include "geometry/queries/tube_bends.h"
 #include "geometry/queries/tube_lines.h"
 
 namespace lekalo::geometry {
@@ -40,6 +42,9 @@ Bend bend_of(const Cell& cell) {
   return {slowest > 0 ? across / (slowest * slowest) : kInfinity, 2 * h * (speed + turn)};
 }
 
+// Of a closed curve, a place beyond the end of its domain.
+double in_domain(const Curve& curve, double t) { return curve.is_closed() ? wrapped(t, curve.domain()) : t; }
+
 double apart(const Box3& a, const Box3& b) {
   return glm::length(glm::max(Vec3(0), glm::max(a.lo - b.hi, b.lo - a.hi)));
 }
@@ -57,11 +62,6 @@ bool TubeBoundary::bends_too_much(const CanalSurface& wall) const {
       }
   }
   return false;
-}
-
-bool TubeBoundary::bends_too_much() const {
-  return std::any_of(parts_.begin(), parts_.end(),
-                     [this](const Part& part) { return part.wall && bends_too_much(*part.wall); });
 }
 
 bool TubeBoundary::may_meet_itself(const CanalSurface& wall) const {
@@ -118,9 +118,7 @@ std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, con
   }
   if (first == 0 && last == count) return part;
   if (first >= last) return std::nullopt;
-  const auto wall = std::make_shared<CanalSurface>(
-      sweep, Interval{cells[static_cast<size_t>(first)].t.lo, cells[static_cast<size_t>(last - 1)].t.hi}, false);
-  return Part{wall, wall, {}, {}, -1};
+  return wall_over(cells[static_cast<size_t>(first)].t.lo, cells[static_cast<size_t>(last - 1)].t.hi);
 }
 
 bool TubeBoundary::meet_in_curved_corner(const CanalSurface& a, const CanalSurface& b) const {
@@ -134,19 +132,131 @@ bool TubeBoundary::meet_in_curved_corner(const CanalSurface& a, const CanalSurfa
           is_corner_between(second.hi, first.lo));
 }
 
-ShapeOutlines TubeBoundary::edges(const ViewOf& view) const {
-  ShapeOutlines found;
-  found.complete = complete_;
-  const auto add = [&](const Contours& contours, const Part& a, const Part& b) {
-    found.complete = found.complete && contours.complete;
-    for (const Contour& contour : contours.branches)
-      if (contour.kind == ContourKind::crossing) add_edges(contour, a, b, view, found);
+TubeBoundary::Part TubeBoundary::wall_over(double from, double to) const {
+  const auto wall = std::make_shared<CanalSurface>(tube_.sweep(), Interval{from, to}, false);
+  return {wall, wall, {}, {}, -1};
+}
+
+void TubeBoundary::add_edges(const Contours& contours, const Part& a, const Part& b, const ViewOf& view,
+                             Edges& found) const {
+  found.lines.complete = found.lines.complete && contours.complete;
+  for (const Contour& contour : contours.branches) {
+    if (contour.kind != ContourKind::crossing) continue;
+    const Curve2Ptr on_a = contour_approximation(contour.curve, *a.surface, contour.images[0]),
+                    on_b = contour_approximation(contour.curve, *b.surface, contour.images[1]);
+    TubeLine line;
+    line.curve = contour_approximation(contour.curve);
+    line.places = std::max(line.places, static_cast<int>(tube_.sweep().cells().size()));
+    line.outward = {[&, on_a](double t) { return outward(a, Vec2(on_a->point(t))); },
+                    [&, on_b](double t) { return outward(b, Vec2(on_b->point(t))); }};
+    line.is_bare = [&](double t, double beside) {
+      return is_bare_edge(a, Vec2(on_a->point(t)), b, Vec2(on_b->point(t)), beside);
+    };
+    add_bare(line, view, found.lines);
+  }
+}
+
+// Where two balls touch the edge, those kept whose places on the curve are.
+TubeLine TubeBoundary::edge_of_balls(const CurvePtr& curve, const std::function<Vec2(double)>& balls,
+                                     const std::function<bool(const Vec2&)>& keeps) const {
+  const auto normal = [this, curve](double t, double ball) {
+    return glm::normalize(curve->point(t) - tube_.sweep().ball(in_domain(tube_.sweep().curve(), ball)).center[0]);
   };
+  TubeLine line;
+  line.curve = curve;
+  line.outward = {[=](double t) { return normal(t, balls(t).x); }, [=](double t) { return normal(t, balls(t).y); }};
+  line.is_bare = [=, this](double t, double beside) {
+    const Vec2 both = balls(t);
+    if (!keeps(both)) return false;
+    const Vec3 p = curve->point(t), n = normal(t, both.x) + normal(t, both.y);
+    return !tube_.is_cut_off(p, both.x) && !tube_.is_cut_off(p, both.y) &&
+           !tube_.holds(p + beside * size_ * glm::normalize(n));
+  };
+  return line;
+}
+
+// Bends X are stretches of cells on which the wall may be singular, Y these with the cells beside them, W what is
+// between bends. Pairs of balls are those of one bend, one of them in X and both in Y (tube_bends.h); one in X and the
+// other beyond Y, or in another bend; and those of walls W.
+bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& view, Edges& found) const {
+  const BallSweep& sweep = tube_.sweep();
+  const Interval domain = wall.domain().u;
+  const bool closed = wall.periods().u > 0;
+  const std::vector<Cell> cells = cells_in(sweep, domain);
+  const int count = static_cast<int>(cells.size());
+  const auto is_regular = [&](int k) { return cells[static_cast<size_t>((k + count) % count)].regular; };
+  const auto begin = [&](int k) { return cells[static_cast<size_t>(k % count)].t.lo + k / count * domain.width(); };
+  // Of the cells from a place before all bends.
+  int first = 0;
+  while (first < count && !(is_regular(first) && (!closed || is_regular(first - 1)))) ++first;
+  if (first == count || (!closed && !(is_regular(0) && is_regular(count - 1)))) return false;
+  if (!closed) first = 0;
+  struct Stretch {
+    int from, to;  // cells, which may go on beyond the last
+  };
+  std::vector<Stretch> bends, between{{first, first}};
+  for (int k = first; k < first + count; ++k) {
+    if (is_regular(k)) {
+      if (between.back().to != k) between.push_back({k, k});
+      between.back().to = k + 1;
+    } else {
+      if (bends.empty() || bends.back().to != k) bends.push_back({k, k});
+      bends.back().to = k + 1;
+    }
+  }
+  // Walls over stretches of cells, in two where they go on beyond the end.
+  const auto walls = [&](int from, int to) {
+    std::vector<Part> parts;
+    if (from < count && from < to) parts.push_back(wall_over(begin(from), to < count ? begin(to) : domain.hi));
+    if (to > count && from < to) parts.push_back(wall_over(begin(std::max(from, count) - count), begin(to - count)));
+    return parts;
+  };
+  const auto add_pairs = [&](const std::vector<Part>& some, const std::vector<Part>& others) {
+    for (const Part& a : some)
+      for (const Part& b : others)
+        if (BoxTree::meets(bounds(*a.surface), bounds(*b.surface)))
+          add_edges(intersect(a.surface, b.surface), a, b, view, found);
+  };
+  for (size_t i = 0; i < bends.size(); ++i) {
+    const Stretch& bend = bends[i];
+    const Interval all{begin(bend.from - 1), begin(bend.to + 1)}, core{begin(bend.from), begin(bend.to)};
+    const std::optional<BendEdges> own = bend_edges(sweep, all);
+    if (!own) return false;
+    found.lines.complete = found.lines.complete && own->complete;
+    const auto keeps = [=](const Vec2& t) {
+      return t.x >= all.lo && t.y <= all.hi && (core.contains(t.x) || core.contains(t.y));
+    };
+    for (const BendEdge& edge : own->edges) add_bare(edge_of_balls(edge.curve, edge.balls, keeps), view, found.lines);
+    const std::vector<Part> of_bend = walls(bend.from, bend.to);
+    for (size_t k = i + 1; k < bends.size(); ++k) add_pairs(of_bend, walls(bends[k].from, bends[k].to));
+    for (const Stretch& other : between)
+      add_pairs(of_bend, walls(other.from + (other.from == bend.to || other.from + count == bend.to ? 1 : 0),
+                               other.to - (other.to == bend.from || other.to - count == bend.from ? 1 : 0)));
+  }
+  for (size_t i = 0; i < between.size(); ++i) {
+    const std::vector<Part> some = walls(between[i].from, between[i].to);
+    for (const Part& part : some)
+      if (may_meet_itself(*part.wall)) add_edges(self_intersection(part.surface), part, part, view, found);
+    for (size_t k = i + 1; k < between.size(); ++k) add_pairs(some, walls(between[k].from, between[k].to));
+    // The two parts of one that goes on beyond the end have a circle in common.
+    if (some.size() == 2) {
+      const int last = count - 1;
+      add_pairs({some[0]}, walls(count + 1, between[i].to));
+      add_pairs(walls(between[i].from, last), walls(count, count + 1));
+    }
+  }
+  return true;
+}
+
+TubeBoundary::Edges TubeBoundary::edges(const ViewOf& view) const {
+  Edges found;
+  found.lines.complete = complete_;
   for (size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    if (part.wall) {
-      if (!bends_too_much(*part.wall) && may_meet_itself(*part.wall)) add(self_intersection(part.surface), part, part);
-    }
+    if (part.wall && bends_too_much(*part.wall))
+      found.all_of_bends = add_edges_of_bends(*part.wall, view, found) && found.all_of_bends;
+    else if (part.wall && may_meet_itself(*part.wall))
+      add_edges(self_intersection(part.surface), part, part, view, found);
     for (size_t k = i + 1; k < parts_.size(); ++k) {
       const Part& other = parts_[k];
       if (!BoxTree::meets(bounds(*part.surface), bounds(*other.surface))) continue;
@@ -154,7 +264,7 @@ ShapeOutlines TubeBoundary::edges(const ViewOf& view) const {
       const std::optional<Part> a = part.wall && other.wall ? part : apart_from(part, other),
                                 b = is_crease ? other : apart_from(other, part);
       if (a && b && BoxTree::meets(bounds(*a->surface), bounds(*b->surface)))
-        add(intersect(a->surface, b->surface), *a, *b);
+        add_edges(intersect(a->surface, b->surface), *a, *b, view, found);
     }
   }
   return found;

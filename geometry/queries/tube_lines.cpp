@@ -1,14 +1,13 @@
 #include "geometry/queries/tube_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "geometry/curves/curve_part.h"
 #include "geometry/describe.h"
 #include "geometry/queries/ball_circles.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
+#include "geometry/queries/tube_cutting.h"
 #include "geometry/shapes/implicit_formula.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
@@ -22,100 +21,30 @@ namespace {
 constexpr double kSmoothWall = 1e-8;
 // Poles of balls stand so to the curve: where no symmetry puts a contour.
 const Vec3 kPole{0.31, 0.17, 1};
-constexpr int kPlaces = 64;
-// Parts of half a stretch by which its end is moved.
-constexpr double kFirstStep = 1e-14, kLongestStep = 0.01;
+// A part of a tube on which a line lies, in coordinates that the map leads from.
+struct OnPart {
+  const TubeBoundary& boundary;
+  const TubeBoundary::Part& part;
+  Affine map;
+  Curve2Ptr image;
 
-using Part = TubeBoundary::Part;
-
-// A line found on a surface, before what is inside of tubes is cut away.
-class Cutting {
- public:
-  // On a part of a tube, whose coordinates the map leads from.
-  struct Side {
-    const TubeBoundary& boundary;
-    const Part& part;
-    Affine map;
-    Curve2Ptr image;
-
-    Vec2 place(double t) const { return Vec2(image->point(t)); }
-  };
-
-  Cutting(const Contour& contour, std::vector<Side> sides, const ViewOf& view)
-      : curve_(contour_approximation(contour.curve)), sides_(std::move(sides)), view_(view) {
-    for (Side& side : sides_) {
-      side.image = contour_approximation(contour.curve, *side.part.surface, side.image);
-      places_ = std::max(places_, static_cast<int>(side.boundary.tube().sweep().cells().size()));
-    }
-  }
-
-  // Adds what of it lies on the boundaries of all its tubes.
-  void add_bare(const Curve2Ptr& image, ShapeOutlines& found) const {
-    add_where(
-        [this](double t, double beside) {
-          return std::all_of(sides_.begin(), sides_.end(),
-                             [&](const Side& side) { return side.boundary.is_bare(side.part, side.place(t), beside); });
-        },
-        image, found);
-  }
-
-  // Adds what of it is an edge of the one tube on two parts of which it lies.
-  void add_edges(ShapeOutlines& found) const {
-    const Side &a = sides_[0], &b = sides_[1];
-    add_where([&](double t,
-                  double beside) { return a.boundary.is_bare_edge(a.part, a.place(t), b.part, b.place(t), beside); },
-              nullptr, found);
-  }
-
- private:
-  template <class State>
-  void add_where(const State& state, const Curve2Ptr& image, ShapeOutlines& found) const {
-    const Interval all = curve_->domain();
-    each_stretch(
-        all, places_, [&](double t) { return state(t, kBesideBalls); },
-        [&](Interval t, bool bare) {
-          if (!bare) return;
-          if (t.lo > all.lo) t.lo = settled(t.lo, t.middle(), state);
-          if (t.hi < all.hi) t.hi = settled(t.hi, t.middle(), state);
-          ShapeOutline line{curve_, true, nullptr, {}, image};
-          if (t.width() < all.width()) line.curve = std::make_shared<CurvePart>(curve_, t);
-          for (const Side& side : sides_) add_turns(side, t, line.turns);
-          std::sort(line.turns.begin(), line.turns.end());
-          found.lines.push_back(std::move(line));
-        });
-  }
-
-  // The end of a stretch as it would be seen from the surface itself: from half as far outside it is half as far off.
-  template <class State>
-  double settled(double end, double inside, const State& state) const {
-    const auto is_bare = [&](double t) { return state(t, 0.5 * kBesideBalls); };
-    const double most = kLongestStep * (inside - end);
-    double covered = end, bare = end;
-    for (double step = kFirstStep * (inside - end); covered == bare; step *= 2) {
-      if (std::abs(step) > std::abs(most)) return end;
-      if (is_bare(end + step)) bare = end + step;
-    }
-    for (double middle = 0.5 * (covered + bare); std::min(covered, bare) < middle && middle < std::max(covered, bare);
-         middle = 0.5 * (covered + bare))
-      (is_bare(middle) ? bare : covered) = middle;
-    return end + 2 * (bare - end);
-  }
-
-  void add_turns(const Side& side, const Interval& range, std::vector<double>& turns) const {
-    const auto faces_viewer = [&](double t) {
-      const Vec3 n = side.map.normal(side.boundary.outward(side.part, side.place(t)));
-      return glm::dot(n, view_.central ? curve_->point(t) - view_.direction_or_eye : view_.direction_or_eye) < 0;
-    };
-    each_stretch(range, kPlaces, faces_viewer, [&](const Interval& part, bool) {
-      if (part.lo > range.lo) turns.push_back(part.lo);
-    });
-  }
-
-  CurvePtr curve_;
-  std::vector<Side> sides_;
-  const ViewOf& view_;
-  int places_ = kPlaces;
+  Vec2 place(double t) const { return Vec2(image->point(t)); }
 };
+
+TubeLine line_on(const Contour& contour, std::vector<OnPart> parts) {
+  TubeLine line;
+  line.curve = contour_approximation(contour.curve);
+  for (OnPart& on : parts) {
+    on.image = contour_approximation(contour.curve, *on.part.surface, on.image);
+    line.places = std::max(line.places, static_cast<int>(on.boundary.tube().sweep().cells().size()));
+    line.outward.push_back([on](double t) { return on.map.normal(on.boundary.outward(on.part, on.place(t))); });
+  }
+  line.is_bare = [parts = std::move(parts)](double t, double beside) {
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const OnPart& on) { return on.boundary.is_bare(on.part, on.place(t), beside); });
+  };
+  return line;
+}
 
 }  // namespace
 
@@ -212,8 +141,11 @@ ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& vie
     if (!BoxTree::meets(bounds(*part.surface), box)) continue;
     const Contours contours = intersect(part.surface, surface);
     found.complete = found.complete && contours.complete;
-    for (const Contour& contour : contours.branches)
-      Cutting(contour, {{*this, part, {}, contour.images[0]}}, view).add_bare(contour.images[1], found);
+    for (const Contour& contour : contours.branches) {
+      TubeLine line = line_on(contour, {{*this, part, {}, contour.images[0]}});
+      line.image = contour_approximation(contour.curve, *surface, contour.images[1]);
+      add_bare(line, view, found);
+    }
   }
   return found;
 }
@@ -226,7 +158,7 @@ ShapeOutlines TubeBoundary::meeting(const ImplicitFormula& formula, const Affine
     const Contours contours = level_section(part.surface, formula, to_formula);
     found.complete = found.complete && contours.complete;
     for (const Contour& contour : contours.branches)
-      Cutting(contour, {{*this, part, {}, contour.images[0]}}, view).add_bare(nullptr, found);
+      add_bare(line_on(contour, {{*this, part, {}, contour.images[0]}}), view, found);
   }
   return found;
 }
@@ -242,16 +174,12 @@ ShapeOutlines TubeBoundary::meeting(const TubeBoundary& other, const Affine& fro
       const Contours contours = intersect(part.surface, moved);
       found.complete = found.complete && contours.complete;
       for (const Contour& contour : contours.branches)
-        Cutting(contour, {{*this, part, {}, contour.images[0]}, {other, theirs, from_other, contour.images[1]}}, view)
-            .add_bare(nullptr, found);
+        add_bare(
+            line_on(contour, {{*this, part, {}, contour.images[0]}, {other, theirs, from_other, contour.images[1]}}),
+            view, found);
     }
   }
   return found;
-}
-
-void TubeBoundary::add_edges(const Contour& contour, const Part& a, const Part& b, const ViewOf& view,
-                             ShapeOutlines& found) const {
-  Cutting(contour, {{*this, a, {}, contour.images[0]}, {*this, b, {}, contour.images[1]}}, view).add_edges(found);
 }
 
 }  // namespace lekalo::geometry

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "geometry/queries/ball_outlines.h"
+#include "geometry/queries/tube_cutting.h"
 #include "geometry/surfaces/canal_surface.h"
 
 namespace lekalo::geometry {
@@ -38,10 +38,14 @@ class TubeBoundary {
   ShapeOutlines meeting(const ImplicitFormula& formula, const Affine& to_formula, const ViewOf& view) const;
   ShapeOutlines meeting(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const;
 
-  // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h) and
-  // for parts without corners that bend more than the radius allows somewhere, whose own edges are not told.
-  ShapeOutlines edges(const ViewOf& view) const;
-  bool bends_too_much() const;
+  // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h).
+  struct Edges {
+    ShapeOutlines lines;
+    // False where the curve bends more than the radius at an end, all along, or where it is not smooth: edges there are
+    // left out.
+    bool all_of_bends = true;
+  };
+  Edges edges(const ViewOf& view) const;
 
   // Of a part at a place: the direction out of the tube, and whether the place is on the boundary, as seen from so far
   // outside, of the size.
@@ -60,7 +64,11 @@ class TubeBoundary {
   bool may_meet_itself(const CanalSurface& wall) const;
   // What of a part may meet another one: without the cells next to it where they have a ball in common.
   std::optional<Part> apart_from(const Part& part, const Part& other) const;
-  void add_edges(const Contour& contour, const Part& a, const Part& b, const ViewOf& view, ShapeOutlines& found) const;
+  Part wall_over(double from, double to) const;
+  void add_edges(const Contours& contours, const Part& a, const Part& b, const ViewOf& view, Edges& found) const;
+  bool add_edges_of_bends(const CanalSurface& wall, const ViewOf& view, Edges& found) const;
+  TubeLine edge_of_balls(const CurvePtr& curve, const std::function<Vec2(double)>& balls,
+                         const std::function<bool(const Vec2&)>& keeps) const;
 
   const Tube& tube_;
   double size_;

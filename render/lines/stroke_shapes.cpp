@@ -187,10 +187,9 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
     } else if ((tube || balls) && kind_ != "smooth") {
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
       if (!tube || !edges) return;
-      const TubeBoundary& boundary = boundary_of(*tube);
-      if (boundary.bends_too_much())
-        leave_out("the edges where " + name_of_object() + " bends more than its radius allows");
-      add_on_tube(boundary.edges(own_view), nullptr, style, hidden);
+      const TubeBoundary::Edges own = boundary_of(*tube).edges(own_view);
+      if (!own.all_of_bends) leave_out("edges where " + name_of_object() + " bends more than its radius allows");
+      add_on_tube(own.lines, nullptr, style, hidden);
     }
   });
 }

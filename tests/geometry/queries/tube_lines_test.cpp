@@ -90,7 +90,7 @@ TEST(TubeLines, ClosedForms) {
   const double cosine = (3.3 * 3.3 - 10) / 6;
   EXPECT_NEAR(length_of(of_ring.meeting(std::make_shared<SphereSurface>(frame, 3.3), kView)), 2 * kTwoPi * (3 + cosine),
               1e-9);
-  EXPECT_TRUE(of_ring.edges(kView).lines.empty());
+  EXPECT_TRUE(of_ring.edges(kView).lines.lines.empty());
   // A rod and a ball on its axis, a thicker rod with flat ends.
   const CurvePtr axis = std::make_shared<NurbsCurve>(polyline(std::vector<Vec3>{{0, 0, -2}, {0, 0, 2}}));
   const SurfacePtr ball = std::make_shared<SphereSurface>(frame, 1);
@@ -132,7 +132,7 @@ TEST(TubeLines, PointsAreOnBoth) {
   }
   for (const auto& [curve, R] : {std::pair(helix, 0.3), std::pair(knot, 0.9)}) {
     const Tube tube(curve, RadiusLaw(R), Caps::round);
-    const ShapeOutlines edges = TubeBoundary(tube).edges(kView);
+    const ShapeOutlines edges = TubeBoundary(tube).edges(kView).lines;
     EXPECT_TRUE(edges.complete);
     EXPECT_GE(edges.lines.size(), 3u);
     each_point(edges, 20, [&](const Vec3& p, const ShapeOutline&, double) {
@@ -237,7 +237,7 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
   int wrong = 0, planes = 0, corners = 0, incomplete = 0;
   for (int k = 0; k < tests::tier_count(60, 3); ++k) {
     const Tube tube(trefoil(), RadiusLaw(number(random, 0.75, 0.97)), Caps::round);
-    const ShapeOutlines found = TubeBoundary(tube).edges(kView);
+    const ShapeOutlines found = TubeBoundary(tube).edges(kView).lines;
     if (!found.complete) {
       ++incomplete;
       continue;

@@ -145,7 +145,6 @@ TEST(Meetings, Tubes) {
       ball_at({0, 0, 0}, 0.9),
       SurfaceSet{sphere({0, 0, 0}, 0.9), sphere({0, 0, 20}, 1)},
       ShapePtr(std::make_shared<ImplicitSurface>(formula, 0.9 * 0.9, ImplicitRegion{{-half, half}}, true)),
-      ShapePtr(std::make_shared<ImplicitSurface>(formula, 2.0, ImplicitRegion::ball(Vec3(0), 0.9), true)),
       ShapePtr(std::make_shared<Balls>(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.9})),
       ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
                                      std::vector<ShapePtr>{std::make_shared<BodyShape>(ball_at({0, 0, 0}, 0.9)),
