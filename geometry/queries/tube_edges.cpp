@@ -186,11 +186,10 @@ bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& vi
   const int count = static_cast<int>(cells.size());
   const auto is_regular = [&](int k) { return cells[static_cast<size_t>((k + count) % count)].regular; };
   const auto begin = [&](int k) { return cells[static_cast<size_t>(k % count)].t.lo + k / count * domain.width(); };
-  // Of the cells from a place before all bends.
+  // The first cell after a bend, of a closed curve.
   int first = 0;
-  while (first < count && !(is_regular(first) && (!closed || is_regular(first - 1)))) ++first;
+  while (closed && first < count && !(is_regular(first) && !is_regular(first - 1))) ++first;
   if (first == count || (!closed && !(is_regular(0) && is_regular(count - 1)))) return false;
-  if (!closed) first = 0;
   struct Stretch {
     int from, to;  // cells, which may go on beyond the last
   };

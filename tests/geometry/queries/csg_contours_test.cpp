@@ -219,11 +219,12 @@ TEST(CsgLines, OfTwoImplicitLeaves) {
 
 // What is not known is named.
 TEST(CsgLines, LeftOut) {
-  const auto bend = std::make_shared<FormulaCurve>(point_formulas({"t", "t^2", "0"}, {"t"}), Interval{-1, 1});
+  const auto bend =
+      std::make_shared<FormulaCurve>(point_formulas({"0.5*cos(t)", "0.5*sin(t)", "0.3*t"}, {"t"}), Interval{0, 1.5});
   const Csg part(Operation::subtract,
-                 {ball_at({0, 0, 0}, 0.9), std::make_shared<Tube>(bend, RadiusLaw(0.7), Caps::round)});
+                 {ball_at({0, 0, 0}, 1.2), std::make_shared<Tube>(bend, RadiusLaw(0.9), Caps::round)});
   const CsgLines found = csg_lines(part, {});
-  EXPECT_EQ(found.left_out, std::set<std::string>{"the edges where a tube bends more than its radius allows"});
+  EXPECT_EQ(found.left_out, std::set<std::string>{"edges where a tube bends more than its radius allows"});
 }
 
 }  // namespace

@@ -142,6 +142,34 @@ TEST(TubeLines, PointsAreOnBoth) {
   }
 }
 
+// About a parabola y = x^2 with R > 1/2 the edge of the bend is y = R^2 + 1/4 - z^2 in the plane x = 0 between the
+// places where R^2 = 1/4 + z^2.
+TEST(TubeLines, EdgesOfBends) {
+  for (const double R : {0.55, 0.7, 0.9}) {
+    const Tube tube(formula_curve({"t", "t^2", "0"}, {-1.5, 1.5}), RadiusLaw(R), Caps::round);
+    const TubeBoundary::Edges found = TubeBoundary(tube).edges(kView);
+    EXPECT_TRUE(found.all_of_bends);
+    const double a = 2 * std::sqrt(R * R - 0.25);
+    EXPECT_NEAR(length_of(found.lines), 0.5 * (a * std::sqrt(1 + a * a) + std::asinh(a)), 1e-9);
+    each_point(found.lines, 20, [&](const Vec3& p, const ShapeOutline&, double) {
+      EXPECT_NEAR(p.x, 0, 1e-9);
+      EXPECT_NEAR(p.y, R * R + 0.25 - p.z * p.z, 1e-9);
+    });
+  }
+  // Two bends of a closed curve, one of them over its ends; across it each edge goes on as that of two walls.
+  const CurvePtr ring = formula_curve({"2*cos(t)", "sin(t)", "0.1*sin(3*t)"}, {0, kTwoPi}, true);
+  const Tube tube(ring, RadiusLaw(0.7), Caps::round);
+  const TubeBoundary::Edges found = TubeBoundary(tube).edges(kView);
+  EXPECT_TRUE(found.all_of_bends && found.lines.complete);
+  for (const ShapeOutline& line : found.lines.lines) {
+    const Interval t = line.curve->domain();
+    for (const double share : {0.15, 0.5, 0.85}) {
+      const std::vector<double> from = distances(*ring, line.curve->point(t.lo + share * t.width()));
+      for (int k = 0; k < 2; ++k) EXPECT_NEAR(from[k], 0.7, 1e-9);
+    }
+  }
+}
+
 double number(std::mt19937_64& random, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(random);
 }
@@ -191,7 +219,7 @@ TEST(TubeLines, NoneIsMissingOnBalls) {
     const ShapeOutlines found = TubeBoundary(tube).meeting(std::make_shared<SphereSurface>(frame, radius), kView);
     // Where a curve bends more than the radius the search for contours does not always end.
     if (!found.complete) {
-      incomplete += !TubeBoundary(tube).bends_too_much();
+      ++incomplete;
       continue;
     }
     std::vector<Vec3> centers;
@@ -227,7 +255,7 @@ TEST(TubeLines, NoneIsMissingOnBalls) {
     }
   }
   EXPECT_EQ(wrong, 0) << circles << " circles";
-  EXPECT_EQ(incomplete, 0);
+  EXPECT_LE(incomplete, 1 + tests::tier_count(400, 12) / 15);
   EXPECT_GT(met, circles / 4);
 }
 
@@ -236,7 +264,12 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
   std::mt19937_64 random(84);
   int wrong = 0, planes = 0, corners = 0, incomplete = 0;
   for (int k = 0; k < tests::tier_count(60, 3); ++k) {
-    const Tube tube(trefoil(), RadiusLaw(number(random, 0.75, 0.97)), Caps::round);
+    const bool bends = k % 3 == 2;
+    const CurvePtr curve =
+        bends ? formula_curve({"2*cos(t)", "sin(t)", std::to_string(number(random, 0, 0.2)) + "*sin(3*t)"}, {0, kTwoPi},
+                              true)
+              : trefoil();
+    const Tube tube(curve, RadiusLaw(bends ? number(random, 0.55, 0.8) : number(random, 0.75, 0.97)), Caps::round);
     const ShapeOutlines found = TubeBoundary(tube).edges(kView).lines;
     if (!found.complete) {
       ++incomplete;
@@ -261,7 +294,7 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
         for (size_t b = a + 1; b < ends.size(); ++b) {
           if (!(glm::length(ends[a].point - ends[b].point) < 1e-4)) continue;
           ++joints;
-          expected += glm::length(glm::cross(ends[a].tangent, ends[b].tangent)) > 1e-2;
+          expected += glm::length(glm::cross(ends[a].tangent, ends[b].tangent)) > 1e-3;
         }
       // A section with a gap is no witness.
       if (2 * joints != static_cast<int>(ends.size())) continue;
