@@ -1,9 +1,12 @@
 // The edges along which a tube goes through itself (declared in tube_lines.h).
 //
-// Walls meet one another and themselves (self_intersections.h), balls and flat ends. A wall of constant radius R about
-// a curve whose curvature is at most k, R k < 1, does not meet itself along a stretch of it that is no longer than
-// pi/k: the ball of radius R that touches the curve's circle of curvature 1/k lies in the ball of that radius, outside
-// of which the stretch keeps (Schur's theorem; do Carmo 1976, 5-7, exercise 7).
+// Walls meet one another, balls and flat ends. A wall does not meet itself along stretches that are shorter than a
+// length L, so that pairs of longer stretches are enough. By the length s, with k the largest curvature of the curve:
+//
+// - L = pi/k for a constant radius R < 1/k: the ball of radius R that touches the curve lies in the one of radius 1/k
+//   that touches it there, outside of which the curve keeps for so long (Schur's theorem: do Carmo 1976, 5-7).
+// - L = 2 ((1 - R'^2 - R R'')/k - R): where two balls touch a point p, |p - c|^2 - R^2 has minima 0, and between them a
+//   maximum, where 1 - R'^2 - R R'' <= (p - c) . c'' <= k |p - c|, and p is no farther from c there than R + L/2.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -29,18 +32,40 @@ std::vector<Cell> cells_in(const BallSweep& sweep, const Interval& range) {
   return cells;
 }
 
-// Bounds over a cell.
-struct Bend {
-  double curvature, length;
+// Bounds over cells, by the length.
+struct Bounds {
+  double curvature = 0, radius = 0, slope = 0, bulge = 0;  // bulge: of R R''
+  bool constant = true;
+  std::vector<double> lengths;  // of the cells, at most
+
+  explicit Bounds(const std::vector<Cell>& cells) {
+    for (const Cell& cell : cells) {
+      const Vec3 &r1 = cell.middle.center[1], &r2 = cell.middle.center[2];
+      const double h = 0.5 * cell.t.width(), speed = glm::length(r1);
+      const double turn = (glm::length(r2) + cell.wander) * h, slowest = speed - turn;
+      const double along = glm::dot(r1, r2) / (speed * speed);
+      const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
+      lengths.push_back(2 * h * (speed + turn));
+      const auto& R = cell.middle.radius;
+      const double second = std::abs(R[2]) + cell.radius_wander, first = std::abs(R[1]) + second * h,
+                   most = R[0] + first * h;
+      constant = constant && first == 0;
+      const auto include = [&](double& bound, double value) {
+        bound = slowest > 0 ? std::max(bound, value) : kInfinity;
+      };
+      include(curvature, across / (slowest * slowest));
+      include(radius, most);
+      include(slope, first / slowest);
+      include(bulge, most * (second + first * (glm::length(r2) + cell.wander) / slowest) / (slowest * slowest));
+    }
+  }
+  // L above; 0 where there is none.
+  double safe_length() const {
+    if (constant && curvature * radius < 1) return kPi / curvature;
+    const double safe = 2 * ((1 - slope * slope - bulge) / curvature - radius);
+    return safe > 0 ? safe : 0;
+  }
 };
-Bend bend_of(const Cell& cell) {
-  const Vec3 &r1 = cell.middle.center[1], &r2 = cell.middle.center[2];
-  const double h = 0.5 * cell.t.width(), speed = glm::length(r1);
-  const double turn = (glm::length(r2) + cell.wander) * h, slowest = speed - turn;
-  const double along = glm::dot(r1, r2) / (speed * speed);
-  const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
-  return {slowest > 0 ? across / (slowest * slowest) : kInfinity, 2 * h * (speed + turn)};
-}
 
 // Of a closed curve, a place beyond the end of its domain.
 double in_domain(const Curve& curve, double t) { return curve.is_closed() ? wrapped(t, curve.domain()) : t; }
@@ -64,33 +89,51 @@ bool TubeBoundary::bends_too_much(const CanalSurface& wall) const {
   return false;
 }
 
-bool TubeBoundary::may_meet_itself(const CanalSurface& wall) const {
-  const std::vector<Cell> cells = cells_in(tube_.sweep(), wall.domain().u);
-  const double radius = cells.front().middle.radius[0];
-  double most = 0;
-  std::vector<double> from{0};  // along the curve, at most
-  std::vector<Box3> centers;
-  for (const Cell& cell : cells) {
-    if (cell.middle.radius[1] != 0 || cell.middle.radius[2] != 0 || cell.radius_wander != 0) return true;
-    const Bend bend = bend_of(cell);
-    most = std::max(most, bend.curvature);
-    from.push_back(from.back() + bend.length);
-    centers.push_back(cell.box.inflated(-radius));
+void TubeBoundary::add_own_edges(const Part& part, const ViewOf& view, Edges& found) const {
+  const Interval domain = part.wall->domain().u;
+  const bool closed = part.wall->periods().u > 0;
+  const std::vector<Cell> cells = cells_in(tube_.sweep(), domain);
+  const Bounds bounds_of_wall(cells);
+  const double most = 0.5 * bounds_of_wall.safe_length();
+  if (*std::max_element(bounds_of_wall.lengths.begin(), bounds_of_wall.lengths.end()) > most)
+    return add_edges(self_intersection(part.surface), part, part, view, found);
+  // Stretches half as long, and the boxes of their cells' centres.
+  struct Stretch {
+    size_t from, to;
+    Box3 centers;
+    double radius = 0;
+    std::optional<Part> wall;
+  };
+  std::vector<Stretch> stretches;
+  double length = kInfinity;
+  for (size_t k = 0; k < cells.size(); ++k) {
+    length += bounds_of_wall.lengths[k];
+    if (length > most) stretches.push_back({k, k, {}, 0, {}}), length = bounds_of_wall.lengths[k];
+    Stretch& last = stretches.back();
+    last.to = k + 1;
+    last.centers.include(cells[k].box.inflated(-cells[k].least_radius));
+    last.radius = std::max(last.radius, cells[k].least_radius);
   }
-  if (!(most * radius < 1)) return true;
-  const BoxTree tree(centers);
-  const double safe = kPi / most;  // infinite for a straight one
-  for (size_t i = 0; i < cells.size(); ++i) {
-    bool meets = false;
-    tree.around(centers[i].inflated(2 * radius), [&](int other) {
-      const auto k = static_cast<size_t>(other);
-      if (k <= i || from[k + 1] - from[i] <= safe) return;
-      if (wall.periods().u > 0 && from.back() - (from[k] - from[i + 1]) <= safe) return;
-      meets = meets || apart(centers[i], centers[k]) <= 2 * radius;
-    });
-    if (meets) return true;
-  }
-  return false;
+  const auto are_near = [&](const Stretch& a, const Stretch& b) {
+    if (apart(a.centers, b.centers) > a.radius + b.radius) return false;
+    for (size_t i = a.from; i < a.to; ++i)
+      for (size_t k = b.from; k < b.to; ++k)
+        if (apart(cells[i].box.inflated(-cells[i].least_radius), cells[k].box.inflated(-cells[k].least_radius)) <=
+            cells[i].least_radius + cells[k].least_radius)
+          return true;
+    return false;
+  };
+  const auto wall_of = [&](Stretch& stretch) -> const Part& {
+    if (!stretch.wall) stretch.wall = wall_over(cells[stretch.from].t.lo, cells[stretch.to - 1].t.hi);
+    return *stretch.wall;
+  };
+  for (size_t i = 0; i < stretches.size(); ++i)
+    for (size_t k = i + 2; k < stretches.size(); ++k) {
+      Stretch &a = stretches[i], &b = stretches[k];
+      if ((closed && i == 0 && k + 1 == stretches.size()) || !are_near(a, b)) continue;
+      const Part &first = wall_of(a), &second = wall_of(b);
+      add_edges(intersect(first.surface, second.surface), first, second, view, found);
+    }
 }
 
 std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, const Part& other) const {
@@ -234,8 +277,7 @@ bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& vi
   }
   for (size_t i = 0; i < between.size(); ++i) {
     const std::vector<Part> some = walls(between[i].from, between[i].to);
-    for (const Part& part : some)
-      if (may_meet_itself(*part.wall)) add_edges(self_intersection(part.surface), part, part, view, found);
+    for (const Part& part : some) add_own_edges(part, view, found);
     for (size_t k = i + 1; k < between.size(); ++k) add_pairs(some, walls(between[k].from, between[k].to));
     // The two parts of one that goes on beyond the end have a circle in common.
     if (some.size() == 2) {
@@ -254,8 +296,8 @@ TubeBoundary::Edges TubeBoundary::edges(const ViewOf& view) const {
     const Part& part = parts_[i];
     if (part.wall && bends_too_much(*part.wall))
       found.all_of_bends = add_edges_of_bends(*part.wall, view, found) && found.all_of_bends;
-    else if (part.wall && may_meet_itself(*part.wall))
-      add_edges(self_intersection(part.surface), part, part, view, found);
+    else if (part.wall)
+      add_own_edges(part, view, found);
     for (size_t k = i + 1; k < parts_.size(); ++k) {
       const Part& other = parts_[k];
       if (!BoxTree::meets(bounds(*part.surface), bounds(*other.surface))) continue;

@@ -61,7 +61,7 @@ class TubeBoundary {
   bool is_cut_off(const Part& part, const Vec2& place) const;
   bool bends_too_much(const CanalSurface& wall) const;
   bool meet_in_curved_corner(const CanalSurface& a, const CanalSurface& b) const;
-  bool may_meet_itself(const CanalSurface& wall) const;
+  void add_own_edges(const Part& part, const ViewOf& view, Edges& found) const;
   // What of a part may meet another one: without the cells next to it where they have a ball in common.
   std::optional<Part> apart_from(const Part& part, const Part& other) const;
   Part wall_over(double from, double to) const;
