@@ -38,25 +38,10 @@ struct Bounds {
   bool constant = true;
   std::vector<double> lengths;  // of the cells, at most
 
-  explicit Bounds(const std::vector<Cell>& cells) {
+  Bounds(const BallSweep& sweep, const std::vector<Cell>& cells) {
     for (const Cell& cell : cells) {
-      const Vec3 &r1 = cell.middle.center[1], &r2 = cell.middle.center[2];
-      const double h = 0.5 * cell.t.width(), speed = glm::length(r1);
-      const double turn = (glm::length(r2) + cell.wander) * h, slowest = speed - turn;
-      const double along = glm::dot(r1, r2) / (speed * speed);
-      const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
-      lengths.push_back(2 * h * (speed + turn));
-      const auto& R = cell.middle.radius;
-      const double second = std::abs(R[2]) + cell.radius_wander, first = std::abs(R[1]) + second * h,
-                   most = R[0] + first * h;
-      constant = constant && first == 0;
-      const auto include = [&](double& bound, double value) {
-        bound = slowest > 0 ? std::max(bound, value) : kInfinity;
-      };
-      include(curvature, across / (slowest * slowest));
-      include(radius, most);
-      include(slope, first / slowest);
-      include(bulge, most * (second + first * (glm::length(r2) + cell.wander) / slowest) / (slowest * slowest));
+      lengths.push_back(0);
+      for (int k = 0; k < kParts; ++k) add(sweep, cell, cell.t.lo + k * cell.t.width() / kParts);
     }
   }
   // L above; 0 where there is none.
@@ -64,6 +49,29 @@ struct Bounds {
     if (constant && curvature * radius < 1) return kPi / curvature;
     const double safe = 2 * ((1 - slope * slope - bulge) / curvature - radius);
     return safe > 0 ? safe : 0;
+  }
+
+ private:
+  // Cells are too wide for good bounds.
+  static constexpr int kParts = 4;
+  void add(const BallSweep& sweep, const Cell& cell, double from) {
+    const double h = 0.5 * cell.t.width() / kParts;
+    const BallJet middle = sweep.ball(from + h);
+    const Vec3 &r1 = middle.center[1], &r2 = middle.center[2];
+    const Box3 box = sweep.curve().enclose({from, std::min(from + 2 * h, cell.t.hi)}, 2).d[2];
+    const double wander = glm::length(glm::max(box.hi - r2, r2 - box.lo)), most = glm::length(r2) + wander;
+    const double speed = glm::length(r1), turn = most * h, slowest = speed - turn;
+    const double along = glm::dot(r1, r2) / (speed * speed);
+    const double across = glm::length(r2 - along * r1) + wander + std::abs(along) * turn;
+    lengths.back() += 2 * h * (speed + turn);
+    const double R2 = std::abs(cell.middle.radius[2]) + cell.radius_wander, R1 = std::abs(middle.radius[1]) + R2 * h,
+                 R = middle.radius[0] + R1 * h;
+    constant = constant && R1 == 0;
+    const auto include = [&](double& bound, double value) { bound = slowest > 0 ? std::max(bound, value) : kInfinity; };
+    include(curvature, across / (slowest * slowest));
+    include(radius, R);
+    include(slope, R1 / slowest);
+    include(bulge, R * (R2 + R1 * most / slowest) / (slowest * slowest));
   }
 };
 
@@ -93,7 +101,7 @@ void TubeBoundary::add_own_edges(const Part& part, const ViewOf& view, Edges& fo
   const Interval domain = part.wall->domain().u;
   const bool closed = part.wall->periods().u > 0;
   const std::vector<Cell> cells = cells_in(tube_.sweep(), domain);
-  const Bounds bounds_of_wall(cells);
+  const Bounds bounds_of_wall(tube_.sweep(), cells);
   const double most = 0.5 * bounds_of_wall.safe_length();
   if (*std::max_element(bounds_of_wall.lengths.begin(), bounds_of_wall.lengths.end()) > most)
     return add_edges(self_intersection(part.surface), part, part, view, found);
