@@ -8,7 +8,9 @@
 // - L = 2 ((1 - R'^2 - R R'')/k - R): where two balls touch a point p, |p - c|^2 - R^2 has minima 0, and between them a
 //   maximum, where 1 - R'^2 - R R'' <= (p - c) . c'' <= k |p - c|, and p is no farther from c there than R + L/2.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "geometry/point_formulas.h"
@@ -97,51 +99,53 @@ bool TubeBoundary::bends_too_much(const CanalSurface& wall) const {
   return false;
 }
 
-void TubeBoundary::add_own_edges(const Part& part, const ViewOf& view, Edges& found) const {
-  const Interval domain = part.wall->domain().u;
-  const bool closed = part.wall->periods().u > 0;
-  const std::vector<Cell> cells = cells_in(tube_.sweep(), domain);
-  const Bounds bounds_of_wall(tube_.sweep(), cells);
-  const double most = 0.5 * bounds_of_wall.safe_length();
-  if (*std::max_element(bounds_of_wall.lengths.begin(), bounds_of_wall.lengths.end()) > most)
-    return add_edges(self_intersection(part.surface), part, part, view, found);
-  // Stretches half as long, and the boxes of their cells' centres.
+// Pairs of stretches that may meet, each half as long as L at most; nothing where that is not known.
+std::optional<std::vector<std::array<Interval, 2>>> TubeBoundary::near_stretches(const Interval& range,
+                                                                                 bool closed) const {
+  const std::vector<Cell> cells = cells_in(tube_.sweep(), range);
+  const Bounds along(tube_.sweep(), cells);
+  const double most = 0.5 * along.safe_length();
+  if (!(*std::max_element(along.lengths.begin(), along.lengths.end()) <= most)) return std::nullopt;
   struct Stretch {
     size_t from, to;
-    Box3 centers;
-    double radius = 0;
-    std::optional<Part> wall;
   };
   std::vector<Stretch> stretches;
+  std::vector<Box3> centers;  // of each cell
   double length = kInfinity;
   for (size_t k = 0; k < cells.size(); ++k) {
-    length += bounds_of_wall.lengths[k];
-    if (length > most) stretches.push_back({k, k, {}, 0, {}}), length = bounds_of_wall.lengths[k];
-    Stretch& last = stretches.back();
-    last.to = k + 1;
-    last.centers.include(cells[k].box.inflated(-cells[k].least_radius));
-    last.radius = std::max(last.radius, cells[k].least_radius);
+    length += along.lengths[k];
+    if (length > most) stretches.push_back({k, k}), length = along.lengths[k];
+    stretches.back().to = k + 1;
+    centers.push_back(cells[k].box.inflated(-cells[k].least_radius));
   }
   const auto are_near = [&](const Stretch& a, const Stretch& b) {
-    if (apart(a.centers, b.centers) > a.radius + b.radius) return false;
     for (size_t i = a.from; i < a.to; ++i)
       for (size_t k = b.from; k < b.to; ++k)
-        if (apart(cells[i].box.inflated(-cells[i].least_radius), cells[k].box.inflated(-cells[k].least_radius)) <=
-            cells[i].least_radius + cells[k].least_radius)
-          return true;
+        if (apart(centers[i], centers[k]) <= cells[i].least_radius + cells[k].least_radius) return true;
     return false;
   };
-  const auto wall_of = [&](Stretch& stretch) -> const Part& {
-    if (!stretch.wall) stretch.wall = wall_over(cells[stretch.from].t.lo, cells[stretch.to - 1].t.hi);
-    return *stretch.wall;
+  const auto range_of = [&](const Stretch& stretch) {
+    return Interval{cells[stretch.from].t.lo, cells[stretch.to - 1].t.hi};
   };
+  std::vector<std::array<Interval, 2>> pairs;
   for (size_t i = 0; i < stretches.size(); ++i)
-    for (size_t k = i + 2; k < stretches.size(); ++k) {
-      Stretch &a = stretches[i], &b = stretches[k];
-      if ((closed && i == 0 && k + 1 == stretches.size()) || !are_near(a, b)) continue;
-      const Part &first = wall_of(a), &second = wall_of(b);
-      add_edges(intersect(first.surface, second.surface), first, second, view, found);
-    }
+    for (size_t k = i + 2; k < stretches.size(); ++k)
+      if (!(closed && i == 0 && k + 1 == stretches.size()) && are_near(stretches[i], stretches[k]))
+        pairs.push_back({range_of(stretches[i]), range_of(stretches[k])});
+  return pairs;
+}
+
+void TubeBoundary::add_own_edges(const Part& part, const ViewOf& view, Edges& found) const {
+  const auto pairs = near_stretches(part.wall->domain().u, part.wall->periods().u > 0);
+  if (!pairs) return add_edges(self_intersection(part.surface), part, part, view, found);
+  std::map<double, Part> walls;
+  const auto wall_of = [&](const Interval& range) -> const Part& {
+    return walls.try_emplace(range.lo, wall_over(range.lo, range.hi)).first->second;
+  };
+  for (const auto& [first, second] : *pairs) {
+    const Part &a = wall_of(first), &b = wall_of(second);
+    add_edges(intersect(a.surface, b.surface), a, b, view, found);
+  }
 }
 
 std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, const Part& other) const {
@@ -267,16 +271,18 @@ bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& vi
         if (BoxTree::meets(bounds(*a.surface), bounds(*b.surface)))
           add_edges(intersect(a.surface, b.surface), a, b, view, found);
   };
+  bool all_known = true;
   for (size_t i = 0; i < bends.size(); ++i) {
     const Stretch& bend = bends[i];
     const Interval all{begin(bend.from - 1), begin(bend.to + 1)}, core{begin(bend.from), begin(bend.to)};
     const std::optional<BendEdges> own = bend_edges(sweep, all);
-    if (!own) return false;
-    found.lines.complete = found.lines.complete && own->complete;
+    if (!own) all_known = false;
+    found.lines.complete = found.lines.complete && (!own || own->complete);
     const auto keeps = [=](const Vec2& t) {
       return t.x >= all.lo && t.y <= all.hi && (core.contains(t.x) || core.contains(t.y));
     };
-    for (const BendEdge& edge : own->edges) add_bare(edge_of_balls(edge.curve, edge.balls, keeps), view, found.lines);
+    if (own)
+      for (const BendEdge& edge : own->edges) add_bare(edge_of_balls(edge.curve, edge.balls, keeps), view, found.lines);
     const std::vector<Part> of_bend = walls(bend.from, bend.to);
     for (size_t k = i + 1; k < bends.size(); ++k) add_pairs(of_bend, walls(bends[k].from, bends[k].to));
     for (const Stretch& other : between)
@@ -294,12 +300,17 @@ bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& vi
       add_pairs(walls(between[i].from, last), walls(count, count + 1));
     }
   }
-  return true;
+  return all_known;
 }
 
 TubeBoundary::Edges TubeBoundary::edges(const ViewOf& view) const {
   Edges found;
-  found.lines.complete = complete_;
+  // Where there is no wall it is enough that it would not meet itself.
+  for (const Interval& range : without_wall_) {
+    const auto pairs =
+        near_stretches(range, tube_.sweep().curve().is_closed() && range == tube_.sweep().curve().domain());
+    found.lines.complete = found.lines.complete && pairs && pairs->empty();
+  }
   for (size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (part.wall && bends_too_much(*part.wall))

@@ -73,7 +73,7 @@ void TubeBoundary::add_walls() {
       const auto wall = std::make_shared<CanalSurface>(sweep, Interval{from, to}, !turns);
       parts_.push_back({wall, wall, {}, {}, -1});
     } catch (const FieldError&) {
-      complete_ = false;
+      without_wall_.emplace_back(from, to);
     }
     from = to;
   }
@@ -135,7 +135,7 @@ bool TubeBoundary::is_bare_edge(const Part& a, const Vec2& at_a, const Part& b, 
 
 ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& view) const {
   ShapeOutlines found;
-  found.complete = complete_;
+  found.complete = complete();
   const Box3 box = bounds(*surface);
   for (const Part& part : parts_) {
     if (!BoxTree::meets(bounds(*part.surface), box)) continue;
@@ -153,7 +153,7 @@ ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& vie
 ShapeOutlines TubeBoundary::meeting(const ImplicitFormula& formula, const Affine& to_formula,
                                     const ViewOf& view) const {
   ShapeOutlines found;
-  found.complete = complete_;
+  found.complete = complete();
   for (const Part& part : parts_) {
     const Contours contours = level_section(part.surface, formula, to_formula);
     found.complete = found.complete && contours.complete;
@@ -165,7 +165,7 @@ ShapeOutlines TubeBoundary::meeting(const ImplicitFormula& formula, const Affine
 
 ShapeOutlines TubeBoundary::meeting(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const {
   ShapeOutlines found;
-  found.complete = complete_ && other.complete_;
+  found.complete = complete() && other.complete();
   for (const Part& theirs : other.parts_) {
     const SurfacePtr moved = transformed(theirs.surface, from_other);
     const Box3 box = bounds(*moved);

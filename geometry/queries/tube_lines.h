@@ -6,6 +6,7 @@
 // (contours.h); what of a contour lies inside of the tube, or is cut off by a flat end, is cut away.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "geometry/queries/tube_cutting.h"
@@ -29,7 +30,7 @@ class TubeBoundary {
   // Together they hold the boundary, and more.
   const std::vector<Part>& parts() const { return parts_; }
   // False where the curve, or the radius, has no wall in some part (surfaces/canal_surface.h).
-  bool complete() const { return complete_; }
+  bool complete() const { return without_wall_.empty(); }
   const Tube& tube() const { return tube_; }
 
   // All lines are edges, with images on the surface that is met; `view` is that of their turns. The surface and the
@@ -41,8 +42,8 @@ class TubeBoundary {
   // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h).
   struct Edges {
     ShapeOutlines lines;
-    // False where the curve bends more than the radius at an end, all along, or where it is not smooth: edges there are
-    // left out.
+    // False where the curve bends more than the radius at an end, all along, or where it is no one polynomial (at a
+    // knot): then some edges of bends are left out.
     bool all_of_bends = true;
   };
   Edges edges(const ViewOf& view) const;
@@ -61,6 +62,7 @@ class TubeBoundary {
   bool is_cut_off(const Part& part, const Vec2& place) const;
   bool bends_too_much(const CanalSurface& wall) const;
   bool meet_in_curved_corner(const CanalSurface& a, const CanalSurface& b) const;
+  std::optional<std::vector<std::array<Interval, 2>>> near_stretches(const Interval& range, bool closed) const;
   void add_own_edges(const Part& part, const ViewOf& view, Edges& found) const;
   // What of a part may meet another one: without the cells next to it where they have a ball in common.
   std::optional<Part> apart_from(const Part& part, const Part& other) const;
@@ -73,7 +75,7 @@ class TubeBoundary {
   const Tube& tube_;
   double size_;
   std::vector<Part> parts_;
-  bool complete_ = true;
+  std::vector<Interval> without_wall_;
 };
 
 }  // namespace lekalo::geometry
