@@ -19,6 +19,7 @@ constexpr double kAgree = 1e-13, kLeastAgree = 1e-9;  // of the size: of curves 
 constexpr double kAgreeAside = 1e-4;
 // Of h, relative: less is the end-on view, where n is not determined.
 constexpr double kEndOn = 1e-13;
+constexpr int kPlacesOfRim = 96;
 class TubeOutlines {
  public:
   TubeOutlines(const Tube& tube, const ViewOf& view) : tube_(tube), sweep_(tube.sweep()), view_(view) {
@@ -252,12 +253,18 @@ class TubeOutlines {
         for (ShapeOutline& line : edge.lines) result_.lines.push_back(std::move(line));
         continue;
       }
-      Frame frame = frame_about(end.point, end.inward);
-      ShapeOutline edge{std::make_shared<Circle>(frame, ball.radius[0]), true, nullptr, {}};
+      const Frame frame = frame_about(end.point, end.inward);
       const auto normal = [&](double t) { return std::cos(t) * frame.x + std::sin(t) * frame.y; };
-      add_turns(
-          normal, [&](double t) { return frame.origin + ball.radius[0] * normal(t); }, view_, {0, kTwoPi}, edge.turns);
-      result_.lines.push_back(std::move(edge));
+      const auto point = [&](double t) { return frame.origin + ball.radius[0] * normal(t); };
+      const auto is_outside = [&](double t) {
+        return !tube_.holds(point(t) + kBesideBalls * size_ * (normal(t) - end.inward));
+      };
+      each_stretch({0, kTwoPi}, kPlacesOfRim, is_outside, [&](const Interval& arc, bool outside) {
+        if (!outside) return;
+        ShapeOutline edge{std::make_shared<Circle>(frame, ball.radius[0], arc), true, nullptr, {}};
+        add_turns(normal, point, view_, arc, edge.turns);
+        result_.lines.push_back(std::move(edge));
+      });
     }
   }
 

@@ -14,9 +14,9 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kTerms = 20;
-constexpr double kModelError = 1e-14;            // of the size
-constexpr double kAgree = 1e-13, kLeast = 1e-6;  // likewise
-constexpr double kBorder = 1e-12;                // of the domain's sides
+constexpr double kModelError = 1e-14;                               // of the size
+constexpr double kAgree = 1e-13, kLeast = 1e-6, kLargeOpen = 1e-3;  // likewise
+constexpr double kBorder = 1e-12;                                   // of the domain's sides
 constexpr int kMostBoxes = 40000, kChecks = 53;
 
 template <class S>
@@ -221,6 +221,9 @@ std::optional<BendEdges> bend_edges(const BallSweep& sweep, const Interval& rang
   const SolutionCurves<3> found = search_solution_curves<3>(*bend, bend->domain(), options);
   BendEdges result;
   result.complete = found.complete;
+  for (const ParameterBox<3>& open : found.open)
+    for (const double extent : bend->extents(open))
+      result.complete = result.complete && extent <= kLargeOpen * bend->size();
   for (const SolutionArc<3>& arc : found.arcs) {
     const auto last = static_cast<int>(arc.nodes.size()) - 1;
     std::vector<Interval> parts;

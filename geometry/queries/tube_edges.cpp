@@ -111,10 +111,10 @@ std::optional<std::vector<std::array<Interval, 2>>> TubeBoundary::near_stretches
   };
   std::vector<Stretch> stretches;
   std::vector<Box3> centers;  // of each cell
-  double length = kInfinity;
+  double length = 0;
   for (size_t k = 0; k < cells.size(); ++k) {
     length += along.lengths[k];
-    if (length > most) stretches.push_back({k, k}), length = along.lengths[k];
+    if (k == 0 || length > most) stretches.push_back({k, k}), length = along.lengths[k];
     stretches.back().to = k + 1;
     centers.push_back(cells[k].box.inflated(-cells[k].least_radius));
   }

@@ -82,7 +82,8 @@ void TubeBoundary::add_walls() {
 
 void TubeBoundary::add_ball(std::optional<double> before, std::optional<double> after) {
   const BallJet ball = tube_.sweep().ball(after ? *after : *before);
-  const Frame along = frame_about(Vec3(0), glm::normalize(ball.center[1]));
+  const double speed = glm::length(ball.center[1]);
+  const Frame along = frame_about(Vec3(0), speed > 0 ? ball.center[1] / speed : Vec3(0, 0, 1));
   const Frame frame =
       frame_about(ball.center[0], glm::normalize(kPole.x * along.x + kPole.y * along.y + kPole.z * along.z));
   parts_.push_back({std::make_shared<SphereSurface>(frame, ball.radius[0]), nullptr, before, after, -1});
@@ -126,11 +127,32 @@ bool TubeBoundary::is_bare(const Part& part, const Vec2& place, double beside) c
   return !is_cut_off(part, place) && !tube_.holds(p + by) && (part.end < 0 || tube_.holds(p - by));
 }
 
+// Whether a point of a flat end's plane is in one of the balls that the plane cuts.
+bool TubeBoundary::is_on_end(int side, const Vec3& p) const {
+  constexpr int kPlaces = 64;
+  if (tube_.caps() == Caps::none) return false;
+  const BallSweep& sweep = tube_.sweep();
+  const auto holds = [&](double t) {
+    const BallJet ball = sweep.ball(t);
+    return glm::length(p - ball.center[0]) <= ball.radius[0];
+  };
+  const Interval domain = sweep.curve().domain();
+  bool is_in = holds(side == 0 ? domain.lo : next_down(domain.hi));
+  const Tube::End& end = tube_.end(side);
+  for (int cell = end.begin; cell < end.end && !is_in; ++cell) {
+    const Interval& t = sweep.cells()[static_cast<size_t>(cell)].t;
+    for (int k = 0; k < kPlaces && !is_in; ++k) is_in = holds(t.lo + t.width() * k / kPlaces);
+  }
+  return is_in;
+}
+
 bool TubeBoundary::is_bare_edge(const Part& a, const Vec2& at_a, const Part& b, const Vec2& at_b, double beside) const {
-  const Vec3 n = outward(a, at_a) + outward(b, at_b);
+  const Vec3 n = outward(a, at_a) + outward(b, at_b), p = a.surface->point(at_a.x, at_a.y);
   const double length = glm::length(n);
   if (!(length > 0) || is_cut_off(a, at_a) || is_cut_off(b, at_b)) return false;
-  return !tube_.holds(a.surface->point(at_a.x, at_a.y) + beside * size_ / length * n);
+  for (const Part* part : {&a, &b})
+    if (part->end >= 0 && !is_on_end(part->end, p)) return false;
+  return !tube_.holds(p + beside * size_ / length * n);
 }
 
 ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& view) const {

@@ -60,6 +60,7 @@ class TubeBoundary {
   void add_ball(std::optional<double> before, std::optional<double> after);
   void add_flat_ends();
   bool is_cut_off(const Part& part, const Vec2& place) const;
+  bool is_on_end(int side, const Vec3& p) const;
   bool bends_too_much(const CanalSurface& wall) const;
   bool meet_in_curved_corner(const CanalSurface& a, const CanalSurface& b) const;
   std::optional<std::vector<std::array<Interval, 2>>> near_stretches(const Interval& range, bool closed) const;
