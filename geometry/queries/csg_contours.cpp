@@ -106,7 +106,7 @@ class Lines {
       add(tube_outlines(leaf), leaf.map, true, sharp);
       const TubeBoundary::Edges own = boundary_of(k).edges(view_of(leaf));
       add(own.lines, leaf.map, true, sharp);
-      if (!own.all_of_bends) result_.left_out.insert("edges where a tube bends more than its radius allows");
+      if (!own.all_known) result_.left_out.insert("some edges along which a tube goes through itself");
     }
     if (!leaf.body || leaf.is_region) return;
     const Body& body = *leaf.body;

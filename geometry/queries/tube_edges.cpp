@@ -309,12 +309,12 @@ TubeBoundary::Edges TubeBoundary::edges(const ViewOf& view) const {
   for (const Interval& range : without_wall_) {
     const auto pairs =
         near_stretches(range, tube_.sweep().curve().is_closed() && range == tube_.sweep().curve().domain());
-    found.lines.complete = found.lines.complete && pairs && pairs->empty();
+    found.all_known = found.all_known && pairs && pairs->empty();
   }
   for (size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (part.wall && bends_too_much(*part.wall))
-      found.all_of_bends = add_edges_of_bends(*part.wall, view, found) && found.all_of_bends;
+      found.all_known = add_edges_of_bends(*part.wall, view, found) && found.all_known;
     else if (part.wall)
       add_own_edges(part, view, found);
     for (size_t k = i + 1; k < parts_.size(); ++k) {

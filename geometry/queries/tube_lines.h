@@ -42,9 +42,9 @@ class TubeBoundary {
   // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h).
   struct Edges {
     ShapeOutlines lines;
-    // False where the curve bends more than the radius at an end, all along, or where it is no one polynomial (at a
-    // knot): then some edges of bends are left out.
-    bool all_of_bends = true;
+    // False where some are left out: the curve bends more than the radius at an end, all along, or where it is no one
+    // polynomial (at a knot); or parts without a wall come near themselves.
+    bool all_known = true;
   };
   Edges edges(const ViewOf& view) const;
 

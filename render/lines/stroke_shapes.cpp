@@ -188,7 +188,7 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
       if (!tube || !edges) return;
       const TubeBoundary::Edges own = boundary_of(*tube).edges(own_view);
-      if (!own.all_of_bends) leave_out("edges where " + name_of_object() + " bends more than its radius allows");
+      if (!own.all_known) leave_out("some edges along which " + name_of_object() + " goes through itself");
       add_on_tube(own.lines, nullptr, style, hidden);
     }
   });

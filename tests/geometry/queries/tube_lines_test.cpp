@@ -170,7 +170,7 @@ TEST(TubeLines, EdgesOfBends) {
   for (const double R : {0.55, 0.7, 0.9}) {
     const Tube tube(formula_curve({"t", "t^2", "0"}, {-1.5, 1.5}), RadiusLaw(R), Caps::round);
     const TubeBoundary::Edges found = TubeBoundary(tube).edges(kView);
-    EXPECT_TRUE(found.all_of_bends);
+    EXPECT_TRUE(found.all_known);
     const double a = 2 * std::sqrt(R * R - 0.25);
     EXPECT_NEAR(length_of(found.lines), 0.5 * (a * std::sqrt(1 + a * a) + std::asinh(a)), 1e-9);
     each_point(found.lines, 20, [&](const Vec3& p, const ShapeOutline&, double) {
@@ -182,7 +182,7 @@ TEST(TubeLines, EdgesOfBends) {
   const CurvePtr ring = formula_curve({"2*cos(t)", "sin(t)", "0.1*sin(3*t)"}, {0, kTwoPi}, true);
   const Tube tube(ring, RadiusLaw(0.7), Caps::round);
   const TubeBoundary::Edges found = TubeBoundary(tube).edges(kView);
-  EXPECT_TRUE(found.all_of_bends && found.lines.complete);
+  EXPECT_TRUE(found.all_known && found.lines.complete);
   for (const ShapeOutline& line : found.lines.lines) {
     const Interval t = line.curve->domain();
     for (const double share : {0.15, 0.5, 0.85}) {
