@@ -31,6 +31,13 @@ bool is_triangle(const Helper& helper);
 // Whether a shape is made of surfaces: one, several, a body.
 bool has_faces(const Entity& shape);
 
+// The solid that a shape is, if it is one of this type.
+template <class T>
+const T* solid_of(const Entity& shape) {
+  const auto* solid = std::get_if<geometry::ShapePtr>(&shape);
+  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
+}
+
 class StrokeCollector {
  public:
   StrokeCollector(const World& world, bool drawing);

@@ -22,12 +22,6 @@ using namespace geometry;
 
 namespace {
 
-template <class T>
-const T* solid_of(const Entity& shape) {
-  const auto* solid = std::get_if<ShapePtr>(&shape);
-  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
-}
-
 // A plane that goes on everywhere.
 std::optional<SectionPlane> whole_plane(const Entity& shape, const Affine& to_world) {
   const Frame* frame = nullptr;

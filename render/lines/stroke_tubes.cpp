@@ -6,16 +6,6 @@ namespace lekalo::render {
 
 using namespace geometry;
 
-namespace {
-
-template <class T>
-const T* solid_of(const Entity& shape) {
-  const auto* solid = std::get_if<ShapePtr>(&shape);
-  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
-}
-
-}  // namespace
-
 const TubeBoundary& StrokeCollector::boundary_of(const Tube& tube) {
   return tubes_.try_emplace(&tube, tube).first->second;
 }
