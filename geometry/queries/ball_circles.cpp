@@ -78,6 +78,15 @@ bool is_corner(const BallSweep& sweep, double before, double after) {
   return !(glm::length(glm::normalize(a) - glm::normalize(b)) < kCorner);
 }
 
+bool is_straight_corner(const BallSweep& sweep, double before, double after) {
+  const auto is_straight = [&](double t) {
+    const BallJet at = sweep.ball(t);
+    return glm::length(glm::cross(at.center[1], at.center[2])) < kSameOnBalls * glm::dot(at.center[1], at.center[1]) &&
+           at.radius[1] == 0;
+  };
+  return is_straight(before) && is_straight(after);
+}
+
 std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, std::optional<double> before,
                                    std::optional<double> after) {
   std::vector<Condition> conditions;

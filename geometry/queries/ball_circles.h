@@ -52,6 +52,8 @@ std::vector<Interval> kept(const std::vector<Condition>& conditions);
 
 // Whether a curve turns from one piece to the next, which meet at `before` (the last place of the one) and `after`.
 bool is_corner(const BallSweep& sweep, double before, double after);
+// Whether both pieces are straight there, with one radius: the walls meet in half an ellipse.
+bool is_straight_corner(const BallSweep& sweep, double before, double after);
 // What of a circle on the ball between two pieces of a tube's curve neither the balls before it (nothing: it is the
 // first) nor those after it hide, n . c' >= -R' before and n . c' <= -R' after, nor flat ends cut off.
 std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, std::optional<double> before,

@@ -18,6 +18,7 @@ namespace {
 constexpr double kAgreeAside = 1e-4;
 // Of h, relative: less is the end-on view, where n is not determined.
 constexpr double kEndOn = 1e-13;
+constexpr int kPlacesOfRim = 96;
 class TubeOutlines {
  public:
   TubeOutlines(const Tube& tube, const ViewOf& view) : tube_(tube), sweep_(tube.sweep()), view_(view) {
@@ -41,7 +42,6 @@ class TubeOutlines {
       add_ball(before_end(curve.domain().hi), std::nullopt);
       if (tube_.caps() != Caps::round) add_ends();
     }
-    if (creases_ > 0) result_.meets_itself = false;  // at its corners
     return std::move(result_);
   }
 
@@ -163,9 +163,7 @@ class TubeOutlines {
     const auto is_outside = [&](double s) {
       const Vec3 p = point_at(s);
       if (tube_.is_cut_off(p, place(s).t)) return false;
-      if (!tube_.holds(p + kBesideBalls * size_ * normal_at(s))) return true;
-      result_.meets_itself = true;
-      return false;
+      return !tube_.holds(p + kBesideBalls * size_ * normal_at(s));
     };
     // Cut at cusps, and where it enters or leaves the tube itself or what its ends cut away.
     constexpr int kCuspPlaces = 1024;
@@ -231,13 +229,8 @@ class TubeOutlines {
     const double R = b.radius[0];
     const Vec3 inward = second - first, across = glm::cross(first, second);
     if (glm::length(inward) < kCorner) return;
-    const auto is_straight = [](const BallJet& at) {
-      return glm::length(glm::cross(at.center[1], at.center[2])) <
-                 kSameOnBalls * glm::dot(at.center[1], at.center[1]) &&
-             at.radius[1] == 0;
-    };
     const double cosine = glm::length(first + second) / 2;  // of half the turn
-    if (!is_straight(a) || !is_straight(b) || !(glm::length(across) > kCorner)) return;
+    if (!is_straight_corner(sweep_, before, after) || !(glm::length(across) > kCorner)) return;
     Frame frame;
     frame.origin = b.center[0];
     frame.x = glm::normalize(across), frame.y = glm::normalize(inward), frame.z = glm::cross(frame.x, frame.y);
@@ -254,7 +247,6 @@ class TubeOutlines {
           },
           point, view_, {0, kPi}, crease.turns);
     result_.lines.push_back(std::move(crease));
-    ++creases_;
   }
 
   // What of it other parts of the tube do not hide.
@@ -280,12 +272,18 @@ class TubeOutlines {
         for (ShapeOutline& line : edge.lines) result_.lines.push_back(std::move(line));
         continue;
       }
-      Frame frame = frame_about(end.point, end.inward);
-      ShapeOutline edge{std::make_shared<Circle>(frame, ball.radius[0]), true, nullptr, {}};
+      const Frame frame = frame_about(end.point, end.inward);
       const auto normal = [&](double t) { return std::cos(t) * frame.x + std::sin(t) * frame.y; };
-      add_turns(
-          normal, [&](double t) { return frame.origin + ball.radius[0] * normal(t); }, view_, {0, kTwoPi}, edge.turns);
-      result_.lines.push_back(std::move(edge));
+      const auto point = [&](double t) { return frame.origin + ball.radius[0] * normal(t); };
+      const auto is_outside = [&](double t) {
+        return !tube_.holds(point(t) + kBesideBalls * size_ * (normal(t) - end.inward));
+      };
+      each_stretch({0, kTwoPi}, kPlacesOfRim, is_outside, [&](const Interval& arc, bool outside) {
+        if (!outside) return;
+        ShapeOutline edge{std::make_shared<Circle>(frame, ball.radius[0], arc), true, nullptr, {}};
+        add_turns(normal, point, view_, arc, edge.turns);
+        result_.lines.push_back(std::move(edge));
+      });
     }
   }
 
@@ -293,7 +291,6 @@ class TubeOutlines {
   const BallSweep& sweep_;
   const ViewOf& view_;
   double size_;
-  int creases_ = 0;
   ShapeOutlines result_;
 };
 

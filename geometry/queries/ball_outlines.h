@@ -25,16 +25,16 @@ struct ShapeOutline {
   // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the shape.
   CurvePtr aside;
   std::vector<double> turns;  // of edges, by t: where a surface at the edge turns away from the viewer
+  Curve2Ptr image;            // of the line in which a surface is met: on that surface
 };
 
 struct ShapeOutlines {
   std::vector<ShapeOutline> lines;
-  bool complete = true;       // false where some were not found to that precision
-  bool meets_itself = false;  // a tube goes through itself, along edges that are not told
+  bool complete = true;  // false where some were not found to that precision
 };
 
-// Where tubes go through themselves the edges are left out but for corners between straight parts, and outlines end
-// there to 1e-6 of the size.
+// Where tubes go through themselves outlines end to 1e-6 of the size; of the edges there only those of corners between
+// straight parts are among these (tube_lines.h has the others).
 ShapeOutlines outlines(const Tube& tube, const ViewOf& view);
 // With the circles in which balls meet.
 ShapeOutlines outlines(const Balls& balls, const ViewOf& view);

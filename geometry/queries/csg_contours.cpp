@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "geometry/curves/curve_part.h"
@@ -19,6 +20,7 @@
 #include "geometry/queries/implicit_arcs.h"
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/implicit_equations.h"
+#include "geometry/queries/tube_lines.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -100,7 +102,12 @@ class Lines {
     const CsgLeaf& leaf = leaves_[k];
     const Candidate sharp{{nullptr, Kind::sharp, {}, {}, nullptr}, all_of(k)};
     if (leaf.implicit) add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
-    if (leaf.tube) add(tube_outlines(leaf), leaf.map, true, sharp);
+    if (leaf.tube) {
+      add(tube_outlines(leaf), leaf.map, true, sharp);
+      const TubeBoundary::Edges own = boundary_of(k).edges(view_of(leaf));
+      add(own.lines, leaf.map, true, sharp);
+      if (!own.all_known) result_.left_out.insert("some edges along which a tube goes through itself");
+    }
     if (!leaf.body || leaf.is_region) return;
     const Body& body = *leaf.body;
     for (const Edge& edge : body.edges) {
@@ -156,8 +163,8 @@ class Lines {
         add_meeting_of_shape(k, m);
       else if (a.implicit && b.implicit)
         add_meeting_of_implicit(k, m);
-      else if (a.shape)
-        result_.left_out.insert("lines in which tubes meet one another or implicit surfaces in one solid");
+      else if (a.shape && b.shape)
+        add_meeting_of_tube(a.tube ? k : m, a.tube ? m : k, asked);
       else if (b.body)
         add(intersect(*a.body, *b.body), *a.body, b.body.get(), asked);
       else
@@ -188,10 +195,35 @@ class Lines {
       } else if (const auto plane = canonical(surface); plane && plane->kind == CanonicalSurface::Kind::plane) {
         add_section_of_shape(k, plane->origin, plane->normal(), asked);
       } else if (leaf.tube) {
-        result_.left_out.insert("lines in which tubes meet curved faces of one solid");
+        const Affine back = leaf.map.inverse();
+        const ShapeOutlines found = boundary_of(k).meeting(transformed(surface, back), view_of(leaf));
+        if (!found.complete) result_.complete = false;
+        for (const ShapeOutline& line : found.lines) {
+          Candidate one = asked;
+          one.line.hosts.push_back({surface, line.image});
+          add(line.curve, nullptr, line.turns, leaf.map, std::move(one));
+        }
       }
     }
   }
+
+  // A tube and another one, or an implicit leaf.
+  void add_meeting_of_tube(int k, int m, const Candidate& asked) {
+    const CsgLeaf &leaf = leaves_[k], &other = leaves_[m];
+    const Affine to_other = other.map.inverse() * leaf.map;
+    const ViewOf view = view_of(leaf);
+    const ShapeOutlines found = other.tube ? boundary_of(k).meeting(boundary_of(m), to_other.inverse(), view)
+                                           : boundary_of(k).meeting(other.implicit->formula(), to_other, view);
+    if (!found.complete) result_.complete = false;
+    for (const ShapeOutline& line : found.lines) {
+      Candidate one = asked;
+      one.line.curve = transformed(line.curve, leaf.map);
+      one.line.turns = line.turns;
+      if (other.implicit) add_turns(other, false, one.line);
+      add(std::move(one));
+    }
+  }
+  const TubeBoundary& boundary_of(int k) { return tubes_.try_emplace(k, *leaves_[k].tube).first->second; }
 
   void add_meeting_of_implicit(int k, int m) {
     const CsgLeaf &a = leaves_[k], &b = leaves_[m];
@@ -279,7 +311,6 @@ class Lines {
   }
   void add(const ShapeOutlines& outlines, const Affine& map, bool edges, const Candidate& asked) {
     if (!outlines.complete) result_.complete = false;
-    if (outlines.meets_itself && edges) result_.left_out.insert("the edges along which a tube goes through itself");
     for (const ShapeOutline& outline : outlines.lines)
       if (outline.edge == edges) add(outline.curve, outline.aside, outline.turns, map, asked);
   }
@@ -383,6 +414,7 @@ class Lines {
   Box3 box_;
   double size_;
   std::vector<CsgLeaf> leaves_;
+  std::map<int, TubeBoundary> tubes_;
   CsgLines result_;
 };
 

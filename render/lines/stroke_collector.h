@@ -14,6 +14,7 @@
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/queries/trim.h"
+#include "geometry/queries/tube_lines.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -29,6 +30,13 @@ bool is_triangle(const Helper& helper);
 
 // Whether a shape is made of surfaces: one, several, a body.
 bool has_faces(const Entity& shape);
+
+// The solid that a shape is, if it is one of this type.
+template <class T>
+const T* solid_of(const Entity& shape) {
+  const auto* solid = std::get_if<geometry::ShapePtr>(&shape);
+  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
+}
 
 class StrokeCollector {
  public:
@@ -167,10 +175,25 @@ class StrokeCollector {
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
   void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
                            const Style& style, const HiddenLines& hidden);
-  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::ImplicitSurface& other,
-                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
-  void add_meeting_of_face(const geometry::SurfacePtr& face, const geometry::Balls& other,
-                           const geometry::Affine& to_other, const Style& style, const HiddenLines& hidden);
+  // How something meets what a shape without faces consists of, given in that shape's coordinates: adds the lines.
+  struct Meets {
+    std::function<void(const geometry::ImplicitFormula& formula)> formula;
+    std::function<void(const geometry::Vec3& through, const geometry::Vec3& normal)> plane;
+    std::function<void(const geometry::SurfacePtr& surface)> surface;
+  };
+  Meets meets_of_face(const geometry::SurfacePtr& face, const geometry::Affine& to_world,
+                      const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
+  Meets meets_of_tube(const geometry::Tube& tube, const geometry::Affine& to_world,
+                      const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
+  // As far as the region of the one and the other balls leave it.
+  void add_meeting(const Meets& meets, const geometry::ImplicitSurface& other, const geometry::Affine& to_world);
+  void add_meeting(const Meets& meets, const geometry::Balls& other, const geometry::Affine& to_world);
+  // Of two shapes without faces; false if that is not known.
+  bool add_meeting_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
+  const geometry::TubeBoundary& boundary_of(const geometry::Tube& tube);
+  // Lines on a tube that meet a surface, if one is given.
+  void add_on_tube(const geometry::ShapeOutlines& lines, const geometry::SurfacePtr& met, const Style& style,
+                   const HiddenLines& hidden);
 
   // What is kept of strokes: where along them that may change, and whether a point is kept (`size` is that of the
   // stroke's curve in the world).
@@ -240,7 +263,8 @@ class StrokeCollector {
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;
-  std::vector<geometry::MeshLine> mesh_lines_;  // of the object
+  std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;  // those that were met
+  std::vector<geometry::MeshLine> mesh_lines_;                     // of the object
   // Of fills: all faces in the world.
   struct PlacedFace {
     geometry::SurfacePtr surface;

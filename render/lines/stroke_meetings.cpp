@@ -1,7 +1,8 @@
 // Where shapes meet one another: the lines `intersection` of an object.
 //
-// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Tubes and meshes are met by
-// plane faces. What is put together is met through its leaves, as far as the lines lie on the whole.
+// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Meshes are met by plane faces;
+// so are tubes, and by all else through surfaces that hold their boundary (stroke_tubes.cpp). What is put together is
+// met through its leaves, as far as the lines lie on the whole.
 #include <algorithm>
 #include <cmath>
 
@@ -20,12 +21,6 @@ namespace lekalo::render {
 using namespace geometry;
 
 namespace {
-
-template <class T>
-const T* solid_of(const Entity& shape) {
-  const auto* solid = std::get_if<ShapePtr>(&shape);
-  return solid ? dynamic_cast<const T*>(solid->get()) : nullptr;
-}
 
 // A plane that goes on everywhere.
 std::optional<SectionPlane> whole_plane(const Entity& shape, const Affine& to_world) {
@@ -147,9 +142,11 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     });
     return;
   }
-  if (!a_has_faces && !b_has_faces)
-    return leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() +
-                     ")");
+  if (!a_has_faces && !b_has_faces) {
+    if (!add_meeting_of_tube(a, b, style, hidden) && !add_meeting_of_tube(b, a, style, hidden))
+      leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() + ")");
+    return;
+  }
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
   each_surface(faces.shape, [&](const SurfacePtr& surface) {
     if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
@@ -162,20 +159,25 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
 void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& to_world, const PlacedShape& solid,
                                           const Style& style, const HiddenLines& hidden) {
   to_world_ = to_world;
-  const Affine to_solid = solid.to_world.inverse() * to_world;
   const size_t before = cutters_.size();
   met_ = solid.object;
+  const auto meets = [&] { return meets_of_face(face.surface, to_world, solid.to_world, style, hidden); };
+  const auto* plane = dynamic_cast<const Plane*>(face.surface.get());
+  const auto* tube = solid_of<Tube>(solid.shape);
   if (const auto* implicit = solid_of<ImplicitSurface>(solid.shape)) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
-    add_meeting_of_face(face.surface, *implicit, to_solid, style, hidden);
+    add_meeting(meets(), *implicit, solid.to_world);
   } else if (const auto* balls = solid_of<Balls>(solid.shape)) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
-    add_meeting_of_face(face.surface, *balls, to_solid, style, hidden);
-  } else if (const auto* plane = dynamic_cast<const Plane*>(face.surface.get())) {
+    add_meeting(meets(), *balls, solid.to_world);
+  } else if (plane) {
     cutters_.push_back(cutter_of(face, to_world));
     to_world_ = solid.to_world;
     const Frame& frame = plane->frame();
     add_section(solid.shape, {to_world.point(frame.origin), glm::normalize(to_world.normal(frame.z))}, style, hidden);
+  } else if (tube) {
+    if (face.region) cutters_.push_back(cutter_of(face, to_world));
+    meets_of_tube(*tube, solid.to_world, to_world, style, hidden).surface(face.surface);
   } else {
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
@@ -183,11 +185,23 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
   met_ = -2;
 }
 
-void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const ImplicitSurface& other, const Affine& to_other,
-                                          const Style& style, const HiddenLines& hidden) {
-  const SurfacePtr moved = transformed(face, to_other);
-  const Affine to_face_world = to_world_, to_world = to_world_ * to_other.inverse();
-  to_world_ = to_world;
+StrokeCollector::Meets StrokeCollector::meets_of_face(const SurfacePtr& face, const Affine& to_world,
+                                                      const Affine& solid_to_world, const Style& style,
+                                                      const HiddenLines& hidden) {
+  const SurfacePtr moved = transformed(face, solid_to_world.inverse() * to_world);
+  to_world_ = solid_to_world;
+  return {[=, this](const ImplicitFormula& formula) {
+            if (moved->bounded()) add(level_section(moved, formula), {moved}, style, hidden);
+          },
+          [=, this](const Vec3& through, const Vec3& normal) {
+            add(plane_section(moved, through, normal), {moved}, style, hidden);
+          },
+          [=, this](const SurfacePtr& surface) {
+            add(intersect(moved, surface), {moved, surface}, style, hidden);
+          }};
+}
+
+void StrokeCollector::add_meeting(const Meets& meets, const ImplicitSurface& other, const Affine& to_world) {
   const ImplicitFormula& formula = other.formula();
   const ImplicitRegion& region = other.region();
   const size_t before = cutters_.size();
@@ -209,51 +223,42 @@ void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const Implicit
     cutters_.push_back(cut_where(
         to_world, [around](const Box3& box) { return -depth_in(around, box); },
         [around](const Vec3& p) { return glm::length(p - around.center) - around.radius; }));
-  if (moved->bounded()) add(level_section(moved, formula), {moved}, style, hidden);
+  meets.formula(formula);
   cutters_.resize(before);
   // Of a solid what its region cuts off is closed there.
-  if (other.is_closed()) {
-    cutters_.push_back(cut_where(
-        to_world, [formula](const Box3& box) { return formula.enclose(box); },
-        [formula](const Vec3& p) { return formula(p); }));
-    for (size_t k = 0; k < sides.size(); ++k) {
-      for (size_t i = 0; i < sides.size(); ++i)
-        if (i != k) cut_by_side(sides[i]);
-      add(plane_section(moved, sides[k].through, sides[k].normal), {moved}, style, hidden);
-      cutters_.resize(before + 1);
-    }
-    if (region.is_ball) {
-      Frame frame;
-      frame.origin = center;
-      const auto border = std::make_shared<SphereSurface>(frame, region.radius());
-      add(intersect(moved, SurfacePtr(border)), {moved, border}, style, hidden);
-    }
-    cutters_.resize(before);
+  if (!other.is_closed()) return;
+  cutters_.push_back(cut_where(
+      to_world, [formula](const Box3& box) { return formula.enclose(box); },
+      [formula](const Vec3& p) { return formula(p); }));
+  for (size_t k = 0; k < sides.size(); ++k) {
+    for (size_t i = 0; i < sides.size(); ++i)
+      if (i != k) cut_by_side(sides[i]);
+    meets.plane(sides[k].through, sides[k].normal);
+    cutters_.resize(before + 1);
   }
-  to_world_ = to_face_world;
+  if (region.is_ball) {
+    Frame frame;
+    frame.origin = center;
+    meets.surface(std::make_shared<SphereSurface>(frame, region.radius()));
+  }
+  cutters_.resize(before);
 }
 
-void StrokeCollector::add_meeting_of_face(const SurfacePtr& face, const Balls& other, const Affine& to_other,
-                                          const Style& style, const HiddenLines& hidden) {
-  const SurfacePtr moved = transformed(face, to_other);
-  const Affine to_face_world = to_world_;
-  to_world_ = to_world_ * to_other.inverse();
+void StrokeCollector::add_meeting(const Meets& meets, const Balls& other, const Affine& to_world) {
   const size_t before = cutters_.size();
   for (size_t k = 0; k < other.balls().size(); ++k) {
     other.near(k, [&](size_t i) {
       const Balls::Ball ball = other.balls()[i];
       if (i != k)
         cutters_.push_back(cut_where(
-            to_world_, [ball](const Box3& box) { return depth_in(ball, box); },
+            to_world, [ball](const Box3& box) { return depth_in(ball, box); },
             [ball](const Vec3& p) { return ball.radius - glm::length(p - ball.center); }));
     });
     Frame frame;
     frame.origin = other.balls()[k].center;
-    const auto sphere = std::make_shared<SphereSurface>(frame, other.balls()[k].radius);
-    add(intersect(moved, SurfacePtr(sphere)), {moved, sphere}, style, hidden);
+    meets.surface(std::make_shared<SphereSurface>(frame, other.balls()[k].radius));
     cutters_.resize(before);
   }
-  to_world_ = to_face_world;
 }
 
 void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,

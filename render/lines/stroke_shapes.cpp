@@ -186,6 +186,10 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
         if (line.kind == asked) add(line, style, hidden);
     } else if ((tube || balls) && kind_ != "smooth") {
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
+      if (!tube || !edges) return;
+      const TubeBoundary::Edges own = boundary_of(*tube).edges(own_view);
+      if (!own.all_known) leave_out("some edges along which " + name_of_object() + " goes through itself");
+      add_on_tube(own.lines, nullptr, style, hidden);
     }
   });
 }
@@ -193,7 +197,6 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
   if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
-  if (outlines.meets_itself && edges) leave_out("the edges along which " + name_of_object() + " goes through itself");
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
     aside_ = line.aside, cusps_ = line.turns;

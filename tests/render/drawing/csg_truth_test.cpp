@@ -139,9 +139,9 @@ TEST(CsgTruth, ImplicitCushion) {
                     [](Views&) { return implicit<Cushion>(Vec3(1.1, 0.9, 1.1), false); });
 }
 
-// A tube about a helix with what a box takes of it.
-TEST(CsgTruth, HelixCutByABox) {
-  Views views(127);
+// A tube about a helix, with what another part takes of it or adds to it.
+void expect_right_helix_with(const char* name, unsigned seed, const std::function<Leaf(Views&)>& make) {
+  Views views(seed);
   Found found;
   for (int k = 0; k < tests::tier_count(50, tests::least_of_slow(4)); ++k) {
     SmallScene scene;
@@ -149,11 +149,10 @@ TEST(CsgTruth, HelixCutByABox) {
     const auto helix = std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "(t - 2*pi)*0.11"}, {"t"}),
                                                       Interval{0, 2 * kTwoPi});
     const ShapePtr tube = std::make_shared<Tube>(helix, RadiusLaw(radius), Caps::round);
-    const Frame frame = anywhere(views, 0.4);
-    const Vec3 size(views.number(0.8, 1.5), views.number(0.8, 1.5), 3);
+    const Leaf other = make(views);
     show(scene,
          ShapePtr(std::make_shared<Csg>(k % 2 ? Csg::Operation::subtract : Csg::Operation::unite,
-                                        std::vector<ShapePtr>{tube, shape_of(box(frame, size))})),
+                                        std::vector<ShapePtr>{tube, other.shape})),
          kKinds);
     views.look(scene, k % 4 > 1);
     const auto truth = std::make_shared<PairSolid>(
@@ -163,10 +162,26 @@ TEST(CsgTruth, HelixCutByABox) {
               return Real3{std::cos(t), std::sin(t), (t - 2 * std::acos(-1.0L)) * Real(0.11)};
             },
             2 * kTwoPi, radius),
-        std::make_shared<oracle::sight::BoxSolid>(frame, size));
+        other.solid);
     Truth(*scene.world(), sheets_of(std::vector<SolidPtr>{truth}), views, found, 4);
   }
-  expect_right(found, "csg of a helix");
+  expect_right(found, name);
+}
+
+TEST(CsgTruth, HelixCutByABox) {
+  expect_right_helix_with("csg of a helix", 127, [](Views& views) -> Leaf {
+    const Frame frame = anywhere(views, 0.4);
+    const Vec3 size(views.number(0.8, 1.5), views.number(0.8, 1.5), 3);
+    return {shape_of(box(frame, size)), std::make_shared<oracle::sight::BoxSolid>(frame, size)};
+  });
+}
+
+TEST(CsgTruth, HelixCutByABall) {
+  expect_right_helix_with("csg of a helix and a ball", 137, [](Views& views) -> Leaf {
+    const Frame frame = anywhere(views, 0.8);
+    const double radius = views.number(0.4, 0.9);
+    return {shape_of(ball(frame, radius)), std::make_shared<oracle::sight::BallSolid>(frame, radius)};
+  });
 }
 
 // A pipe seen along its axis: four circles, of which none is hidden and none changes.

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/curves/formula_curve.h"
 #include "geometry/curves/segment.h"
+#include "geometry/point_formulas.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/shapes/balls.h"
 #include "geometry/shapes/body_shape.h"
@@ -123,7 +125,38 @@ TEST(Meetings, PlaneFacesCutTubes) {
   const Found found = meetings(std::make_shared<Body>(box(frame, {4, 4, 2})), Affine(), tube, Affine());
   EXPECT_NEAR(found.length, kTwoPi * 0.5 + 2 * 2, 1e-6);
   EXPECT_TRUE(found.left_out.empty());
-  EXPECT_EQ(meetings(ball_at({0, 0, 0}, 1), Affine(), tube, Affine()).left_out.size(), 1u);
+}
+
+// A bent tube and a ball, in several ways; two tubes at a right angle.
+TEST(Meetings, Tubes) {
+  const auto bow =
+      std::make_shared<FormulaCurve>(point_formulas({"2*cos(t)", "2*sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
+  const ShapePtr tube = std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat);
+  const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
+               placed = turned * Affine::translation({2.3, 0.5, 0.2});
+  auto formula = std::get<Expression>(Expression::parse("x^2 + y^2 + z^2"));
+  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+  ASSERT_FALSE(formula.bind(variables));
+  const Vec3 half(1.5);
+  const Found expected = meetings(tube, turned, ball_at({0, 0, 0}, 0.9), placed);
+  ASSERT_GT(expected.length, 2);
+  for (const Vec3& point : expected.points) EXPECT_NEAR(glm::length(placed.inverse().point(point)), 0.9, 1e-9);
+  const Entity others[] = {
+      ball_at({0, 0, 0}, 0.9),
+      SurfaceSet{sphere({0, 0, 0}, 0.9), sphere({0, 0, 20}, 1)},
+      ShapePtr(std::make_shared<ImplicitSurface>(formula, 0.9 * 0.9, ImplicitRegion{{-half, half}}, true)),
+      ShapePtr(std::make_shared<Balls>(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.9})),
+      ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
+                                     std::vector<ShapePtr>{std::make_shared<BodyShape>(ball_at({0, 0, 0}, 0.9)),
+                                                           std::make_shared<BodyShape>(ball_at({0, 0, 0.1}, 0.2))})),
+      ShapePtr(std::make_shared<Tube>(std::make_shared<Segment>(Vec3(0, 0, -1e-7), Vec3(0, 0, 1e-7)), RadiusLaw(0.9),
+                                      Caps::round))};
+  for (const Entity& other : others) {
+    const Found found = meetings(tube, turned, other, placed), turned_round = meetings(other, placed, tube, turned);
+    EXPECT_NEAR(found.length, expected.length, 1e-5);
+    EXPECT_NEAR(turned_round.length, expected.length, 1e-5);
+    EXPECT_TRUE(found.left_out.empty());
+  }
 }
 
 }  // namespace
