@@ -191,15 +191,15 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
 }
 
 CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec3(double)>& point_at,
-                     const std::function<bool(double, const Vec3&)>& is_on_line) {
+                     const std::function<bool(double, const Vec3&)>& is_on_line, bool& complete) {
   const std::array<Interval, 1> whole{range};
   if (auto curve = polynomial_approximation(point_at, whole, kAgreeOnBalls * size)) return curve;
   const auto curve = polynomial_approximation(point_at, whole, kAgreeInPace * size);
-  if (!curve) return nullptr;
-  for (const CurvePiece& piece : curve->pieces())
-    for (int k = 0; k < kCheckedPlaces; ++k) {
+  complete = complete && curve;
+  for (const CurvePiece& piece : curve ? curve->pieces() : std::vector<CurvePiece>())
+    for (int k = 0; k < kCheckedPlaces && complete; ++k) {
       const double s = piece.domain.lo + (k + 0.5) / kCheckedPlaces * piece.domain.width();
-      if (!is_on_line(s, curve->point(s))) return nullptr;
+      complete = is_on_line(s, curve->point(s));
     }
   return curve;
 }

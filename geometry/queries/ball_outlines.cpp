@@ -202,7 +202,7 @@ class TubeOutlines {
       return std::abs(glm::length(n) - 1) * ball.radius[0] <= kAgreeOnBalls * size_ &&
              std::abs(glm::dot(n, sight)) * ball.radius[0] <= kAgreeOnBalls * size_;
     };
-    const CurvePtr curve = fitted_line(range, size_, point_at, is_on_outline);
+    const CurvePtr curve = fitted_line(range, size_, point_at, is_on_outline, result_.complete);
     const CurvePtr aside = polynomial_approximation([&](double s) { return side * normal_at(s); }, whole, kAgreeAside);
     if (!curve || !aside) {
       result_.complete = false;

@@ -270,12 +270,9 @@ class TubeSection {
       return std::abs(glm::dot(p - origin_, m_)) <= kAgreeOnBalls * size_ &&
              std::abs(glm::length(p - ball.center[0]) - ball.radius[0]) <= kAgreeOnBalls * size_;
     };
-    const CurvePtr curve = fitted_line(
-        range, size_, [&](double s) { return path(s).point(); }, is_on_section);
-    if (!curve) {
-      result_.complete = false;
-      return;
-    }
+    const auto point_at = [&](double s) { return path(s).point(); };
+    const CurvePtr curve = fitted_line(range, size_, point_at, is_on_section, result_.complete);
+    if (!curve) return;
     ShapeOutline line{curve, true, nullptr, {}};
     const auto faces_viewer = [&](double s) {
       const WallPoint at = path(s);
