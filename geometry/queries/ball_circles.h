@@ -89,9 +89,10 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
 
 // A line on a tube as a polynomial curve that agrees to 1e-13 of the size. Where the two points of a circle nearly meet
 // rounding moves them along the line: there the curve goes on at a pace of its own, as long as its points are on the
-// line as exactly, by is_on_line(parameter, point). Null where neither can be had.
+// line as exactly, by is_on_line(parameter, point); where they are not, and where there is no such curve (null),
+// `complete` is set to false.
 CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec3(double)>& point_at,
-                     const std::function<bool(double, const Vec3&)>& is_on_line);
+                     const std::function<bool(double, const Vec3&)>& is_on_line, bool& complete);
 
 // Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
 // ends of stretches by halving.

@@ -107,11 +107,15 @@ SurfaceEnclosure CanalSurface::enclose(const Rectangle& box, int order) const {
   for (const Part& part : parts_) {
     const Interval common = intersect(part.center.t, box.u);
     if (common.empty() || (common.width() == 0 && box.u.width() > 0)) continue;
+    std::array<Box3, kMaxSurfaceOrder + 1> x, y, center;
+    part.x.include_ranges(order, common, x.data());
+    part.y.include_ranges(order, common, y.data());
+    part.center.include_ranges(order, common, center.data());
     for (int i = 0; i <= order; ++i) {
-      const Triple<Interval> along_x = triple(part.x.enclose(i, common)), along_y = triple(part.y.enclose(i, common));
+      const Triple<Interval> along_x = triple(x[i]), along_y = triple(y[i]);
       for (int j = 0; i + j <= order; ++j) {
         Triple<Interval> sum = turn[0][j] * along_x + turn[1][j] * along_y;
-        if (j == 0) sum = sum + triple(part.center.enclose(i, common));
+        if (j == 0) sum = sum + triple(center[i]);
         result.values[SurfaceJet::index(i, j)].include(box_of(sum));
       }
     }
