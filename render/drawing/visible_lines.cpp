@@ -46,6 +46,7 @@ constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
 // joins it there may lie before it.
 constexpr double kInside = 1e-10;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
+constexpr double kNearer = 1e-2;      // of that, once more and again, where rays disagree
 // A face whose normal stands across the sight but for this is seen edge-on.
 constexpr double kEdgeOn = 1e-9;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
@@ -536,15 +537,27 @@ class Drawing {
       pieces.push_back({t, layers});
   }
 
-  void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
-    constexpr double kShares[] = {0.5, 0.17, 0.83};
+  // Layers at places of a stretch.
+  std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double aside) {
     std::vector<std::pair<double, int>> seen;
-    const double aside = room_beside(line, t);
-    for (const double share : kShares) {
+    for (const double share : {0.17, 0.5, 0.83}) {
       const double at = t.lo + share * t.width();
       seen.emplace_back(at, layers_at(line, at, aside));
     }
-    std::sort(seen.begin(), seen.end());
+    return seen;
+  }
+  static bool agree(const std::vector<std::pair<double, int>>& seen) {
+    return std::all_of(seen.begin(), seen.end(), [&](const auto& one) { return one.second == seen[0].second; });
+  }
+
+  void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
+    // Where rays disagree they may be aimed too far beside a line that hardly leaves another; then nearer ones agree.
+    const double aside = room_beside(line, t);
+    std::vector<std::pair<double, int>> seen = seen_on(line, t, aside);
+    for (double nearer = kNearer * aside; !agree(seen) && nearer > kLeastAside; nearer *= kNearer) {
+      std::vector<std::pair<double, int>> again = seen_on(line, t, nearer);
+      if (agree(again)) seen = std::move(again);
+    }
     double from = t.lo;
     for (size_t k = 0; k + 1 < seen.size(); ++k) {
       if (seen[k].second == seen[k + 1].second) continue;
