@@ -8,7 +8,8 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kShallow = 0.7;  // |k| down to which angles tell points near joins
+constexpr double kShallow = 0.7;      // |k| down to which angles tell points near joins
+constexpr double kShallowest = 0.99;  // of bulges on which |k| falls less than half as far angles tell nothing
 constexpr int kPlacesOfArc = 64;
 constexpr double kAgreeInPace = 1e-9;  // of the size
 constexpr int kCheckedPlaces = 7;      // of each piece of a fitted line
@@ -156,22 +157,27 @@ std::vector<WallPath> wall_paths(const Interval& t, bool joins_lo, bool joins_hi
     int last = 0;
     while (last + 1 < kPlacesOfArc && least > kShallow && size_of(at(last + 1)) < least) least = size_of(at(++last));
     const double told = std::max(kShallow, 0.5 * (1 + least));
-    if (!(told < 1)) return std::nullopt;
+    if (told > kShallowest) return std::nullopt;
     return ArcEnd{zero_between([&](double x) { return size_of(x) - told; }, from, at(last)), told};
   };
   std::vector<WallPath> paths;
   const std::optional<ArcEnd> lo = joins_lo ? end_of_arc(t.lo, t.hi) : ArcEnd{t.lo, 1},
                               hi = joins_hi ? end_of_arc(t.hi, t.lo) : ArcEnd{t.hi, 1};
   if (!lo || !hi) {
-    // One smooth curve by the root of the distance from where they join.
+    // One smooth curve by the root of the distance from where they join; there rounding would leave them apart.
+    const auto place = [=](double at, double sign) {
+      at = t.clamp(at);
+      if ((at == t.lo && joins_lo) || (at == t.hi && joins_hi)) return WallPlace{at, share(at) > 0 ? 1.0 : -1.0, 0};
+      return by_t(at, sign);
+    };
     if (joins_lo && joins_hi)
       paths.push_back({{0, kTwoPi}, [=](double s) {
-                         return by_t(t.clamp(t.middle() - 0.5 * t.width() * std::cos(s)), s <= kPi ? 1.0 : -1.0);
+                         return place(t.middle() - 0.5 * t.width() * std::cos(s), s <= kPi ? 1.0 : -1.0);
                        }});
     else
       paths.push_back({{-1, 1}, [=](double s) {
-                         return by_t(t.clamp(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s),
-                                     s >= 0 ? 1.0 : -1.0);
+                         return place(joins_lo ? t.lo + t.width() * s * s : t.hi - t.width() * s * s,
+                                      s >= 0 ? 1.0 : -1.0);
                        }});
     return paths;
   }
