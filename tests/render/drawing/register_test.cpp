@@ -43,7 +43,8 @@ TEST(Register, LinesLieOnBordersOfFaces) {
   Views views(61);
   int borders = 0, places = 0;
   double worst_border = 0, worst_place = 0;
-  for (int k = 0; k < tests::tier_count(200, tests::least_of_slow(20)); ++k) {
+  const int count = tests::tier_count(200, tests::least_of_slow(20));
+  for (int k = 0; k < count; ++k) {
     SmallScene scene;
     for (int i = 0; i < 3; ++i) {
       const Vec3 about = 1.5 * Vec3(std::cos(2.1 * i), std::sin(2.1 * i), 0.3 * i);
@@ -99,7 +100,7 @@ TEST(Register, LinesLieOnBordersOfFaces) {
     borders += static_cast<int>(between.size());
     places += static_cast<int>(seen.size());
   }
-  EXPECT_GT(borders, 10000);
+  EXPECT_GT(borders, 1000 * count);
   EXPECT_LE(worst_border, kRegister);
   EXPECT_LE(worst_place, kRegister);
   tests::report_figure("borders", borders);

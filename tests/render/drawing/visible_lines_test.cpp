@@ -59,7 +59,8 @@ TEST(VisibleLines, EdgesOfBoxes) {
 TEST(VisibleLines, ParameterLinesOfSpheres) {
   Views views(5);
   int changes = 0;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  const int count = tests::tier_count(500, tests::least_of_slow(50));
+  for (int k = 0; k < count; ++k) {
     SmallScene scene;
     const double radius = views.number(1, 2.5);
     const auto ball =
@@ -90,7 +91,7 @@ TEST(VisibleLines, ParameterLinesOfSpheres) {
       }
     }
   }
-  EXPECT_GT(changes, 100);
+  EXPECT_GT(changes, 2 * count);
   tests::report_figure("changes", changes);
 }
 
