@@ -27,7 +27,7 @@ TEST(ReadImage, DecidesByTheFirstBytes) {
 
 TEST(ReadImage, IntegerSamplesOfOtherFormatsAreSrgb) {
   const TemporaryFolder folder;
-  write_bytes(folder / "a.ppm", std::string("P6\n2 1\n255\n") + "\xff\x80\x0a" + std::string("\x00\x01\x02", 3));
+  write_bytes(folder / "a.ppm", std::string("P6\n2 1\n255\n\xff\x80\x0a\x00\x01\x02", 17));
   const Image image = read_image(folder / "a.ppm");
   EXPECT_TRUE(image.low_dynamic_range);
   ASSERT_TRUE(has_color(image));
