@@ -46,8 +46,9 @@ class PatchOracle {
     if (!convex) radius_ = geometry::kInfinity;
   }
 
-  // In order of t. `undecided` tells that there were more rectangles than room: the line runs along the patch, or
-  // through a collapsed edge; or that a root is no place but a stretch of the line, which lies in the patch there.
+  // In order of t. `undecided` tells that there were more rectangles than room (none is gathered then): the line runs
+  // along the patch, or through a collapsed edge; or that a root is no place but a stretch of the line, which lies in
+  // the patch there.
   std::vector<Root> roots(const Line& given, bool* undecided = nullptr) const {
     // The line with its origin at its foot near the patch.
     long double along = 0, square = 0;
@@ -75,9 +76,13 @@ class PatchOracle {
     }
     Search search{4 * 2.3e-16 * largest, {}, false};
     halve(net, 0.5, 0.5, 0.5, 0.5, search);
+    if (search.full && undecided) {
+      *undecided = true;
+      return {};
+    }
     bool runs_along = false;
     std::vector<Root> found = cluster(search.cells, line, runs_along);
-    if (undecided) *undecided = search.full || runs_along;
+    if (undecided) *undecided = runs_along;
     for (Root& root : found) root.t = static_cast<double>(foot + root.t);
     return found;
   }

@@ -74,7 +74,7 @@ class Truth {
     if (line.stroke.kind != "silhouette") return sheets_(from, p, 0);
     // Where the surface hardly bends along the way of sight, as near cusps, crossings of one contact are farther apart.
     const int layers = sheets_(from, p, kContact);
-    return layers == sheets_(from, p, kContactToo) ? layers : -1;
+    return layers >= 0 && layers == sheets_(from, p, kContactToo) ? layers : -1;
   }
 
   void check(const VisibleLine& line) {
