@@ -116,9 +116,13 @@ class PatchOracle {
   }
 
   bool one_sign(const double* c, double slack) const {
-    double lo = c[0], hi = c[0];
-    for (size_t k = 1; k < points_.size(); ++k) lo = std::min(lo, c[k]), hi = std::max(hi, c[k]);
-    return lo > slack || hi < -slack;
+    const size_t n = points_.size();
+    size_t k = 0;
+    if (c[0] > slack)
+      while (k < n && c[k] > slack) ++k;
+    else
+      while (k < n && c[k] < -slack) ++k;
+    return k == n;
   }
 
   // Largest step of the two coefficients between neighbours in one direction, times the number of steps.
@@ -157,7 +161,7 @@ class PatchOracle {
       if (!(length > slack)) continue;
       f /= length;
       g /= length;
-      std::array<double, kMostPoints> across{};
+      std::array<double, kMostPoints> across;
       for (size_t k = 0; k < points_.size(); ++k) across[k] = f * net.g[k] - g * net.f[k];
       if (one_sign(across.data(), 2 * slack)) return true;
     }

@@ -74,7 +74,7 @@ TEST(DrawingTruth, SingleSolids) {
 TEST(DrawingTruth, ManySolids) {
   Views views(29);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 4; ++i) {
@@ -91,7 +91,7 @@ TEST(DrawingTruth, ManySolids) {
 TEST(DrawingTruth, TwoCrossingTori) {
   Views views(31);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 2; ++i) {
@@ -109,7 +109,7 @@ TEST(DrawingTruth, TwoCrossingTori) {
 TEST(DrawingTruth, Csg) {
   Views views(37);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     const Part a = random_part(views, k, 0.3), b = random_part(views, k + 1 + k / 5, 0.7),
                c = random_part(views, k / 3, 0.9);
@@ -138,7 +138,7 @@ TEST(DrawingTruth, Csg) {
 TEST(DrawingTruth, HelixThroughASlottedPlate) {
   Views views(53);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     const double radius = views.number(0.12, 0.25), pitch = views.number(0.09, 0.16), turns = 2;
     const auto helix = std::make_shared<FormulaCurve>(
@@ -297,7 +297,7 @@ TEST(DrawingTruth, ClosedImplicitCubic) { expect_implicit<Clebsch>("closed cubic
 TEST(DrawingTruth, Saddles) {
   Views views(41);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     Grid<Vec3> net{4, 4, {}};
     for (int i = 0; i < 4; ++i)
@@ -317,7 +317,7 @@ TEST(DrawingTruth, Saddles) {
 TEST(DrawingTruth, CrossingSheets) {
   Views views(43);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     SurfaceSet all;
     for (int n = 0; n < 2; ++n) {
@@ -336,7 +336,7 @@ TEST(DrawingTruth, Teapot) {
   const SurfaceSet teapot = std::get<SurfaceSet>(loaded.model->objects.front().shape);
   Views views(47);
   Found found;
-  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(2)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     show(scene, teapot, {"boundary", "silhouette"});
     views.look(scene, k % 2);

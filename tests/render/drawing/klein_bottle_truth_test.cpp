@@ -32,7 +32,7 @@ Sheets sheets_of_bottle(const oracle::implicit::FigureEightBottle& bottle) {
 TEST(DrawingTruth, KleinBottles) {
   Views views(67);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(6)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
     const std::string a = std::to_string(views.number(1.8, 2.6));
     show(scene, figure_eight_bottle(a), {"boundary", "silhouette", "self_intersection", "parameter"}, 4);
