@@ -161,7 +161,7 @@ class PatchOracle {
       if (!(length > slack)) continue;
       f /= length;
       g /= length;
-      std::array<double, kMostPoints> across;
+      std::array<double, kMostPoints> across{};
       for (size_t k = 0; k < points_.size(); ++k) across[k] = f * net.g[k] - g * net.f[k];
       if (one_sign(across.data(), 2 * slack)) return true;
     }
