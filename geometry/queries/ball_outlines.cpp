@@ -103,24 +103,36 @@ class TubeOutlines {
       bool end_on;
     };
     std::vector<Cut> cuts;
+    // Between two places on whose sides h differs.
+    const auto add_change = [&](double lo, double hi) {
+      const bool negative = h(lo) < 0;
+      for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+        ((h(middle) < 0) == negative ? lo : hi) = middle;
+      cuts.push_back({negative ? hi : lo, false});
+    };
+    const auto place = [&](int i) { return at(all.lo + all.width() * i / kPlaces); };
     double before = h(all.lo), before_that = before;
     for (int k = 1; k <= kPlaces; ++k) {
-      const auto place = [&](int i) { return at(all.lo + all.width() * i / kPlaces); };
       const double here = h(place(k));
+      const double side = before < 0 ? -1 : 1;
       if ((here < 0) != (before < 0)) {
-        double lo = place(k - 1), hi = place(k);
-        for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
-          ((h(middle) < 0) == (before < 0) ? lo : hi) = middle;
-        cuts.push_back({before < 0 ? hi : lo, false});
-      } else if (k > 1 && before <= before_that && before <= here && before >= 0) {
-        // Perhaps it touches zero.
+        add_change(place(k - 1), place(k));
+      } else if (k > 1 && (before_that < 0) == (before < 0) && side * before <= side * before_that &&
+                 side * before <= side * here) {
+        // Nearest to zero between its neighbours: perhaps it touches zero, or goes beyond for a short stretch.
         double lo = place(k - 2), hi = place(k);
         for (int step = 0; step < 100; ++step) {
           const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-          (h(a) < h(b) ? hi : lo) = h(a) < h(b) ? b : a;
+          const bool nearer_a = side * h(a) < side * h(b);
+          (nearer_a ? hi : lo) = nearer_a ? b : a;
         }
-        const double lowest = 0.5 * (lo + hi);
-        if (h(lowest) < kEndOn) cuts.push_back({lowest, true});
+        const double nearest = 0.5 * (lo + hi), least = side * h(nearest);
+        if (least < -kEndOn) {
+          add_change(place(k - 2), nearest);
+          add_change(nearest, place(k));
+        } else if (least < kEndOn && side > 0) {
+          cuts.push_back({nearest, true});
+        }
       }
       before_that = before, before = here;
     }
