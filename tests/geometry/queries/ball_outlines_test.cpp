@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/curves/circle.h"
 #include "geometry/curves/formula_curve.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
@@ -46,6 +47,36 @@ TEST(BallOutlines, SectionsByPlanes) {
   ASSERT_EQ(upright.lines.size(), 1u);
   for (const double turn : upright.lines[0].turns) EXPECT_NEAR(upright.lines[0].curve->point(turn).z, 0, 1e-12);
   EXPECT_GE(upright.lines[0].turns.size(), 2u);
+}
+
+// An eye near a ring sees the two branches of its outline join where a tangent of the middle circle passes the eye at
+// less than the radius; just within it they part for a short stretch, down to a 60,000th of the ring here.
+TEST(TubeOutlines, ShortGaps) {
+  const double radius = 0.3, away = 3, end = 1.7;
+  const Tube ring(std::make_shared<Circle>(Frame(), 1, Interval{-end, end}), RadiusLaw(radius), Caps::round);
+  for (const double within : {0.1, 1e-2, 1e-3, 1e-4}) {
+    const Vec3 eye(away, 0, std::sqrt(radius * radius - within * within));
+    const ShapeOutlines found = outlines(ring, {true, eye});
+    EXPECT_TRUE(found.complete);
+    double nearest[4] = {1, 1, 1, 1};  // to the middle of the gaps, on either side of each
+    for (const ShapeOutline& line : found.lines) {
+      const Interval t = line.curve->domain();
+      for (int k = 0; k <= 2000; ++k) {
+        const Vec3 p = line.curve->point(t.lo + t.width() * k / 2000);
+        const double turn = std::clamp(std::atan2(p.y, p.x), -end, end);
+        const Vec3 n = (p - Vec3(std::cos(turn), std::sin(turn), 0)) / radius;
+        EXPECT_NEAR(glm::length(n), 1, 1e-12);
+        EXPECT_NEAR(glm::dot(n, p - eye), 0, 1e-11);
+        const double off = away * std::cos(turn) - 1;
+        double& least = nearest[2 * (turn < 0) + (off < 0)];
+        least = std::min(least, std::abs(off));
+      }
+    }
+    for (const double off : nearest) {
+      EXPECT_GT(off, within * (1 - 1e-6));
+      EXPECT_LT(off, within + 1e-4);
+    }
+  }
 }
 
 Expression law(const char* text) {
