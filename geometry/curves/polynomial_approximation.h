@@ -15,8 +15,16 @@ namespace lekalo::geometry {
 // finite; the parameter is the curve's.
 std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance);
 
-// The same of a function over smooth stretches that follow one another.
+// Of functions whose rounding moves points along a line more than across it.
+struct OwnPace {
+  double tolerance;  // how far along the line a point may be from the function's
+  std::function<bool(double t, const Vec3& point)> is_on_line;
+};
+
+// The same of a function over smooth stretches that follow one another. With a pace, points agree too if they are on
+// the line, and near.
 std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::function<Vec3(double)>& point,
-                                                                std::span<const Interval> pieces, double tolerance);
+                                                                std::span<const Interval> pieces, double tolerance,
+                                                                const OwnPace* pace = nullptr);
 
 }  // namespace lekalo::geometry

@@ -12,7 +12,6 @@ constexpr double kShallow = 0.7;      // |k| down to which angles tell points ne
 constexpr double kShallowest = 0.99;  // of bulges on which |k| falls less than half as far angles tell nothing
 constexpr int kPlacesOfArc = 64;
 constexpr double kAgreeInPace = 1e-9;  // of the size
-constexpr int kCheckedPlaces = 7;      // of each piece of a fitted line
 
 }  // namespace
 
@@ -200,14 +199,10 @@ CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec
                      const std::function<bool(double, const Vec3&)>& is_on_line, bool& complete) {
   const std::array<Interval, 1> whole{range};
   if (auto curve = polynomial_approximation(point_at, whole, kAgreeOnBalls * size)) return curve;
-  const auto curve = polynomial_approximation(point_at, whole, kAgreeInPace * size);
-  complete = complete && curve;
-  for (const CurvePiece& piece : curve ? curve->pieces() : std::vector<CurvePiece>())
-    for (int k = 0; k < kCheckedPlaces && complete; ++k) {
-      const double s = piece.domain.lo + (k + 0.5) / kCheckedPlaces * piece.domain.width();
-      complete = is_on_line(s, curve->point(s));
-    }
-  return curve;
+  const OwnPace pace{kAgreeInPace * size, is_on_line};
+  if (auto curve = polynomial_approximation(point_at, whole, kAgreeOnBalls * size, &pace)) return curve;
+  complete = false;
+  return polynomial_approximation(point_at, whole, kAgreeInPace * size);
 }
 
 }  // namespace lekalo::geometry
