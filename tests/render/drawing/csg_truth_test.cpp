@@ -177,7 +177,7 @@ TEST(CsgTruth, HelixCutByABox) {
 }
 
 TEST(CsgTruth, HelixCutByABall) {
-  expect_right_helix_with("csg of a helix and a ball", 137, [](Views& views) -> Leaf {
+  expect_right_helix_with("csg of a helix and a ball", 129, [](Views& views) -> Leaf {
     const Frame frame = anywhere(views, 0.8);
     const double radius = views.number(0.4, 0.9);
     return {shape_of(ball(frame, radius)), std::make_shared<oracle::sight::BallSolid>(frame, radius)};
