@@ -40,7 +40,8 @@ struct Part {
 // The parts of a cell, kept as they are made: a cell is asked for with many others.
 class Parts {
  public:
-  Parts(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
+  void begin(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
+    parts_.clear();
     parts_.emplace_back(curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow, cell.is_chord ? kAnyTurn : kCellTurn);
   }
   const Part& operator[](int index) const { return parts_[index]; }
@@ -327,8 +328,9 @@ void PictureCrossings::each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) c
 void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<bool(int)>& skip,
                                std::vector<Hit>& hits) const {
   std::vector<Run> runs;
+  Parts parts, parts_of_other;
   for (const ProjectedCurve::Cell& cell : curve.cells()) {
-    Parts parts(curve, cell);
+    parts.begin(curve, cell);
     const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge, hi = glm::max(cell.begin, cell.end) + cell.bulge;
     each_bin(lo, hi, [&](size_t bin) {
       for (const Item& item : bins_[bin]) {
@@ -339,8 +341,8 @@ void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<
         if (curves_[item.curve] == &curve &&
             (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
           continue;
-        Parts of_other_parts(*curves_[item.curve], of_other);
-        const CellPair pair(parts, cell, of_other_parts, of_other);
+        parts_of_other.begin(*curves_[item.curve], of_other);
+        const CellPair pair(parts, cell, parts_of_other, of_other);
         pair.each([&](const PictureCrossing& crossing) { hits.push_back({item.curve, crossing}); });
         if (pair.common()) runs.push_back({item.curve, *pair.common()});
       }
