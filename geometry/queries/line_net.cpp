@@ -1,9 +1,5 @@
 #include "geometry/queries/line_net.h"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -47,14 +43,8 @@ constexpr double kTooWide = 0.25;
 using Pair = double __attribute__((vector_size(16)));
 
 Pair pair(double a) { return Pair{a, a}; }
-// a > b ? a : b, and a < b ? a : b, which GCC makes several instructions of.
-#ifdef __SSE2__
-Pair larger(Pair a, Pair b) { return _mm_max_pd(a, b); }
-Pair smaller(Pair a, Pair b) { return _mm_min_pd(a, b); }
-#else
 Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
-#endif
 Pair magnitude(Pair a) {
   using Bits = int64_t __attribute__((vector_size(16)));
   constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();

@@ -233,7 +233,7 @@ class Passages {
     const Vec3 along_u = s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
                along_v = s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1];
     const Vec3 normal = glm::cross(along_u, along_v), chord = c.end - c.begin;
-    for (const Vec3& axis : {normal, chord, glm::cross(normal, along_u), glm::cross(normal, along_v)}) {
+    const auto parts = [&](const Vec3& axis) {
       double lo = kInfinity, hi = -kInfinity;
       for (const Vec3& corner : s.corners) {
         const double x = glm::dot(axis, corner - c.begin);
@@ -243,11 +243,10 @@ class Passages {
       const Vec3 sizes = glm::abs(axis);
       const Interval by_t = off_chord(axis, sizes, c.second, ht), by_u = off_chord(axis, sizes, s.second_uu, hu),
                      by_v = off_chord(axis, sizes, s.second_vv, hv);
-      if (lo + by_u.lo + by_v.lo > std::max(0.0, end) + by_t.hi + slack ||
-          hi + by_u.hi + by_v.hi < std::min(0.0, end) + by_t.lo - slack)
-        return true;
-    }
-    return false;
+      return lo + by_u.lo + by_v.lo > std::max(0.0, end) + by_t.hi + slack ||
+             hi + by_u.hi + by_v.hi < std::min(0.0, end) + by_t.lo - slack;
+    };
+    return parts(normal) || parts(chord) || parts(glm::cross(normal, along_u)) || parts(glm::cross(normal, along_v));
   }
 
   // Whether all of the curve's cell is so near to the surface's, which are not apart, or both are as small.

@@ -82,14 +82,20 @@ void add_sight_turns(const Curve& line, const Surface& surface, const Curve& ima
                      std::vector<double>& turns) {
   const double width = line.domain().width();
   const SightAlong system{surface, image, view.central, view.direction_or_eye};
-  for (const CurvePiece& piece : line.pieces()) {
-    RootSearchOptions<1, 1> options;
-    options.slack = {kSlack * width};
-    options.least = {kSamePlace * width};
-    options.most_boxes = 2000;
-    const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
+  RootSearchOptions<1, 1> options;
+  options.slack = {kSlack * width};
+  options.least = {kSamePlace * width};
+  options.most_boxes = 2000;
+  const auto search = [&](const Interval& t) {
+    const auto found = search_roots<1, 1>(system, ParameterBox<1>{t}, options);
     for (const auto& root : found.isolated) turns.push_back(root[0]);
     for (const auto& open : found.open) add_sign_changes(system, open[0], turns);
+  };
+  // Over a whole piece bounds hardly ever tell.
+  for (const CurvePiece& piece : line.pieces()) {
+    const double middle = piece.domain.middle();
+    search({piece.domain.lo, middle});
+    search({middle, piece.domain.hi});
   }
 }
 

@@ -313,8 +313,8 @@ PictureCrossings::PictureCrossings(std::vector<const ProjectedCurve*> curves, do
 }
 
 size_t PictureCrossings::bin_of(const Vec2& place) const {
-  const int i = std::clamp(static_cast<int>(std::floor(place.x / bin_)), 0, columns_ - 1),
-            j = std::clamp(static_cast<int>(std::floor(place.y / bin_)), 0, rows_ - 1);
+  const int i = std::clamp(static_cast<int>(place.x / bin_), 0, columns_ - 1),
+            j = std::clamp(static_cast<int>(place.y / bin_), 0, rows_ - 1);
   return static_cast<size_t>(j) * columns_ + i;
 }
 
