@@ -73,10 +73,10 @@ inline void derivatives(const SpanBasis& basis, Lanes* points, int order, Lanes*
 
 // All homogeneous derivatives of total order up to `order` of one span pair: along v in each row of control points,
 // then along u over the rows' results.
-template <int kDegreeV>
+template <int kDegreeU, int kDegreeV>
 inline void tensor_sums(const Vec4* row, size_t stride, const SpanBasis& bu, const SpanBasis& bv, int order,
                         Vec4* sums) {
-  const int p = bu.degree, q = kDegreeV > 0 ? kDegreeV : bv.degree;
+  const int p = kDegreeU > 0 ? kDegreeU : bu.degree, q = kDegreeV > 0 ? kDegreeV : bv.degree;
   Lanes columns[kInnerOrder + 1][kMaxDegree + 1];  // [derivative by v][row]
   Lanes points[kMaxDegree + 1], results[kInnerOrder + 1];
   for (int i = 0; i <= p; ++i, row += stride) {
@@ -85,7 +85,7 @@ inline void tensor_sums(const Vec4* row, size_t stride, const SpanBasis& bu, con
     for (int dv = 0; dv <= order; ++dv) columns[dv][i] = results[dv];
   }
   for (int dv = 0; dv <= order; ++dv) {
-    derivatives<0>(bu, columns[dv], order - dv, results);
+    derivatives<kDegreeU>(bu, columns[dv], order - dv, results);
     for (int du = 0; du + dv <= order; ++du) store(results[du], sums[SurfaceJet::index(du, dv)]);
   }
 }
@@ -95,10 +95,19 @@ LEKALO_WIDE void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_
   const size_t stride = form.count_v();
   const Vec4* row = form.points.data() + (span_u - form.degree_u) * stride + (span_v - form.degree_v);
   // Loops of known length for what most models have, and rays ask for at every hit.
-  if (bv.degree == 3 && order == 1) return tensor_sums<3>(row, stride, bu, bv, 1, sums);
-  if (bv.degree == 2 && order == 1) return tensor_sums<2>(row, stride, bu, bv, 1, sums);
-  if (bv.degree == 3 && order == 2) return tensor_sums<3>(row, stride, bu, bv, 2, sums);
-  tensor_sums<0>(row, stride, bu, bv, order, sums);
+  if (bu.degree == 3 && bv.degree == 3) switch (order) {
+      case 1:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 1, sums);
+      case 2:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 2, sums);
+      case 3:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 3, sums);
+      default:
+        break;
+    }
+  if (bv.degree == 3 && order == 1) return tensor_sums<0, 3>(row, stride, bu, bv, 1, sums);
+  if (bv.degree == 2 && order == 1) return tensor_sums<0, 2>(row, stride, bu, bv, 1, sums);
+  tensor_sums<0, 0>(row, stride, bu, bv, order, sums);
 }
 
 // r continues along its tangents, `beyond` in each direction: d(i, j) of the continued surface from those at the edge.
