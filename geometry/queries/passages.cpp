@@ -233,10 +233,12 @@ class Passages {
     const Vec3 along_u = s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
                along_v = s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1];
     const Vec3 normal = glm::cross(along_u, along_v), chord = c.end - c.begin;
+    const Vec3 corners[] = {s.corners[0] - c.begin, s.corners[1] - c.begin, s.corners[2] - c.begin,
+                            s.corners[3] - c.begin};
     const auto parts = [&](const Vec3& axis) {
       double lo = kInfinity, hi = -kInfinity;
-      for (const Vec3& corner : s.corners) {
-        const double x = glm::dot(axis, corner - c.begin);
+      for (const Vec3& corner : corners) {
+        const double x = glm::dot(axis, corner);
         lo = std::min(lo, x), hi = std::max(hi, x);
       }
       const double end = glm::dot(axis, chord), slack = glm::length(axis) * rounding;

@@ -23,8 +23,15 @@ constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its o
 struct Part {
   Part(const ProjectedCurve& curve, const Interval& t, const Vec2& begin, const Vec2& end, double bulge, double bow,
        double most_turn)
-      : curve(&curve), t(t), begin(begin), end(end), chord(end - begin), length(glm::length(chord)), bulge(bulge),
-        bow(bow), turn(most_turn) {
+      : curve(&curve),
+        t(t),
+        begin(begin),
+        end(end),
+        chord(end - begin),
+        length(glm::length(chord)),
+        bulge(bulge),
+        bow(bow),
+        turn(most_turn) {
     // P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so
     // short that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
     const double sine = 4 * bow / length;
@@ -42,7 +49,8 @@ class Parts {
  public:
   void begin(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
     parts_.clear();
-    parts_.emplace_back(curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow, cell.is_chord ? kAnyTurn : kCellTurn);
+    parts_.emplace_back(curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow,
+                        cell.is_chord ? kAnyTurn : kCellTurn);
   }
   const Part& operator[](int index) const { return parts_[index]; }
   int halves(int index) {
@@ -277,8 +285,7 @@ class CellPair {
     if (parameter_at(b, a.end)) common = hull(common, Interval(a.t.hi));
     for (const Vec2& end : {b.begin, b.end})
       if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
-    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle())))
-      return common;
+    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle()))) return common;
     return std::nullopt;
   }
 
