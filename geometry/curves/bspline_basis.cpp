@@ -14,9 +14,12 @@ int find_span(int degree, std::span<const double> knots, double t) {
   return span;
 }
 
-SpanBasis span_basis(int degree, std::span<const double> knots, int span, double t, int order) {
-  SpanBasis basis;
-  basis.degree = degree;
+namespace {
+
+// The degree may be known.
+template <int kDegree>
+void make_span_basis(std::span<const double> knots, int span, double t, int order, SpanBasis& basis) {
+  const int degree = kDegree > 0 ? kDegree : basis.degree;
   // row[j] is N_{span-d+j}^d, d growing to the degree; the last rows are kept.
   double row[kMaxDegree + 1];
   row[0] = 1;
@@ -33,8 +36,20 @@ SpanBasis span_basis(int degree, std::span<const double> knots, int span, double
       carried = (t - left) * share;
     }
     row[d] = carried;
-    if (k <= order) std::copy_n(row, d + 1, basis.values[k]);
+    if (k > order) continue;
+    for (int j = 0; j <= d; ++j) basis.values[k][j] = row[j];
   }
+}
+
+}  // namespace
+
+SpanBasis span_basis(int degree, std::span<const double> knots, int span, double t, int order) {
+  SpanBasis basis;
+  basis.degree = degree;
+  if (degree == 3)
+    make_span_basis<3>(knots, span, t, order, basis);
+  else
+    make_span_basis<0>(knots, span, t, order, basis);
   return basis;
 }
 

@@ -8,7 +8,9 @@ CurveJet PolynomialCurve::evaluate(double t, int order) const {
   const double x = part.local(inside);
   CurveJet jet;
   jet.order = order;
-  if (order == 1)
+  if (order == 0)
+    jet.d[0] = part.value(x);
+  else if (order == 1)
     part.value_and_slope(x, jet.d[0], jet.d[1]);
   else
     for (int k = 0; k <= order; ++k) jet.d[k] = part.derivative(k, x);

@@ -90,9 +90,14 @@ struct PolynomialPart {
 // The part that holds t, of several in order: the one that begins there where two meet.
 template <std::size_t Terms>
 const PolynomialPart<Terms>& part_at(const std::vector<PolynomialPart<Terms>>& parts, double t) {
-  auto part = std::upper_bound(parts.begin(), parts.end(), t,
-                               [](double x, const PolynomialPart<Terms>& p) { return x < p.t.lo; });
-  return part == parts.begin() ? *part : *--part;
+  // Halves without branches, which nothing would foretell.
+  const PolynomialPart<Terms>* part = parts.data();
+  for (size_t left = parts.size(); left > 1;) {
+    const size_t half = left / 2;
+    part += part[half].t.lo <= t ? half : 0;
+    left -= half;
+  }
+  return *part;
 }
 
 }  // namespace lekalo::geometry

@@ -206,13 +206,13 @@ class Search {
         if (follow(box, middle, c)) return;
         return divide(box, range);
       }
-      const SystemValue<Interval, N, M> at_middle = system_.enclose(thin(middle));
+      const std::array<Interval, M> at_middle = values(thin(middle));
       ParameterBox<N> cut;
       for (int i = 0; i < N; ++i) {
         Interval newton(middle[i]);
         for (int k = 0; k < M; ++k)
-          newton -= Interval(c[i][k]) * hull(at_middle.value[k] - Interval(options_.tolerance[k]),
-                                             at_middle.value[k] + Interval(options_.tolerance[k]));
+          newton -= Interval(c[i][k]) * hull(at_middle[k] - Interval(options_.tolerance[k]),
+                                             at_middle[k] + Interval(options_.tolerance[k]));
         cut[i] = intersect(box[i], newton + Interval(-reach[i], reach[i]));
         if (cut[i].empty()) return;
       }
@@ -222,6 +222,13 @@ class Search {
       if (volume > kWorthCutting) return divide(box, range);
     }
     boxes_.push_back(box);
+  }
+
+  std::array<Interval, M> values(const ParameterBox<N>& box) const {
+    if constexpr (requires { system_.values(box); })
+      return system_.values(box);
+    else
+      return system_.enclose(box).value;
   }
 
   static double half(const Interval& x) { return next_up(0.5 * x.width()); }
@@ -363,9 +370,11 @@ class Search {
 
 }  // namespace root_search
 
-// `system` has two members:
+// `system` has the members
 //   SystemValue<Interval, N, M> enclose(const ParameterBox<N>&) const      certified ranges over a box in the domain
 //   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding
+// and where the values of enclose() alone are had for less
+//   std::array<Interval, M> values(const ParameterBox<N>&) const
 template <int N, int M, class System>
 RootSearchResult<N> search_roots(const System& system, const ParameterBox<N>& domain,
                                  const RootSearchOptions<N, M>& options) {

@@ -1,5 +1,6 @@
 #include "geometry/queries/line_net.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -49,7 +50,7 @@ Pair magnitude(Pair a) {
   constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
   return (Pair)((Bits)a & Bits{kAllButSign, kAllButSign});
 }
-double largest_of(Pair a) { return std::fmax(a[0], a[1]); }
+double largest_of(Pair a) { return std::max(a[0], a[1]); }
 
 // Bernstein functions of degree n at the middle of [-1, 1], and their derivatives by x.
 struct Middle {
@@ -102,9 +103,9 @@ class NetSearch {
       room_[k] = Pair{glm::dot(line.n1, r), glm::dot(line.n2, r)};
       const double size = std::abs(r.x) + std::abs(r.y) + std::abs(r.z);
       room_[n() + k] = pair(size);
-      rounding_ = std::fmax(rounding_, size);
-      least_weight = std::fmin(least_weight, c.w);
-      most_weight = std::fmax(most_weight, c.w);
+      rounding_ = std::max(rounding_, size);
+      least_weight = std::min(least_weight, c.w);
+      most_weight = std::max(most_weight, c.w);
     }
     const auto clip = [&](Pair* c) {
       clip_x(c, place.x - place.hx, place.x + place.hx);
@@ -117,7 +118,7 @@ class NetSearch {
     if (most_weight > kUneven * least_weight) {
       clip(room_ + n());
       rounding_ = 0;
-      for (int k = 0; k < n(); ++k) rounding_ = std::fmax(rounding_, room_[n() + k][0]);
+      for (int k = 0; k < n(); ++k) rounding_ = std::max(rounding_, room_[n() + k][0]);
     }
     rounding_ *= 1e-15;
     if (near_) rounding_ += near_->rounding;

@@ -29,9 +29,10 @@ void narrow(VectorRange& range, const Box3& box) {
 
 Box3 common(const Box3& a, const Box3& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
 
-// Of f(t) - (the chord's place) along the axis, f'' being in the range and the chord over a stretch h.
-Interval off_chord(const Vec3& axis, const VectorRange& second, double h) {
-  const double middle = glm::dot(axis, second.middle), half = glm::dot(glm::abs(axis), second.half);
+// Of f(t) - (the chord's place) along the axis, f'' being in the range and the chord over a stretch h. `sizes`: of the
+// axis.
+Interval off_chord(const Vec3& axis, const Vec3& sizes, const VectorRange& second, double h) {
+  const double middle = glm::dot(axis, second.middle), half = glm::dot(sizes, second.half);
   const double scale = -h * h / 8;
   return {scale * std::max(0.0, middle + half), scale * std::min(0.0, middle - half)};
 }
@@ -82,7 +83,7 @@ CurveCells::Cell CurveCells::make(const Interval& t, const Vec3& begin, const Ve
 
 int CurveCells::children(int index) {
   if (cells_[index].children >= 0) return cells_[index].children;
-  const Cell cell = cells_[index];
+  const Cell& cell = cells_[index];
   const double middle = cell.t.middle();
   const Vec3 at = curve_.point(middle);
   const Interval halves[] = {{cell.t.lo, middle}, {middle, cell.t.hi}};
@@ -127,7 +128,7 @@ void SurfaceCells::complete(Cell& cell) const {
 
 int SurfaceCells::children(int index) {
   if (cells_[index].children >= 0) return cells_[index].children;
-  const Cell cell = cells_[index];
+  const Cell& cell = cells_[index];
   // Across the longer way, as far as that is known.
   const double along_u = std::max(glm::length(cell.corners[1] - cell.corners[0]),
                                   glm::length(cell.corners[3] - cell.corners[2])) +
@@ -164,7 +165,7 @@ bool SurfaceCells::holds(const Vec3& point, double tolerance) {
   while (!left.empty()) {
     const int index = left.back();
     left.pop_back();
-    const Cell cell = cells_[index];
+    const Cell& cell = cells_[index];
     if (!cell.box.inflated(tolerance).contains(point)) continue;
     const bool flat = cell.bulge <= kFlat * glm::length(cell.box.hi - cell.box.lo);
     if (flat && is_foot_near(cell, point, tolerance)) return true;
@@ -232,20 +233,22 @@ class Passages {
     const Vec3 along_u = s.corners[1] - s.corners[0] + s.corners[3] - s.corners[2],
                along_v = s.corners[2] - s.corners[0] + s.corners[3] - s.corners[1];
     const Vec3 normal = glm::cross(along_u, along_v), chord = c.end - c.begin;
-    for (const Vec3& axis : {normal, chord, glm::cross(normal, along_u), glm::cross(normal, along_v)}) {
+    const Vec3 corners[] = {s.corners[0] - c.begin, s.corners[1] - c.begin, s.corners[2] - c.begin,
+                            s.corners[3] - c.begin};
+    const auto parts = [&](const Vec3& axis) {
       double lo = kInfinity, hi = -kInfinity;
-      for (const Vec3& corner : s.corners) {
-        const double x = glm::dot(axis, corner - c.begin);
+      for (const Vec3& corner : corners) {
+        const double x = glm::dot(axis, corner);
         lo = std::min(lo, x), hi = std::max(hi, x);
       }
       const double end = glm::dot(axis, chord), slack = glm::length(axis) * rounding;
-      const Interval by_t = off_chord(axis, c.second, ht), by_u = off_chord(axis, s.second_uu, hu),
-                     by_v = off_chord(axis, s.second_vv, hv);
-      if (lo + by_u.lo + by_v.lo > std::max(0.0, end) + by_t.hi + slack ||
-          hi + by_u.hi + by_v.hi < std::min(0.0, end) + by_t.lo - slack)
-        return true;
-    }
-    return false;
+      const Vec3 sizes = glm::abs(axis);
+      const Interval by_t = off_chord(axis, sizes, c.second, ht), by_u = off_chord(axis, sizes, s.second_uu, hu),
+                     by_v = off_chord(axis, sizes, s.second_vv, hv);
+      return lo + by_u.lo + by_v.lo > std::max(0.0, end) + by_t.hi + slack ||
+             hi + by_u.hi + by_v.hi < std::min(0.0, end) + by_t.lo - slack;
+    };
+    return parts(normal) || parts(chord) || parts(glm::cross(normal, along_u)) || parts(glm::cross(normal, along_v));
   }
 
   // Whether all of the curve's cell is so near to the surface's, which are not apart, or both are as small.
@@ -302,8 +305,8 @@ class Passages {
 
   bool meet(int i, int j) {
     if (++pairs_ > most_pairs_) return false;
-    const CurveCells::Cell c = curve_.cell(i);
-    const SurfaceCells::Cell s = surface_.cell(j);
+    const CurveCells::Cell& c = curve_.cell(i);
+    const SurfaceCells::Cell& s = surface_.cell(j);
     if (is_apart(c, s)) return true;
     if (const CurveCells::End* end = curve_.end_at(c); end && leaves_border(c, *end, s, surface_.surface()))
       return true;

@@ -10,6 +10,7 @@
 // with their kinds.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "geometry/curve.h"
@@ -60,7 +61,7 @@ class CurveCells {
   Interval inner_;
   End ends_[2];
   int roots_ = 0;
-  std::vector<Cell> cells_;
+  std::deque<Cell> cells_;  // references stay
 };
 
 class SurfaceCells {
@@ -90,7 +91,7 @@ class SurfaceCells {
   void complete(Cell& cell) const;
   const Surface& surface_;
   int roots_ = 0;
-  std::vector<Cell> cells_;
+  std::deque<Cell> cells_;  // references stay
 };
 
 // Adds the parameters of the curve where it may pass through the surface to `places`. Where it is nearer to the surface

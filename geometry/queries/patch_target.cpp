@@ -153,9 +153,10 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
   const Patch& patch = patches_[cell.patch];
   double foot;
   const LineBasis& basis = line.near(patch.center, foot);
-  const CellPlace place = cell.cell.place();
   CellHits found;
   intersect(view_of(patch), cell.cell, basis, {t.lo - foot, t.hi - foot}, found);
+  if (found.size() == 0) return;
+  const CellPlace place = cell.cell.place();
   for (int k = 0; k < found.size(); ++k) {
     LineHit hit;
     hit.t = foot + found[k].t;

@@ -29,23 +29,35 @@ struct SightAlong {
     return {{det(sight, s.du(), s.dv())},
             {{{det(turn, s.du(), s.dv()) + det(sight, du1, s.dv()) + det(sight, s.du(), dv1)}}}};
   }
-  SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& t) const {
-    const CurveEnclosure x = image.enclose(t[0], 1);
-    const auto range = [](const Box3& box, int axis) { return Interval(box.lo[axis], box.hi[axis]); };
-    const SurfaceEnclosure s = enclose_unwrapped(surface, {range(x.d[0], 0), range(x.d[0], 1)}, 2);
-    const Interval u1 = range(x.d[1], 0), v1 = range(x.d[1], 1);
-    const auto vec = [](const Box3& b) {
-      return Triple<Interval>{{b.lo.x, b.hi.x}, {b.lo.y, b.hi.y}, {b.lo.z, b.hi.z}};
-    };
-    const Triple<Interval> du = vec(s.d(1, 0)), dv = vec(s.d(0, 1));
+  // The image's enclosure and that of the surface there.
+  struct Enclosed {
+    CurveEnclosure x;
+    SurfaceEnclosure s;
+    Triple<Interval> sight, du, dv;
+  };
+  Enclosed enclosed(const Interval& t, int order) const {
+    Enclosed e{image.enclose(t, order - 1), {}, {}, {}, {}};
+    e.s = enclose_unwrapped(surface, {range(e.x.d[0], 0), range(e.x.d[0], 1)}, order);
     const Triple<Interval> origin{Interval(from.x), Interval(from.y), Interval(from.z)};
-    const Triple<Interval> sight = central ? vec(s.d(0, 0)) - origin : origin;
+    e.sight = central ? vec(e.s.d(0, 0)) - origin : origin;
+    e.du = vec(e.s.d(1, 0)), e.dv = vec(e.s.d(0, 1));
+    return e;
+  }
+  SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& t) const {
+    const auto& [x, s, sight, du, dv] = enclosed(t[0], 2);
+    const Interval u1 = range(x.d[1], 0), v1 = range(x.d[1], 1);
     const Triple<Interval> du1 = u1 * vec(s.d(2, 0)) + v1 * vec(s.d(1, 1)),
                            dv1 = u1 * vec(s.d(1, 1)) + v1 * vec(s.d(0, 2));
     Interval slope = dot(sight, cross(du1, dv)) + dot(sight, cross(du, dv1));
     if (central) slope += dot(u1 * du + v1 * dv, cross(du, dv));
     return {{dot(sight, cross(du, dv))}, {{{slope}}}};
   }
+  std::array<Interval, 1> values(const ParameterBox<1>& t) const {
+    const Enclosed e = enclosed(t[0], 1);
+    return {dot(e.sight, cross(e.du, e.dv))};
+  }
+  static Interval range(const Box3& box, int axis) { return {box.lo[axis], box.hi[axis]}; }
+  static Triple<Interval> vec(const Box3& b) { return {range(b, 0), range(b, 1), range(b, 2)}; }
 };
 
 void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<double>& turns) {
@@ -70,14 +82,20 @@ void add_sight_turns(const Curve& line, const Surface& surface, const Curve& ima
                      std::vector<double>& turns) {
   const double width = line.domain().width();
   const SightAlong system{surface, image, view.central, view.direction_or_eye};
-  for (const CurvePiece& piece : line.pieces()) {
-    RootSearchOptions<1, 1> options;
-    options.slack = {kSlack * width};
-    options.least = {kSamePlace * width};
-    options.most_boxes = 2000;
-    const auto found = search_roots<1, 1>(system, ParameterBox<1>{piece.domain}, options);
+  RootSearchOptions<1, 1> options;
+  options.slack = {kSlack * width};
+  options.least = {kSamePlace * width};
+  options.most_boxes = 2000;
+  const auto search = [&](const Interval& t) {
+    const auto found = search_roots<1, 1>(system, ParameterBox<1>{t}, options);
     for (const auto& root : found.isolated) turns.push_back(root[0]);
     for (const auto& open : found.open) add_sign_changes(system, open[0], turns);
+  };
+  // Over a whole piece bounds hardly ever tell.
+  for (const CurvePiece& piece : line.pieces()) {
+    const double middle = piece.domain.middle();
+    search({piece.domain.lo, middle});
+    search({middle, piece.domain.hi});
   }
 }
 

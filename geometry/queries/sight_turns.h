@@ -9,10 +9,10 @@
 
 namespace lekalo::geometry {
 
-// Adds the parameters of the line at such places to `turns`, in no order. The line, whose pieces these are, and its
-// image have one parameter; the view is that of the surface's own coordinates. A certified search; where the bounds of
-// a line are too wide to tell, changes of sign between many places: those of rounding where the surface is seen edge-on
-// along a stretch.
+// Adds the parameters of the line at such places to `turns`, in no order, and one in the middle of a piece perhaps
+// twice. The line, whose pieces these are, and its image have one parameter; the view is that of the surface's own
+// coordinates. A certified search; where the bounds of a line are too wide to tell, changes of sign between many
+// places: those of rounding where the surface is seen edge-on along a stretch.
 void add_sight_turns(const Curve& line, const Surface& surface, const Curve& image, const ViewOf& view,
                      std::vector<double>& turns);
 

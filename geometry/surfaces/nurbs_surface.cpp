@@ -57,63 +57,57 @@ namespace {
 constexpr int kInnerOrder = kMaxSurfaceOrder + 1;
 constexpr int kInnerCount = (kInnerOrder + 1) * (kInnerOrder + 2) / 2;
 
-// The first two sums of SpanBasis::derivatives, the same numbers, in whole registers; the degree may be known.
+// SpanBasis::derivatives in whole registers, the same numbers; the degree may be known.
 template <int kDegree>
-inline void value_and_slope(const SpanBasis& basis, const Lanes* points, Lanes& value, Lanes& slope) {
+inline void derivatives(const SpanBasis& basis, Lanes* points, int order, Lanes* result) {
   const int degree = kDegree > 0 ? kDegree : basis.degree;
-  value = slope = Lanes{};
-  for (int m = 0; m <= degree; ++m) value += basis.values[0][m] * points[m];
-  for (int m = 0; m < degree; ++m) slope += basis.values[1][m] * (basis.factors[1][m] * (points[m + 1] - points[m]));
-}
-
-template <int kDegreeV>
-inline void first_sums(const Vec4* row, size_t stride, const SpanBasis& bu, const SpanBasis& bv, Vec4* sums) {
-  const int p = bu.degree, q = kDegreeV > 0 ? kDegreeV : bv.degree;
-  Lanes points[kMaxDegree + 1], values[kMaxDegree + 1], slopes[kMaxDegree + 1];
-  for (int i = 0; i <= p; ++i, row += stride) {
-    for (int j = 0; j <= q; ++j) load(row[j], points[j]);
-    value_and_slope<kDegreeV>(bv, points, values[i], slopes[i]);
-  }
-  Lanes value, by_u, by_v{};
-  value_and_slope<0>(bu, values, value, by_u);
-  for (int i = 0; i <= p; ++i) by_v += bu.values[0][i] * slopes[i];
-  store(value, sums[SurfaceJet::index(0, 0)]);
-  store(by_u, sums[SurfaceJet::index(1, 0)]);
-  store(by_v, sums[SurfaceJet::index(0, 1)]);
-}
-
-// tensor_sums of order 1, which rays ask for at every hit.
-LEKALO_WIDE void first_tensor_sums(const Vec4* row, size_t stride, const SpanBasis& bu, const SpanBasis& bv,
-                                   Vec4* sums) {
-  switch (bv.degree) {
-    case 2:
-      return first_sums<2>(row, stride, bu, bv, sums);
-    case 3:
-      return first_sums<3>(row, stride, bu, bv, sums);
-    default:
-      return first_sums<0>(row, stride, bu, bv, sums);
+  for (int k = 0; k <= order; ++k) {
+    Lanes sum{};
+    for (int m = 0; m <= degree - k; ++m) {
+      if (k > 0) points[m] = basis.factors[k][m] * (points[m + 1] - points[m]);
+      sum += basis.values[k][m] * points[m];
+    }
+    result[k] = sum;
   }
 }
 
 // All homogeneous derivatives of total order up to `order` of one span pair: along v in each row of control points,
 // then along u over the rows' results.
-void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const SpanBasis& bu, const SpanBasis& bv,
-                 int order, Vec4* sums) {
-  const int p = form.degree_u, q = form.degree_v;
-  const size_t stride = form.count_v();
-  const Vec4* row = form.points.data() + (span_u - p) * stride + (span_v - q);
-  if (order == 1) return first_tensor_sums(row, stride, bu, bv, sums);
-  Vec4 columns[kInnerOrder + 1][kMaxDegree + 1];  // [derivative by v][row]
-  Vec4 points[kMaxDegree + 1], derivatives[kInnerOrder + 1];
+template <int kDegreeU, int kDegreeV>
+inline void tensor_sums(const Vec4* row, size_t stride, const SpanBasis& bu, const SpanBasis& bv, int order,
+                        Vec4* sums) {
+  const int p = kDegreeU > 0 ? kDegreeU : bu.degree, q = kDegreeV > 0 ? kDegreeV : bv.degree;
+  Lanes columns[kInnerOrder + 1][kMaxDegree + 1];  // [derivative by v][row]
+  Lanes points[kMaxDegree + 1], results[kInnerOrder + 1];
   for (int i = 0; i <= p; ++i, row += stride) {
-    std::copy_n(row, q + 1, points);
-    bv.derivatives(points, order, derivatives);
-    for (int dv = 0; dv <= order; ++dv) columns[dv][i] = derivatives[dv];
+    for (int j = 0; j <= q; ++j) load(row[j], points[j]);
+    derivatives<kDegreeV>(bv, points, order, results);
+    for (int dv = 0; dv <= order; ++dv) columns[dv][i] = results[dv];
   }
   for (int dv = 0; dv <= order; ++dv) {
-    bu.derivatives(columns[dv], order - dv, derivatives);
-    for (int du = 0; du + dv <= order; ++du) sums[SurfaceJet::index(du, dv)] = derivatives[du];
+    derivatives<kDegreeU>(bu, columns[dv], order - dv, results);
+    for (int du = 0; du + dv <= order; ++du) store(results[du], sums[SurfaceJet::index(du, dv)]);
   }
+}
+
+LEKALO_WIDE void tensor_sums(const NurbsSurfaceForm& form, int span_u, int span_v, const SpanBasis& bu,
+                             const SpanBasis& bv, int order, Vec4* sums) {
+  const size_t stride = form.count_v();
+  const Vec4* row = form.points.data() + (span_u - form.degree_u) * stride + (span_v - form.degree_v);
+  // Loops of known length for what most models have, and rays ask for at every hit.
+  if (bu.degree == 3 && bv.degree == 3) switch (order) {
+      case 1:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 1, sums);
+      case 2:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 2, sums);
+      case 3:
+        return tensor_sums<3, 3>(row, stride, bu, bv, 3, sums);
+      default:
+        break;
+    }
+  if (bv.degree == 3 && order == 1) return tensor_sums<0, 3>(row, stride, bu, bv, 1, sums);
+  if (bv.degree == 2 && order == 1) return tensor_sums<0, 2>(row, stride, bu, bv, 1, sums);
+  tensor_sums<0, 0>(row, stride, bu, bv, order, sums);
 }
 
 // r continues along its tangents, `beyond` in each direction: d(i, j) of the continued surface from those at the edge.

@@ -21,54 +21,67 @@ constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its o
 
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
 struct Part {
+  Part(const ProjectedCurve& curve, const Interval& t, const Vec2& begin, const Vec2& end, double bulge, double bow,
+       double most_turn)
+      : curve(&curve),
+        t(t),
+        begin(begin),
+        end(end),
+        chord(end - begin),
+        length(glm::length(chord)),
+        bulge(bulge),
+        bow(bow),
+        turn(most_turn) {
+    // P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so
+    // short that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
+    const double sine = 4 * bow / length;
+    if (sine < std::min(1.0, most_turn)) turn = std::min(std::asin(sine), most_turn);
+  }
   const ProjectedCurve* curve;
   Interval t;
-  Vec2 begin, end;
-  double bulge, bow, turn;  // bow: as ProjectedCurve::Cell's
-
-  Vec2 chord() const { return end - begin; }
-  double length() const { return glm::length(chord()); }
+  Vec2 begin, end, chord;
+  double length, bulge, bow, turn;  // bow: as ProjectedCurve::Cell's
+  int halves = -1;                  // where they are kept: this and the next
 };
 
-// P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so
-// short that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
-double turn_of(const Vec2& chord, double bow) {
-  const double sine = 4 * bow / glm::length(chord);
-  return sine < 1 ? std::asin(sine) : kAnyTurn;
-}
+// The parts of a cell, kept as they are made: a cell is asked for with many others.
+class Parts {
+ public:
+  void begin(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
+    parts_.clear();
+    parts_.emplace_back(curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow,
+                        cell.is_chord ? kAnyTurn : kCellTurn);
+  }
+  const Part& operator[](int index) const { return parts_[index]; }
+  int halves(int index) {
+    const Part part = parts_[index];
+    if (part.halves >= 0) return part.halves;
+    const double middle = part.t.middle();
+    const Vec2 at = part.curve->point(middle);
+    // Where no bound of P'' is worth something the bulge is that of the box, which is half as large at least.
+    const double bow = 0.25 * part.bow, bulge = std::min(0.5 * part.bulge, bow),
+                 turn = part.turn < 0.5 ? 0.5 * part.turn / (1 - part.turn) : kAnyTurn;
+    const int first = parts_[index].halves = static_cast<int>(parts_.size());
+    parts_.emplace_back(*part.curve, Interval(part.t.lo, middle), part.begin, at, bulge, bow, turn);
+    parts_.emplace_back(*part.curve, Interval(middle, part.t.hi), at, part.end, bulge, bow, turn);
+    return first;
+  }
 
-Part part_of(const ProjectedCurve& curve, const ProjectedCurve::Cell& cell) {
-  const double by_bow = turn_of(cell.end - cell.begin, cell.bow);
-  const double turn = cell.is_chord ? by_bow : std::min(by_bow, kCellTurn);
-  return {&curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow, turn};
-}
-
-std::pair<Part, Part> halves(const Part& part) {
-  const double middle = part.t.middle();
-  const Vec2 at = part.curve->place(middle).p;
-  // Where no bound of P'' is worth something the bulge is that of the box, which is half as large at least.
-  const double bow = 0.25 * part.bow, bulge = std::min(0.5 * part.bulge, bow);
-  const auto turn = [&](const Vec2& chord) {
-    const double by_bow = turn_of(chord, bow);
-    return part.turn < 0.5 ? std::min(by_bow, 0.5 * part.turn / (1 - part.turn)) : by_bow;
-  };
-  return {{part.curve, {part.t.lo, middle}, part.begin, at, bulge, bow, turn(at - part.begin)},
-          {part.curve, {middle, part.t.hi}, at, part.end, bulge, bow, turn(part.end - at)}};
-}
+ private:
+  std::vector<Part> parts_;
+};
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 // Whether the thick chord `b` lies to one side of the line of the thick chord `a`, or beyond its ends.
 bool is_apart(const Part& a, const Part& b) {
-  const Vec2 chord = a.chord();
-  const double length = glm::length(chord);
-  const Vec2 along = length > 0 ? chord / length : Vec2(1, 0), across(-along.y, along.x);
+  const Vec2 along = a.length > 0 ? a.chord / a.length : Vec2(1, 0), across(-along.y, along.x);
   const double reach = a.bulge + b.bulge;
   const auto beyond = [&](const Vec2& axis, double lo, double hi) {
     const double p = glm::dot(axis, b.begin - a.begin), q = glm::dot(axis, b.end - a.begin);
     return std::max(p, q) < lo - reach || std::min(p, q) > hi + reach;
   };
-  return beyond(across, 0, 0) || beyond(along, 0, length);
+  return beyond(across, 0, 0) || beyond(along, 0, a.length);
 }
 
 bool is_beyond(const Interval& range, double x, double ahead, double most) {
@@ -81,9 +94,9 @@ bool is_beyond(const Interval& range, double x, double ahead, double most) {
 // B, so that (s' - s) (A x B) = (P_b(t) - P_a(s)) x B, B being within the turn of b's chord. If that points out of the
 // part at its end, there is no crossing.
 bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
-  const Vec2 u = a.chord(), v = b.chord(), off = b.begin - a.begin;
+  const Vec2 u = a.chord, v = b.chord, off = b.begin - a.begin;
   const double area = cross(u, v), orientation = area < 0 ? -1 : 1;
-  const double u_length = glm::length(u), v_length = glm::length(v), sin_a = std::sin(a.turn), sin_b = std::sin(b.turn);
+  const double u_length = a.length, v_length = b.length, sin_a = std::sin(a.turn), sin_b = std::sin(b.turn);
   double s = a.t.lo + a.t.width() * (area != 0 ? cross(off, v) / area : 0.5),
          t = b.t.lo + b.t.width() * (area != 0 ? cross(off, u) / area : 0.5);
   // At a break the curve's own place is that from the right.
@@ -192,28 +205,27 @@ Kiss kiss_of(const ProjectedCurve& a, const ProjectedCurve::Cell& of_a, const Pr
 class CellPair {
  public:
   using Cell = ProjectedCurve::Cell;
-  CellPair(const ProjectedCurve& of_a, const Cell& cell_a, const ProjectedCurve& of_b, const Cell& cell_b)
-      : of_a_(of_a), of_b_(of_b), cell_a_(cell_a), cell_b_(cell_b) {
-    const Part a = part_of(of_a, cell_a), b = part_of(of_b, cell_b);
-    cross_parts(a, b);
-    if (runs_along_) common_ = common_part(a, b).value_or(a.t);
+  CellPair(Parts& parts_a, const Cell& cell_a, Parts& parts_b, const Cell& cell_b)
+      : parts_a_(parts_a), parts_b_(parts_b), cell_a_(cell_a), cell_b_(cell_b) {
+    cross_parts(0, 0);
+    if (runs_along_) common_ = common_part(parts_a[0], parts_b[0]).value_or(cell_a.t);
   }
   // Where the first runs along the second.
   const std::optional<Interval>& common() const { return common_; }
-  std::vector<PictureCrossing> found() const {
-    std::vector<PictureCrossing> result;
+  // Calls visit(crossing).
+  template <class Visit>
+  void each(Visit&& visit) const {
     for (const PictureCrossing& one : found_)
-      if (!one.touching || !runs_along_) result.push_back(one);
-    return result;
+      if (!one.touching || !runs_along_) visit(one);
   }
 
  private:
-  void cross_parts(const Part& a, const Part& b) {
+  void cross_parts(int of_a, int of_b) {
+    const Part &a = parts_a_[of_a], &b = parts_b_[of_b];
     if (runs_along_ || is_apart(a, b) || is_apart(b, a)) return;
-    const Vec2 u = a.chord(), v = b.chord();
-    const double lengths = glm::length(u) * glm::length(v);
+    const double lengths = a.length * b.length;
     // The angle between the lines of both chords.
-    const double sine = lengths > 0 ? std::abs(cross(u, v)) / lengths : 0;
+    const double sine = lengths > 0 ? std::abs(cross(a.chord, b.chord)) / lengths : 0;
     if (a.turn + b.turn < 0.5 * geometry::kPi && sine > std::sin(a.turn + b.turn) + 1e-9) {
       if (PictureCrossing crossing; solve(a, b, crossing)) found_.push_back(crossing);
       return;
@@ -221,35 +233,35 @@ class CellPair {
     if (!asked_) {
       asked_ = true;
       PictureCrossing touch;
-      const Kiss kiss = kiss_of(of_a_, cell_a_, of_b_, cell_b_, touch);
+      const Kiss kiss = kiss_of(*a.curve, cell_a_, *b.curve, cell_b_, touch);
       if (kiss == Kiss::touching) found_.push_back(touch);
       if (kiss != Kiss::unknown) return;
       runs_along_ = common_part(a, b).has_value();
       if (runs_along_) return;
     }
-    if (std::max(a.length() + a.bulge, b.length() + b.bulge) < kTouching) {
+    const double of_first = a.length + a.bulge, of_second = b.length + b.bulge;
+    if (std::max(of_first, of_second) < kTouching) {
       found_.push_back({a.t.middle(), b.t.middle(), true});
       ++touching_;
       runs_along_ = touching_ > kMostTouching;
       return;
     }
     runs_along_ = runs_along_ || ++steps_ > kMostSteps;
-    if (a.length() + a.bulge > b.length() + b.bulge) {
-      const auto [first, second] = halves(a);
-      cross_parts(first, b);
-      cross_parts(second, b);
+    if (of_first > of_second) {
+      const int first = parts_a_.halves(of_a);
+      cross_parts(first, of_b);
+      cross_parts(first + 1, of_b);
     } else {
-      const auto [first, second] = halves(b);
-      cross_parts(a, first);
-      cross_parts(a, second);
+      const int first = parts_b_.halves(of_b);
+      cross_parts(of_a, first);
+      cross_parts(of_a, first + 1);
     }
   }
   // The parameter of the place of a part nearest to q, if that is at q.
   static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
     constexpr int kSteps = 6;
-    const Vec2 chord = part.chord();
-    const double square = glm::dot(chord, chord);
-    double t = part.t.lo + part.t.width() * (square > 0 ? glm::dot(q - part.begin, chord) / square : 0.5);
+    const double square = glm::dot(part.chord, part.chord);
+    double t = part.t.lo + part.t.width() * (square > 0 ? glm::dot(q - part.begin, part.chord) / square : 0.5);
     for (int step = 0; step < kSteps; ++step) {
       t = part.t.clamp(t);
       const auto at = part.curve->place(t);
@@ -273,14 +285,13 @@ class CellPair {
     if (parameter_at(b, a.end)) common = hull(common, Interval(a.t.hi));
     for (const Vec2& end : {b.begin, b.end})
       if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
-    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->place(common.middle()).p))
-      return common;
+    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle()))) return common;
     return std::nullopt;
   }
 
   static constexpr int kMostTouching = 16, kMostSteps = 4000;
   static constexpr double kLeastCommon = 1e-3;
-  const ProjectedCurve &of_a_, &of_b_;
+  Parts &parts_a_, &parts_b_;
   const Cell &cell_a_, &cell_b_;
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
@@ -309,8 +320,8 @@ PictureCrossings::PictureCrossings(std::vector<const ProjectedCurve*> curves, do
 }
 
 size_t PictureCrossings::bin_of(const Vec2& place) const {
-  const int i = std::clamp(static_cast<int>(std::floor(place.x / bin_)), 0, columns_ - 1),
-            j = std::clamp(static_cast<int>(std::floor(place.y / bin_)), 0, rows_ - 1);
+  const int i = std::clamp(static_cast<int>(place.x / bin_), 0, columns_ - 1),
+            j = std::clamp(static_cast<int>(place.y / bin_), 0, rows_ - 1);
   return static_cast<size_t>(j) * columns_ + i;
 }
 
@@ -324,7 +335,9 @@ void PictureCrossings::each_bin(const Vec2& lo, const Vec2& hi, Visit&& visit) c
 void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<bool(int)>& skip,
                                std::vector<Hit>& hits) const {
   std::vector<Run> runs;
+  Parts parts, parts_of_other;
   for (const ProjectedCurve::Cell& cell : curve.cells()) {
+    parts.begin(curve, cell);
     const Vec2 lo = glm::min(cell.begin, cell.end) - cell.bulge, hi = glm::max(cell.begin, cell.end) + cell.bulge;
     each_bin(lo, hi, [&](size_t bin) {
       for (const Item& item : bins_[bin]) {
@@ -335,8 +348,9 @@ void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<
         if (curves_[item.curve] == &curve &&
             (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
           continue;
-        const CellPair pair(curve, cell, *curves_[item.curve], of_other);
-        for (const PictureCrossing& crossing : pair.found()) hits.push_back({item.curve, crossing});
+        parts_of_other.begin(*curves_[item.curve], of_other);
+        const CellPair pair(parts, cell, parts_of_other, of_other);
+        pair.each([&](const PictureCrossing& crossing) { hits.push_back({item.curve, crossing}); });
         if (pair.common()) runs.push_back({item.curve, *pair.common()});
       }
     });
@@ -359,9 +373,9 @@ void PictureCrossings::drop_joints(const ProjectedCurve& curve, std::vector<Run>
   }
   std::erase_if(hits, [&](const Hit& hit) {
     if (!hit.crossing.touching) return false;
-    const Vec2 place = curve.place(hit.crossing.t).p;
+    const Vec2 place = curve.point(hit.crossing.t);
     return std::any_of(joined.begin(), joined.end(), [&](const Run& run) {
-      const auto is_end = [&](double t) { return glm::length(curve.place(t).p - place) <= 2 * kTouching; };
+      const auto is_end = [&](double t) { return glm::length(curve.point(t) - place) <= 2 * kTouching; };
       return run.curve == hit.curve && run.t.contains(hit.crossing.t) && !is_end(run.t.lo) && !is_end(run.t.hi);
     });
   });

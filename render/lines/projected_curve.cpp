@@ -77,6 +77,11 @@ ProjectedCurve::Place ProjectedCurve::place_of(const CurveJet& at, double w, dou
   return {p, (Vec2(apply(row_x, at.d[1], 0), apply(row_y, at.d[1], 0)) - w1 * p) / w};
 }
 
+Vec2 ProjectedCurve::point(double t) const {
+  const Vec3 r = curve_->point(t);
+  return Vec2(apply(map_.row[0], r, 1), apply(map_.row[1], r, 1)) / apply(map_.row[2], r, 1);
+}
+
 ProjectedCurve::Place ProjectedCurve::place(double t) const {
   const CurveJet at = curve_->evaluate(t, 1);
   return place_of(at, apply(map_.row[2], at.d[0], 1), apply(map_.row[2], at.d[1], 0));

@@ -54,6 +54,7 @@ class ProjectedCurve {
   // may lie within the reach: a corner between two cells belongs to the first of them.
   std::optional<Nearest> nearest(int cell, const Vec2& q) const;
 
+  Vec2 point(double t) const;  // P
   // P and P'.
   struct Place {
     Vec2 p, tangent;

@@ -353,6 +353,10 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
   std::vector<Hit> result;
   for (size_t first = 0, last; first < found.size(); first = last) {
     for (last = first; last < found.size() && found[last].instance == found[first].instance;) ++last;
+    if (last == first + 1) {
+      result.push_back(found[first]);
+      continue;
+    }
     const Place where = place(found[first].instance);
     Line line{ray.origin, ray.direction};
     if (where.to_world) {
