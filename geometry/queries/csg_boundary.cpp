@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace lekalo::geometry {
@@ -29,16 +30,21 @@ class Asking {
     y_ = std::cos(kTurn) * about.y - std::sin(kTurn) * about.x;
   }
 
-  CsgBoundary answer() {
+  CsgPlace answer() {
+    const CsgBoundary found = boundary();
+    return {found, faces_};
+  }
+
+ private:
+  CsgBoundary boundary() {
     if (question_.touching && on_square(kAsideOfContact * question_.reach, kSharpAtContact) == CsgBoundary::sharp_edge)
       return CsgBoundary::sharp_edge;
     const CsgBoundary found = on_square(kAside * size_, kSharp);
     return found == CsgBoundary::face && question_.smooth && bends_change() ? CsgBoundary::smooth_edge : found;
   }
 
- private:
   CsgBoundary on_square(double half, double sharp) {
-    normals_.clear();
+    normals_.clear(), faces_.clear();
     const std::array<Vec3, 4> corners{half * (x_ + y_), half * (y_ - x_), -half * (x_ + y_), half * (x_ - y_)};
     for (int k = 0; k < 4; ++k) {
       const Vec3 from = question_.point + corners[k];
@@ -48,6 +54,7 @@ class Asking {
       for (const SurfaceHit& hit : hits_) {
         const Vec3 near = side.origin + hit.t * side.direction;
         normals_.push_back(solid_.bare_point(hit, near).normal);
+        faces_.insert(hit.face);
       }
     }
     if (normals_.empty()) return CsgBoundary::none;
@@ -96,11 +103,12 @@ class Asking {
   Vec3 x_, y_;
   std::vector<SurfaceHit> hits_;
   std::vector<Vec3> normals_;
+  std::set<int> faces_;
 };
 
 }  // namespace
 
-CsgBoundary boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question) {
+CsgPlace boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question) {
   return Asking(solid, size, question).answer();
 }
 

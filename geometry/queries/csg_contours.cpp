@@ -404,16 +404,18 @@ class Lines {
     return cuts;
   }
 
-  // Of a stretch on the boundary: what it is there.
-  std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) const {
+  // Of a stretch on the boundary: what it is there. Notes faces that are one across it.
+  std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) {
     const CurveJet at = found.line.curve->evaluate(stretch.lo + kAskedAt * stretch.width(), 1);
     if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
     const bool is_edge = found.line.kind == Kind::sharp;
     const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, found.touching, is_edge && !found.smooth};
-    const CsgBoundary boundary = boundary_at(solid_, size_, question);
+    const auto [boundary, faces] = boundary_at(solid_, size_, question);
     if (boundary == CsgBoundary::none) return std::nullopt;
     if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;
-    return found.smooth || boundary == CsgBoundary::smooth_edge ? std::optional(Kind::smooth) : std::nullopt;
+    if (found.smooth || boundary == CsgBoundary::smooth_edge) return Kind::smooth;
+    if (faces.size() > 1) result_.one_face.push_back(faces);
+    return std::nullopt;
   }
 
   void put(const CsgLine& line, Kind kind, const Interval& t) {

@@ -34,6 +34,8 @@ struct CsgLines {
   std::vector<CsgLine> lines;
   bool complete = true;            // false where a search was not
   std::set<std::string> left_out;  // lines that are not known at all, in words
+  // Faces, as hits number them, that go on in one another without an edge: of leaves that have a surface in common.
+  std::vector<std::set<int>> one_face;
 };
 
 // Edges first; hosts of one leaf's face are one surface in all lines.

@@ -191,9 +191,14 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
       for (const MeshLine& line : mesh_lines(**mesh, from_light))
         if (line.kind == MeshLineKind::silhouette) stroke(line.curve, Style(), {});
   }
-  if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && fill.shading == Fill::Shading::gradient) {
+  if (fill.shading == Fill::Shading::gradient) {
     kind_ = "smooth";
-    add_edges(**body, kind_, Style(), {});
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add_edges(**body, kind_, Style(), {});
+    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+      add_solid(*shape, view_from(to_world_.inverse()), true, Style(), {});
+      if (solid_ == *shape)
+        for (const std::set<int>& faces : solid_lines_.one_face) work_.one_faces.join(object_number_, faces);
+    }
   }
   undrawn_ = borders_ = false;
   filled_.push_back({object_, {object_->shape, to_world_, object_number_}});

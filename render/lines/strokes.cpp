@@ -327,6 +327,19 @@ ViewOf StrokeCollector::seen_through(ViewOf view, const Affine& map) {
   return view;
 }
 
+void OneFaces::join(int object, const std::set<int>& faces) {
+  std::set<int> firsts;
+  for (const int face : faces) firsts.insert(first(object, face));
+  for (const int face : firsts)
+    if (face != *firsts.begin()) before_[{object, face}] = *firsts.begin();
+}
+
+int OneFaces::first(int object, int face) const {
+  for (auto found = before_.find({object, face}); found != before_.end(); found = before_.find({object, face}))
+    face = found->second;
+  return face;
+}
+
 LineLook drawn_look(const Style& style) { return look_of_style(style, 1, 0); }
 
 std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden) {
