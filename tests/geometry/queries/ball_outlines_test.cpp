@@ -12,6 +12,7 @@
 #include "geometry/curves/segment.h"
 #include "geometry/point_formulas.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/queries/parameter_lines.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry {
@@ -46,6 +47,32 @@ TEST(BallOutlines, SectionsByPlanes) {
   ASSERT_EQ(upright.lines.size(), 1u);
   for (const double turn : upright.lines[0].turns) EXPECT_NEAR(upright.lines[0].curve->point(turn).z, 0, 1e-12);
   EXPECT_GE(upright.lines[0].turns.size(), 2u);
+}
+
+// Parallels and meridians of two unit balls 1 apart along z, cut at the circle z = 1/2; and of one alone.
+TEST(BallOutlines, ParameterLines) {
+  const ViewOf view{false, {0, 0, 1}};
+  const Balls balls(std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {9, 0, 0}}, std::vector<double>{1, 1, 0.5});
+  double meridians = 0;
+  for (const ShapeOutline& line : parameter_lines(balls, {{4, {}}, {}}, view).lines) {
+    const Interval t = line.curve->domain();
+    meridians += t.width() * glm::length(line.curve->evaluate(t.middle(), 1).d[1]);
+    ASSERT_EQ(line.turns.size(), 1u);  // at the equator, seen from below
+    EXPECT_NEAR(std::remainder(line.curve->point(line.turns[0]).z, 1), 0, 1e-12);
+  }
+  const double seam = kPi / 6;
+  EXPECT_NEAR(meridians, 4 * (2 * (0.5 * kPi + seam) + 0.5 * kPi), 1e-13);
+  const auto parallels = [&](double v) {
+    double sum = 0;
+    for (const ShapeOutline& line : parameter_lines(balls, {{}, {0, {v}}}, view).lines) {
+      const Interval t = line.curve->domain();
+      sum += t.width() * glm::length(line.curve->evaluate(t.middle(), 1).d[1]);
+    }
+    return sum;
+  };
+  EXPECT_NEAR(parallels(0.3), kTwoPi * 2.5 * std::cos(0.3), 1e-13);
+  EXPECT_NEAR(parallels(0.6), kTwoPi * 1.5 * std::cos(0.6), 1e-13);
+  EXPECT_EQ(parallels(0.5 * kPi), 0);
 }
 
 Expression law(const char* text) {
