@@ -87,7 +87,7 @@ class Lines {
       if (leaf.plane) result_.left_out.insert("parameter lines of half-spaces");
       if (leaf.implicit) result_.left_out.insert("parameter lines of implicit surfaces");
       if (!leaf.body || leaf.is_region || of_tubes.count(k) > 0) continue;
-      for (const SurfaceLine& line : geometry::parameter_lines(*leaf.body, net))
+      for (const NetLine& line : geometry::parameter_lines(*leaf.body, net))
         add({{line.curve(), Kind::parameter, {{line.surface, line.image()}}, {}, nullptr}, all_of(k)});
     }
     return std::move(result_);

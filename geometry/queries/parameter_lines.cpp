@@ -51,7 +51,7 @@ bool is_closed_in(const Surface& surface, HeldParameter held) {
   return meets || meets_turned;
 }
 
-Curve2Ptr SurfaceLine::image() const {
+Curve2Ptr NetLine::image() const {
   NurbsCurveForm form;
   form.degree = 1;
   form.knots = {along.lo, along.lo, along.hi, along.hi};
@@ -59,12 +59,12 @@ Curve2Ptr SurfaceLine::image() const {
   return std::make_shared<NurbsCurve>(form);
 }
 
-SurfaceLine whole_line(const SurfacePtr& surface, HeldParameter held, double at) {
+NetLine whole_line(const SurfacePtr& surface, HeldParameter held, double at) {
   return {surface, held, at, held == HeldParameter::u ? surface->domain().v : surface->domain().u};
 }
 
-std::vector<SurfaceLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net) {
-  std::vector<SurfaceLine> lines;
+std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net) {
+  std::vector<NetLine> lines;
   if (!surface->bounded()) return lines;
   const Rectangle domain = surface->domain();
   const DegenerateEdges edges = surface->degenerate_edges();
@@ -81,12 +81,12 @@ std::vector<SurfaceLine> parameter_lines(const SurfacePtr& surface, const Parame
   return lines;
 }
 
-std::vector<SurfaceLine> parameter_lines(const Body& body, const ParameterNet& net) {
-  std::vector<SurfaceLine> lines;
-  const auto add = [&](const SurfaceLine& line) { lines.push_back(line); };
+std::vector<NetLine> parameter_lines(const Body& body, const ParameterNet& net) {
+  std::vector<NetLine> lines;
+  const auto add = [&](const NetLine& line) { lines.push_back(line); };
   for (const FaceRegion& face : face_regions(body)) {
     if (!face.region) {
-      for (const SurfaceLine& line : parameter_lines(face.surface, net)) add(line);
+      for (const NetLine& line : parameter_lines(face.surface, net)) add(line);
       continue;
     }
     for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
@@ -141,7 +141,7 @@ std::vector<FaceRegion> face_regions(const Body& body) {
 }
 
 void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
-                       const std::function<void(const SurfaceLine& line)>& visit) {
+                       const std::function<void(const NetLine& line)>& visit) {
   const bool u = held == HeldParameter::u;
   const Rectangle domain = face.surface->domain();
   const Periods periods = face.surface->periods();

@@ -28,7 +28,7 @@ std::vector<double> values_in(const ParameterValues& asked, const Interval& rang
 bool is_closed_in(const Surface& surface, HeldParameter held);
 
 // Over the whole of the other parameter, or a part of it.
-struct SurfaceLine {
+struct NetLine {
   SurfacePtr surface;
   HeldParameter held = HeldParameter::u;
   double at = 0;
@@ -37,11 +37,11 @@ struct SurfaceLine {
   CurvePtr curve() const { return std::make_shared<ParameterLine>(surface, held, at, along); }
   Curve2Ptr image() const;
 };
-SurfaceLine whole_line(const SurfacePtr& surface, HeldParameter held, double at);
+NetLine whole_line(const SurfacePtr& surface, HeldParameter held, double at);
 
 // None of an unbounded surface, and none that is a point.
-std::vector<SurfaceLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net);
-std::vector<SurfaceLine> parameter_lines(const Body& body, const ParameterNet& net);
+std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net);
+std::vector<NetLine> parameter_lines(const Body& body, const ParameterNet& net);
 
 // Meridians and parallels of each ball, z up; `view` is that of the turns.
 ShapeOutlines parameter_lines(const Balls& balls, const ParameterNet& net, const ViewOf& view);
@@ -55,7 +55,7 @@ struct FaceRegion {
 std::vector<FaceRegion> face_regions(const Body& body);
 // Calls visit(line) for the parts of a parameter line that lie in the region of such a face, in its surface's domain.
 void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
-                       const std::function<void(const SurfaceLine& line)>& visit);
+                       const std::function<void(const NetLine& line)>& visit);
 // A whole number of periods that brings x into the range; 0 where none does.
 double shift_into(const Interval& range, double x, double period);
 

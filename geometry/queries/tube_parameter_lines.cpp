@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kPlaces = 128;         // where a line is asked whether it is bare, and four in each cell of the curve
+constexpr int kPlaces = 256;         // where a line is asked whether it is bare, and four in each cell of the curve
 constexpr double kInside = 1e-9;     // of the curve: beside a flat end, whose circle rounding puts on either side of it
 constexpr double kSameSlope = 1e-9;  // of the radius, on both sides of a corner
 constexpr double kNoArc = 1e-9;      // of the radius: smaller arcs are points
@@ -67,7 +67,21 @@ TubeLine TubeBoundary::line_on_wall(const Part& part, HeldParameter held, double
   line.curve = contour_approximation(whole_line(part.surface, held, at).curve());
   line.places = std::max(kPlaces, 4 * static_cast<int>(tube_.sweep().cells().size()));
   line.outward = {[=, this, &part](double t) { return outward(part, place(t)); }};
+  // The circle between a wall and a corner's ball touches the wall beyond it: which half of it is bare is told by
+  // directions.
+  std::vector<std::pair<const Part*, double>> corners;
+  for (const Part& ball : parts_) {
+    if (held == HeldParameter::v || !ball.before || !ball.after) continue;
+    const Interval range = part.wall->domain().u;
+    if (at == range.hi && *ball.before == next_down(at)) corners.emplace_back(&ball, *ball.after);
+    if (at == range.lo && *ball.after == at) corners.emplace_back(&ball, *ball.before);
+  }
   line.is_bare = [=, this, &part](double t, double beside) {
+    for (const auto& [ball, other] : corners) {
+      const BallJet on_other = tube_.sweep().ball(other);
+      const Vec3 n = outward(part, place(t));
+      if ((other == *ball->after ? 1 : -1) * (glm::dot(n, on_other.center[1]) + on_other.radius[1]) > 0) return false;
+    }
     Vec2 asked = place(t);
     if (has_flat_ends)
       asked.x = std::clamp(asked.x, domain.lo + kInside * domain.width(), domain.hi - kInside * domain.width());

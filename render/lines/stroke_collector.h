@@ -98,9 +98,9 @@ class StrokeCollector {
 
   void add_edges(const geometry::Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden);
 
-  void add(const geometry::SurfaceLine& line, const Style& style, const HiddenLines& hidden);
+  void add(const geometry::NetLine& line, const Style& style, const HiddenLines& hidden);
   // The next stroke does.
-  void lies_on(const geometry::SurfaceLine& line);
+  void lies_on(const geometry::NetLine& line);
 
   void add(const geometry::Contours& contours, const std::vector<geometry::SurfacePtr>& surfaces, const Style& style,
            const HiddenLines& hidden);

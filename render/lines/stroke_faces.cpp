@@ -17,12 +17,12 @@ void StrokeCollector::add_crease(const SurfacePtr& surface, const Crease& crease
   stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, along), style, hidden);
 }
 
-void StrokeCollector::add(const SurfaceLine& line, const Style& style, const HiddenLines& hidden) {
+void StrokeCollector::add(const NetLine& line, const Style& style, const HiddenLines& hidden) {
   lies_on(line);
   stroke(line.curve(), style, hidden);
 }
 
-void StrokeCollector::lies_on(const SurfaceLine& line) {
+void StrokeCollector::lies_on(const NetLine& line) {
   if (drawing_) hosts_.push_back({line.surface, line.image()});
 }
 
@@ -42,7 +42,7 @@ void StrokeCollector::add_creases(const Body& body, const Style& style, const Hi
       const Interval range = u ? face.region->u_range() : face.region->v_range();
       const double at =
           crease.at + shift_into(range, crease.at, u ? face.surface->periods().u : face.surface->periods().v);
-      each_line_of_face(face, crease.held, at, [&](const SurfaceLine& line) {
+      each_line_of_face(face, crease.held, at, [&](const NetLine& line) {
         const Interval both = intersect(line.along, crease.along);
         if (both.width() > kLeastPart * line.along.width()) add_crease(face.surface, crease, both, style, hidden);
       });

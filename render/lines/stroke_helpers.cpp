@@ -55,7 +55,7 @@ void StrokeCollector::add_helper(const Helper& helper) {
     if (helper.type == "knots" && form) {
       const std::set<double> u(form->knots_u.begin(), form->knots_u.end()),
           v(form->knots_v.begin(), form->knots_v.end());
-      for (const SurfaceLine& line : parameter_lines(surface, {{0, {u.begin(), u.end()}}, {0, {v.begin(), v.end()}}}))
+      for (const NetLine& line : parameter_lines(surface, {{0, {u.begin(), u.end()}}, {0, {v.begin(), v.end()}}}))
         add(line, helper.style, helper.hidden);
     }
     if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);

@@ -2,13 +2,8 @@
 #include <cmath>
 
 #include "geometry/curves/curve_part.h"
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/curves/segment.h"
 #include "geometry/queries/box_tree.h"
-#include "geometry/queries/creases.h"
-#include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
-#include "geometry/queries/trim.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"

@@ -295,7 +295,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     });
   } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
     if (kind == "parameter")
-      for (const SurfaceLine& line : parameter_lines(**body, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
+      for (const NetLine& line : parameter_lines(**body, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
     else
       add_edges(**body, kind, style, lines.hidden);
     if (kind == "sharp") add_creases(**body, style, lines.hidden);
@@ -314,8 +314,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
       if (kind == "boundary") add_boundary(surface, style, lines.hidden);
       if (kind == "sharp") add_creases(surface, style, lines.hidden);
       if (kind == "parameter")
-        for (const SurfaceLine& line : parameter_lines(surface, {lines.at_u, lines.at_v}))
-          add(line, style, lines.hidden);
+        for (const NetLine& line : parameter_lines(surface, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
     });
   }
   if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, lines.hidden);
