@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -82,15 +83,18 @@ class Asking {
   // By z = a h^2 + b h^3: 8 z(h) - z(2 h) = 4 a h^2.
   bool bends_change() {
     const double h = kHeightsAside * question_.reach;
-    // On the line itself: that of the square is turned by the bending.
+    // On the line itself: those of the square are turned by the bending. But there a way may meet another side of a
+    // part that has an edge here; then in the middle of those.
     const auto here = height(question_.point, normals_[0], h);
-    if (!here) return false;
-    const Vec3 across = glm::normalize(glm::cross(question_.tangent, here->normal));
+    const bool agrees = here && glm::length(here->normal - normals_[0]) <= kSharp;
+    const Vec3 normal =
+        agrees ? here->normal : glm::normalize(std::accumulate(normals_.begin(), normals_.end(), Vec3(0)));
+    const Vec3 across = glm::normalize(glm::cross(question_.tangent, normal));
     std::array<double, 2> bends{};
     for (const int side : {0, 1}) {
       const Vec3 aside = (side == 0 ? h : -h) * across;
-      const auto near = height(question_.point + aside, here->normal, h),
-                 far = height(question_.point + 2.0 * aside, here->normal, 2 * h);
+      const auto near = height(question_.point + aside, normal, h),
+                 far = height(question_.point + 2.0 * aside, normal, 2 * h);
       if (!near || !far) return false;
       bends[side] = (8 * near->value - far->value) / (2 * h * h);
     }

@@ -127,19 +127,24 @@ TEST(CsgLines, SmoothEdges) {
   EXPECT_NEAR(length_of(capsule, Kind::sharp), kTwoPi, 1e-9);
   EXPECT_EQ(length_of(column, Kind::smooth), 0);
   EXPECT_NEAR(length_of(column, Kind::sharp), 2 * kTwoPi, 1e-9);
-  // A plate with a round end.
-  const Csg plate(Operation::unite, {shape_of(box(frame_from({-3, -1, 0}, {0, 0, 1}, {1, 0, 0}), {3, 2, 0.5})),
-                                     pipe({0, 0, 0}, {0, 0, 1}, 1, 0.5)});
-  const double around = 3 * 2 + 2 + kPi;
-  const CsgLines of_plate = lines_of(plate);
-  EXPECT_GE(length_of(of_plate, Kind::smooth), 2 * 0.5 - 1e-9);
-  for (const CsgLine& line : of_plate.lines) {
-    if (line.kind != Kind::smooth) continue;
-    const Vec3 p = line.curve->point(line.curve->domain().middle());
-    EXPECT_NEAR(p.x, 0, 1e-9);
-    EXPECT_NEAR(std::abs(p.y), 1, 1e-9);
+  // A plate with a round end, of several sizes: the edge where it goes on in that is an edge of the box, too.
+  for (const double r : {1.0, 0.8, 0.5, 0.37}) {
+    const Csg plate(Operation::unite, {shape_of(box(frame_from({-3, -r, 0}, {0, 0, 1}, {1, 0, 0}), {3, 2 * r, 0.5})),
+                                       pipe({0, 0, 0}, {0, 0, 1}, r, 0.5)});
+    const double around = 3 * 2 + (2 + kPi) * r;
+    const CsgLines of_plate = lines_of(plate);
+    EXPECT_GE(length_of(of_plate, Kind::smooth), 2 * 0.5 - 1e-9) << r;
+    for (const CsgLine& line : of_plate.lines) {
+      if (line.kind != Kind::smooth) continue;
+      const Vec3 p = line.curve->point(line.curve->domain().middle());
+      EXPECT_NEAR(p.x, 0, 1e-9);
+      EXPECT_NEAR(std::abs(p.y), r, 1e-9);
+    }
+    EXPECT_GE(length_of(of_plate, Kind::sharp), 2 * around + 2 * 0.5 - 1e-8) << r;
+    // Only the upper and the lower sides are one.
+    std::set<std::set<int>> one(of_plate.one_face.begin(), of_plate.one_face.end());
+    EXPECT_EQ(one.size(), 2u) << r;
   }
-  EXPECT_GE(length_of(of_plate, Kind::sharp), 2 * around + 2 * 0.5 - 1e-8);
 }
 
 // Balls that touch inside of one another leave an edge without an angle.

@@ -200,7 +200,7 @@ TEST(Fills, GradientsOfCsg) {
   Views views(97);
   Judged found;
   for (const Solid& solid : solids) {
-    for (int k = 0; k < tests::least_of_slow(4); ++k) {
+    for (int k = 0; k < tests::least_of_slow(2); ++k) {
       SmallScene scene;
       world_of(scene, solid);
       views.look(scene, k % 2);

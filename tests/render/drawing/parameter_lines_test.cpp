@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -64,14 +65,28 @@ double distance_of(const std::vector<Stroke>& strokes, const Vec3& p) {
   return least;
 }
 
+// The same for a place of a surface, or so near to it on either side that borders of faces are passed: a line along one
+// is a line of the face's border.
+std::optional<bool> is_boundary(const Solid& solid, const Surface& surface, const Vec2& uv) {
+  const Rectangle domain = surface.domain();
+  std::optional<bool> found = false;
+  for (const double du : {-1e-5, 1e-5})
+    for (const double dv : {-1e-5, 1e-5}) {
+      const double u = uv.x + du * domain.u.width(), v = uv.y + dv * domain.v.width();
+      if (!domain.contains(u, v)) continue;
+      const auto here = is_boundary(solid, surface.point(u, v), surface.normal(u, v));
+      if (!here) return here;
+      found = *found || *here;
+    }
+  return found;
+}
+
 struct Counts {
   int on = 0, off = 0, unclear = 0;
 };
 
-// A place of a line of a part, with the part's normal.
-void judge_place(const Solid& truth, const std::vector<Stroke>& strokes, const Vec3& p, const Vec3& normal,
-                 Counts& counts) {
-  const auto on = is_boundary(truth, p, normal);
+// A place of a line of a part, and whether it is on the boundary.
+void judge_place(const std::optional<bool>& on, const std::vector<Stroke>& strokes, const Vec3& p, Counts& counts) {
   if (!on) {
     ++counts.unclear;
     return;
@@ -89,7 +104,7 @@ void judge_body(const Body& body, const Solid& truth, const std::vector<Stroke>&
     for (int k = 0; k < 3; ++k) {
       const double t = views.number(line.along.lo, line.along.hi);
       const Vec2 uv = line.held == HeldParameter::u ? Vec2(line.at, t) : Vec2(t, line.at);
-      judge_place(truth, strokes, line.surface->point(uv.x, uv.y), line.surface->normal(uv.x, uv.y), counts);
+      judge_place(is_boundary(truth, *line.surface, uv), strokes, line.surface->point(uv.x, uv.y), counts);
     }
 }
 
@@ -102,7 +117,10 @@ void judge_rod(const Tube& rod, const Frame& frame, double radius, double length
       const double angle = circle ? views.number(0, kTwoPi) : kTwoPi * i / kLines - first,
                    height = circle ? length * i / (kLines - 1) : views.number(0, length);
       const Vec3 normal = frame.direction({std::cos(angle), std::sin(angle), 0});
-      judge_place(truth, strokes, frame.origin + height * frame.z + radius * normal, normal, counts);
+      const auto place = [&](double z) { return frame.origin + z * frame.z + radius * normal; };
+      // A little inside of an end.
+      const auto on = is_boundary(truth, place(std::clamp(height, 1e-5, length - 1e-5)), normal);
+      judge_place(on, strokes, place(height), counts);
     }
 }
 
@@ -147,7 +165,7 @@ TEST(ParameterLines, OfSolidsPutTogether) {
       const double t = views.number(stroke.curve->domain().lo, stroke.curve->domain().hi);
       const Vec3 uv = stroke.hosts[0].image->point(t), p = stroke.curve->point(t);
       EXPECT_NEAR(glm::length(stroke.hosts[0].surface->point(uv.x, uv.y) - p), 0, 1e-11);
-      const auto on = is_boundary(*truth, p, stroke.hosts[0].surface->normal(uv.x, uv.y));
+      const auto on = is_boundary(*truth, *stroke.hosts[0].surface, Vec2(uv));
       EXPECT_TRUE(!on || *on);
     }
     Truth(*world, sheets_of(std::vector<SolidPtr>{truth}), views, found, 3);
