@@ -349,16 +349,16 @@ double distance_of(const ShapeOutlines& found, const Vec3& p) {
   for (const ShapeOutline& line : found.lines) {
     const Interval all = line.curve->domain();
     const auto distance = [&](double t) { return glm::length(line.curve->point(all.clamp(t)) - p); };
-    int best = 0;
     const auto place = [&](int k) { return all.lo + all.width() * k / kPlaces; };
-    for (int k = 1; k <= kPlaces; ++k)
-      if (distance(place(k)) < distance(place(best))) best = k;
-    double lo = place(best - 1), hi = place(best + 1);
-    for (int i = 0; i < kSteps; ++i) {
-      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-      (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+    for (int k = 0; k <= kPlaces; ++k) {
+      if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
+      double lo = place(k - 1), hi = place(k + 1);
+      for (int i = 0; i < kSteps; ++i) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+      }
+      least = std::min(least, distance(0.5 * (lo + hi)));
     }
-    least = std::min(least, distance(0.5 * (lo + hi)));
   }
   return least;
 }

@@ -52,31 +52,31 @@ double distance_of(const std::vector<Stroke>& strokes, const Vec3& p) {
     const Interval all = stroke.curve->domain();
     const auto distance = [&](double t) { return glm::length(stroke.curve->point(all.clamp(t)) - p); };
     const auto place = [&](int k) { return all.lo + all.width() * k / kPlaces; };
-    int best = 0;
-    for (int k = 1; k <= kPlaces; ++k)
-      if (distance(place(k)) < distance(place(best))) best = k;
-    double lo = place(best - 1), hi = place(best + 1);
-    for (int i = 0; i < kSteps; ++i) {
-      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-      (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+    for (int k = 0; k <= kPlaces; ++k) {
+      if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
+      double lo = place(k - 1), hi = place(k + 1);
+      for (int i = 0; i < kSteps; ++i) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+      }
+      least = std::min(least, distance(0.5 * (lo + hi)));
     }
-    least = std::min(least, distance(0.5 * (lo + hi)));
   }
   return least;
 }
 
-// The same for a place of a surface, or so near to it on either side that borders of faces are passed: a line along one
-// is a line of the face's border.
+// The same all about a place of a face that fills its surface's domain: not on the border itself, where the oracle's
+// bodies end.
 std::optional<bool> is_boundary(const Solid& solid, const Surface& surface, const Vec2& uv) {
   const Rectangle domain = surface.domain();
-  std::optional<bool> found = false;
+  std::optional<bool> found;
   for (const double du : {-1e-5, 1e-5})
     for (const double dv : {-1e-5, 1e-5}) {
       const double u = uv.x + du * domain.u.width(), v = uv.y + dv * domain.v.width();
       if (!domain.contains(u, v)) continue;
       const auto here = is_boundary(solid, surface.point(u, v), surface.normal(u, v));
-      if (!here) return here;
-      found = *found || *here;
+      if (!here || (found && *found != *here)) return std::nullopt;
+      found = here;
     }
   return found;
 }
