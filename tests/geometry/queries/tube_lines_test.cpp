@@ -348,8 +348,8 @@ double distance_of(const ShapeOutlines& found, const Vec3& p) {
   double least = kInfinity;
   for (const ShapeOutline& line : found.lines) {
     const Interval all = line.curve->domain();
-    const auto distance = [&](double t) { return glm::length(line.curve->point(all.clamp(t)) - p); };
-    const auto place = [&](int k) { return all.lo + all.width() * k / kPlaces; };
+    const auto distance = [&](double t) { return glm::length(line.curve->point(t) - p); };
+    const auto place = [&](int k) { return all.clamp(all.lo + all.width() * k / kPlaces); };
     for (int k = 0; k <= kPlaces; ++k) {
       if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
       double lo = place(k - 1), hi = place(k + 1);

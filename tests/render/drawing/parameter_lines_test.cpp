@@ -50,8 +50,8 @@ double distance_of(const std::vector<Stroke>& strokes, const Vec3& p) {
   for (const Stroke& stroke : strokes) {
     if (stroke.kind != "parameter") continue;
     const Interval all = stroke.curve->domain();
-    const auto distance = [&](double t) { return glm::length(stroke.curve->point(all.clamp(t)) - p); };
-    const auto place = [&](int k) { return all.lo + all.width() * k / kPlaces; };
+    const auto distance = [&](double t) { return glm::length(stroke.curve->point(t) - p); };
+    const auto place = [&](int k) { return all.clamp(all.lo + all.width() * k / kPlaces); };
     for (int k = 0; k <= kPlaces; ++k) {
       if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
       double lo = place(k - 1), hi = place(k + 1);
