@@ -1,7 +1,5 @@
 #include "geometry/queries/ball_circles.h"
 
-#include <array>
-
 #include "geometry/curves/polynomial_approximation.h"
 
 namespace lekalo::geometry {
@@ -103,6 +101,19 @@ std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, s
         conditions.push_back(condition([&](double x) { return glm::dot(circle.point(x) - end.point, end.inward); }));
       }
   }
+  return kept(conditions);
+}
+
+std::vector<Interval> arcs_outside(const Balls& balls, const std::array<size_t, 2>& on,
+                                   const std::function<Vec3(double)>& point, std::vector<Condition> conditions) {
+  balls.near(on[0], [&](size_t k) {
+    if (k == on[0] || k == on[1]) return;
+    const Balls::Ball& ball = balls.balls()[k];
+    conditions.push_back(condition([&](double x) {
+      const Vec3 from = point(x) - ball.center;
+      return glm::dot(from, from) - ball.radius * ball.radius;
+    }));
+  });
   return kept(conditions);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -58,6 +59,9 @@ bool is_straight_corner(const BallSweep& sweep, double before, double after);
 // first) nor those after it hide, n . c' >= -R' before and n . c' <= -R' after, nor flat ends cut off.
 std::vector<Interval> arcs_between(const Tube& tube, const BallCircle& circle, std::optional<double> before,
                                    std::optional<double> after);
+// What of a circle on two balls, which may be the same, lies outside of all others and where the conditions hold.
+std::vector<Interval> arcs_outside(const Balls& balls, const std::array<size_t, 2>& on,
+                                   const std::function<Vec3(double)>& point, std::vector<Condition> conditions = {});
 // Whether the balls next to a flat end (side 0 or 1), whose ball is given, reach farther into its plane than that does.
 bool grows_inward(const BallJet& ball, int side);
 // The edge of such an end: where its plane cuts the wall of the balls behind. `view` is that of the turns.

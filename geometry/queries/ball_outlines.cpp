@@ -306,34 +306,19 @@ class TubeOutlines {
   ShapeOutlines result_;
 };
 
-// Calls put(arc) for what lies outside of all balls but two of a circle about or on ball i, its points by an angle.
-void each_outside(const Balls& balls, size_t i, size_t other, const std::function<Vec3(double)>& point,
-                  const std::function<void(const Interval&)>& put) {
-  std::vector<Condition> conditions;
-  balls.near(i, [&](size_t k) {
-    if (k == i || k == other) return;
-    const Balls::Ball& ball = balls.balls()[k];
-    conditions.push_back(condition([&](double x) {
-      const Vec3 from = point(x) - ball.center;
-      return glm::dot(from, from) - ball.radius * ball.radius;
-    }));
-  });
-  for (const Interval& arc : kept(conditions)) put(arc);
-}
-
 // The circle about a frame's z axis on both balls, which may be the same, as far as it is on the shape.
 void add_edges(const Balls& balls, const std::array<size_t, 2>& on, const Frame& frame, double radius,
                const ViewOf& view, ShapeOutlines& outlines) {
   const Circle circle(frame, radius);
   const auto point = [&](double x) { return circle.point(x); };
-  each_outside(balls, on[0], on[1], point, [&](const Interval& arc) {
+  for (const Interval& arc : arcs_outside(balls, on, point)) {
     ShapeOutline edge{std::make_shared<Circle>(frame, radius, arc), true, nullptr, {}};
     for (size_t k = 0; k < (on[0] == on[1] ? 1 : 2); ++k) {
       const Balls::Ball& ball = balls.balls()[on[k]];
       add_turns([&](double x) { return (point(x) - ball.center) / ball.radius; }, point, view, arc, edge.turns);
     }
     outlines.lines.push_back(std::move(edge));
-  });
+  }
 }
 
 }  // namespace
@@ -345,11 +330,8 @@ ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
   const auto& all = balls.balls();
   for (size_t i = 0; i < all.size(); ++i) {
     if (const auto circle = circle_of(all[i].center, all[i].radius, view))
-      each_outside(
-          balls, i, i, [&](double x) { return circle->center + circle->radius * circle->normal(x); },
-          [&](const Interval& arc) {
-            result.lines.push_back({circle->curve(arc), false, circle->aside(arc), {}});
-          });
+      for (const Interval& arc : arcs_outside(balls, {i, i}, [&](double x) { return circle->point(x); }))
+        result.lines.push_back({circle->curve(arc), false, circle->aside(arc), {}});
     balls.near(i, [&](size_t k) {
       if (k <= i) return;
       // The circle of two balls.

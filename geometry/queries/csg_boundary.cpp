@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <vector>
 
 namespace lekalo::geometry {
@@ -29,16 +31,21 @@ class Asking {
     y_ = std::cos(kTurn) * about.y - std::sin(kTurn) * about.x;
   }
 
-  CsgBoundary answer() {
+  CsgPlace answer() {
+    const CsgBoundary found = boundary();
+    return {found, faces_};
+  }
+
+ private:
+  CsgBoundary boundary() {
     if (question_.touching && on_square(kAsideOfContact * question_.reach, kSharpAtContact) == CsgBoundary::sharp_edge)
       return CsgBoundary::sharp_edge;
     const CsgBoundary found = on_square(kAside * size_, kSharp);
     return found == CsgBoundary::face && question_.smooth && bends_change() ? CsgBoundary::smooth_edge : found;
   }
 
- private:
   CsgBoundary on_square(double half, double sharp) {
-    normals_.clear();
+    normals_.clear(), faces_.clear();
     const std::array<Vec3, 4> corners{half * (x_ + y_), half * (y_ - x_), -half * (x_ + y_), half * (x_ - y_)};
     for (int k = 0; k < 4; ++k) {
       const Vec3 from = question_.point + corners[k];
@@ -48,6 +55,7 @@ class Asking {
       for (const SurfaceHit& hit : hits_) {
         const Vec3 near = side.origin + hit.t * side.direction;
         normals_.push_back(solid_.bare_point(hit, near).normal);
+        faces_.insert(hit.face);
       }
     }
     if (normals_.empty()) return CsgBoundary::none;
@@ -75,15 +83,18 @@ class Asking {
   // By z = a h^2 + b h^3: 8 z(h) - z(2 h) = 4 a h^2.
   bool bends_change() {
     const double h = kHeightsAside * question_.reach;
-    // On the line itself: that of the square is turned by the bending.
+    // On the line itself: those of the square are turned by the bending. But there a way may meet another side of a
+    // part that has an edge here; then in the middle of those.
     const auto here = height(question_.point, normals_[0], h);
-    if (!here) return false;
-    const Vec3 across = glm::normalize(glm::cross(question_.tangent, here->normal));
+    const bool agrees = here && glm::length(here->normal - normals_[0]) <= kSharp;
+    const Vec3 normal =
+        agrees ? here->normal : glm::normalize(std::accumulate(normals_.begin(), normals_.end(), Vec3(0)));
+    const Vec3 across = glm::normalize(glm::cross(question_.tangent, normal));
     std::array<double, 2> bends{};
     for (const int side : {0, 1}) {
       const Vec3 aside = (side == 0 ? h : -h) * across;
-      const auto near = height(question_.point + aside, here->normal, h),
-                 far = height(question_.point + 2.0 * aside, here->normal, 2 * h);
+      const auto near = height(question_.point + aside, normal, h),
+                 far = height(question_.point + 2.0 * aside, normal, 2 * h);
       if (!near || !far) return false;
       bends[side] = (8 * near->value - far->value) / (2 * h * h);
     }
@@ -96,11 +107,12 @@ class Asking {
   Vec3 x_, y_;
   std::vector<SurfaceHit> hits_;
   std::vector<Vec3> normals_;
+  std::set<int> faces_;
 };
 
 }  // namespace
 
-CsgBoundary boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question) {
+CsgPlace boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question) {
   return Asking(solid, size, question).answer();
 }
 

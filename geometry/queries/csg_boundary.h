@@ -6,7 +6,7 @@
 // distances h and 2h on both sides give the second derivatives.
 #pragma once
 
-#include <optional>
+#include <set>
 
 #include "geometry/shapes/csg.h"
 
@@ -22,7 +22,12 @@ struct CsgBoundaryQuestion {
   bool smooth = false;    // whether faces and smooth edges need to be told apart
 };
 
+struct CsgPlace {
+  CsgBoundary boundary = CsgBoundary::none;
+  std::set<int> faces;  // that the solid has about the point, as its hits number them
+};
+
 // `size`: the diameter of the solid's box.
-CsgBoundary boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question);
+CsgPlace boundary_at(const Csg& solid, double size, const CsgBoundaryQuestion& question);
 
 }  // namespace lekalo::geometry

@@ -75,6 +75,24 @@ class Lines {
     return std::move(result_);
   }
 
+  CsgLines parameter_lines(const ParameterNet& net) {
+    std::set<int> of_tubes;
+    for (const CsgTube& one : csg_tubes(solid_)) {
+      of_tubes.insert(one.leaves.begin(), one.leaves.end());
+      add(TubeBoundary(*one.tube).parameter_lines(net, view_of(one.map)), one.map, true,
+          {{nullptr, Kind::parameter, {}, {}, nullptr}, one.leaves});
+    }
+    for (int k = 0; k < count(); ++k) {
+      const CsgLeaf& leaf = leaves_[k];
+      if (leaf.plane) result_.left_out.insert("parameter lines of half-spaces");
+      if (leaf.implicit) result_.left_out.insert("parameter lines of implicit surfaces");
+      if (!leaf.body || leaf.is_region || of_tubes.count(k) > 0) continue;
+      for (const NetLine& line : geometry::parameter_lines(*leaf.body, net))
+        add({{line.curve(), Kind::parameter, {{line.surface, line.image()}}, {}, nullptr}, all_of(k)});
+    }
+    return std::move(result_);
+  }
+
  private:
   int count() const { return static_cast<int>(leaves_.size()); }
 
@@ -90,8 +108,9 @@ class Lines {
     return leaves_[k].region == m || std::find(ends.begin(), ends.end(), m) != ends.end();
   }
 
-  ViewOf view_of(const CsgLeaf& leaf) const {
-    const Affine back = leaf.map.inverse();
+  ViewOf view_of(const CsgLeaf& leaf) const { return view_of(leaf.map); }
+  ViewOf view_of(const Affine& map) const {
+    const Affine back = map.inverse();
     ViewOf view = view_;
     view.direction_or_eye =
         view.central ? back.point(view.direction_or_eye) : glm::normalize(back.direction(view.direction_or_eye));
@@ -385,16 +404,18 @@ class Lines {
     return cuts;
   }
 
-  // Of a stretch on the boundary: what it is there.
-  std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) const {
+  // Of a stretch on the boundary: what it is there. Notes faces that are one across it.
+  std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) {
     const CurveJet at = found.line.curve->evaluate(stretch.lo + kAskedAt * stretch.width(), 1);
     if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
     const bool is_edge = found.line.kind == Kind::sharp;
     const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, found.touching, is_edge && !found.smooth};
-    const CsgBoundary boundary = boundary_at(solid_, size_, question);
+    const auto [boundary, faces] = boundary_at(solid_, size_, question);
     if (boundary == CsgBoundary::none) return std::nullopt;
     if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;
-    return found.smooth || boundary == CsgBoundary::smooth_edge ? std::optional(Kind::smooth) : std::nullopt;
+    if (found.smooth || boundary == CsgBoundary::smooth_edge) return Kind::smooth;
+    if (faces.size() > 1) result_.one_face.push_back(faces);
+    return std::nullopt;
   }
 
   void put(const CsgLine& line, Kind kind, const Interval& t) {
@@ -424,6 +445,10 @@ CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid, v
 
 CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view) {
   return Lines(solid, view).section(origin, normal);
+}
+
+CsgLines csg_parameter_lines(const Csg& solid, const ParameterNet& net, const ViewOf& view) {
+  return Lines(solid, view).parameter_lines(net);
 }
 
 }  // namespace lekalo::geometry

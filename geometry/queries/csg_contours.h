@@ -1,5 +1,6 @@
-// Edges and outlines of solids that are put together (shapes/csg.h), through their leaves (csg_leaves.h): edges and
-// silhouettes of the leaves and the lines where two leaves meet, as far as they lie on the boundary of the whole.
+// Edges, outlines, sections and parameter lines of solids that are put together (shapes/csg.h), through their leaves
+// (csg_leaves.h): lines of the leaves and those in which two leaves meet, as far as they lie on the boundary of the
+// whole.
 //
 // A line changes between lying on the boundary and not only where it meets another leaf. In between the solid is asked
 // about one place of it (csg_boundary.h).
@@ -10,12 +11,13 @@
 #include <vector>
 
 #include "geometry/queries/contours.h"
+#include "geometry/queries/parameter_lines.h"
 #include "geometry/shapes/csg.h"
 
 namespace lekalo::geometry {
 
 struct CsgLine {
-  enum class Kind { sharp, smooth, silhouette, section };
+  enum class Kind { sharp, smooth, silhouette, section, parameter };
   CurvePtr curve;  // a whole edge or contour, or a part of one
   Kind kind = Kind::sharp;
   struct Host {
@@ -32,6 +34,8 @@ struct CsgLines {
   std::vector<CsgLine> lines;
   bool complete = true;            // false where a search was not
   std::set<std::string> left_out;  // lines that are not known at all, in words
+  // Faces, as hits number them, that go on in one another without an edge: of leaves that have a surface in common.
+  std::vector<std::set<int>> one_face;
 };
 
 // Edges first; hosts of one leaf's face are one surface in all lines.
@@ -39,5 +43,9 @@ CsgLines csg_lines(const Csg& solid, const ViewOf& view);
 
 // Where a plane cuts the solid's boundary; `view` is that of the turns. The normal need not be a unit vector.
 CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view);
+
+// Parameter lines of bodies' faces, of balls and of tubes, each as it has them alone; of planes and implicit surfaces
+// nothing. `view` as above.
+CsgLines csg_parameter_lines(const Csg& solid, const ParameterNet& net, const ViewOf& view);
 
 }  // namespace lekalo::geometry

@@ -16,6 +16,13 @@ constexpr double kStraight = 1e-12;  // relative
 
 class Leaves {
  public:
+  explicit Leaves(const Csg& solid) {
+    for (const ShapePtr& operand : solid.operands()) collect(operand, Affine());
+  }
+  std::vector<CsgLeaf> all;
+  std::vector<CsgTube> tubes;
+
+ private:
   void collect(const ShapePtr& shape, const Affine& map) {
     if (const auto* moved = dynamic_cast<const TransformedShape*>(shape.get()))
       return collect(moved->original(), map * moved->map());
@@ -32,7 +39,10 @@ class Leaves {
     } else if (const auto* balls = dynamic_cast<const Balls*>(shape.get())) {
       for (const Balls::Ball& one : balls->balls()) add(ball_at(one.center, one.radius), map);
     } else if (const auto tube = std::dynamic_pointer_cast<const Tube>(shape)) {
+      const int first = static_cast<int>(all.size());
       if (!add_ring(*tube, map) && !add_straight(*tube, map)) add_shape(shape, map).tube = tube;
+      tubes.push_back({tube, map, {}});
+      for (int k = first; k < static_cast<int>(all.size()); ++k) tubes.back().leaves.push_back(k);
     } else {
       CsgLeaf& leaf = add_shape(shape, map);
       leaf.implicit = std::dynamic_pointer_cast<const ImplicitSurface>(shape);
@@ -40,9 +50,6 @@ class Leaves {
     }
   }
 
-  std::vector<CsgLeaf> all;
-
- private:
   void add(const Body& body, const Affine& map) {
     CsgLeaf leaf;
     leaf.body = std::make_shared<const Body>(transformed(body, map));
@@ -123,10 +130,7 @@ class Leaves {
 
 }  // namespace
 
-std::vector<CsgLeaf> csg_leaves(const Csg& solid) {
-  Leaves leaves;
-  for (const ShapePtr& operand : solid.operands()) leaves.collect(operand, Affine());
-  return std::move(leaves.all);
-}
+std::vector<CsgLeaf> csg_leaves(const Csg& solid) { return Leaves(solid).all; }
+std::vector<CsgTube> csg_tubes(const Csg& solid) { return Leaves(solid).tubes; }
 
 }  // namespace lekalo::geometry

@@ -31,4 +31,12 @@ struct CsgLeaf {
 
 std::vector<CsgLeaf> csg_leaves(const Csg& solid);
 
+// The tubes among the operands, each with the leaves that it became.
+struct CsgTube {
+  std::shared_ptr<const Tube> tube;
+  Affine map;  // into the solid's coordinates
+  std::vector<int> leaves;
+};
+std::vector<CsgTube> csg_tubes(const Csg& solid);
+
 }  // namespace lekalo::geometry

@@ -16,16 +16,18 @@ constexpr double kFirstStep = 1e-14, kLongestStep = 0.01;
 
 double settled(const TubeLine& line, double end, double inside) {
   const auto is_bare = [&](double t) { return line.is_bare(t, 0.5 * kBesideBalls); };
-  const double most = kLongestStep * (inside - end);
-  double covered = end, bare = end;
-  for (double step = kFirstStep * (inside - end); covered == bare; step *= 2) {
-    if (std::abs(step) > std::abs(most)) return end;
-    if (is_bare(end + step)) bare = end + step;
+  // From half as far outside more of the line is seen to be bare, or less.
+  const bool more = is_bare(end);
+  const double way = more ? end - inside : inside - end;
+  double from = end, to = end;
+  for (double step = kFirstStep * way; to == end; step *= 2) {
+    if (std::abs(step) > kLongestStep * std::abs(way) || !line.curve->domain().contains(end + step)) return end;
+    if (is_bare(end + step) != more) to = end + step;
   }
-  for (double middle = 0.5 * (covered + bare); std::min(covered, bare) < middle && middle < std::max(covered, bare);
-       middle = 0.5 * (covered + bare))
-    (is_bare(middle) ? bare : covered) = middle;
-  return end + 2 * (bare - end);
+  for (double middle = 0.5 * (from + to); std::min(from, to) < middle && middle < std::max(from, to);
+       middle = 0.5 * (from + to))
+    (is_bare(middle) == more ? from : to) = middle;
+  return line.curve->domain().clamp(end + 2 * ((more ? from : to) - end));
 }
 
 void add_turns(const TubeLine& line, const Interval& range, const ViewOf& view, std::vector<double>& turns) {

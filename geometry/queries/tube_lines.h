@@ -1,5 +1,5 @@
-// Lines on tubes about any curve: where a tube meets surfaces, implicit surfaces and other tubes, and the edges along
-// which it goes through itself.
+// Lines on tubes about any curve: where a tube meets surfaces, implicit surfaces and other tubes, the edges along which
+// it goes through itself, and its parameter lines.
 //
 // The boundary of a tube lies on surfaces: its walls (surfaces/canal_surface.h), one for each part of the curve without
 // corners, the balls at corners and round ends, and the planes of flat ends. They are met by the search for contours
@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 
+#include "geometry/queries/parameter_lines.h"
 #include "geometry/queries/tube_cutting.h"
 #include "geometry/surfaces/canal_surface.h"
 
@@ -48,6 +49,11 @@ class TubeBoundary {
   };
   Edges edges(const ViewOf& view) const;
 
+  // On the walls: circles about the curve, u its parameter, and lines along it, v the angle from where that of the
+  // tube's hits is zero where the curve begins; they go on over corners. Round and flat ends have none. A closed
+  // curve's lines close if its wall does; they meet at another angle where it has corners and is not plane.
+  ShapeOutlines parameter_lines(const ParameterNet& net, const ViewOf& view) const;
+
   // Of a part at a place: the direction out of the tube, and whether the place is on the boundary, as seen from so far
   // outside, of the size.
   Vec3 outward(const Part& part, const Vec2& place) const;
@@ -70,6 +76,9 @@ class TubeBoundary {
   Part wall_over(double from, double to) const;
   void add_edges(const Contours& contours, const Part& a, const Part& b, const ViewOf& view, Edges& found) const;
   bool add_edges_of_bends(const CanalSurface& wall, const ViewOf& view, Edges& found) const;
+  TubeLine line_on_wall(const Part& part, HeldParameter held, double at) const;
+  std::optional<TubeLine> line_over_corner(const Part& ball, const Part& before, double v) const;
+  std::vector<double> zero_angles() const;
   TubeLine edge_of_balls(const CurvePtr& curve, const std::function<Vec2(double)>& balls,
                          const std::function<bool(const Vec2&)>& keeps) const;
 

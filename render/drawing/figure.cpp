@@ -74,12 +74,13 @@ class ViewDrawing {
     for (std::string& what : left_out)
       if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
         figure_.left_out.push_back(std::move(what));
+    const OneFaces one_faces = std::move(work.one_faces);
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
     add_statistics(lines);
     const auto begin = std::chrono::steady_clock::now();
     for (const Object* object : world_.objects()) names_.push_back(object->name);
     if (model_->drawing.ground == Ground::shaded) add_ground();
-    if (model_->drawing.ground == Ground::fill) add_fills(lines);
+    if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
     GraphWork graph = graph_axes(view_, legend);
     append(std::move(graph.under));
     // What is hidden lies under what is seen, which is known first.
@@ -139,9 +140,9 @@ class ViewDrawing {
     figure_.seconds_of_ground += seconds_since(begin);
   }
 
-  void add_fills(const VisibleLines& lines) {
+  void add_fills(const VisibleLines& lines, const OneFaces& one_faces) {
     const auto begin = std::chrono::steady_clock::now();
-    Fills fills = fills_of(world_, view_, lines, kFitted);
+    Fills fills = fills_of(world_, view_, lines, one_faces, kFitted);
     figure_.open_areas += fills.open;
     SheetGroup all{"fills", "", {}, {}, std::move(fills.items)};
     clip(all);

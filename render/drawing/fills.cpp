@@ -99,8 +99,8 @@ void add_hatching(const std::vector<Path>& given, double angle, double spacing, 
 
 class Filling {
  public:
-  Filling(const World& world, const View& view, const VisibleLines& lines, double tolerance)
-      : world_(world), view_(view), tolerance_(tolerance) {
+  Filling(const World& world, const View& view, const VisibleLines& lines, const OneFaces& one_faces, double tolerance)
+      : world_(world), view_(view), one_faces_(one_faces), tolerance_(tolerance) {
     for (const Object* object : world.objects()) {
       fills_.push_back(&fill_of(view.model, *object));
       lights_.push_back(light_of(*fills_.back(), view.camera));
@@ -143,7 +143,7 @@ class Filling {
     const double cosine =
         (front ? 1 : -1) * glm::dot(point.geometric_normal, lights_[static_cast<size_t>(point.object)]);
     seen.label.object = point.object;
-    if (fill.shading == Fill::Shading::gradient) seen.label.face = point.face;
+    if (fill.shading == Fill::Shading::gradient) seen.label.face = one_faces_.first(point.object, point.face);
     if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only))
       seen.label.shade = cosine < 0;
     seen.lambert = std::max(cosine, 0.0);
@@ -277,6 +277,7 @@ class Filling {
 
   const World& world_;
   const View& view_;
+  const OneFaces& one_faces_;
   double tolerance_;
   std::vector<const Fill*> fills_;  // of objects
   std::vector<Vec3> lights_;
@@ -287,8 +288,9 @@ class Filling {
 
 }  // namespace
 
-Fills fills_of(const World& world, const View& view, const VisibleLines& lines, double tolerance) {
-  return Filling(world, view, lines, tolerance).run();
+Fills fills_of(const World& world, const View& view, const VisibleLines& lines, const OneFaces& one_faces,
+               double tolerance) {
+  return Filling(world, view, lines, one_faces, tolerance).run();
 }
 
 }  // namespace lekalo::render

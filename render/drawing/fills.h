@@ -12,7 +12,9 @@ struct Fills {
   int open = 0;  // loops that do not close: a border is missing there
 };
 
-// `lines` with the borders of fills (LineWork::fills). No outline is farther than `tolerance` pixels from its curve.
-Fills fills_of(const World& world, const View& view, const VisibleLines& lines, double tolerance);
+// `lines` with the borders of fills (LineWork::fills), `one_faces` those of the same line work. No outline is farther
+// than `tolerance` pixels from its curve.
+Fills fills_of(const World& world, const View& view, const VisibleLines& lines, const OneFaces& one_faces,
+               double tolerance);
 
 }  // namespace lekalo::render

@@ -104,7 +104,11 @@ std::optional<Spectrum> color_at(const Mark& mark, const Vec2& p, double line) {
 
 PictureLines::PictureLines(const World& world) : world_(world), camera_(world.model().camera.get()) {
   LineWork work = line_work(world);
-  colors_.resize(work.strokes.size() + work.marks.size());
+  // Numbers of lines that clip planes leave nothing of are missing.
+  int orders = 0;
+  for (const Stroke& stroke : work.strokes) orders = std::max(orders, stroke.order + 1);
+  for (const Mark& mark : work.marks) orders = std::max(orders, mark.order + 1);
+  colors_.resize(static_cast<size_t>(orders));
   for (const Stroke& stroke : work.strokes) colors_[stroke.order] = rgb(stroke.look.color);
   for (const Mark& mark : work.marks) colors_[mark.order] = rgb(mark.line.color);
   for (Stroke& stroke : work.strokes) {

@@ -6,24 +6,17 @@
 #include <functional>
 #include <map>
 
-#include "geometry/curves/parameter_line.h"
 #include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/creases.h"
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
-#include "geometry/queries/trim.h"
+#include "geometry/queries/parameter_lines.h"
 #include "geometry/queries/tube_lines.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
-
-// Evenly spaced values with both ends of the range, or without the second where it is the first again.
-std::vector<double> values_in(const geometry::ParameterValues& asked, const geometry::Interval& range, bool periodic);
-
-// True if the opposite edges of the domain are one line of space, which may run the other way there (a Moebius band).
-bool is_closed_in(const geometry::Surface& surface, geometry::HeldParameter held);
 
 // De Casteljau's and de Boor's triangles, which are shown of curves.
 bool is_triangle(const Helper& helper);
@@ -100,28 +93,14 @@ class StrokeCollector {
   void add_crease(const geometry::SurfacePtr& surface, const geometry::Crease& crease, const geometry::Interval& along,
                   const Style& style, const HiddenLines& hidden);
 
-  void add_parameter_lines(const geometry::SurfacePtr& surface, geometry::HeldParameter held,
-                           const geometry::ParameterValues& asked, const Style& style, const HiddenLines& hidden);
-
-  void add_parameter_lines(const geometry::Body& body, const Lines& lines, const Style& style);
-
-  // A face; without a region it fills its surface's domain.
-  struct FaceRegion {
-    geometry::SurfacePtr surface;
-    std::shared_ptr<const geometry::TrimRegion> region;
-    std::vector<geometry::Curve2Ptr> borders;
-  };
-  static std::vector<FaceRegion> trimmed_faces(const geometry::Body& body);
-  // The parts of a parameter line that lie in a region, in the surface's domain.
-  static void each_line_of_face(const FaceRegion& face, geometry::HeldParameter held, double at,
-                                const std::function<void(double at, const geometry::Interval& along)>& visit);
+  // Of balls, tubes, and solids put together of others.
+  void add_parameter_lines(const geometry::ShapePtr& shape, const Lines& lines, const Style& style);
 
   void add_edges(const geometry::Body& body, std::string_view kind, const Style& style, const HiddenLines& hidden);
 
-  // The line of a surface on which its parameter is held.
-  void lies_on_line(const geometry::SurfacePtr& surface, geometry::HeldParameter held, double at);
-  void lies_on_line(const geometry::SurfacePtr& surface, geometry::HeldParameter held, double at,
-                    const geometry::Interval& along);
+  void add(const geometry::NetLine& line, const Style& style, const HiddenLines& hidden);
+  // The next stroke does.
+  void lies_on(const geometry::NetLine& line);
 
   void add(const geometry::Contours& contours, const std::vector<geometry::SurfacePtr>& surfaces, const Style& style,
            const HiddenLines& hidden);
@@ -173,7 +152,7 @@ class StrokeCollector {
   void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
                              const HiddenLines& hidden);
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
-  void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
+  void add_meeting_of_face(const geometry::FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
                            const Style& style, const HiddenLines& hidden);
   // How something meets what a shape without faces consists of, given in that shape's coordinates: adds the lines.
   struct Meets {
@@ -207,7 +186,7 @@ class StrokeCollector {
                           const std::function<double(const Vec3&)>& value);
   static Cutter cutter_of(const ClipPlane& plane);
   // The part of a surface that a face is.
-  static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
+  static Cutter cutter_of(const geometry::FaceRegion& face, const geometry::Affine& to_world);
   // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.
   static Cutter cutter_of(const std::vector<PlacedShape>& leaves, size_t on, const geometry::ShapePtr& placed_solid);
   std::vector<geometry::Interval> kept_parts(const Stroke& whole) const;

@@ -52,12 +52,12 @@ void StrokeCollector::add_helper(const Helper& helper) {
   each_surface([&](const SurfacePtr& surface) {
     const auto form = surface->as_nurbs();
     if (helper.type == "control_net" && form) add_net(*form, surface->periods(), sign, helper);
-    if (helper.type == "knots" && form)
-      for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-        const auto& list = held == HeldParameter::u ? form->knots_u : form->knots_v;
-        const std::set<double> knots(list.begin(), list.end());
-        add_parameter_lines(surface, held, {0, {knots.begin(), knots.end()}}, helper.style, helper.hidden);
-      }
+    if (helper.type == "knots" && form) {
+      const std::set<double> u(form->knots_u.begin(), form->knots_u.end()),
+          v(form->knots_v.begin(), form->knots_v.end());
+      for (const NetLine& line : parameter_lines(surface, {{0, {u.begin(), u.end()}}, {0, {v.begin(), v.end()}}}))
+        add(line, helper.style, helper.hidden);
+    }
     if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
   });
 }

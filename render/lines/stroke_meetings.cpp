@@ -152,8 +152,7 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
   });
   if (const auto* body = std::get_if<BodyPtr>(&faces.shape))
-    for (const FaceRegion& face : trimmed_faces(**body))
-      add_meeting_of_face(face, faces.to_world, solid, style, hidden);
+    for (const FaceRegion& face : face_regions(**body)) add_meeting_of_face(face, faces.to_world, solid, style, hidden);
 }
 
 void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& to_world, const PlacedShape& solid,

@@ -2,13 +2,8 @@
 #include <cmath>
 
 #include "geometry/curves/curve_part.h"
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/curves/segment.h"
 #include "geometry/queries/box_tree.h"
-#include "geometry/queries/creases.h"
-#include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/self_intersections.h"
-#include "geometry/queries/trim.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
@@ -18,44 +13,11 @@ namespace lekalo::render {
 
 using namespace geometry;
 
-std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
-  std::vector<double> values;
-  if (asked.count == 1 && !periodic) return {range.middle()};
-  for (int i = 0; i < asked.count; ++i)
-    values.push_back(range.clamp(range.lo + range.width() * i / (periodic ? asked.count : asked.count - 1)));
-  for (const double value : asked.values)
-    if (range.contains(value)) values.push_back(value);
-  return values;
-}
-
-bool is_closed_in(const Surface& surface, HeldParameter held) {
-  const Rectangle domain = surface.domain();
-  const bool u = held == HeldParameter::u;
-  if (const double period = u ? surface.periods().u : surface.periods().v; period > 0)
-    return std::abs((u ? domain.u : domain.v).width() - period) <= 1e-9 * period;
-  const Interval &range = u ? domain.u : domain.v, &along = u ? domain.v : domain.u;
-  const auto at = [&](double held_at, double x) {
-    const double t = along.clamp(along.lo + x * along.width());
-    return u ? surface.point(held_at, t) : surface.point(t, held_at);
-  };
-  const double same = 1e-9 * bounds(surface).diameter();
-  bool meets = true, meets_turned = true;
-  for (const double x : {0.0, 0.25, 0.55, 0.8, 1.0}) {
-    const Vec3 first = at(range.lo, x);
-    meets = meets && glm::length(first - at(range.hi, x)) <= same;
-    meets_turned = meets_turned && glm::length(first - at(range.hi, 1 - x)) <= same;
-  }
-  return meets || meets_turned;
-}
-
 void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
   if (!surface->bounded()) return;
   const Rectangle domain = surface->domain();
   const DegenerateEdges edges = surface->degenerate_edges();
-  const auto edge = [&](HeldParameter held, double at) {
-    lies_on_line(surface, held, at);
-    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
-  };
+  const auto edge = [&](HeldParameter held, double at) { add(whole_line(surface, held, at), style, hidden); };
   if (!is_closed_in(*surface, HeldParameter::u)) {
     if (!edges.u_min) edge(HeldParameter::u, domain.u.lo);
     if (!edges.u_max) edge(HeldParameter::u, domain.u.hi);
@@ -63,21 +25,6 @@ void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style
   if (!is_closed_in(*surface, HeldParameter::v)) {
     if (!edges.v_min) edge(HeldParameter::v, domain.v.lo);
     if (!edges.v_max) edge(HeldParameter::v, domain.v.hi);
-  }
-}
-
-void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParameter held, const ParameterValues& asked,
-                                          const Style& style, const HiddenLines& hidden) {
-  if (!surface->bounded()) return;
-  const Rectangle domain = surface->domain();
-  const bool u = held == HeldParameter::u;
-  const DegenerateEdges edges = surface->degenerate_edges();
-  const Interval& range = u ? domain.u : domain.v;
-  for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
-    if ((at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max)))
-      continue;
-    lies_on_line(surface, held, at);
-    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
   }
 }
 
@@ -92,22 +39,6 @@ void StrokeCollector::add_edges(const Body& body, std::string_view kind, const S
         }
       stroke(edge.curve, style, hidden);
     }
-}
-
-void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held, double at) {
-  lies_on_line(surface, held, at, held == HeldParameter::u ? surface->domain().v : surface->domain().u);
-}
-
-void StrokeCollector::lies_on_line(const SurfacePtr& surface, HeldParameter held, double at, const Interval& along) {
-  if (!drawing_) return;
-  const bool u = held == HeldParameter::u;
-  const Vec3 from = u ? Vec3(at, along.lo, 0) : Vec3(along.lo, at, 0),
-             to = u ? Vec3(at, along.hi, 0) : Vec3(along.hi, at, 0);
-  NurbsCurveForm form;
-  form.degree = 1;
-  form.knots = {along.lo, along.lo, along.hi, along.hi};
-  form.points = {Vec4(from, 1), Vec4(to, 1)};
-  hosts_.push_back({surface, std::make_shared<NurbsCurve>(form)});
 }
 
 void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr>& surfaces, const Style& style,
@@ -194,6 +125,23 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
   });
 }
 
+void StrokeCollector::add_parameter_lines(const ShapePtr& shape, const Lines& lines, const Style& style) {
+  const ParameterNet net{lines.at_u, lines.at_v};
+  const ViewOf view = view_from(to_world_.inverse());
+  in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
+    const ViewOf own_view = seen_through(view, back);
+    if (const auto* tube = dynamic_cast<const Tube*>(&original))
+      return add_on_tube(boundary_of(*tube).parameter_lines(net, own_view), nullptr, style, lines.hidden);
+    if (const auto* balls = dynamic_cast<const Balls*>(&original))
+      return add(parameter_lines(*balls, net, own_view), true, style, lines.hidden);
+    const auto* solid = dynamic_cast<const Csg*>(&original);
+    if (!solid) return leave_out("parameter lines of " + name_of_object());
+    const CsgLines found = csg_parameter_lines(*solid, net, own_view);
+    note(found);
+    for (const CsgLine& line : found.lines) add(line, style, lines.hidden);
+  });
+}
+
 void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style& style, const HiddenLines& hidden) {
   // Asked for outlines and for edges: what is missing is told once.
   if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
@@ -238,9 +186,14 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
       for (const MeshLine& line : mesh_lines(**mesh, from_light))
         if (line.kind == MeshLineKind::silhouette) stroke(line.curve, Style(), {});
   }
-  if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && fill.shading == Fill::Shading::gradient) {
+  if (fill.shading == Fill::Shading::gradient) {
     kind_ = "smooth";
-    add_edges(**body, kind_, Style(), {});
+    if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add_edges(**body, kind_, Style(), {});
+    if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
+      add_solid(*shape, view_from(to_world_.inverse()), true, Style(), {});
+      if (solid_ == *shape)
+        for (const std::set<int>& faces : solid_lines_.one_face) work_.one_faces.join(object_number_, faces);
+    }
   }
   undrawn_ = borders_ = false;
   filled_.push_back({object_, {object_->shape, to_world_, object_number_}});

@@ -295,12 +295,12 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
     });
   } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
     if (kind == "parameter")
-      add_parameter_lines(**body, lines, style);
+      for (const NetLine& line : parameter_lines(**body, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
     else
       add_edges(**body, kind, style, lines.hidden);
     if (kind == "sharp") add_creases(**body, style, lines.hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
-    if (kind == "parameter") leave_out("parameter lines of " + name_of_object());
+    if (kind == "parameter") add_parameter_lines(*shape, lines, style);
     if (kind == "sharp" || kind == "smooth" || kind == "boundary")
       add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
   } else if (std::holds_alternative<MeshPtr>(object_->shape)) {
@@ -314,8 +314,7 @@ void StrokeCollector::add_kind(std::string_view kind, const Style& style, const 
       if (kind == "boundary") add_boundary(surface, style, lines.hidden);
       if (kind == "sharp") add_creases(surface, style, lines.hidden);
       if (kind == "parameter")
-        for (const HeldParameter held : {HeldParameter::u, HeldParameter::v})
-          add_parameter_lines(surface, held, held == HeldParameter::u ? lines.at_u : lines.at_v, style, lines.hidden);
+        for (const NetLine& line : parameter_lines(surface, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
     });
   }
   if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, lines.hidden);
@@ -325,6 +324,19 @@ ViewOf StrokeCollector::seen_through(ViewOf view, const Affine& map) {
   view.direction_or_eye =
       view.central ? map.point(view.direction_or_eye) : glm::normalize(map.direction(view.direction_or_eye));
   return view;
+}
+
+void OneFaces::join(int object, const std::set<int>& faces) {
+  std::set<int> firsts;
+  for (const int face : faces) firsts.insert(first(object, face));
+  for (const int face : firsts)
+    if (face != *firsts.begin()) before_[{object, face}] = *firsts.begin();
+}
+
+int OneFaces::first(int object, int face) const {
+  for (auto found = before_.find({object, face}); found != before_.end(); found = before_.find({object, face}))
+    face = found->second;
+  return face;
 }
 
 LineLook drawn_look(const Style& style) { return look_of_style(style, 1, 0); }

@@ -5,7 +5,9 @@
 // of the drawing.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -84,6 +86,17 @@ struct LegendEntry {
   std::optional<Mark> mark;
 };
 
+// Faces of an object that are one for whoever looks at it: those of solids whose parts have a surface in common.
+class OneFaces {
+ public:
+  void join(int object, const std::set<int>& faces);
+  // The first of those that are one with a face.
+  int first(int object, int face) const;
+
+ private:
+  std::map<std::pair<int, int>, int> before_;
+};
+
 struct LineWork {
   std::vector<Stroke> strokes;
   std::vector<Mark> marks;
@@ -92,6 +105,7 @@ struct LineWork {
   int incomplete = 0;                           // searches for lines that did not find all
   std::vector<std::string> incomplete_objects;  // of these, in words
   bool fills = false;                           // areas are filled: their borders are among the strokes
+  OneFaces one_faces;                           // of fills
   std::vector<std::string> left_out;            // of drawings: what has no lines of its own yet, in words
 };
 

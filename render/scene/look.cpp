@@ -39,7 +39,7 @@ std::vector<Field> lines_fields() {
        group({{"at_u", counts(), "lines u = const: how many, or where", false, {}},
               {"at_v", counts(), "lines v = const: how many, or where", false, {}},
               of_style("hairline")}),
-       "parameter lines of a surface",
+       "parameter lines of surfaces, faces, tubes and balls, and of what is put together of them",
        false,
        {}},
       {"section",

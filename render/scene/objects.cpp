@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/shapes/implicit_surface.h"
 #include "geometry/surfaces/plane.h"
 #include "render/scene/types.h"
 
@@ -36,14 +37,24 @@ const void* identity(const Entity& entity) {
       entity);
 }
 
+namespace {
+
+bool is_implicit(const Entity& entity) {
+  const auto* shape = std::get_if<ShapePtr>(&entity);
+  const auto* moved = shape ? dynamic_cast<const TransformedShape*>(shape->get()) : nullptr;
+  return shape && dynamic_cast<const ImplicitSurface*>(moved ? moved->original().get() : shape->get());
+}
+
+}  // namespace
+
 std::vector<std::string> line_kinds_of(const Entity& entity) {
   if (std::holds_alternative<Vec3>(entity) || std::holds_alternative<CurvePtr>(entity)) return {"curve"};
   if (std::holds_alternative<SurfacePtr>(entity) || std::holds_alternative<SurfaceSet>(entity))
     return {"boundary", "sharp", "silhouette", "parameter", "section", "intersection", "self_intersection"};
   std::vector<std::string> kinds{"boundary", "sharp", "smooth", "silhouette", "section", "intersection"};
-  if (std::holds_alternative<BodyPtr>(entity)) kinds.push_back("parameter");
+  if (!std::holds_alternative<MeshPtr>(entity) && !is_implicit(entity)) kinds.push_back("parameter");
   // Known of none of these yet.
-  if (std::holds_alternative<ShapePtr>(entity)) kinds.insert(kinds.end(), {"parameter", "self_intersection"});
+  if (std::holds_alternative<ShapePtr>(entity)) kinds.push_back("self_intersection");
   return kinds;
 }
 

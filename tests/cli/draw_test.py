@@ -117,7 +117,15 @@ camera: { view: top }
                   "the surface is unbounded", "give the surface a domain"),
                  ("s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }, b: { type: ball, radius: 1 }",
                   "{ shape: b, lines: { intersection: { with: s } } }", "what is met is an unbounded surface",
-                  "give the surface a domain"))
+                  "give the surface a domain"),
+                 ("i: { type: implicit, formula: x^2 + y^2 + z^2 - 1, ball: { radius: 1.5 } }",
+                  "{ shape: i, transform: { scale: 2 }, lines: { parameter: { at_u: 3 } } }",
+                  "'implicit' has no lines 'parameter'", "it has boundary, sharp,"),
+                 ("t: { type: tube, of: { type: circle, radius: 2 }, radius: 0.3 }", "{ shape: t, lines: { parameter: {} } }",
+                  "parameter lines need 'at_u' or 'at_v'", "how many, or where: parameter:"),
+                 ("t: { type: tube, of: { type: circle, radius: 2 }, radius: 0.3 }",
+                  "{ shape: t, lines: { parameter: { at_u: -2 } } }", "expected a count between 1 and 10000, found -2",
+                  "a list says where: [-2]"))
         for geometry, objects, message, hint in cases:
             scene = self.scene(geometry, objects)
             for command in (("draw", scene, "-o", "x.svg"), ("check", scene)):
@@ -131,17 +139,29 @@ camera: { view: top }
 
     def test_what_is_left_out_has_a_name(self):
         tube = "t: { type: tube, of: { type: segment, from: [-2, 0, 0], to: [2, 0, 0] }, radius: 0.3 }, " \
-               "s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }"
-        scene = self.scene(tube, "{ shape: t, lines: { parameter: { at_u: 3 }, self_intersection: thin } }, "
-                           "{ shape: s, lines: { boundary: thick } }")
+               "s: { type: hyperbolic_paraboloid, semi_axes: [1, 1] }, " \
+               "h: { type: intersection, of: [t, { type: half_space, normal: x }] }"
+        scene = self.scene(tube, "{ shape: t, lines: { self_intersection: thin } }, "
+                           "{ shape: h, lines: { parameter: { at_u: 3 } } }, { shape: s, lines: { boundary: thick } }")
         errors = self.run_program("draw", scene, "-o", "x.svg")[1]
-        for words in ("parameter lines of 't'", "self-intersections of 't'", "lines of 's', which is unbounded"):
+        for words in ("parameter lines of half-spaces", "self-intersections of 't'", "lines of 's', which is unbounded"):
             self.assertIn(words, errors)
         # The formula has kinks.
         scene = self.scene("i: { type: implicit, formula: 'abs(x) + abs(y) + abs(z) - 1', ball: { radius: 1.5 } }",
                            "{ shape: i, lines: { silhouette: thick } }")
         self.assertIn("not all lines are known: they nearly touch or coincide ('i')",
                       self.run_program("draw", scene, "-o", "x.svg")[1])
+
+    def test_parameter_lines_of_solids(self):
+        """Of a tube as of a solid of two: five circles, the nearest end's seen whole, and one of three lines in front."""
+        tube = "t: { type: tube, of: { type: segment, from: [-2, 0, 0], to: [2, 0, 0] }, radius: 0.3, caps: flat }, " \
+               "b: { type: ball, radius: 0.2 }, s: { type: union, of: [t, b] }"
+        for shape in "ts":
+            scene = self.scene(tube, "{ shape: %s, lines: { parameter: { at_u: 5, at_v: 3 }, hidden: show } }" % shape)
+            self.assertNotIn("note", self.run_program("draw", scene, "-o", "x.svg")[1])
+            paths = self.paths("x.svg")
+            self.assertEqual(len(paths["parameter"]), 5 + 1)
+            self.assertEqual(len(paths["parameter hidden layers-1"]), 4 + 2)
 
     def test_creases(self):
         """The corner of a turned polyline is a ring, seen from outside and through the mouth; silhouettes end there."""

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/curves/circle.h"
 #include "geometry/curves/formula_curve.h"
 #include "geometry/curves/segment.h"
 #include "geometry/point_formulas.h"
@@ -126,19 +127,24 @@ TEST(CsgLines, SmoothEdges) {
   EXPECT_NEAR(length_of(capsule, Kind::sharp), kTwoPi, 1e-9);
   EXPECT_EQ(length_of(column, Kind::smooth), 0);
   EXPECT_NEAR(length_of(column, Kind::sharp), 2 * kTwoPi, 1e-9);
-  // A plate with a round end.
-  const Csg plate(Operation::unite, {shape_of(box(frame_from({-3, -1, 0}, {0, 0, 1}, {1, 0, 0}), {3, 2, 0.5})),
-                                     pipe({0, 0, 0}, {0, 0, 1}, 1, 0.5)});
-  const double around = 3 * 2 + 2 + kPi;
-  const CsgLines of_plate = lines_of(plate);
-  EXPECT_GE(length_of(of_plate, Kind::smooth), 2 * 0.5 - 1e-9);
-  for (const CsgLine& line : of_plate.lines) {
-    if (line.kind != Kind::smooth) continue;
-    const Vec3 p = line.curve->point(line.curve->domain().middle());
-    EXPECT_NEAR(p.x, 0, 1e-9);
-    EXPECT_NEAR(std::abs(p.y), 1, 1e-9);
+  // A plate with a round end, of several sizes: the edge where it goes on in that is an edge of the box, too.
+  for (const double r : {1.0, 0.8, 0.5, 0.37}) {
+    const Csg plate(Operation::unite, {shape_of(box(frame_from({-3, -r, 0}, {0, 0, 1}, {1, 0, 0}), {3, 2 * r, 0.5})),
+                                       pipe({0, 0, 0}, {0, 0, 1}, r, 0.5)});
+    const double around = 3 * 2 + (2 + kPi) * r;
+    const CsgLines of_plate = lines_of(plate);
+    EXPECT_GE(length_of(of_plate, Kind::smooth), 2 * 0.5 - 1e-9) << r;
+    for (const CsgLine& line : of_plate.lines) {
+      if (line.kind != Kind::smooth) continue;
+      const Vec3 p = line.curve->point(line.curve->domain().middle());
+      EXPECT_NEAR(p.x, 0, 1e-9);
+      EXPECT_NEAR(std::abs(p.y), r, 1e-9);
+    }
+    EXPECT_GE(length_of(of_plate, Kind::sharp), 2 * around + 2 * 0.5 - 1e-8) << r;
+    // Only the upper and the lower sides are one.
+    std::set<std::set<int>> one(of_plate.one_face.begin(), of_plate.one_face.end());
+    EXPECT_EQ(one.size(), 2u) << r;
   }
-  EXPECT_GE(length_of(of_plate, Kind::sharp), 2 * around + 2 * 0.5 - 1e-8);
 }
 
 // Balls that touch inside of one another leave an edge without an angle.
@@ -215,6 +221,53 @@ TEST(CsgLines, OfTwoImplicitLeaves) {
   const double circle = kTwoPi * std::sqrt(1 - 0.65 * 0.65);
   for (const Operation operation : {Operation::unite, Operation::intersect, Operation::subtract})
     EXPECT_NEAR(length_of(Csg(operation, {one, other}), Kind::sharp), circle, 1e-8);
+}
+
+// A cube cut by a ball of radius r < sqrt(2): the middle lines of its faces are chords; the ball's are cut where they
+// go through the faces.
+TEST(CsgLines, ParameterLines) {
+  const double r = 1.2, edge = std::acos(1 / r), corner = std::asin(1 / r);
+  const auto length = [](const Csg& solid, const ParameterNet& net) {
+    return length_of(csg_parameter_lines(solid, net, {false, glm::normalize(Vec3(-0.4, 0.7, -0.5))}), Kind::parameter);
+  };
+  const double chords = 6 * 2 * 2 * std::sqrt(r * r - 1), equator = r * (kTwoPi - 8 * edge);
+  // At u = 0, 120 and 240 degrees.
+  const double slanted = std::acos(1 / (r * std::sqrt(0.75))), meridians = 2 * r * (3 * corner - edge - 2 * slanted);
+  const ParameterNet net{{3, {}}, {3, {}}};
+  EXPECT_NEAR(length(Csg(Operation::intersect, {cube(), ball_at({0, 0, 0}, r)}), net), chords + equator + meridians,
+              1e-9);
+  // United all that was cut away: edges of the cube, which are lines of two faces.
+  const double all = 6 * 6 * 2 + kTwoPi * r + 3 * kPi * r;
+  EXPECT_NEAR(length(Csg(Operation::unite, {cube(), ball_at({0, 0, 0}, r)}), net), all - chords - equator - meridians,
+              1e-9);
+  // The ball as one of several.
+  const std::array<Vec3, 1> center{Vec3(0)};
+  const std::array<double, 1> radius{r};
+  EXPECT_NEAR(length(Csg(Operation::intersect, {std::make_shared<Balls>(center, radius), cube()}), net),
+              chords + equator + meridians, 1e-9);
+  // Tubes have their own: a ring about a circle, and a rod, which are bodies inside.
+  const ShapePtr ring = std::make_shared<Tube>(std::make_shared<Circle>(Frame(), 2.0), RadiusLaw(0.5), Caps::round),
+                 rod = std::make_shared<Tube>(std::make_shared<Segment>(Vec3(-3, 0, 0), Vec3(3, 0, 0)), RadiusLaw(0.5),
+                                              Caps::round);
+  const ShapePtr half = std::make_shared<BodyShape>(
+      std::make_shared<Body>(box(frame_from({-4, 0, -4}, {0, 0, 1}, {1, 0, 0}), {8, 8, 8})));
+  const auto of_tube = [&](const ShapePtr& tube, const ParameterNet& asked) {
+    const CsgLines found = csg_parameter_lines(Csg(Operation::intersect, {tube, half}), asked, {false, {0, 0, -1}});
+    double sum = 0;
+    for (const CsgLine& line : found.lines) {
+      const Interval t = line.curve->domain();
+      if (line.hosts.empty()) sum += arc_length(*line.curve, t.lo, t.hi).value;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(of_tube(ring, {{0, {0.3, 2, 4}}, {}}), 2 * kTwoPi * 0.5, 1e-9);
+  EXPECT_NEAR(of_tube(ring, {{}, {6, {}}}), 6 * kPi * 2, 1e-9);
+  EXPECT_NEAR(of_tube(rod, {{5, {}}, {}}), 5 * kPi * 0.5, 1e-9);
+  // Of the two at opposite angles one is on either side.
+  EXPECT_NEAR(of_tube(rod, {{}, {0, {0.3, 0.3 + kPi}}}), 6, 1e-9);
+  // Half-spaces and formulas have none, and it is said.
+  const Csg open(Operation::intersect, {cube(), std::make_shared<HalfSpaceShape>(Vec3(0, 0, 0.3), Vec3(0, 0, 1))});
+  EXPECT_EQ(csg_parameter_lines(open, net, {}).left_out.count("parameter lines of half-spaces"), 1u);
 }
 
 // What is not known is named.

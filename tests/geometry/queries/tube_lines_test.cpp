@@ -342,5 +342,153 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
   EXPECT_GT(corners, planes / 2);
 }
 
+// How near a point is to the nearest of some lines: by places and thirds.
+double distance_of(const ShapeOutlines& found, const Vec3& p) {
+  constexpr int kPlaces = 60, kSteps = 60;
+  double least = kInfinity;
+  for (const ShapeOutline& line : found.lines) {
+    const Interval all = line.curve->domain();
+    const auto distance = [&](double t) { return glm::length(line.curve->point(t) - p); };
+    const auto place = [&](int k) { return all.clamp(all.lo + all.width() * k / kPlaces); };
+    for (int k = 0; k <= kPlaces; ++k) {
+      if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
+      double lo = place(k - 1), hi = place(k + 1);
+      for (int i = 0; i < kSteps; ++i) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+      }
+      least = std::min(least, distance(0.5 * (lo + hi)));
+    }
+  }
+  return least;
+}
+
+// v of the direction across the curve where it begins.
+double angle_at_begin(const Tube& tube, const Vec3& direction) {
+  const BallJet ball = tube.sweep().ball(tube.sweep().curve().domain().lo);
+  return tube.point({0, tube.sweep().curve().domain().lo, 0, 0, 0}, ball.center[0] + ball.radius[0] * direction).v;
+}
+
+TEST(TubeParameterLines, ClosedForms) {
+  // Of a ring the lengths of n lines along it, at even angles, have the mean of the curve's.
+  const Tube ring(formula_curve({"3*cos(t)", "3*sin(t)", "0"}, {0, kTwoPi}, true), RadiusLaw(1), Caps::round);
+  const TubeBoundary of_ring(ring);
+  EXPECT_NEAR(length_of(of_ring.parameter_lines({{5, {}}, {}}, kView)), 5 * kTwoPi, 1e-10);
+  EXPECT_NEAR(length_of(of_ring.parameter_lines({{}, {4, {}}}, kView)), 4 * kTwoPi * 3, 1e-10);
+  // The outer and the inner equator, at listed angles, which may be given anywhere.
+  const double outside = angle_at_begin(ring, {1, 0, 0});
+  EXPECT_NEAR(length_of(of_ring.parameter_lines({{}, {0, {outside}}}, kView)), kTwoPi * 4, 1e-10);
+  EXPECT_NEAR(length_of(of_ring.parameter_lines({{}, {0, {outside - 3 * kPi}}}, kView)), kTwoPi * 2, 1e-10);
+  // With flat ends the outermost circles are their edges. A cone's lines are its sides.
+  const CurvePtr axis = std::make_shared<NurbsCurve>(polyline(std::vector<Vec3>{{0, 0, -2}, {0, 0, 2}}));
+  for (const Caps caps : {Caps::flat, Caps::none, Caps::round}) {
+    const Tube rod(axis, RadiusLaw(0.6), caps);
+    EXPECT_NEAR(length_of(TubeBoundary(rod).parameter_lines({{3, {}}, {7, {}}}, kView)), 3 * kTwoPi * 0.6 + 7 * 4,
+                1e-10);
+  }
+  // Beyond the domain there is nothing, and one line of a direction is in its middle.
+  const Tube rod(axis, RadiusLaw(0.6), Caps::round);
+  const ShapeOutlines middle = TubeBoundary(rod).parameter_lines({{1, {}}, {0, {}}}, kView);
+  ASSERT_EQ(middle.lines.size(), 1u);
+  EXPECT_NEAR(middle.lines[0].curve->point(1).z, 0, 1e-12);
+  EXPECT_TRUE(TubeBoundary(rod).parameter_lines({{0, {7.5}}, {0, {}}}, kView).lines.empty());
+}
+
+// Lines along a bar that turns a corner: at the angle a from the inside of the turn they meet in the mirror between
+// both parts, where cos a > 0, or go over the ball of the corner on an arc.
+TEST(TubeParameterLines, GoOverCorners) {
+  const double R = 0.4;
+  for (const double turn : {0.3, 0.5 * kPi, 2.0}) {
+    const Vec3 corner(2, 0, 0), in(1, 0, 0), out(std::cos(turn), std::sin(turn), 0);
+    const CurvePtr curve =
+        std::make_shared<NurbsCurve>(polyline(std::vector<Vec3>{{0, 0, 0}, corner, corner + 3.0 * out}));
+    const Tube tube(curve, RadiusLaw(R), Caps::flat);
+    const double inside = angle_at_begin(tube, {0, 1, 0});
+    for (const double a : {0.0, 0.7, 1.5, 1.8, 2.5, kPi, -2.0, -1.2}) {
+      const double cosine = std::cos(a);
+      const double whole = 5 + (cosine > 0 ? -2 * R * cosine * std::tan(0.5 * turn) : -R * cosine * turn);
+      const ShapeOutlines found = TubeBoundary(tube).parameter_lines({{}, {0, {inside + a}}}, kView);
+      EXPECT_NEAR(length_of(found), whole, 1e-8) << turn << " " << a;
+      EXPECT_EQ(found.lines.size(), cosine > 0 ? 2u : 3u);
+      // One line, from one end to the other.
+      for (size_t k = 0; k + 1 < found.lines.size(); ++k) {
+        const Curve &one = *found.lines[k].curve, &next = *found.lines[k + 1].curve;
+        EXPECT_NEAR(glm::length(one.point(one.domain().hi) - next.point(next.domain().lo)), 0, 1e-8);
+      }
+    }
+    // At the corner half a circle each of two.
+    EXPECT_NEAR(length_of(TubeBoundary(tube).parameter_lines({{0, {curve->pieces()[1].domain.lo}}, {}}, kView)),
+                kTwoPi * R, 1e-8);
+  }
+}
+
+// A place of a line is on the tube where no point of the curve is nearer than its own: there are lines at all such
+// places, and at none else. Circles about points of curves; along a helix the direction that turns no more than it must
+// turns against the normal by the torsion.
+TEST(TubeParameterLines, AreAllThatIsBare) {
+  std::mt19937_64 random(20);
+  const double h = 0.1, speed = std::sqrt(1 + h * h), torsion = h / (speed * speed);
+  const CurvePtr helix = formula_curve({"cos(t)", "sin(t)", "0.1*t"}, {0, 12.5}), knot = trefoil(),
+                 bend = formula_curve({"t", "t^2", "0"}, {-1.5, 1.5});
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  int bare = 0, covered = 0;
+  // The line by its parameter over a range.
+  const auto judge = [&](const Curve& curve, double R, const ShapeOutlines& found,
+                         const std::function<Vec3(double)>& line, const Interval& range) {
+    const double x = number(range.lo, range.hi), near = distance_of(found, line(x));
+    const auto depth = [&](double at) { return R - distances(curve, line(at))[0]; };
+    const double here = depth(x);
+    // Not where a line that touches it hardly covers it.
+    if (here > 1e-3 * R) {
+      EXPECT_GT(near, 1e-6);
+      ++covered;
+    } else if (here < 1e-9) {
+      ++bare;
+      if (near < 1e-8) return;
+      // Shorter stretches may be missed.
+      constexpr int kPlaces = 16;
+      const double step = range.width() / 256 / kPlaces;
+      int length = 1;
+      for (const double way : {-step, step})
+        for (double at = x + way; depth(at) < 1e-9 && length <= kPlaces; at += way) ++length;
+      EXPECT_LE(length, kPlaces) << R << " at " << x;
+    }
+  };
+  for (const auto& [curve, R] : {std::pair(helix, 0.4), std::pair(knot, 0.9), std::pair(bend, 0.8)}) {
+    const Tube tube(curve, RadiusLaw(R), Caps::round);
+    const Interval domain = curve->domain();
+    const double at = number(domain.lo, domain.hi), other = number(domain.lo, domain.hi);
+    const ShapeOutlines circles = TubeBoundary(tube).parameter_lines({{0, {at, other}}, {}}, kView);
+    EXPECT_TRUE(circles.complete);
+    each_point(circles, 9, [&](const Vec3& p, const ShapeOutline&, double) {
+      EXPECT_NEAR(distances(*curve, p)[0], R, 1e-9 * tube.bounds().diameter());
+    });
+    for (int k = 0; k < tests::tier_count(2000, 50); ++k) {
+      const CurveJet jet = curve->evaluate(k % 2 ? at : other, 1);
+      const Frame across = frame_about(jet.d[0], glm::normalize(jet.d[1]));
+      judge(*curve, R, circles,
+            [&](double angle) {
+              return across.point({R * std::cos(angle), R * std::sin(angle), 0});
+            },
+            {0, kTwoPi});
+    }
+  }
+  const double R = 0.4;
+  const Tube tube(helix, RadiusLaw(R), Caps::round);
+  const double normal = angle_at_begin(tube, {-1, 0, 0});
+  for (const double angle : {0.0, 1.2, 2.9, 4.4}) {
+    const ShapeOutlines along = TubeBoundary(tube).parameter_lines({{}, {0, {normal + angle}}}, kView);
+    EXPECT_TRUE(along.complete);
+    const auto line = [&](double t) {
+      const double turned = angle - torsion * speed * t;
+      const Vec3 n(-std::cos(t), -std::sin(t), 0), b = Vec3(h * std::sin(t), -h * std::cos(t), 1) / speed;
+      return Vec3(std::cos(t), std::sin(t), h * t) + R * (std::cos(turned) * n + std::sin(turned) * b);
+    };
+    for (int k = 0; k < tests::tier_count(2000, 30); ++k) judge(*helix, R, along, line, helix->domain());
+  }
+  EXPECT_GT(bare, 60);
+  EXPECT_GT(covered, 30);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry

@@ -23,6 +23,7 @@ constexpr double kNearBorder = 0.05;  // pixels: places so near to another area 
 struct Area {
   std::string object;
   std::vector<Path> whole, shade;
+  std::vector<std::vector<Path>> gradients;
 };
 
 void collect(const std::vector<SheetItem>& items, std::vector<Area>& areas) {
@@ -30,10 +31,12 @@ void collect(const std::vector<SheetItem>& items, std::vector<Area>& areas) {
     const auto* group = std::get_if<SheetGroup>(&item);
     if (!group) continue;
     if (group->kind == "fill") {
-      Area area{group->object, {}, {}};
-      for (const SheetItem& one : group->items)
-        if (const auto* path = std::get_if<SheetPath>(&one); path && path->brush)
-          (area.whole.empty() ? area.whole : area.shade) = path->parts;
+      Area area{group->object, {}, {}, {}};
+      for (const SheetItem& one : group->items) {
+        const auto* path = std::get_if<SheetPath>(&one);
+        if (path && path->brush) (area.whole.empty() ? area.whole : area.shade) = path->parts;
+        if (path && path->gradient) area.gradients.push_back(path->parts);
+      }
       areas.push_back(std::move(area));
     } else {
       collect(group->items, areas);
@@ -67,11 +70,13 @@ bool contains(const std::vector<Path>& paths, const Vec2& p) {
 
 struct Judged {
   int places = 0, wrong = 0, open = 0, views = 0, left = 0;
+  int plain = 0;  // places without a gradient, though there are some
 };
 
-void judge(SmallScene& scene, Views& random, Judged& found, bool two_tone) {
+void judge(SmallScene& scene, Views& random, Judged& found, Fill::Shading shading) {
   scene.model.drawing.ground = Ground::fill;
-  if (two_tone) scene.model.drawing.fill.shading = Fill::Shading::two_tone;
+  scene.model.drawing.fill.shading = shading;
+  const bool two_tone = shading == Fill::Shading::two_tone;
   for (size_t k = 0; k < scene.model.objects.size(); ++k) scene.model.objects[k].name = std::to_string(k);
   const auto world = scene.world();
   const Camera& camera = *world->model().camera;
@@ -106,6 +111,11 @@ void judge(SmallScene& scene, Views& random, Judged& found, bool two_tone) {
       const bool own = area.object == std::to_string(here.first);
       if (contains(area.whole, millimetres * p) != own || contains(area.shade, millimetres * p) != (own && here.second))
         ++found.wrong;
+      const auto gradients = std::count_if(area.gradients.begin(), area.gradients.end(),
+                                           [&](const auto& one) { return contains(one, millimetres * p); });
+      // Areas that are too small for a gradient have none.
+      if (gradients > (own ? 1 : 0)) ++found.wrong;
+      if (own && gradients == 0 && shading == Fill::Shading::gradient) ++found.plain;
     }
     const bool drawn = std::any_of(areas.begin(), areas.end(),
                                    [&](const Area& area) { return area.object == std::to_string(here.first); });
@@ -116,6 +126,7 @@ void judge(SmallScene& scene, Views& random, Judged& found, bool two_tone) {
 void expect_right(const Judged& found, const char* name) {
   EXPECT_EQ(found.wrong, 0) << name;
   EXPECT_EQ(found.open, 0) << name;
+  EXPECT_LE(found.plain, found.places / 1000) << name;
   EXPECT_LE(found.left, found.views / 20) << name;
   EXPECT_GT(found.places, 300 * (found.views - found.left)) << name;
   tests::report_figure(std::string(name) + " views", found.views);
@@ -124,38 +135,91 @@ void expect_right(const Judged& found, const char* name) {
 
 // Bodies that hide and pierce one another.
 TEST(Fills, OfManySolids) {
-  for (const bool two_tone : {false, true}) {
+  for (const Fill::Shading shading : {Fill::Shading::flat, Fill::Shading::two_tone}) {
     Views views(71);
     Judged found;
     for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
       SmallScene scene;
       for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_part(views, k + i, 1.5).body), {"sharp"});
       views.look(scene, k % 2);
-      judge(scene, views, found, two_tone);
+      judge(scene, views, found, shading);
     }
-    expect_right(found, two_tone ? "solids in two tones" : "solids");
+    expect_right(found, shading == Fill::Shading::flat ? "solids" : "solids in two tones");
   }
 }
 
 TEST(Fills, OfCsg) {
-  Views views(73);
-  Judged found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
-    SmallScene scene;
-    const auto shape = [&](int kind) -> ShapePtr {
-      return std::make_shared<BodyShape>(std::make_shared<Body>(random_part(views, kind, 0.5).body));
-    };
-    try {
-      show(scene,
-           ShapePtr(std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{shape(k), shape(k / 3 + 1)})),
-           {"sharp"});
-    } catch (const std::invalid_argument&) {
-      continue;
+  for (const Fill::Shading shading : {Fill::Shading::two_tone, Fill::Shading::gradient}) {
+    Views views(73);
+    Judged found;
+    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
+      SmallScene scene;
+      const auto shape = [&](int kind) -> ShapePtr {
+        return std::make_shared<BodyShape>(std::make_shared<Body>(random_part(views, kind, 0.5).body));
+      };
+      try {
+        show(scene,
+             ShapePtr(
+                 std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{shape(k), shape(k / 3 + 1)})),
+             {"sharp"});
+      } catch (const std::invalid_argument&) {
+        continue;
+      }
+      views.look(scene, k % 2);
+      judge(scene, views, found, shading);
     }
-    views.look(scene, k % 2);
-    judge(scene, views, found, true);
+    expect_right(found, shading == Fill::Shading::two_tone ? "csg" : "csg with gradients");
   }
-  expect_right(found, "csg");
+}
+
+// Gradients end at smooth edges and go on where the parts have a surface in common, as seen from all around. From above
+// the front all of the areas are seen, so many of each.
+TEST(Fills, GradientsOfCsg) {
+  const auto shape = [](Body body) -> ShapePtr {
+    return std::make_shared<BodyShape>(std::make_shared<Body>(std::move(body)));
+  };
+  const auto upright = [&](double z, double radius, double height) {
+    return shape(cylinder_body(frame_from({0, 0, z}, {0, 0, 1}, {1, 0, 0}), radius, height));
+  };
+  struct Solid {
+    const char* name;
+    ShapePtr one, other;
+    size_t areas;
+  };
+  const Solid solids[] = {
+      {"a shaft that ends in a ball", upright(-1, 1, 1), shape(ball(Frame(), 1)), 2},
+      {"a column of two", upright(-1, 1, 1), upright(0, 1, 1), 2},
+      {"a plate with a round end", shape(box(frame_from({-0.8, -2, -0.5}, {0, 0, 1}, {1, 0, 0}), {1.6, 2, 1})),
+       upright(-0.5, 0.8, 1), 3},
+      {"a step", shape(box(frame_from({-1, -1, -1}, {0, 0, 1}, {1, 0, 0}), {1, 2, 1})),
+       shape(box(frame_from({0, -1, -1}, {0, 0, 1}, {1, 0, 0}), {1, 2, 2})), 5}};
+  const auto world_of = [](SmallScene& scene, const Solid& solid) {
+    show(scene, ShapePtr(std::make_shared<Csg>(Csg::Operation::unite, std::vector<ShapePtr>{solid.one, solid.other})),
+         {"sharp"});
+  };
+  Views views(97);
+  Judged found;
+  for (const Solid& solid : solids) {
+    for (int k = 0; k < tests::least_of_slow(2); ++k) {
+      SmallScene scene;
+      world_of(scene, solid);
+      views.look(scene, k % 2);
+      judge(scene, views, found, Fill::Shading::gradient);
+    }
+    SmallScene scene;
+    world_of(scene, solid);
+    scene.model.film.width = 600, scene.model.film.height = 500;
+    scene.model.camera = make_camera(ParallelView{{-4, 3, 4}, {0, 0, 0}, {0, 0, 1}, 6}, 600, 500);
+    scene.model.drawing.ground = Ground::fill;
+    scene.model.drawing.fill.shading = Fill::Shading::gradient;
+    const Figure figure = figure_of(std::make_shared<const Model>(scene.world()->model()), {});
+    EXPECT_EQ(figure.open_areas, 0) << solid.name;
+    std::vector<Area> areas;
+    collect(figure.sheet.items, areas);
+    ASSERT_EQ(areas.size(), 1u);
+    EXPECT_EQ(areas[0].gradients.size(), solid.areas) << solid.name;
+  }
+  expect_right(found, "gradients of csg");
 }
 
 TEST(Fills, OfSheetsThatPierceOneAnother) {
@@ -167,7 +231,7 @@ TEST(Fills, OfSheetsThatPierceOneAnother) {
       show(scene, sheet_through_the_middle(views, n == 0), {"boundary"});
     }
     views.look(scene, k % 2);
-    judge(scene, views, found, true);
+    judge(scene, views, found, Fill::Shading::two_tone);
   }
   expect_right(found, "sheets");
 }
@@ -182,7 +246,7 @@ TEST(Fills, OfTheTeapot) {
     SmallScene scene;
     show(scene, teapot, {"silhouette"});
     views.look(scene, k % 2);
-    judge(scene, views, found, false);
+    judge(scene, views, found, Fill::Shading::flat);
   }
   expect_right(found, "teapot");
 }
@@ -204,7 +268,7 @@ TEST(Fills, OfBoxesInPlainViews) {
         ParallelView{
             Vec3(1, 1, 1) + 10.0 * way, {1, 1, 1}, way.z == 1 && way.x == 0 ? Vec3(0, 1, 0) : Vec3(0, 0, 1), 6},
         600, 500);
-    judge(scene, views, found, false);
+    judge(scene, views, found, Fill::Shading::flat);
   }
   expect_right(found, "boxes");
 }

@@ -6,11 +6,16 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/bodies/primitives.h"
 #include "geometry/curves/bezier_curve.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/parameter_line.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/tube.h"
+#include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/torus.h"
 #include "render/film/render.h"
 #include "render/scene/look.h"
@@ -439,6 +444,52 @@ TEST(ProjectedCurve, MapsAgreeWithProject) {
       EXPECT_NEAR(glm::dot(map.row[0], Vec4(p, 1)) / w, at.x, 1e-10);
       EXPECT_NEAR(glm::dot(map.row[1], Vec4(p, 1)) / w, at.y, 1e-10);
     }
+}
+
+// Of a solid put together they are those of its parts, and of a tube those of a body like it.
+TEST(PictureLines, ParameterLinesOfSolids) {
+  const auto picture = [](const Entity& shape, const ParameterValues& at_u, const ParameterValues& at_v) {
+    LineScene scene(200, 160, 4);
+    Lines lines;
+    lines.styles["parameter"] = LineScene::style(2);
+    lines.at_u = at_u, lines.at_v = at_v;
+    scene.show(shape, lines);
+    scene.model.camera = make_camera(PerspectiveView{{4, 3, 5}, {0, 0, 0.5}, {0, 0, 1}, 0.6}, 200, 160);
+    return scene.picture();
+  };
+  const auto expect_same = [](const Image& a, const Image& b) {
+    double all = 0, off = 0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) all += ink(a, x, y), off += std::abs(ink(a, x, y) - ink(b, x, y));
+    EXPECT_GT(all, 500);
+    EXPECT_LT(off, 1e-3 * all);
+  };
+  const auto pin = std::make_shared<Body>(cylinder_body(Frame(), 0.6, 1.5));
+  const auto shape_of = [](const BodyPtr& body) { return std::make_shared<BodyShape>(body); };
+  const auto core = std::make_shared<Body>(cylinder_body(frame_from({0, 0, 0.2}, {0, 0, 1}, {1, 0, 0}), 0.3, 1));
+  expect_same(picture(BodyPtr(pin), {6, {}}, {4, {}}),
+              picture(ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
+                                                     std::vector<ShapePtr>{shape_of(pin), shape_of(core)})),
+                      {6, {}}, {4, {}}));
+  const auto axis = std::make_shared<Segment>(Vec3(0, 0, 0), Vec3(0, 0, 1.5));
+  expect_same(picture(SurfacePtr(std::make_shared<CylinderSurface>(Frame(), 0.6, 1.5)), {6, {}}, {4, {}}),
+              picture(ShapePtr(std::make_shared<Tube>(axis, RadiusLaw(0.6), Caps::none)), {4, {}}, {6, {}}));
+}
+
+// Lines of which a clip plane leaves nothing have a number still.
+TEST(PictureLines, ClippedAway) {
+  LineScene scene(60, 60, 1);
+  Lines lines;
+  lines.styles["parameter"] = LineScene::style(2);
+  lines.at_u.count = lines.at_v.count = 40;
+  scene.show(std::make_shared<Body>(ball(Frame(), 1)), lines);
+  scene.model.objects.back().clips.push_back({{0, 0, 0.9}, {0, 0, -1}, false});
+  scene.model.camera = make_camera(ParallelView{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 2.4}, 60, 60);
+  const Image image = scene.picture();
+  double all = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) all += ink(image, x, y);
+  EXPECT_GT(all, 10);
 }
 
 }  // namespace
