@@ -19,7 +19,7 @@
 #include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/implicit_arcs.h"
 #include "geometry/queries/implicit_contours.h"
-#include "geometry/queries/implicit_equations.h"
+#include "geometry/queries/sight_turns.h"
 #include "geometry/queries/tube_lines.h"
 #include "geometry/transformed.h"
 
@@ -249,12 +249,8 @@ class Lines {
   // Where an implicit leaf turns away along a line on it.
   void add_turns(const CsgLeaf& leaf, bool closed, CsgLine& line) const {
     line.curve = contour_approximation(line.curve);
-    const ImplicitCondition sight = ImplicitCondition::sight(view_of(leaf));
-    const ImplicitFormula& formula = leaf.implicit->formula();
-    const std::vector<double> turns = sign_changes(
-        *transformed(line.curve, leaf.map.inverse()), closed,
-        [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },
-        [&](const Vec3& p) { return sight.at(second_order(formula, p), triple(p)).value; });
+    const std::vector<double> turns =
+        sight_turns(*transformed(line.curve, leaf.map.inverse()), closed, leaf.implicit->formula(), view_of(leaf));
     line.turns.insert(line.turns.end(), turns.begin(), turns.end());
   }
 

@@ -14,6 +14,7 @@
 #include "geometry/queries/ball_outlines.h"
 #include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/implicit_arcs.h"
+#include "geometry/queries/sight_turns.h"
 #include "geometry/shapes/balls.h"
 
 namespace lekalo::geometry {
@@ -119,7 +120,6 @@ class Collector {
   void note(const ImplicitArcs& found) { result_.complete = result_.complete && found.complete; }
 
   Vec3 sight_at(const Vec3& p) const { return view_.central ? p - view_.direction_or_eye : view_.direction_or_eye; }
-  double slope_along_sight(const Vec3& p) const { return sight_.at(second_order(formula_, p), triple(p)).value; }
   double bend_at(const Vec3& p) const { return bend_along(second_order(formula_, p), triple(sight_at(p))); }
 
   // The formula does not depend on the place along any way of sight: grad F . s is zero without rounding.
@@ -252,10 +252,7 @@ class Collector {
 
   // A line on the surface, and perhaps on the ball of the region, that is no silhouette.
   void add(const CurvePtr& curve, bool closed, bool on_ball) {
-    ImplicitContour line{curve, closed, {}, nullptr};
-    line.turns = sign_changes(
-        *curve, closed, [&](const Box3& box) { return sight_.enclose(range_of(formula_, box), box).value; },
-        [&](const Vec3& p) { return slope_along_sight(p); });
+    ImplicitContour line{curve, closed, sight_turns(*curve, closed, formula_, view_), nullptr};
     if (on_ball) {
       const std::vector<double> found = turns_of_ball(*curve, closed);
       line.turns.insert(line.turns.end(), found.begin(), found.end());

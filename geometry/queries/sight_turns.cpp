@@ -3,6 +3,8 @@
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/numerics/triple.h"
+#include "geometry/queries/curve_sign_changes.h"
+#include "geometry/queries/implicit_equations.h"
 
 namespace lekalo::geometry {
 
@@ -79,6 +81,13 @@ void add_sight_turns(const Curve& line, const Surface& surface, const Curve& ima
     for (const auto& root : found.isolated) turns.push_back(root[0]);
     for (const auto& open : found.open) add_sign_changes(system, open[0], turns);
   }
+}
+
+std::vector<double> sight_turns(const Curve& curve, bool closed, const ImplicitFormula& formula, const ViewOf& view) {
+  const ImplicitCondition sight = ImplicitCondition::sight(view);
+  return sign_changes(
+      curve, closed, [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },
+      [&](const Vec3& p) { return sight.at(second_order(formula, p), triple(p)).value; });
 }
 
 }  // namespace lekalo::geometry

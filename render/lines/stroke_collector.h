@@ -1,6 +1,7 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
 // looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
-// where they are cut or met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
+// where they are cut, stroke_meetings.cpp, stroke_parts.cpp and stroke_tubes.cpp where they meet, stroke_cuts.cpp what
+// clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -175,19 +176,30 @@ class StrokeCollector {
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
   void add_meeting_of_face(const FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
                            const Style& style, const HiddenLines& hidden);
-  // How something meets what a shape without faces consists of, given in that shape's coordinates: adds the lines.
+  // How something meets a part of an implicit surface or of balls, given in that shape's coordinates: adds the lines.
   struct Meets {
-    std::function<void(const geometry::ImplicitFormula& formula)> formula;
-    std::function<void(const geometry::Vec3& through, const geometry::Vec3& normal)> plane;
+    geometry::Box3 box;  // what holds it there
+    std::function<void(const geometry::ImplicitSurface& formula)> formula;
     std::function<void(const geometry::SurfacePtr& surface)> surface;
   };
   Meets meets_of_face(const geometry::SurfacePtr& face, const geometry::Affine& to_world,
                       const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
+  Meets meets_of_formula(const geometry::ImplicitSurface& implicit, const geometry::Affine& to_world,
+                         const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
   Meets meets_of_tube(const geometry::Tube& tube, const geometry::Affine& to_world,
                       const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
-  // As far as the region of the one and the other balls leave it.
-  void add_meeting(const Meets& meets, const geometry::ImplicitSurface& other, const geometry::Affine& to_world);
-  void add_meeting(const Meets& meets, const geometry::Balls& other, const geometry::Affine& to_world);
+  // Implicit surfaces and balls consist of parts.
+  static bool has_parts(const Entity& shape);
+  // The formula alone, or a surface: what closes an implicit solid at the border of its region, a ball.
+  struct Part {
+    const geometry::ImplicitSurface* formula = nullptr;
+    geometry::SurfacePtr surface;
+  };
+  // Visits the parts that may meet a box, with cutters that keep what of each is on the whole.
+  void each_part(const PlacedShape& solid, const geometry::Box3& near, const std::function<void(const Part&)>& visit);
+  void meets_parts(const Meets& meets, const PlacedShape& solid);
+  // Of two such; false if they are none.
+  bool add_meeting_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
   // Of two shapes without faces; false if that is not known.
   bool add_meeting_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
   const geometry::TubeBoundary& boundary_of(const geometry::Tube& tube);
@@ -206,6 +218,7 @@ class StrokeCollector {
                           const std::function<geometry::Interval(const geometry::Box3&)>& range,
                           const std::function<double(const Vec3&)>& value);
   static Cutter cutter_of(const ClipPlane& plane);
+  static Cutter cut_in_ball(const geometry::Affine& to_world, const Vec3& center, double radius);
   // The part of a surface that a face is.
   static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
   // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.

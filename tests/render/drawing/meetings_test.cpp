@@ -1,4 +1,5 @@
-// The lines in which objects meet: the same ball given in several ways, placed by its object, against a box.
+// The lines in which objects meet: the same ball given in several ways, placed by its object, against a box; the same
+// solids as bodies and by formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "geometry/shapes/half_space.h"
 #include "geometry/shapes/implicit_surface.h"
 #include "geometry/shapes/tube.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
 #include "render/lines/strokes.h"
@@ -27,6 +29,13 @@ BodyPtr ball_at(const Vec3& center, double radius) {
   Frame frame;
   frame.origin = center;
   return std::make_shared<Body>(ball(frame, radius));
+}
+
+ShapePtr implicit(const char* formula, const ImplicitRegion& region, bool closed = true) {
+  auto parsed = std::get<Expression>(Expression::parse(formula));
+  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+  if (parsed.bind(variables)) ADD_FAILURE() << formula;
+  return std::make_shared<ImplicitSurface>(std::move(parsed), 0, region, closed);
 }
 
 std::any any_of(const Entity& entity) {
@@ -46,6 +55,7 @@ struct Found {
   double length = 0;
   std::vector<Vec3> points;
   std::vector<std::string> left_out;
+  int incomplete = 0;
 };
 Found meetings(const Entity& shape, const Affine& transform, const Entity& with, const std::optional<Affine>& placed) {
   SmallScene scene;
@@ -58,7 +68,7 @@ Found meetings(const Entity& shape, const Affine& transform, const Entity& with,
   views.look(scene, false);
   const LineWork work = drawing_work(*scene.world());
   Found found;
-  found.left_out = work.left_out;
+  found.left_out = work.left_out, found.incomplete = work.incomplete;
   for (const Stroke& stroke : work.strokes) {
     if (!stroke.drawn) continue;
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
@@ -85,12 +95,8 @@ TEST(Meetings, OneBallInManyWays) {
       outside = std::max(outside, std::abs(glm::dot(in_box, axis) - 1) - 1);
     EXPECT_NEAR(outside, 0, 1e-9);
   }
-  auto formula = std::get<Expression>(Expression::parse("x^2 + y^2 + z^2"));
-  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
-  ASSERT_FALSE(formula.bind(variables));
-  const Vec3 half(1.5);
   const Entity others[] = {
-      ShapePtr(std::make_shared<ImplicitSurface>(formula, 1.3 * 1.3, ImplicitRegion{{-half, half}}, true)),
+      implicit("x^2 + y^2 + z^2 - 1.69", {{Vec3(-1.5), Vec3(1.5)}}),
       ShapePtr(std::make_shared<Balls>(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{1.3})),
       ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
                                      std::vector<ShapePtr>{std::make_shared<BodyShape>(exact),
@@ -134,17 +140,13 @@ TEST(Meetings, Tubes) {
   const ShapePtr tube = std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat);
   const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
                placed = turned * Affine::translation({2.3, 0.5, 0.2});
-  auto formula = std::get<Expression>(Expression::parse("x^2 + y^2 + z^2"));
-  const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
-  ASSERT_FALSE(formula.bind(variables));
-  const Vec3 half(1.5);
   const Found expected = meetings(tube, turned, ball_at({0, 0, 0}, 0.9), placed);
   ASSERT_GT(expected.length, 2);
   for (const Vec3& point : expected.points) EXPECT_NEAR(glm::length(placed.inverse().point(point)), 0.9, 1e-9);
   const Entity others[] = {
       ball_at({0, 0, 0}, 0.9),
       SurfaceSet{sphere({0, 0, 0}, 0.9), sphere({0, 0, 20}, 1)},
-      ShapePtr(std::make_shared<ImplicitSurface>(formula, 0.9 * 0.9, ImplicitRegion{{-half, half}}, true)),
+      implicit("x^2 + y^2 + z^2 - 0.81", {{Vec3(-1.5), Vec3(1.5)}}),
       ShapePtr(std::make_shared<Balls>(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.9})),
       ShapePtr(std::make_shared<Csg>(Csg::Operation::unite,
                                      std::vector<ShapePtr>{std::make_shared<BodyShape>(ball_at({0, 0, 0}, 0.9)),
@@ -157,6 +159,92 @@ TEST(Meetings, Tubes) {
     EXPECT_NEAR(turned_round.length, expected.length, 1e-5);
     EXPECT_TRUE(found.left_out.empty());
   }
+}
+
+// Solids by formulas, cut off by their regions, and balls, against the bodies that they are.
+TEST(Meetings, PartsMeetParts) {
+  const auto both = [](const char* what, std::initializer_list<Entity> ones, std::initializer_list<Entity> others,
+                       const Affine& map_of_one, const Affine& map_of_other) {
+    const Found expected = meetings(*ones.begin(), map_of_one, *others.begin(), map_of_other);
+    ASSERT_GT(expected.length, 1) << what;
+    for (const Entity& one : ones)
+      for (const Entity& other : others) {
+        for (const bool round : {false, true}) {
+          const Found found =
+              round ? meetings(other, map_of_other, one, map_of_one) : meetings(one, map_of_one, other, map_of_other);
+          EXPECT_NEAR(found.length, expected.length, 1e-6) << what;
+          EXPECT_TRUE(found.left_out.empty()) << what;
+          EXPECT_EQ(found.incomplete, 0) << what;
+        }
+      }
+  };
+  const std::vector<Vec3> center{{0, 0, 0}};
+  const std::vector<double> radius{1.3};
+  const std::initializer_list<Entity> balls = {
+      ball_at({0, 0, 0}, 1.3), implicit("x^2 + y^2 + z^2 - 1.69", {{Vec3(-1.5), Vec3(1.5)}}),
+      implicit("x^2 + y^2 + z^2 - 1.69", ImplicitRegion::ball({0.1, 0, 0}, 1.5)),
+      ShapePtr(std::make_shared<Balls>(center, radius))};
+  const std::initializer_list<Entity> posts = {
+      std::make_shared<Body>(cylinder_body(frame_from({0, 0, -1}, {0, 0, 1}, {1, 0, 0}), 0.6, 2)),
+      implicit("x^2 + y^2 - 0.36", {{{-0.7, -0.7, -1}, {0.7, 0.7, 1}}})};
+  // Half a ball: its region is the ball, its formula the plane.
+  const std::initializer_list<Entity> halves = {
+      ShapePtr(std::make_shared<Csg>(
+          Csg::Operation::intersect,
+          std::vector<ShapePtr>{std::make_shared<BodyShape>(ball_at({0, 0, 0}, 1.1)),
+                                std::make_shared<HalfSpaceShape>(Vec3(0, 0, 0), Vec3(0, 0, -1))})),
+      implicit("-z", ImplicitRegion::ball({0, 0, 0}, 1.1)),
+      implicit("x^2 + y^2 + z^2 - 1.21", {{{-1.2, -1.2, 0}, {1.2, 1.2, 1.2}}})};
+  const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0});
+  Affine longer = turned;
+  longer.linear *= 1.4;
+  longer.linear[1] *= 0.6;
+  both("balls and balls", balls, balls, Affine(), Affine::translation({0.9, 0.5, -0.3}));
+  both("balls and posts", balls, posts, longer, Affine::translation({0.9, 0.5, -0.3}));
+  both("posts and posts", posts, posts, turned, longer);
+  both("half balls and posts", halves, posts, Affine::translation({0.4, 0.5, -0.3}), longer);
+  both("half balls and balls", halves, balls, turned, Affine::translation({0.4, 0.5, -0.6}));
+}
+
+// Sheets that end at their regions against the surfaces by the same formulas.
+TEST(Meetings, OpenSheetsMeet) {
+  const SurfacePtr saddle = std::make_shared<FormulaSurface>(point_formulas({"u", "v", "u*v"}, {"u", "v"}),
+                                                             Rectangle{{-1, 1.2}, {-1.1, 1}}, FormulaSurface::Closed{});
+  const Entity same = implicit("x*y - z", {{{-1, -1.1, -2}, {1.2, 1, 2}}}, false);
+  const Entity others[] = {
+      implicit("x^3 + y^2 + z^2 - 0.7 + 0.3*sin(3*x*z)", ImplicitRegion::ball({0.1, 0, 0}, 1.4), false),
+      implicit("cos(4*x) + cos(4*y) + cos(4*z)", {{{-1.1, -0.8, -0.9}, {0.9, 1.3, 0.4}}}, false)};
+  const Affine turned = Affine::rotation(0.4, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0});
+  for (const Entity& other : others) {
+    const Found expected = meetings(saddle, Affine(), other, turned), found = meetings(same, Affine(), other, turned),
+                turned_round = meetings(other, turned, same, Affine());
+    ASSERT_GT(expected.length, 2);
+    EXPECT_NEAR(found.length, expected.length, 1e-6);
+    EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
+    EXPECT_EQ(found.incomplete, 0);
+  }
+}
+
+// Balls that overlap, each with the spheres of the other where neither is covered: by closed form, three pairs.
+TEST(Meetings, BallsMeetBalls) {
+  const std::vector<Vec3> row{{0, 0, 0}, {1.2, 0, 0}, {2.4, 0, 0}}, single{{1.2, 0, 0.9}};
+  const std::vector<double> one{0.9}, less{0.5};
+  const Found found = meetings(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
+                               ShapePtr(std::make_shared<Balls>(single, less)), Affine());
+  // Only the middle ball meets it: |p - m| = 0.9, |p - s| = 0.5 at the distance 0.9 of both.
+  const double height = (0.81 + 0.81 - 0.25) / 1.8, radius = std::sqrt(0.81 - height * height);
+  // Covered by a neighbour where |p - (0, 0, 0)| < 0.9: where |x - 1.2| > 0.6.
+  ASSERT_LT(radius, 0.6);
+  EXPECT_NEAR(found.length, kTwoPi * radius, 1e-9);
+  const Found wide = meetings(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
+                              ShapePtr(std::make_shared<Balls>(single, one)), Affine());
+  // The circle about the middle ball, without what the neighbours cover; those meet the other ball in parts of circles.
+  const double half = std::sqrt(0.81 - 0.2025), covered = 4 * std::acos(0.6 / half);
+  const double apart = std::hypot(1.2, 0.9), side = std::sqrt(0.81 - apart * apart / 4);
+  // Its points are at the distance 0.9 of both; outside of the middle ball where (p - middle) . x > 0.6.
+  const Vec3 along = Vec3(1.2, 0, 0.9) / apart, up(-along.z, 0, along.x);
+  const double x = apart / 2 * along.x, kept = 2 * std::acos((x - 0.6) / (side * std::abs(up.x)));
+  EXPECT_NEAR(wide.length, half * (kTwoPi - covered) + 2 * side * (kTwoPi - kept), 1e-9);
 }
 
 }  // namespace
