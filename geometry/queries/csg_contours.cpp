@@ -101,7 +101,10 @@ class Lines {
   void add_edges(int k) {
     const CsgLeaf& leaf = leaves_[k];
     const Candidate sharp{{nullptr, Kind::sharp, {}, {}, nullptr}, all_of(k)};
-    if (leaf.implicit) add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+    if (leaf.implicit) {
+      add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+      add(creases(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+    }
     if (leaf.tube) {
       add(tube_outlines(leaf), leaf.map, true, sharp);
       const TubeBoundary::Edges own = boundary_of(k).edges(view_of(leaf));
@@ -228,16 +231,15 @@ class Lines {
   void add_meeting_of_implicit(int k, int m) {
     const CsgLeaf &a = leaves_[k], &b = leaves_[m];
     const Affine back = a.map.inverse();
-    const ImplicitFormula& formula = b.implicit->formula();
-    const ImplicitCondition other = ImplicitCondition::other(formula, b.map.inverse() * a.map);
+    const ImplicitCondition other = ImplicitCondition::other(b.implicit->formula(), b.map.inverse() * a.map);
     // Where both are.
     Box3 box = transformed(b.box, back);
     const Box3 own = a.implicit->bounds();
     box.lo = glm::max(box.lo, own.lo), box.hi = glm::min(box.hi, own.hi);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lo[axis] < box.hi[axis])) return;
-    const ImplicitArcs found = implicit_arcs(*a.implicit, other, box);
-    if (!found.complete || formula.smoothness() != Expression::Smoothness::smooth) result_.complete = false;
+    const ImplicitArcs found = implicit_arcs(a.implicit->formula(), a.implicit->region(), other, box);
+    if (!found.complete) result_.complete = false;
     for (const ImplicitArc& arc : found.arcs) {
       Candidate one{{transformed(arc.curve, a.map), Kind::sharp, {}, {}, nullptr}, {k, m}};
       add_turns(a, arc.closed, one.line);

@@ -20,6 +20,8 @@ class FormulaSurface final : public Surface {
   // that do not meet.
   FormulaSurface(PointFormulas point, const Rectangle& domain, Closed closed);
 
+  const PointFormulas& formulas() const { return point_; }
+
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {closed_.u ? domain_.u.width() : 0, closed_.v ? domain_.v.width() : 0}; }
   SurfaceJet evaluate(double u, double v, int order) const override;

@@ -1,7 +1,7 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
 // looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
-// where they are cut, stroke_meetings.cpp, stroke_parts.cpp and stroke_tubes.cpp where they meet, stroke_cuts.cpp what
-// clip planes leave of lines, stroke_helpers.cpp the helpers.
+// where they are cut, stroke_meetings.cpp, stroke_parts.cpp, stroke_tubes.cpp and stroke_meshes.cpp where they meet,
+// stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -14,6 +14,7 @@
 #include "geometry/queries/csg_contours.h"
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
+#include "geometry/queries/smooth_parts.h"
 #include "geometry/queries/trim.h"
 #include "geometry/queries/tube_lines.h"
 #include "render/lines/strokes.h"
@@ -93,6 +94,11 @@ class StrokeCollector {
       for (const geometry::Face& face : (*body)->faces) visit(face.surface);
   }
 
+  // The smooth parts of a surface, or itself, with cutters that keep what lies on each.
+  void each_smooth_part(const geometry::SurfacePtr& surface,
+                        const std::function<void(const geometry::SurfacePtr&)>& visit);
+  const std::vector<geometry::SmoothPart>& smooth_parts_of(const geometry::SurfacePtr& surface);
+
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
   // Of a body's faces as far as the faces go.
@@ -170,6 +176,9 @@ class StrokeCollector {
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
   void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  // Of a mesh, and one that is no solid put together of others and no body.
+  void add_meeting_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
+                           const HiddenLines& hidden);
   // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
   void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
                              const HiddenLines& hidden);
@@ -218,6 +227,7 @@ class StrokeCollector {
                           const std::function<geometry::Interval(const geometry::Box3&)>& range,
                           const std::function<double(const Vec3&)>& value);
   static Cutter cutter_of(const ClipPlane& plane);
+  static Cutter cutter_of(const geometry::SmoothPart& part);
   static Cutter cut_in_ball(const geometry::Affine& to_world, const Vec3& center, double radius);
   // The part of a surface that a face is.
   static Cutter cutter_of(const FaceRegion& face, const geometry::Affine& to_world);
@@ -276,8 +286,9 @@ class StrokeCollector {
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;
-  std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;  // those that were met
-  std::vector<geometry::MeshLine> mesh_lines_;                     // of the object
+  std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met
+  std::map<geometry::SurfacePtr, std::vector<geometry::SmoothPart>> parts_;  // of those that were asked
+  std::vector<geometry::MeshLine> mesh_lines_;                               // of the object
   // Of fills: all faces in the world.
   struct PlacedFace {
     geometry::SurfacePtr surface;

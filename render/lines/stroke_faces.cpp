@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry/curves/segment.h"
+#include "geometry/curves/surface_curve.h"
 #include "geometry/queries/creases.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/trim.h"
@@ -100,6 +101,15 @@ void StrokeCollector::add_parameter_lines(const Body& body, const Lines& lines, 
 
 void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
   for (const Crease& crease : creases(*surface)) add_crease(surface, crease, crease.along, style, hidden);
+  const std::vector<SmoothPart>& parts = smooth_parts_of(surface);
+  const FreeCreases found = free_creases(parts);
+  if (!found.complete) is_incomplete();
+  for (const FreeCrease& crease : found.lines) {
+    const SurfacePtr& on = parts[static_cast<size_t>(crease.parts[0])].surface;
+    if (drawing_)
+      for (const int part : crease.parts) hosts_.push_back({parts[static_cast<size_t>(part)].surface, crease.image});
+    stroke(std::make_shared<SurfaceCurve>(on, crease.image), style, hidden);
+  }
 }
 
 void StrokeCollector::add_creases(const Body& body, const Style& style, const HiddenLines& hidden) {

@@ -1,9 +1,9 @@
 // Where shapes meet one another: the lines `intersection` of an object.
 //
-// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Meshes are met by plane faces;
-// so are tubes, and by all else through surfaces that hold their boundary (stroke_tubes.cpp). Implicit surfaces and
-// balls are met part by part (stroke_parts.cpp). What is put together is met through its leaves, as far as the lines
-// lie on the whole.
+// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Plane faces cut tubes and
+// meshes. Tubes are met by all else through surfaces that hold their boundary (stroke_tubes.cpp), meshes triangle by
+// triangle (stroke_meshes.cpp), implicit surfaces and balls part by part (stroke_parts.cpp). What is put together is
+// met through its leaves, as far as the lines lie on the whole.
 #include <algorithm>
 #include <cmath>
 
@@ -113,6 +113,11 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     each_surface(one->shape, [&](const SurfacePtr& surface) {
       if (!surface->bounded()) leave_out("intersections of unbounded surfaces (" + name_of_object() + ")");
     });
+  const auto each_bounded_part = [&](const Entity& shape, const std::function<void(const SurfacePtr&)>& visit) {
+    each_surface(shape, [&](const SurfacePtr& surface) {
+      if (surface->bounded()) each_smooth_part(surface, visit);
+    });
+  };
   const bool a_has_faces = has_faces(a.shape), b_has_faces = has_faces(b.shape);
   if (a_has_faces && b_has_faces) {
     to_world_ = a.to_world;
@@ -121,29 +126,37 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     if (const auto* other = std::get_if<BodyPtr>(&b.shape)) {
       const Body moved = to_a.is_identity() ? **other : transformed(**other, to_a);
       if (body) add(intersect(**body, moved), **body, style, hidden);
-      each_surface(a.shape, [&](const SurfacePtr& surface) {
-        if (surface->bounded()) add(intersect(moved, surface), moved, style, hidden);
-      });
+      each_bounded_part(a.shape,
+                        [&](const SurfacePtr& surface) { add(intersect(moved, surface), moved, style, hidden); });
     }
-    each_surface(b.shape, [&](const SurfacePtr& other) {
-      if (!other->bounded()) return;
+    each_bounded_part(b.shape, [&](const SurfacePtr& other) {
       const SurfacePtr moved = transformed(other, to_a);
       if (body) add(intersect(**body, moved), **body, style, hidden);
-      each_surface(a.shape, [&](const SurfacePtr& surface) {
-        if (surface->bounded()) add(intersect(surface, moved), {surface, moved}, style, hidden);
+      each_bounded_part(a.shape, [&](const SurfacePtr& surface) {
+        add(intersect(surface, moved), {surface, moved}, style, hidden);
       });
     });
     return;
   }
   if (!a_has_faces && !b_has_faces) {
+    for (const bool swapped : {false, true}) {
+      const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
+      if (!std::holds_alternative<MeshPtr>(one.shape) ||
+          !(std::holds_alternative<MeshPtr>(other.shape) || std::holds_alternative<ShapePtr>(other.shape)))
+        continue;
+      met_ = b.object;
+      add_meeting_of_mesh(one, other, style, hidden);
+      met_ = -2;
+      return;
+    }
     if (!add_meeting_of_parts(a, b, style, hidden) && !add_meeting_of_tube(a, b, style, hidden) &&
         !add_meeting_of_tube(b, a, style, hidden))
       leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() + ")");
     return;
   }
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
-  each_surface(faces.shape, [&](const SurfacePtr& surface) {
-    if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
+  each_bounded_part(faces.shape, [&](const SurfacePtr& surface) {
+    add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
   });
   if (const auto* body = std::get_if<BodyPtr>(&faces.shape))
     for (const FaceRegion& face : trimmed_faces(**body))
@@ -168,6 +181,9 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
   } else if (tube) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
     meets_of_tube(*tube, solid.to_world, to_world, style, hidden).surface(face.surface);
+  } else if (std::holds_alternative<MeshPtr>(solid.shape)) {
+    if (face.region) cutters_.push_back(cutter_of(face, to_world));
+    add_meeting_of_mesh(solid, {face.surface, to_world, -1}, style, hidden);
   } else {
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }

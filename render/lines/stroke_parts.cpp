@@ -144,10 +144,11 @@ StrokeCollector::Meets StrokeCollector::meets_of_formula(const ImplicitSurface& 
             Box3 box = transformed(other.bounds(), from_solid);
             box.lo = glm::max(box.lo, one->bounds().lo), box.hi = glm::min(box.hi, one->bounds().hi);
             if (!glm::all(glm::lessThan(box.lo, box.hi))) return;
-            const ImplicitArcs found = implicit_arcs(*one, ImplicitCondition::other(other.formula(), to_solid), box);
+            const ImplicitArcs found =
+                implicit_arcs(one->formula(), one->region(), ImplicitCondition::other(other.formula(), to_solid), box);
             if (!found.complete) is_incomplete();
             for (const ImplicitArc& arc : found.arcs) {
-              cusps_ = sight_turns(*arc.curve, arc.closed, one->formula(), view);
+              cusps_ = sight_turns(*arc.curve, arc.closed, *arc.formula, view);
               const std::vector<double> turns =
                   sight_turns(*transformed(arc.curve, to_solid), arc.closed, other.formula(), view_of_solid);
               cusps_.insert(cusps_.end(), turns.begin(), turns.end());

@@ -53,8 +53,10 @@ void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style
   const Rectangle domain = surface->domain();
   const DegenerateEdges edges = surface->degenerate_edges();
   const auto edge = [&](HeldParameter held, double at) {
-    lies_on_line(surface, held, at);
-    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+    each_smooth_part(surface, [&](const SurfacePtr& part) {
+      lies_on_line(part, held, at);
+      stroke(std::make_shared<ParameterLine>(part, held, at), style, hidden);
+    });
   };
   if (!is_closed_in(*surface, HeldParameter::u)) {
     if (!edges.u_min) edge(HeldParameter::u, domain.u.lo);
@@ -76,8 +78,10 @@ void StrokeCollector::add_parameter_lines(const SurfacePtr& surface, HeldParamet
   for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
     if ((at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max)))
       continue;
-    lies_on_line(surface, held, at);
-    stroke(std::make_shared<ParameterLine>(surface, held, at), style, hidden);
+    each_smooth_part(surface, [&](const SurfacePtr& part) {
+      lies_on_line(part, held, at);
+      stroke(std::make_shared<ParameterLine>(part, held, at), style, hidden);
+    });
   }
 }
 
@@ -145,7 +149,7 @@ void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, co
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
   each_surface([&](const SurfacePtr& surface) {
     if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
-    add(silhouette(surface, view), {surface}, style, hidden);
+    each_smooth_part(surface, [&](const SurfacePtr& part) { add(silhouette(part, view), {part}, style, hidden); });
   });
 }
 
@@ -164,10 +168,9 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
   in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
     const ViewOf own_view = seen_through(view, back);
     if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original)) {
-      if (!edges)
-        add(silhouette(*surface, own_view), style, hidden);
-      else if (kind_ == (surface->is_closed() ? "sharp" : "boundary"))
-        add(border(*surface, own_view), style, hidden);
+      if (!edges) add(silhouette(*surface, own_view), style, hidden);
+      if (kind_ == "sharp") add(creases(*surface, own_view), style, hidden);
+      if (kind_ == (surface->is_closed() ? "sharp" : "boundary")) add(border(*surface, own_view), style, hidden);
       return;
     }
     if (kind_ == "boundary") return;

@@ -2,6 +2,7 @@
 // solids as bodies and by formulas.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/bodies/primitives.h"
@@ -16,6 +17,7 @@
 #include "geometry/shapes/implicit_surface.h"
 #include "geometry/shapes/tube.h"
 #include "geometry/surfaces/formula_surface.h"
+#include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
 #include "render/lines/strokes.h"
@@ -56,6 +58,7 @@ struct Found {
   std::vector<Vec3> points;
   std::vector<std::string> left_out;
   int incomplete = 0;
+  std::vector<Vec3> ends;  // but those where a line closes
 };
 Found meetings(const Entity& shape, const Affine& transform, const Entity& with, const std::optional<Affine>& placed) {
   SmallScene scene;
@@ -74,6 +77,8 @@ Found meetings(const Entity& shape, const Affine& transform, const Entity& with,
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Interval t = curve->domain();
     found.length += arc_length(*curve, t.lo, t.hi).value;
+    const Vec3 begin = curve->point(t.lo), end = curve->point(t.hi);
+    if (glm::length(begin - end) > 1e-9) found.ends.push_back(begin), found.ends.push_back(end);
     for (const double share : {0.1, 0.4, 0.7}) found.points.push_back(curve->point(t.lo + share * t.width()));
   }
   return found;
@@ -245,6 +250,84 @@ TEST(Meetings, BallsMeetBalls) {
   const Vec3 along = Vec3(1.2, 0, 0.9) / apart, up(-along.z, 0, along.x);
   const double x = apart / 2 * along.x, kept = 2 * std::acos((x - 0.6) / (side * std::abs(up.x)));
   EXPECT_NEAR(wide.length, half * (kTwoPi - covered) + 2 * side * (kTwoPi - kept), 1e-9);
+}
+
+// The sides of a block [0, 2]^3 in squares of two triangles each.
+MeshPtr block_of_triangles(int squares) {
+  auto mesh = std::make_shared<Mesh>();
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true})
+      for (int i = 0; i < squares; ++i)
+        for (int k = 0; k < squares; ++k) {
+          const auto corner = [&](int a, int b) {
+            Vec3 p(0);
+            p[axis] = upper ? 2 : 0;
+            p[(axis + 1) % 3] = 2.0 * (i + a) / squares, p[(axis + 2) % 3] = 2.0 * (k + b) / squares;
+            mesh->points.push_back(p);
+            return static_cast<int32_t>(mesh->points.size() - 1);
+          };
+          const int32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+          mesh->triangles.push_back({upper ? std::array{a, b, c} : std::array{a, c, b}});
+          mesh->triangles.push_back({upper ? std::array{a, c, d} : std::array{a, d, c}});
+        }
+  set_flat_normals(*mesh);
+  return mesh;
+}
+
+// A block as triangles, large and small ones, against the block as a body.
+TEST(Meetings, Meshes) {
+  const BodyPtr block = std::make_shared<Body>(box(Frame(), {2, 2, 2}));
+  const auto bow = std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
+  const std::vector<Vec3> centers{{0, 0, 0}, {0.8, 0.3, 0}};
+  const std::vector<double> radii{0.9, 0.7};
+  NurbsSurfaceForm patch;
+  patch.degree_u = patch.degree_v = 3;
+  patch.knots_u = patch.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) patch.points.push_back(Vec4(i - 1.5, k - 1.5, 0.7 * std::sin(3.0 * i + 2.0 * k), 1));
+  const Entity others[] = {ball_at({0, 0, 0}, 1.3),
+                           SurfacePtr(sphere({0, 0, 0}, 0.8)),
+                           std::make_shared<Body>(torus_body(Frame(), 1, 0.4)),
+                           SurfacePtr(std::make_shared<NurbsSurface>(patch)),
+                           ShapePtr(std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat)),
+                           ShapePtr(std::make_shared<Balls>(centers, radii)),
+                           implicit("x^4 + y^4 + z^4 - 1", {{Vec3(-1.1), Vec3(1.1, 1.1, 0.6)}}),
+                           implicit("max(abs(x), abs(y)) - 0.9", {{Vec3(-1), Vec3(1)}})};
+  const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
+               placed = Affine::translation({1.9, 1.1, 0.6});
+  for (const Entity& other : others) {
+    const Found expected = meetings(block, turned, other, placed);
+    ASSERT_GT(expected.length, 1);
+    for (const int squares : {1, 4}) {
+      const Found found = meetings(block_of_triangles(squares), turned, other, placed);
+      EXPECT_NEAR(found.length, expected.length, 1e-5);
+      EXPECT_TRUE(found.left_out.empty());
+      EXPECT_EQ(found.incomplete, 0);
+      // Whatever ends goes on there.
+      for (const Vec3& end : found.ends)
+        EXPECT_GE(std::count_if(found.ends.begin(), found.ends.end(),
+                                [&](const Vec3& other_end) { return glm::length(end - other_end) < 1e-9; }),
+                  2);
+    }
+    EXPECT_NEAR(meetings(other, placed, block_of_triangles(2), turned).length, expected.length, 1e-5);
+  }
+}
+
+TEST(Meetings, FormulasWithKinks) {
+  const BodyPtr block = std::make_shared<Body>(box(frame_from({-0.8, -0.8, -0.8}, {0, 0, 1}, {1, 0, 0}), Vec3(1.6)));
+  const Entity cube = implicit("max(abs(x), abs(y), abs(z)) - 0.8", {{Vec3(-1), Vec3(1)}});
+  const Entity others[] = {ball_at({0, 0, 0}, 1), implicit("x^2 + y^2 + z^2 - 1", {{Vec3(-1.1), Vec3(1.1)}}),
+                           implicit("abs(x) + abs(y) + abs(z) - 1.3", {{Vec3(-1.5), Vec3(1.5)}})};
+  const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
+               placed = Affine::translation({0.5, 0.4, 0.3});
+  for (const Entity& other : others) {
+    const Found expected = meetings(block, turned, other, placed), found = meetings(cube, turned, other, placed),
+                turned_round = meetings(other, placed, cube, turned);
+    ASSERT_GT(expected.length, 1);
+    EXPECT_NEAR(found.length, expected.length, 1e-6);
+    EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
+    EXPECT_EQ(found.incomplete, 0);
+  }
 }
 
 }  // namespace
