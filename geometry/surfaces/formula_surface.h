@@ -8,7 +8,8 @@ namespace lekalo::geometry {
 
 // r(u, v) = point of three formulas of u and v in Cartesian, cylindrical or spherical coordinates, over a finite
 // rectangle. All derivatives are exact (jets), enclosures certified (jets of intervals in centered form). The formulas
-// must be smooth inside the domain; singular points (poles, cusps, pinch points) are welcome.
+// must be smooth inside the domain, but for what branches of abs, min, max, clamp, sign and `if` make of them without a
+// jump (queries/smooth_parts.h); singular points (poles, cusps, pinch points) are welcome.
 class FormulaSurface final : public Surface {
  public:
   struct Closed {
@@ -35,6 +36,7 @@ class FormulaSurface final : public Surface {
   Closed closed_;    // set once the edges are known to meet
   double size_ = 0;  // of what the formulas gave where they were tried
   DegenerateEdges degenerate_;
+  bool has_branches_ = false;
 };
 
 }  // namespace lekalo::geometry

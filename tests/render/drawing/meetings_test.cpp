@@ -303,11 +303,17 @@ TEST(Meetings, Meshes) {
       EXPECT_NEAR(found.length, expected.length, 1e-5);
       EXPECT_TRUE(found.left_out.empty());
       EXPECT_EQ(found.incomplete, 0);
-      // Whatever ends goes on there.
-      for (const Vec3& end : found.ends)
+      // Whatever ends goes on there, but at the border of the patch.
+      const auto is_border = [&](const Vec3& end) {
+        return std::any_of(expected.ends.begin(), expected.ends.end(),
+                           [&](const Vec3& one) { return glm::length(end - one) < 1e-9; });
+      };
+      for (const Vec3& end : found.ends) {
+        if (is_border(end)) continue;
         EXPECT_GE(std::count_if(found.ends.begin(), found.ends.end(),
-                                [&](const Vec3& other_end) { return glm::length(end - other_end) < 1e-9; }),
+                                [&](const Vec3& one) { return glm::length(end - one) < 1e-9; }),
                   2);
+      }
     }
     EXPECT_NEAR(meetings(other, placed, block_of_triangles(2), turned).length, expected.length, 1e-5);
   }
