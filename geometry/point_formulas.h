@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "geometry/describe.h"
@@ -39,7 +40,12 @@ Triple<T> point_of(Coordinates coordinates, const T& a, const T& b, const T& c) 
 class PointFormulas {
  public:
   PointFormulas(const std::array<Expression, 3>& formulas, Coordinates coordinates)
-      : program_(formulas), coordinates_(coordinates) {}
+      : formulas_(std::make_shared<const std::array<Expression, 3>>(formulas)),
+        program_(formulas),
+        coordinates_(coordinates) {}
+
+  const std::array<Expression, 3>& formulas() const { return *formulas_; }
+  Coordinates coordinates() const { return coordinates_; }
 
   // The point at t, or at (u, v), over the number types of FormulaProgram.
   template <class T, class... More>
@@ -51,6 +57,7 @@ class PointFormulas {
   }
 
  private:
+  std::shared_ptr<const std::array<Expression, 3>> formulas_;
   FormulaProgram program_;
   Coordinates coordinates_;
 };

@@ -119,6 +119,7 @@ class Expression {
  private:
   friend class ExpressionParser;
   friend class ExpressionBinder;
+  friend class ExpressionBrancher;
   friend class FormulaProgram;
   friend class LinePolynomial;
 

@@ -6,15 +6,18 @@
 #include <map>
 #include <stdexcept>
 
+#include "geometry/curves/curve_part.h"
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/quadrature.h"
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/closed_contours.h"
+#include "geometry/queries/contour_approximation.h"
 #include "geometry/queries/contour_assembly.h"
 #include "geometry/queries/creases.h"
+#include "geometry/queries/implicit_branches.h"
 #include "geometry/queries/picture_cusps.h"
-#include "geometry/shapes/implicit_formula.h"
 #include "geometry/surfaces/plane.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -212,8 +215,25 @@ Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3
   return contours_of(surface, height_over(triple(origin), triple(n)));
 }
 
-Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula) {
-  demand_bounded(*surface);
+// What of a contour the sides of a branch leave.
+static void add_kept(const Contour& whole, const std::vector<ImplicitSide>& sides, const Affine& to_formula,
+                     std::vector<Contour>& kept) {
+  if (sides.empty()) return kept.push_back(whole);
+  const CurvePtr simple = contour_approximation(whole.curve);
+  each_kept(*transformed(simple, to_formula), false, sides, [&](const Interval& t) {
+    Contour part = whole;
+    if (t != whole.curve->domain()) {
+      part.closed = false;
+      part.curve = std::make_shared<CurvePart>(whole.curve, t);
+      for (Curve2Ptr& image : part.images) image = std::make_shared<CurvePart>(image, t);
+      std::erase_if(part.cusps, [&](double cusp) { return !t.contains(cusp); });
+    }
+    kept.push_back(std::move(part));
+  });
+}
+
+static Contours smooth_level_section(const SurfacePtr& surface, const ImplicitFormula& formula,
+                                     const Affine& to_formula) {
   // Divided by what it changes over a length, so that its values are about distances.
   constexpr int kSteps = 8;
   const Rectangle domain = surface->domain();
@@ -235,6 +255,19 @@ Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula
   Contours found = contours_of(surface, {false, value});
   if (formula.smoothness() != Expression::Smoothness::smooth) found.complete = false;
   return found;
+}
+
+Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula) {
+  demand_bounded(*surface);
+  Contours all;
+  for (const ImplicitBranch& branch : implicit_branches(formula, transformed(bounds(*surface), to_formula))) {
+    Contours found = smooth_level_section(surface, *branch.formula, to_formula);
+    all.points.insert(all.points.end(), found.points.begin(), found.points.end());
+    all.coincident = all.coincident || found.coincident;
+    all.complete = all.complete && found.complete;
+    for (const Contour& contour : found.branches) add_kept(contour, branch.sides, to_formula, all.branches);
+  }
+  return all;
 }
 
 // Whether the way of sight runs in the surface everywhere in a part of its domain: a cylinder along its axis, a cone

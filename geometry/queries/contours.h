@@ -76,7 +76,7 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance = 
 // These take one surface, which must be bounded (std::invalid_argument).
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal);
 // Where F of a point has the value of its level, the surface's points taken to F's coordinates by an affine map: the
-// line in which an implicit surface meets this one. Not complete where F has kinks or jumps.
+// line in which an implicit surface meets this one. Not complete where F has jumps.
 Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula = {});
 // Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5).
 Contours silhouette(const SurfacePtr& surface, const ViewOf& view);

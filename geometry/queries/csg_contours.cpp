@@ -19,7 +19,7 @@
 #include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/implicit_arcs.h"
 #include "geometry/queries/implicit_contours.h"
-#include "geometry/queries/implicit_equations.h"
+#include "geometry/queries/sight_turns.h"
 #include "geometry/queries/tube_lines.h"
 #include "geometry/transformed.h"
 
@@ -120,7 +120,10 @@ class Lines {
   void add_edges(int k) {
     const CsgLeaf& leaf = leaves_[k];
     const Candidate sharp{{nullptr, Kind::sharp, {}, {}, nullptr}, all_of(k)};
-    if (leaf.implicit) add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+    if (leaf.implicit) {
+      add(border(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+      add(creases(*leaf.implicit, view_of(leaf)), leaf.map, sharp);
+    }
     if (leaf.tube) {
       add(tube_outlines(leaf), leaf.map, true, sharp);
       const TubeBoundary::Edges own = boundary_of(k).edges(view_of(leaf));
@@ -247,16 +250,15 @@ class Lines {
   void add_meeting_of_implicit(int k, int m) {
     const CsgLeaf &a = leaves_[k], &b = leaves_[m];
     const Affine back = a.map.inverse();
-    const ImplicitFormula& formula = b.implicit->formula();
-    const ImplicitCondition other = ImplicitCondition::other(formula, b.map.inverse() * a.map);
+    const ImplicitCondition other = ImplicitCondition::other(b.implicit->formula(), b.map.inverse() * a.map);
     // Where both are.
     Box3 box = transformed(b.box, back);
     const Box3 own = a.implicit->bounds();
     box.lo = glm::max(box.lo, own.lo), box.hi = glm::min(box.hi, own.hi);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lo[axis] < box.hi[axis])) return;
-    const ImplicitArcs found = implicit_arcs(*a.implicit, other, box);
-    if (!found.complete || formula.smoothness() != Expression::Smoothness::smooth) result_.complete = false;
+    const ImplicitArcs found = implicit_arcs(a.implicit->formula(), a.implicit->region(), other, box);
+    if (!found.complete) result_.complete = false;
     for (const ImplicitArc& arc : found.arcs) {
       Candidate one{{transformed(arc.curve, a.map), Kind::sharp, {}, {}, nullptr}, {k, m}};
       add_turns(a, arc.closed, one.line);
@@ -268,12 +270,8 @@ class Lines {
   // Where an implicit leaf turns away along a line on it.
   void add_turns(const CsgLeaf& leaf, bool closed, CsgLine& line) const {
     line.curve = contour_approximation(line.curve);
-    const ImplicitCondition sight = ImplicitCondition::sight(view_of(leaf));
-    const ImplicitFormula& formula = leaf.implicit->formula();
-    const std::vector<double> turns = sign_changes(
-        *transformed(line.curve, leaf.map.inverse()), closed,
-        [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },
-        [&](const Vec3& p) { return sight.at(second_order(formula, p), triple(p)).value; });
+    const std::vector<double> turns =
+        sight_turns(*transformed(line.curve, leaf.map.inverse()), closed, leaf.implicit->formula(), view_of(leaf));
     line.turns.insert(line.turns.end(), turns.begin(), turns.end());
   }
 

@@ -35,6 +35,12 @@ std::vector<double> sign_changes(const Curve& curve, bool closed, const std::fun
     }
     level.swap(next);
   }
+  const auto wrapped = [&](double t) { return t > domain.hi ? t - domain.width() : t; };
+  const auto is_positive = [&](double t) { return value(curve.point(wrapped(t))) > 0; };
+  // Pieces meet to rounding only: the bounds of neither may tell of a change at a joint.
+  for (const CurvePiece& piece : curve.pieces())
+    if (const double t = piece.domain.lo; t > domain.lo && t < domain.hi && is_positive(next_down(t)) != is_positive(t))
+      open.emplace_back(next_down(t), t);
   // Parts that follow each other are one, also over the joint of a closed curve.
   std::sort(open.begin(), open.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   std::vector<Interval> joined;
@@ -48,8 +54,6 @@ std::vector<double> sign_changes(const Curve& curve, bool closed, const std::fun
     joined.back().hi += joined.front().hi - domain.lo;
     joined.erase(joined.begin());
   }
-  const auto wrapped = [&](double t) { return t > domain.hi ? t - domain.width() : t; };
-  const auto is_positive = [&](double t) { return value(curve.point(wrapped(t))) > 0; };
   std::vector<double> found;
   for (const Interval& part : joined) {
     const bool begins = is_positive(part.lo);

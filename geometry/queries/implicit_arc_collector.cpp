@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/curve_part.h"
 #include "geometry/curves/polynomial_approximation.h"
 
 namespace lekalo::geometry::implicit_arc {
@@ -63,10 +64,11 @@ double rounding_in(const Box3& box, const std::function<double(const Vec3&)>& wi
   return 2 * most;
 }
 
-Collector::Collector(const ImplicitSurface& surface, const ImplicitCondition& condition,
+Collector::Collector(const ImplicitBranch& branch, const ImplicitRegion& region, const ImplicitCondition& condition,
                      std::span<const ImplicitNode> nodes)
-    : formula_(surface.formula()),
-      region_(surface.region()),
+    : branch_(branch),
+      formula_(*branch.formula),
+      region_(region),
       condition_(condition),
       nodes_(nodes),
       size_(region_.box.diameter()) {}
@@ -116,7 +118,19 @@ void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, 
     parts.insert(parts.end(), curve->parts().begin(), curve->parts().end());
   }
   arc.curve = std::make_shared<PolynomialCurve>(std::move(parts));
-  result_.arcs.push_back(std::move(arc));
+  arc.formula = branch_.formula;
+  add(std::move(arc));
+}
+
+void Collector::add(ImplicitArc arc) {
+  each_kept(*arc.curve, arc.closed, branch_.sides, [&](const Interval& t) {
+    if (t == arc.curve->domain()) return result_.arcs.push_back(arc);
+    ImplicitArc part = arc;
+    part.curve = stretch(arc.curve, t);
+    part.closed = false;
+    if (arc.closed) part.regular = {-kInfinity, kInfinity};
+    result_.arcs.push_back(std::move(part));
+  });
 }
 
 const ImplicitNode* Collector::node_around(const Box3& box) const {
@@ -231,3 +245,19 @@ std::optional<Vec3> Collector::singular_point(const Box3& box) const {
 }
 
 }  // namespace lekalo::geometry::implicit_arc
+
+namespace lekalo::geometry {
+
+CurvePtr stretch(const CurvePtr& curve, const Interval& t) {
+  const Interval domain = curve->domain();
+  const auto* whole = dynamic_cast<const PolynomialCurve*>(curve.get());
+  if (!whole || t.hi <= domain.hi) return std::make_shared<CurvePart>(curve, t);
+  std::vector<PolynomialCurve::Part> parts = whole->parts();
+  for (PolynomialCurve::Part part : whole->parts()) {
+    part.t = {part.t.lo + domain.width(), part.t.hi + domain.width()};
+    parts.push_back(part);
+  }
+  return std::make_shared<CurvePart>(std::make_shared<PolynomialCurve>(std::move(parts)), t);
+}
+
+}  // namespace lekalo::geometry

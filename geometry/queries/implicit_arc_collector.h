@@ -4,9 +4,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "geometry/numerics/solution_curves.h"
 #include "geometry/queries/implicit_arcs.h"
+#include "geometry/queries/implicit_nodes.h"
 
 namespace lekalo::geometry {
 
@@ -47,7 +49,8 @@ struct LastBit {
 
 class Collector {
  public:
-  Collector(const ImplicitSurface& surface, const ImplicitCondition& condition, std::span<const ImplicitNode> nodes);
+  Collector(const ImplicitBranch& branch, const ImplicitRegion& region, const ImplicitCondition& condition,
+            std::span<const ImplicitNode> nodes);
 
   // `system` has what search_solution_curves() asks for, and
   //   kUnknowns
@@ -72,7 +75,7 @@ class Collector {
           for (int i = 0; i < N; ++i) at[i] = corner >> i & 1 ? open[i].hi : open[i].lo;
           hull.include(system.point(at));
         }
-        if (region_.misses(hull) || node_around(hull)) continue;
+        if (region_.misses(hull) || !may_hold(branch_.sides, hull) || node_around(hull)) continue;
         open_.push_back(hull);
         if (hull.diameter() > kLargeOpen * size_) result_.complete = false;
       }
@@ -86,6 +89,8 @@ class Collector {
 
  private:
   void add(std::vector<Vec3> nodes, bool closed, bool begins_singular, bool ends_singular);
+  // What of it the sides of the branch leave.
+  void add(ImplicitArc arc);
   // From the last node on to the singular point next to it; none if there is none.
   std::optional<LastBit> lead_on(std::vector<Vec3>& nodes);
   std::optional<LastBit> lead_into(const ImplicitNode& node, std::vector<Vec3>& nodes);
@@ -96,6 +101,7 @@ class Collector {
   // A singular point of the surface, in or next to a box: grad F = 0 and F = level.
   std::optional<Vec3> singular_point(const Box3& box) const;
 
+  const ImplicitBranch& branch_;
   const ImplicitFormula& formula_;
   const ImplicitRegion& region_;
   const ImplicitCondition& condition_;

@@ -10,6 +10,7 @@ namespace {
 struct InSpace {
   static constexpr int kUnknowns = 3;
   const ImplicitFormula& formula;
+  const std::vector<ImplicitSide>& sides;
   const ImplicitRegion& region;
   const ImplicitCondition& condition;
   const Box3& searched;
@@ -23,8 +24,8 @@ struct InSpace {
     const ImplicitRange range = range_of(formula, box);
     const auto second = condition.enclose(range, box);
     const auto& g = range.over.gradient;
-    // Beyond a ball nothing is wanted; curves that lead there are followed all the same.
-    const bool is_outside = is_at_node || (region.is_ball && region.misses(box));
+    // Beyond a ball or a side nothing is wanted; curves that lead there are followed all the same.
+    const bool is_outside = is_at_node || (region.is_ball && region.misses(box)) || !may_hold(sides, box);
     return {{is_outside ? Interval(kNowhere) : range.over.value, second.value},
             {{{g.x, g.y, g.z}, {second.gradient.x, second.gradient.y, second.gradient.z}}}};
   }
@@ -56,13 +57,54 @@ struct InSpace {
   }
 };
 
+// The surface is seen edge-on all over: its formula does not depend on the place along any way of sight.
+bool vanishes(const ImplicitFormula& formula, const ImplicitCondition& sight, const Box3& box) {
+  const Interval slope = sight.enclose(range_of(formula, box), box).value;
+  return slope.lo == 0 && slope.hi == 0;
+}
+
 }  // namespace
 
-ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const ImplicitCondition& condition, const Box3& box,
-                           std::span<const ImplicitNode> nodes) {
-  const InSpace system{surface.formula(), surface.region(), condition, box, nodes};
+ImplicitArcs implicit_arcs(const ImplicitBranch& branch, const ImplicitRegion& region,
+                           const ImplicitCondition& condition, const Box3& box, size_t but_side) {
+  ImplicitBranch asked = branch;
+  if (but_side < asked.sides.size()) asked.sides.erase(asked.sides.begin() + static_cast<std::ptrdiff_t>(but_side));
+  const ImplicitFormula& formula = *asked.formula;
+  std::vector<ImplicitNode> nodes;
+  if (const auto view = condition.view()) {
+    if (vanishes(formula, condition, box)) return {};
+    nodes = implicit_nodes(formula, region.box.diameter(), *view, box);
+  }
   const ParameterBox<3> domain{{{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}, {box.lo.z, box.hi.z}}};
-  return Collector(surface, condition, nodes).find(system, domain);
+  ImplicitArcs all;
+  const auto search = [&](const ImplicitBranch& one, const ImplicitCondition& with) {
+    const InSpace system{formula, one.sides, region, with, box, nodes};
+    ImplicitArcs found = Collector(one, region, with, nodes).find(system, domain);
+    all.arcs.insert(all.arcs.end(), found.arcs.begin(), found.arcs.end());
+    all.complete = all.complete && found.complete;
+  };
+  if (!condition.formula()) {
+    search(asked, condition);
+    return all;
+  }
+  for (const ImplicitBranch& other : implicit_branches(*condition.formula(), box, condition.to_formula())) {
+    ImplicitBranch both = asked;
+    both.sides.insert(both.sides.end(), other.sides.begin(), other.sides.end());
+    if (other.formula->smoothness() != Expression::Smoothness::smooth) all.complete = false;
+    search(both, ImplicitCondition::other(*other.formula, condition.to_formula()));
+  }
+  return all;
+}
+
+ImplicitArcs implicit_arcs(const ImplicitFormula& formula, const ImplicitRegion& region,
+                           const ImplicitCondition& condition, const Box3& box) {
+  ImplicitArcs all;
+  for (const ImplicitBranch& branch : implicit_branches(formula, box)) {
+    const ImplicitArcs found = implicit_arcs(branch, region, condition, box, branch.sides.size());
+    all.arcs.insert(all.arcs.end(), found.arcs.begin(), found.arcs.end());
+    all.complete = all.complete && found.complete;
+  }
+  return all;
 }
 
 }  // namespace lekalo::geometry

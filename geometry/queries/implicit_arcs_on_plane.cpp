@@ -11,6 +11,7 @@ namespace {
 struct OnPlane {
   static constexpr int kUnknowns = 2;
   const ImplicitFormula& formula;
+  const std::vector<ImplicitSide>& sides;
   const ImplicitRegion& region;
   const Frame& plane;
 
@@ -31,8 +32,8 @@ struct OnPlane {
     SystemValue<Interval, 2, 1> result;
     using J = Jet2<Interval, 2>;
     const J over = value(J::u_variable(x[0]), J::v_variable(x[1]));
-    // Beyond the region nothing is wanted; curves that lead there are followed all the same.
-    const bool is_outside = region.misses(box);
+    // Beyond the region and the sides nothing is wanted; curves that lead there are followed all the same.
+    const bool is_outside = region.misses(box) || !may_hold(sides, box);
     result = {{is_outside ? Interval(kNowhere) : over.c[0]}, {{{over.c[1], over.c[2]}}}};
     if (is_outside || formula.smoothness() != Expression::Smoothness::smooth) return result;
     // As in range_of().
@@ -68,10 +69,17 @@ struct OnPlane {
 
 }  // namespace
 
-ImplicitArcs implicit_arcs(const ImplicitSurface& surface, const Frame& plane, const Interval& x, const Interval& y) {
-  const OnPlane system{surface.formula(), surface.region(), plane};
+ImplicitArcs implicit_arcs(const ImplicitFormula& formula, const ImplicitRegion& region, const Frame& plane,
+                           const Interval& x, const Interval& y) {
   const ImplicitCondition condition = ImplicitCondition::plane(plane.origin, plane.z);
-  return Collector(surface, condition, {}).find(system, {x, y});
+  ImplicitArcs all;
+  for (const ImplicitBranch& branch : implicit_branches(formula, region.box)) {
+    const OnPlane system{*branch.formula, branch.sides, region, plane};
+    const ImplicitArcs found = Collector(branch, region, condition, {}).find(system, {x, y});
+    all.arcs.insert(all.arcs.end(), found.arcs.begin(), found.arcs.end());
+    all.complete = all.complete && found.complete;
+  }
+  return all;
 }
 
 }  // namespace lekalo::geometry

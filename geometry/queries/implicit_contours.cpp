@@ -12,8 +12,10 @@
 #include "geometry/curves/polynomial_approximation.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/ball_outlines.h"
+#include "geometry/queries/creases.h"
 #include "geometry/queries/curve_sign_changes.h"
 #include "geometry/queries/implicit_arcs.h"
+#include "geometry/queries/sight_turns.h"
 #include "geometry/shapes/balls.h"
 
 namespace lekalo::geometry {
@@ -24,6 +26,9 @@ constexpr double kAgreeAside = 1e-4;
 // Around a ball curves are searched in a box larger by this part of its diameter: the ball only touches its own box.
 constexpr double kAroundBall = 1.0 / 64;
 constexpr double kLeastPart = 1e-9;  // of a curve's domain
+// So far beside a crease, of the region's diameter, the branch on its other side is looked for; and where its value is
+// as far from zero the surface jumps.
+constexpr double kBeside = 1e-6, kNoJump = 1e-9;
 
 bool is_way(const Vec3& v) { return glm::length(v) > 0 && glm::length(v) < kInfinity; }
 
@@ -45,15 +50,12 @@ class Collector {
         sight_(ImplicitCondition::sight(view)) {}
 
   ImplicitContours silhouette() {
-    if (!is_edge_on()) {
-      const std::vector<ImplicitNode> nodes = implicit_nodes(surface_, view_, search_box());
-      const ImplicitArcs found = implicit_arcs(surface_, sight_, search_box(), nodes);
-      note(found);
-      for (const ImplicitArc& arc : found.arcs) {
-        // A stretch of a closed line may go on beyond its end, which is next to no singular point.
-        const Interval regular{arc.regular.lo, arc.closed ? kInfinity : arc.regular.hi};
-        each_inside(arc, [&](const CurvePtr& curve, bool closed) { add_silhouette(curve, closed, regular); });
-      }
+    const ImplicitArcs found = implicit_arcs(formula_, region_, sight_, search_box());
+    note(found);
+    for (const ImplicitArc& arc : found.arcs) {
+      // A stretch of a closed line may go on beyond its end, which is next to no singular point.
+      const Interval regular{arc.regular.lo, arc.closed ? kInfinity : arc.regular.hi};
+      each_inside(arc, [&](const CurvePtr& curve, bool closed) { add_silhouette(arc, curve, closed, regular); });
     }
     if (region_.is_ball && surface_.is_closed()) add_outline_of_ball();
     return std::move(result_);
@@ -62,9 +64,9 @@ class Collector {
   ImplicitContours border() {
     if (region_.is_ball) {
       const ImplicitCondition sphere = ImplicitCondition::sphere(region_.box.center(), region_.radius());
-      const ImplicitArcs found = implicit_arcs(surface_, sphere, search_box());
+      const ImplicitArcs found = implicit_arcs(formula_, region_, sphere, search_box());
       note(found);
-      for (const ImplicitArc& arc : found.arcs) add(arc.curve, arc.closed, surface_.is_closed());
+      for (const ImplicitArc& arc : found.arcs) add(arc, arc.curve, arc.closed, surface_.is_closed());
       return std::move(result_);
     }
     for (int axis = 0; axis < 3; ++axis)
@@ -74,12 +76,31 @@ class Collector {
         face.x = face.y = face.z = Vec3(0);
         face.x[u] = face.y[v] = face.z[axis] = 1;
         face.origin[axis] = (upper ? region_.box.hi : region_.box.lo)[axis];
-        const ImplicitArcs found = implicit_arcs(surface_, face, {region_.box.lo[u], region_.box.hi[u]},
+        const ImplicitArcs found = implicit_arcs(formula_, region_, face, {region_.box.lo[u], region_.box.hi[u]},
                                                  {region_.box.lo[v], region_.box.hi[v]});
         note(found);
-        for (const ImplicitArc& arc : found.arcs) add(arc.curve, arc.closed, false);
+        for (const ImplicitArc& arc : found.arcs) add(arc, arc.curve, arc.closed, false);
       }
     if (surface_.is_closed()) add_box_edges();
+    return std::move(result_);
+  }
+
+  ImplicitContours creases() {
+    if (formula_.smoothness() == Expression::Smoothness::smooth) return {};
+    const Box3 box = search_box();
+    const std::vector<ImplicitBranch> branches = implicit_branches(formula_, box);
+    for (const ImplicitBranch& branch : branches)
+      for (size_t k = 0; k < branch.sides.size(); ++k) {
+        const ImplicitSide& side = branch.sides[k];
+        if (!side.positive) continue;  // that is another branch's
+        const ImplicitArcs found =
+            implicit_arcs(branch, region_, ImplicitCondition::other(*side.height, Affine()), box, k);
+        note(found);
+        for (const ImplicitArc& arc : found.arcs)
+          each_inside(arc, [&](const CurvePtr& curve, bool closed) {
+            add_crease(branch, *side.height, branches, curve, closed);
+          });
+      }
     return std::move(result_);
   }
 
@@ -104,10 +125,10 @@ class Collector {
       });
       if (!(x.width() > 0 && y.width() > 0)) return {};
     }
-    const ImplicitArcs found = implicit_arcs(surface_, plane, x, y);
+    const ImplicitArcs found = implicit_arcs(formula_, region_, plane, x, y);
     note(found);
     for (const ImplicitArc& arc : found.arcs)
-      each_inside(arc, [&](const CurvePtr& curve, bool closed) { add(curve, closed, false); });
+      each_inside(arc, [&](const CurvePtr& curve, bool closed) { add(arc, curve, closed, false); });
     if (surface_.is_closed()) add_section_of_region(plane, height);
     return std::move(result_);
   }
@@ -119,14 +140,6 @@ class Collector {
   void note(const ImplicitArcs& found) { result_.complete = result_.complete && found.complete; }
 
   Vec3 sight_at(const Vec3& p) const { return view_.central ? p - view_.direction_or_eye : view_.direction_or_eye; }
-  double slope_along_sight(const Vec3& p) const { return sight_.at(second_order(formula_, p), triple(p)).value; }
-  double bend_at(const Vec3& p) const { return bend_along(second_order(formula_, p), triple(sight_at(p))); }
-
-  // The formula does not depend on the place along any way of sight: grad F . s is zero without rounding.
-  bool is_edge_on() const {
-    const Interval slope = sight_.enclose(range_of(formula_, region_.box), region_.box).value;
-    return slope.lo == 0 && slope.hi == 0;
-  }
 
   std::vector<double> changes_of_F(const Curve& curve, bool closed) const {
     return sign_changes(
@@ -134,33 +147,6 @@ class Collector {
         [&](const Vec3& p) { return formula_(p); });
   }
   bool is_solid_at(const Vec3& p) const { return formula_(p) < 0; }
-
-  // put(range) for the stretches between cuts whose middle `keeps`. Of a closed curve the last one may go on beyond the
-  // end of the domain.
-  static void each_kept(const Interval& domain, bool closed, const std::vector<double>& cuts,
-                        const std::function<bool(double)>& keeps, const std::function<void(const Interval&)>& put) {
-    std::vector<double> ends;
-    if (!closed || cuts.empty()) ends.push_back(domain.lo);
-    ends.insert(ends.end(), cuts.begin(), cuts.end());
-    ends.push_back(closed && !cuts.empty() ? cuts.front() + domain.width() : domain.hi);
-    for (size_t k = 0; k + 1 < ends.size(); ++k) {
-      const Interval t{ends[k], ends[k + 1]};
-      const double middle = t.middle() > domain.hi ? t.middle() - domain.width() : t.middle();
-      if (t.width() > kLeastPart * domain.width() && keeps(middle)) put(t);
-    }
-  }
-
-  // A stretch of a closed curve may go on beyond its end.
-  static CurvePtr stretch(const PolynomialCurve& curve, const Interval& t) {
-    std::vector<PolynomialCurve::Part> parts = curve.parts();
-    const double period = curve.domain().width();
-    if (t.hi > curve.domain().hi)
-      for (PolynomialCurve::Part part : curve.parts()) {
-        part.t = {part.t.lo + period, part.t.hi + period};
-        parts.push_back(part);
-      }
-    return std::make_shared<CurvePart>(std::make_shared<PolynomialCurve>(std::move(parts)), t);
-  }
 
   // What of a curve lies in the region.
   void each_inside(const ImplicitArc& arc, const std::function<void(CurvePtr, bool)>& put) const {
@@ -192,25 +178,28 @@ class Collector {
       if (t.width() == all.width() && cuts.empty())
         put(arc.curve, arc.closed);
       else
-        put(stretch(*arc.curve, t), false);
+        put(stretch(arc.curve, t), false);
     });
   }
 
-  void add_silhouette(const CurvePtr& curve, bool closed, const Interval& regular) {
+  void add_silhouette(const ImplicitArc& arc, const CurvePtr& curve, bool closed, const Interval& regular) {
+    const ImplicitFormula& formula = *arc.formula;
+    const auto bend_at = [&](const Vec3& p) { return bend_along(second_order(formula, p), triple(sight_at(p))); };
     ImplicitContour line{curve, closed, {}, nullptr};
     line.turns = sign_changes(
         *curve, closed,
         [&](const Box3& box) {
           const Triple<Interval> v = triple(Box3{view_.direction_or_eye, view_.direction_or_eye});
-          return bend_along(range_of(formula_, box).over, view_.central ? triple(box) - v : v);
+          return bend_along(range_of(formula, box).over, view_.central ? triple(box) - v : v);
         },
-        [&](const Vec3& p) { return bend_at(p); });
-    line.aside = aside_of(*curve, line.turns, regular);
+        bend_at);
+    line.aside = aside_of(*curve, line.turns, regular, formula, bend_at);
     result_.lines.push_back(std::move(line));
   }
 
   // grad F, of unit length, to the side on which the way of sight passes. None where that cannot be told.
-  CurvePtr aside_of(const Curve& curve, const std::vector<double>& cusps, const Interval& regular) {
+  CurvePtr aside_of(const Curve& curve, const std::vector<double>& cusps, const Interval& regular,
+                    const ImplicitFormula& formula, const std::function<double(const Vec3&)>& bend_at) {
     const Interval domain = curve.domain();
     std::vector<double> ends{domain.lo};
     for (const double cusp : cusps)
@@ -221,7 +210,7 @@ class Collector {
       const Interval t{ends[k], ends[k + 1]};
       const double side = bend_at(curve.point(t.middle())) > 0 ? 1 : -1;
       const auto aside = [&](double at) {
-        const Vec3 slope = formula_.gradient(curve.point(regular.clamp(at)));
+        const Vec3 slope = formula.gradient(curve.point(regular.clamp(at)));
         return side / glm::length(slope) * slope;
       };
       std::vector<Interval> pieces;
@@ -235,6 +224,35 @@ class Collector {
       parts.insert(parts.end(), found->parts().begin(), found->parts().end());
     }
     return std::make_shared<PolynomialCurve>(std::move(parts));
+  }
+
+  // Where the height vanishes, and another branch begins.
+  void add_crease(const ImplicitBranch& branch, const ImplicitFormula& height,
+                  const std::vector<ImplicitBranch>& branches, const CurvePtr& curve, bool closed) {
+    const Interval domain = curve->domain();
+    bool is_sharp = false;
+    const ImplicitFormula* other = nullptr;
+    for (const double share : {0.05, 0.23, 0.5, 0.81, 0.97}) {
+      const Vec3 p = curve->point(domain.lo + share * domain.width());
+      const Vec3 up = height.gradient(p);
+      if (!(glm::length(up) > 0)) continue;
+      const Vec3 below = p - kBeside * region_.box.diameter() / glm::length(up) * up;
+      const auto found =
+          std::find_if(branches.begin(), branches.end(), [&](const ImplicitBranch& one) { return one.holds(below); });
+      if (found == branches.end()) continue;
+      other = found->formula.get();
+      const Vec3 a = branch.formula->gradient(p), b = other->gradient(p);
+      if (glm::length(a / glm::length(a) - b / glm::length(b)) > kSmoothEdge) is_sharp = true;
+      // A jump: the sheet ends there, at a wall that is not known.
+      if (std::abs((*other)(p)) > kNoJump * region_.box.diameter() * glm::length(b))
+        is_sharp = true, result_.complete = false;
+    }
+    if (!other) result_.complete = false;
+    if (!is_sharp) return;
+    ImplicitContour line{curve, closed, sight_turns(*curve, closed, *branch.formula, view_), nullptr};
+    const std::vector<double> turns = sight_turns(*curve, closed, *other, view_);
+    line.turns.insert(line.turns.end(), turns.begin(), turns.end());
+    result_.lines.push_back(std::move(line));
   }
 
   // Where the ball of the region turns away along a curve on it.
@@ -251,11 +269,8 @@ class Collector {
   }
 
   // A line on the surface, and perhaps on the ball of the region, that is no silhouette.
-  void add(const CurvePtr& curve, bool closed, bool on_ball) {
-    ImplicitContour line{curve, closed, {}, nullptr};
-    line.turns = sign_changes(
-        *curve, closed, [&](const Box3& box) { return sight_.enclose(range_of(formula_, box), box).value; },
-        [&](const Vec3& p) { return slope_along_sight(p); });
+  void add(const ImplicitArc& arc, const CurvePtr& curve, bool closed, bool on_ball) {
+    ImplicitContour line{curve, closed, sight_turns(*curve, closed, *arc.formula, view_), nullptr};
     if (on_ball) {
       const std::vector<double> found = turns_of_ball(*curve, closed);
       line.turns.insert(line.turns.end(), found.begin(), found.end());
@@ -357,6 +372,11 @@ ImplicitContours silhouette(const ImplicitSurface& surface, const ViewOf& view) 
 ImplicitContours border(const ImplicitSurface& surface, const ViewOf& view) {
   require(view);
   return Collector(surface, view).border();
+}
+
+ImplicitContours creases(const ImplicitSurface& surface, const ViewOf& view) {
+  require(view);
+  return Collector(surface, view).creases();
 }
 
 ImplicitContours plane_section(const ImplicitSurface& surface, const Vec3& origin, const Vec3& normal,

@@ -1,5 +1,5 @@
 // Lines of an implicit surface F = level in its region: silhouettes (Golovanov 2016, 4.6), the border at which the
-// region cuts it off or closes it, sections by planes.
+// region cuts it off or closes it, the creases of a formula with kinks, sections by planes.
 //
 // A point of the surface is on its silhouette if the way of sight s touches it there, grad F . s = 0. With the second
 // derivatives H of F the picture has a cusp where s . H s = 0, and beside the contour the way of sight passes on the
@@ -26,7 +26,8 @@ struct ImplicitContour {
 
 struct ImplicitContours {
   std::vector<ImplicitContour> lines;
-  // False where something may be missing: the formula has kinks or jumps, the surface meets itself along a curve, the
+  // False where something may be missing: the formula has jumps, or too many branches (expression/branches.h), the
+  // surface meets itself along a curve, the
   // contour is no curve (a cone seen from its tip), or where its equations are nearly singular over more than 1e-3 of
   // the region's size. Lines through isolated singular points lead up to these.
   bool complete = true;
@@ -40,6 +41,8 @@ ImplicitContours silhouette(const ImplicitSurface& surface, const ViewOf& view);
 // Where the surface ends at the border of its region; of a closed solid the edges there, and the edges of the box as
 // far as they bound the solid. `view` is that of the turns.
 ImplicitContours border(const ImplicitSurface& surface, const ViewOf& view);
+// Where branches of the formula meet and the normals of both sides differ by kSmoothEdge somewhere.
+ImplicitContours creases(const ImplicitSurface& surface, const ViewOf& view);
 // Of a closed solid with the lines in which the plane meets the region's border.
 ImplicitContours plane_section(const ImplicitSurface& surface, const Vec3& origin, const Vec3& normal,
                                const ViewOf& view);

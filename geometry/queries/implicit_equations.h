@@ -70,6 +70,15 @@ class ImplicitCondition {
     return result;
   }
 
+  // Of a silhouette.
+  std::optional<ViewOf> view() const {
+    if (kind_ != Kind::sight && kind_ != Kind::sight_from_eye) return std::nullopt;
+    return ViewOf{kind_ == Kind::sight_from_eye, vector_};
+  }
+  // Of another implicit surface.
+  const ImplicitFormula* formula() const { return other_; }
+  const Affine& to_formula() const { return to_other_; }
+
   template <class S>
   struct Value {
     S value;

@@ -80,10 +80,9 @@ bool is_known(const ImplicitFormula& formula, const ViewOf& view, const Vec3& no
 
 }  // namespace
 
-std::vector<ImplicitNode> implicit_nodes(const ImplicitSurface& surface, const ViewOf& view, const Box3& box) {
-  const ImplicitFormula& formula = surface.formula();
+std::vector<ImplicitNode> implicit_nodes(const ImplicitFormula& formula, double size, const ViewOf& view,
+                                         const Box3& box) {
   if (formula.smoothness() != Expression::Smoothness::smooth) return {};
-  const double size = surface.region().box.diameter();
   RootSearchOptions<3, 4> options;
   options.most_boxes = kMostBoxes;
   options.least.fill(1e-6 * size);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "geometry/queries/contours.h"
-#include "geometry/shapes/implicit_surface.h"
+#include "geometry/shapes/implicit_formula.h"
 
 namespace lekalo::geometry {
 
@@ -20,8 +20,9 @@ struct ImplicitNode {
   double reach = 0;  // half a side of that cube
 };
 
-// Those in a box at which the silhouette is known so. Others are left out: where the second derivatives have no
-// inverse, and where a way of sight touches the cone.
-std::vector<ImplicitNode> implicit_nodes(const ImplicitSurface& surface, const ViewOf& view, const Box3& box);
+// Those in a box, of a region of that size, at which the silhouette is known so. Others are left out: where the second
+// derivatives have no inverse, and where a way of sight touches the cone.
+std::vector<ImplicitNode> implicit_nodes(const ImplicitFormula& formula, double size, const ViewOf& view,
+                                         const Box3& box);
 
 }  // namespace lekalo::geometry

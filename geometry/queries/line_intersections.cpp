@@ -11,6 +11,7 @@
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/line_cells.h"
 #include "geometry/queries/patch_target.h"
+#include "geometry/queries/smooth_parts.h"
 #include "geometry/queries/trim.h"
 #include "geometry/tolerances.h"
 
@@ -140,11 +141,65 @@ class EnclosureTarget final : public LineTarget {
   std::vector<Cell> cells_;
 };
 
+// A surface of formulas with kinks: its smooth parts, with the hits on the right sides. At a crease both parts may have
+// one, as neighbours have at a common border.
+class PartsTarget final : public LineTarget {
+ public:
+  PartsTarget(SurfacePtr surface, std::vector<SmoothPart> parts, const std::shared_ptr<const TrimRegion>& trim,
+              double least_area)
+      : surface_(std::move(surface)), parts_(std::move(parts)) {
+    const Rectangle domain = surface_->domain();
+    slack_ = kHitSlack * Vec3(domain.u.width(), domain.v.width(), 0);
+    for (const SmoothPart& part : parts_) {
+      targets_.push_back(make_line_target(part.surface, trim, least_area));
+      for (int i = 0; i < targets_.back()->piece_count(); ++i) pieces_.emplace_back(targets_.size() - 1, i);
+    }
+  }
+  int piece_count() const override { return static_cast<int>(pieces_.size()); }
+  std::string_view method() const override { return targets_[0]->method(); }
+  Box3 piece_bounds(int i) const override { return target(i).piece_bounds(pieces_[i].second); }
+  void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
+    LineHits all;
+    target(i).piece_hits(pieces_[i].second, line, t, all);
+    for (int k = 0; k < all.size(); ++k)
+      if (holds(parts_[pieces_[i].first], {all[k].u, all[k].v, 0})) hits.add(all[k]);
+  }
+  bool meets_once(int i, const Vec3& direction) const override {
+    return target(i).meets_once(pieces_[i].second, direction);
+  }
+  const Surface& surface() const override { return *surface_; }
+  SurfaceJet jet_at(int i, double u, double v, const Vec3& near) const override {
+    return target(i).jet_at(pieces_[i].second, u, v, near);
+  }
+  size_t memory() const override {
+    size_t sum = sizeof *this + pieces_.size() * sizeof pieces_[0];
+    for (const auto& target : targets_) sum += target->memory();
+    return sum;
+  }
+
+ private:
+  const LineTarget& target(int i) const { return *targets_[pieces_[i].first]; }
+  bool holds(const SmoothPart& part, const Vec3& uv) const {
+    return std::all_of(part.sides.begin(), part.sides.end(), [&](const ImplicitSide& side) {
+      const double value = side.value(uv);
+      return value >= 0 || value >= -glm::dot(slack_, glm::abs(side.height->gradient(uv)));
+    });
+  }
+
+  SurfacePtr surface_;
+  std::vector<SmoothPart> parts_;
+  std::vector<std::unique_ptr<LineTarget>> targets_;
+  std::vector<std::pair<size_t, int>> pieces_;  // target, its piece
+  Vec3 slack_{0};
+};
+
 }  // namespace
 
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
                                              double least_area) {
   if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
+  if (std::vector<SmoothPart> parts = smooth_parts(surface); parts.size() > 1)
+    return std::make_unique<PartsTarget>(std::move(surface), std::move(parts), trim, least_area);
   std::vector<SurfacePiece> pieces = surface->pieces();
   const bool rational =
       std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });

@@ -3,6 +3,8 @@
 #include "geometry/curves/surface_curve.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/numerics/triple.h"
+#include "geometry/queries/curve_sign_changes.h"
+#include "geometry/queries/implicit_equations.h"
 
 namespace lekalo::geometry {
 
@@ -97,6 +99,13 @@ void add_sight_turns(const Curve& line, const Surface& surface, const Curve& ima
     search({piece.domain.lo, middle});
     search({middle, piece.domain.hi});
   }
+}
+
+std::vector<double> sight_turns(const Curve& curve, bool closed, const ImplicitFormula& formula, const ViewOf& view) {
+  const ImplicitCondition sight = ImplicitCondition::sight(view);
+  return sign_changes(
+      curve, closed, [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },
+      [&](const Vec3& p) { return sight.at(second_order(formula, p), triple(p)).value; });
 }
 
 }  // namespace lekalo::geometry

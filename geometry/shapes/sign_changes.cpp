@@ -111,12 +111,13 @@ double find_zero(const ImplicitFormula& formula, const Line& line, double lo, do
     const auto value = formula.along(line, Jet<double, 1>::variable(t));
     (is_positive(value.c[0]) == rising ? hi : lo) = t;
     double next = t - value.c[0] / value.c[1];
-    if (!(lo <= next && next <= hi)) next = 0.5 * lo + 0.5 * hi;
+    const bool is_newtons = lo <= next && next <= hi;
+    if (!is_newtons) next = 0.5 * lo + 0.5 * hi;
     const double change = std::abs(next - t);
     t = next;
-    // The steps shrink at least as their squares: the one after would be change^3 / previous^2.
+    // Newton's steps shrink at least as their squares: the one after would be change^3 / previous^2.
     if (change <= tolerance || hi - lo <= tolerance) break;
-    if (change < 0.1 * previous && change * change * change <= tolerance * previous * previous) break;
+    if (is_newtons && change < 0.1 * previous && change * change * change <= tolerance * previous * previous) break;
     previous = change;
   }
   return t;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/describe.h"
+#include "geometry/expression/branches.h"
 #include "geometry/formula.h"
 #include "geometry/tolerances.h"
 
@@ -61,6 +62,8 @@ FormulaSurface::FormulaSurface(PointFormulas point_formulas, const Rectangle& do
   };
   degenerate_ = {is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
                  is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))};
+  const auto branches = expression_branches(point_.formulas());
+  has_branches_ = !branches || branches->size() > 1;
   closed_ = closed;
   size_ = box.diameter();
 }
@@ -73,6 +76,10 @@ SurfaceJet FormulaSurface::evaluate(double u, double v, int order) const {
 
 SurfaceEnclosure FormulaSurface::enclose(const Rectangle& box, int order) const {
   SurfaceEnclosure whole = enclose_surface_centered(point_, box, order);
+  if (has_branches_) {  // centered forms do not hold over kinks
+    const SurfaceEnclosure plain = enclose_surface_formula(point_, box, std::min(order, 1));
+    for (int k = 0; k <= SurfaceJet::index(0, std::min(order, 1)); ++k) whole.values[k] = plain.values[k];
+  }
   const int count = SurfaceJet::index(0, order) + 1;
   const double share_u = box.u.width() / domain_.u.width(), share_v = box.v.width() / domain_.v.width();
   const auto is_good = [&] {
@@ -95,7 +102,8 @@ TypeDeclaration formula_surface_type() {
   TypeDeclaration type =
       declare(Category::surface, "formula_surface",
               "Surface given by formulas of its parameters u and v; the normal is r_u x r_v. Formulas must be smooth "
-              "inside the domain, but may meet themselves and have poles, cusps and pinch points.");
+              "inside the domain but for kinks of abs, min, max, clamp, sign and `if`, which are creases; surfaces may "
+              "meet themselves and have poles, cusps and pinch points.");
   type.example("point: [u*cos(v), u*sin(v), 0.4*v], domain: { u: [-1, 1], v: [0, 2*pi] }");
   declare_formulas(type, kVariables);
   type.field("domain", rectangle(), "of u and v, or of x and y");

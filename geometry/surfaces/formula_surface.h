@@ -8,7 +8,8 @@ namespace lekalo::geometry {
 
 // r(u, v) = point of three formulas of u and v in Cartesian, cylindrical or spherical coordinates, over a finite
 // rectangle. All derivatives are exact (jets), enclosures certified (jets of intervals in centered form). The formulas
-// must be smooth inside the domain; singular points (poles, cusps, pinch points) are welcome.
+// must be smooth inside the domain, but for what branches of abs, min, max, clamp, sign and `if` make of them without a
+// jump (queries/smooth_parts.h); singular points (poles, cusps, pinch points) are welcome.
 class FormulaSurface final : public Surface {
  public:
   struct Closed {
@@ -19,6 +20,8 @@ class FormulaSurface final : public Surface {
   // parameter wraps. Throws FieldError for an empty or infinite domain, a formula that has no value in it, or edges
   // that do not meet.
   FormulaSurface(PointFormulas point, const Rectangle& domain, Closed closed);
+
+  const PointFormulas& formulas() const { return point_; }
 
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {closed_.u ? domain_.u.width() : 0, closed_.v ? domain_.v.width() : 0}; }
@@ -33,6 +36,7 @@ class FormulaSurface final : public Surface {
   Closed closed_;    // set once the edges are known to meet
   double size_ = 0;  // of what the formulas gave where they were tried
   DegenerateEdges degenerate_;
+  bool has_branches_ = false;
 };
 
 }  // namespace lekalo::geometry

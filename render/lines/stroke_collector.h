@@ -1,6 +1,7 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
 // looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
-// where they are cut or met, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
+// where they are cut, stroke_meetings.cpp, stroke_parts.cpp, stroke_tubes.cpp and stroke_meshes.cpp where they meet,
+// stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <functional>
@@ -13,6 +14,7 @@
 #include "geometry/queries/implicit_contours.h"
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/queries/parameter_lines.h"
+#include "geometry/queries/smooth_parts.h"
 #include "geometry/queries/tube_lines.h"
 #include "render/lines/strokes.h"
 
@@ -85,6 +87,11 @@ class StrokeCollector {
       for (const geometry::Face& face : (*body)->faces) visit(face.surface);
   }
 
+  // The smooth parts of a surface, or itself, with cutters that keep what lies on each.
+  void each_smooth_part(const geometry::SurfacePtr& surface,
+                        const std::function<void(const geometry::SurfacePtr&)>& visit);
+  const std::vector<geometry::SmoothPart>& smooth_parts_of(const geometry::SurfacePtr& surface);
+
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
   // Of a body's faces as far as the faces go.
@@ -148,25 +155,39 @@ class StrokeCollector {
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
   void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  // Of a mesh, and one that is no solid put together of others and no body.
+  void add_meeting_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
+                           const HiddenLines& hidden);
   // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
   void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
                              const HiddenLines& hidden);
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
   void add_meeting_of_face(const geometry::FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
                            const Style& style, const HiddenLines& hidden);
-  // How something meets what a shape without faces consists of, given in that shape's coordinates: adds the lines.
+  // How something meets a part of an implicit surface or of balls, given in that shape's coordinates: adds the lines.
   struct Meets {
-    std::function<void(const geometry::ImplicitFormula& formula)> formula;
-    std::function<void(const geometry::Vec3& through, const geometry::Vec3& normal)> plane;
+    geometry::Box3 box;  // what holds it there
+    std::function<void(const geometry::ImplicitSurface& formula)> formula;
     std::function<void(const geometry::SurfacePtr& surface)> surface;
   };
   Meets meets_of_face(const geometry::SurfacePtr& face, const geometry::Affine& to_world,
                       const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
+  Meets meets_of_formula(const geometry::ImplicitSurface& implicit, const geometry::Affine& to_world,
+                         const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
   Meets meets_of_tube(const geometry::Tube& tube, const geometry::Affine& to_world,
                       const geometry::Affine& solid_to_world, const Style& style, const HiddenLines& hidden);
-  // As far as the region of the one and the other balls leave it.
-  void add_meeting(const Meets& meets, const geometry::ImplicitSurface& other, const geometry::Affine& to_world);
-  void add_meeting(const Meets& meets, const geometry::Balls& other, const geometry::Affine& to_world);
+  // Implicit surfaces and balls consist of parts.
+  static bool has_parts(const Entity& shape);
+  // The formula alone, or a surface: what closes an implicit solid at the border of its region, a ball.
+  struct Part {
+    const geometry::ImplicitSurface* formula = nullptr;
+    geometry::SurfacePtr surface;
+  };
+  // Visits the parts that may meet a box, with cutters that keep what of each is on the whole.
+  void each_part(const PlacedShape& solid, const geometry::Box3& near, const std::function<void(const Part&)>& visit);
+  void meets_parts(const Meets& meets, const PlacedShape& solid);
+  // Of two such; false if they are none.
+  bool add_meeting_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
   // Of two shapes without faces; false if that is not known.
   bool add_meeting_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
   const geometry::TubeBoundary& boundary_of(const geometry::Tube& tube);
@@ -185,6 +206,8 @@ class StrokeCollector {
                           const std::function<geometry::Interval(const geometry::Box3&)>& range,
                           const std::function<double(const Vec3&)>& value);
   static Cutter cutter_of(const ClipPlane& plane);
+  static Cutter cutter_of(const geometry::SmoothPart& part);
+  static Cutter cut_in_ball(const geometry::Affine& to_world, const Vec3& center, double radius);
   // The part of a surface that a face is.
   static Cutter cutter_of(const geometry::FaceRegion& face, const geometry::Affine& to_world);
   // What lies on a solid that is put together; `on` is the leaf on which the strokes lie, by number.
@@ -242,8 +265,9 @@ class StrokeCollector {
   geometry::ShapePtr solid_;         // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;
-  std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;  // those that were met
-  std::vector<geometry::MeshLine> mesh_lines_;                     // of the object
+  std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met
+  std::map<geometry::SurfacePtr, std::vector<geometry::SmoothPart>> parts_;  // of those that were asked
+  std::vector<geometry::MeshLine> mesh_lines_;                               // of the object
   // Of fills: all faces in the world.
   struct PlacedFace {
     geometry::SurfacePtr surface;

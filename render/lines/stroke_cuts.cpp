@@ -62,6 +62,50 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const ClipPlane& plane) {
       [=](const Vec3& point) { return glm::dot(normal, point - origin); });
 }
 
+StrokeCollector::Cutter StrokeCollector::cutter_of(const SmoothPart& part) {
+  const auto original = [](const SurfacePtr& surface) {
+    const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get());
+    return moved ? moved->original() : surface;
+  };
+  const SurfacePtr surface = original(part.surface);
+  const auto image_in = [=](const Stroke& stroke) -> const Curve* {
+    for (const Stroke::Host& host : stroke.hosts)
+      if (original(host.surface) == surface) return host.image.get();
+    return nullptr;
+  };
+  Cutter cutter;
+  cutter.add_cuts = [=, sides = part.sides](const Stroke& stroke, std::vector<double>& cuts) {
+    const Curve* image = image_in(stroke);
+    if (!image) return;
+    for (const ImplicitSide& side : sides) {
+      const std::vector<double> found = sign_changes(
+          *image, false, [&](const Box3& box) { return side.range(box); },
+          [&](const Vec3& p) { return side.value(p); });
+      cuts.insert(cuts.end(), found.begin(), found.end());
+    }
+  };
+  cutter.keeps = [=, sides = part.sides](const Stroke& stroke, double t, double) {
+    const Curve* image = image_in(stroke);
+    return image && hold(sides, image->point(t));
+  };
+  return cutter;
+}
+
+const std::vector<SmoothPart>& StrokeCollector::smooth_parts_of(const SurfacePtr& surface) {
+  const auto known = parts_.find(surface);
+  return known != parts_.end() ? known->second : parts_.emplace(surface, smooth_parts(surface)).first->second;
+}
+
+void StrokeCollector::each_smooth_part(const SurfacePtr& surface, const std::function<void(const SurfacePtr&)>& visit) {
+  const std::vector<SmoothPart>& parts = smooth_parts_of(surface);
+  if (!drawing_ || parts.size() == 1) return visit(surface);
+  for (const SmoothPart& part : parts) {
+    cutters_.push_back(cutter_of(part));
+    visit(part.surface);
+    cutters_.pop_back();
+  }
+}
+
 std::vector<Interval> StrokeCollector::kept_parts(const Stroke& whole) const {
   const Interval domain = whole.curve->domain();
   if (cutters_.empty()) return {domain};

@@ -1,4 +1,5 @@
 // Parameter lines and creases of surfaces, and of bodies' faces as far as these go.
+#include "geometry/curves/surface_curve.h"
 #include "geometry/queries/creases.h"
 #include "render/lines/stroke_collector.h"
 
@@ -18,8 +19,11 @@ void StrokeCollector::add_crease(const SurfacePtr& surface, const Crease& crease
 }
 
 void StrokeCollector::add(const NetLine& line, const Style& style, const HiddenLines& hidden) {
-  lies_on(line);
-  stroke(line.curve(), style, hidden);
+  each_smooth_part(line.surface, [&](const SurfacePtr& part) {
+    const NetLine own{part, line.held, line.at, line.along};
+    lies_on(own);
+    stroke(own.curve(), style, hidden);
+  });
 }
 
 void StrokeCollector::lies_on(const NetLine& line) {
@@ -28,6 +32,15 @@ void StrokeCollector::lies_on(const NetLine& line) {
 
 void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
   for (const Crease& crease : creases(*surface)) add_crease(surface, crease, crease.along, style, hidden);
+  const std::vector<SmoothPart>& parts = smooth_parts_of(surface);
+  const FreeCreases found = free_creases(parts);
+  if (!found.complete) is_incomplete();
+  for (const FreeCrease& crease : found.lines) {
+    const SurfacePtr& on = parts[static_cast<size_t>(crease.parts[0])].surface;
+    if (drawing_)
+      for (const int part : crease.parts) hosts_.push_back({parts[static_cast<size_t>(part)].surface, crease.image});
+    stroke(std::make_shared<SurfaceCurve>(on, crease.image), style, hidden);
+  }
 }
 
 void StrokeCollector::add_creases(const Body& body, const Style& style, const HiddenLines& hidden) {

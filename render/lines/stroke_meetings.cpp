@@ -1,7 +1,8 @@
 // Where shapes meet one another: the lines `intersection` of an object.
 //
-// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Meshes are met by plane faces;
-// so are tubes, and by all else through surfaces that hold their boundary (stroke_tubes.cpp). What is put together is
+// Faces meet faces, and implicit surfaces and balls, in contours of the faces' surfaces. Plane faces cut tubes and
+// meshes. Tubes are met by all else through surfaces that hold their boundary (stroke_tubes.cpp), meshes triangle by
+// triangle (stroke_meshes.cpp), implicit surfaces and balls part by part (stroke_parts.cpp). What is put together is
 // met through its leaves, as far as the lines lie on the whole.
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/half_space.h"
 #include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/objects.h"
@@ -40,13 +40,6 @@ std::string words_of(const Entity& shape) {
          : solid_of<Balls>(shape)                 ? "balls"
          : solid_of<Tube>(shape)                  ? "a tube"
                                                   : "what has neither";
-}
-
-// How deep in a ball the points of a box are.
-Interval depth_in(const Balls::Ball& ball, const Box3& box) {
-  Interval sum(0);
-  for (int k = 0; k < 3; ++k) sum += sqr(Interval(box.lo[k], box.hi[k]) - Interval(ball.center[k]));
-  return Interval(ball.radius) - sqrt(sum);
 }
 
 // Whether a point lies on a solid is asked along these, so far to both sides, of its size.
@@ -120,6 +113,11 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     each_surface(one->shape, [&](const SurfacePtr& surface) {
       if (!surface->bounded()) leave_out("intersections of unbounded surfaces (" + name_of_object() + ")");
     });
+  const auto each_bounded_part = [&](const Entity& shape, const std::function<void(const SurfacePtr&)>& visit) {
+    each_surface(shape, [&](const SurfacePtr& surface) {
+      if (surface->bounded()) each_smooth_part(surface, visit);
+    });
+  };
   const bool a_has_faces = has_faces(a.shape), b_has_faces = has_faces(b.shape);
   if (a_has_faces && b_has_faces) {
     to_world_ = a.to_world;
@@ -128,28 +126,37 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     if (const auto* other = std::get_if<BodyPtr>(&b.shape)) {
       const Body moved = to_a.is_identity() ? **other : transformed(**other, to_a);
       if (body) add(intersect(**body, moved), **body, style, hidden);
-      each_surface(a.shape, [&](const SurfacePtr& surface) {
-        if (surface->bounded()) add(intersect(moved, surface), moved, style, hidden);
-      });
+      each_bounded_part(a.shape,
+                        [&](const SurfacePtr& surface) { add(intersect(moved, surface), moved, style, hidden); });
     }
-    each_surface(b.shape, [&](const SurfacePtr& other) {
-      if (!other->bounded()) return;
+    each_bounded_part(b.shape, [&](const SurfacePtr& other) {
       const SurfacePtr moved = transformed(other, to_a);
       if (body) add(intersect(**body, moved), **body, style, hidden);
-      each_surface(a.shape, [&](const SurfacePtr& surface) {
-        if (surface->bounded()) add(intersect(surface, moved), {surface, moved}, style, hidden);
+      each_bounded_part(a.shape, [&](const SurfacePtr& surface) {
+        add(intersect(surface, moved), {surface, moved}, style, hidden);
       });
     });
     return;
   }
   if (!a_has_faces && !b_has_faces) {
-    if (!add_meeting_of_tube(a, b, style, hidden) && !add_meeting_of_tube(b, a, style, hidden))
+    for (const bool swapped : {false, true}) {
+      const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
+      if (!std::holds_alternative<MeshPtr>(one.shape) ||
+          !(std::holds_alternative<MeshPtr>(other.shape) || std::holds_alternative<ShapePtr>(other.shape)))
+        continue;
+      met_ = b.object;
+      add_meeting_of_mesh(one, other, style, hidden);
+      met_ = -2;
+      return;
+    }
+    if (!add_meeting_of_parts(a, b, style, hidden) && !add_meeting_of_tube(a, b, style, hidden) &&
+        !add_meeting_of_tube(b, a, style, hidden))
       leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() + ")");
     return;
   }
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
-  each_surface(faces.shape, [&](const SurfacePtr& surface) {
-    if (surface->bounded()) add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
+  each_bounded_part(faces.shape, [&](const SurfacePtr& surface) {
+    add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
   });
   if (const auto* body = std::get_if<BodyPtr>(&faces.shape))
     for (const FaceRegion& face : face_regions(**body)) add_meeting_of_face(face, faces.to_world, solid, style, hidden);
@@ -160,15 +167,11 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
   to_world_ = to_world;
   const size_t before = cutters_.size();
   met_ = solid.object;
-  const auto meets = [&] { return meets_of_face(face.surface, to_world, solid.to_world, style, hidden); };
   const auto* plane = dynamic_cast<const Plane*>(face.surface.get());
   const auto* tube = solid_of<Tube>(solid.shape);
-  if (const auto* implicit = solid_of<ImplicitSurface>(solid.shape)) {
+  if (has_parts(solid.shape)) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
-    add_meeting(meets(), *implicit, solid.to_world);
-  } else if (const auto* balls = solid_of<Balls>(solid.shape)) {
-    if (face.region) cutters_.push_back(cutter_of(face, to_world));
-    add_meeting(meets(), *balls, solid.to_world);
+    meets_parts(meets_of_face(face.surface, to_world, solid.to_world, style, hidden), solid);
   } else if (plane) {
     cutters_.push_back(cutter_of(face, to_world));
     to_world_ = solid.to_world;
@@ -177,87 +180,14 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
   } else if (tube) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
     meets_of_tube(*tube, solid.to_world, to_world, style, hidden).surface(face.surface);
+  } else if (std::holds_alternative<MeshPtr>(solid.shape)) {
+    if (face.region) cutters_.push_back(cutter_of(face, to_world));
+    add_meeting_of_mesh(solid, {face.surface, to_world, -1}, style, hidden);
   } else {
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
   cutters_.resize(before);
   met_ = -2;
-}
-
-StrokeCollector::Meets StrokeCollector::meets_of_face(const SurfacePtr& face, const Affine& to_world,
-                                                      const Affine& solid_to_world, const Style& style,
-                                                      const HiddenLines& hidden) {
-  const SurfacePtr moved = transformed(face, solid_to_world.inverse() * to_world);
-  to_world_ = solid_to_world;
-  return {[=, this](const ImplicitFormula& formula) {
-            if (moved->bounded()) add(level_section(moved, formula), {moved}, style, hidden);
-          },
-          [=, this](const Vec3& through, const Vec3& normal) {
-            add(plane_section(moved, through, normal), {moved}, style, hidden);
-          },
-          [=, this](const SurfacePtr& surface) {
-            add(intersect(moved, surface), {moved, surface}, style, hidden);
-          }};
-}
-
-void StrokeCollector::add_meeting(const Meets& meets, const ImplicitSurface& other, const Affine& to_world) {
-  const ImplicitFormula& formula = other.formula();
-  const ImplicitRegion& region = other.region();
-  const size_t before = cutters_.size();
-  const Vec3 center = region.box.center();
-  const Balls::Ball around{center, region.radius()};
-  std::vector<ClipPlane> sides;
-  for (int axis = 0; axis < 3 && !region.is_ball; ++axis)
-    for (const bool upper : {false, true}) {
-      Vec3 normal(0);
-      normal[axis] = upper ? 1 : -1;
-      sides.push_back({upper ? region.box.hi : region.box.lo, normal});
-    }
-  const auto cut_by_side = [&](const ClipPlane& side) {
-    cutters_.push_back(
-        cutter_of(ClipPlane{to_world.point(side.through), glm::normalize(to_world.normal(side.normal)), false}));
-  };
-  for (const ClipPlane& side : sides) cut_by_side(side);
-  if (region.is_ball)
-    cutters_.push_back(cut_where(
-        to_world, [around](const Box3& box) { return -depth_in(around, box); },
-        [around](const Vec3& p) { return glm::length(p - around.center) - around.radius; }));
-  meets.formula(formula);
-  cutters_.resize(before);
-  // Of a solid what its region cuts off is closed there.
-  if (!other.is_closed()) return;
-  cutters_.push_back(cut_where(
-      to_world, [formula](const Box3& box) { return formula.enclose(box); },
-      [formula](const Vec3& p) { return formula(p); }));
-  for (size_t k = 0; k < sides.size(); ++k) {
-    for (size_t i = 0; i < sides.size(); ++i)
-      if (i != k) cut_by_side(sides[i]);
-    meets.plane(sides[k].through, sides[k].normal);
-    cutters_.resize(before + 1);
-  }
-  if (region.is_ball) {
-    Frame frame;
-    frame.origin = center;
-    meets.surface(std::make_shared<SphereSurface>(frame, region.radius()));
-  }
-  cutters_.resize(before);
-}
-
-void StrokeCollector::add_meeting(const Meets& meets, const Balls& other, const Affine& to_world) {
-  const size_t before = cutters_.size();
-  for (size_t k = 0; k < other.balls().size(); ++k) {
-    other.near(k, [&](size_t i) {
-      const Balls::Ball ball = other.balls()[i];
-      if (i != k)
-        cutters_.push_back(cut_where(
-            to_world, [ball](const Box3& box) { return depth_in(ball, box); },
-            [ball](const Vec3& p) { return ball.radius - glm::length(p - ball.center); }));
-    });
-    Frame frame;
-    frame.origin = other.balls()[k].center;
-    meets.surface(std::make_shared<SphereSurface>(frame, other.balls()[k].radius));
-    cutters_.resize(before);
-  }
 }
 
 void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
@@ -320,10 +250,7 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const std::vector<PlacedShape
           to_world, [formula](const Box3& box) { return formula.enclose(box); },
           [formula](const Vec3& p) { return formula(p); }));
     } else if (const auto* balls = solid_of<Balls>(leaves[k].shape)) {
-      for (const Balls::Ball& ball : balls->balls())
-        others.push_back(cut_where(
-            to_world, [ball](const Box3& box) { return depth_in(ball, box); },
-            [ball](const Vec3& p) { return ball.radius - glm::length(p - ball.center); }));
+      for (const Balls::Ball& ball : balls->balls()) others.push_back(cut_in_ball(to_world, ball.center, ball.radius));
     }
   }
   Cutter cutter;

@@ -14,7 +14,8 @@ void StrokeCollector::add_section(const Entity& shape, const SectionPlane& plane
     add(plane_section(**body, through, normal), **body, style, hidden);
   each_surface(shape, [&](const SurfacePtr& surface) {
     if (!surface->bounded()) return leave_out("sections of " + name_of_object() + ", which is unbounded");
-    add(plane_section(surface, through, normal), {surface}, style, hidden);
+    each_smooth_part(surface,
+                     [&](const SurfacePtr& part) { add(plane_section(part, through, normal), {part}, style, hidden); });
   });
   if (const auto* solid_shape = std::get_if<ShapePtr>(&shape))
     in_own_coordinates(*solid_shape, [&](const Shape& original, const Affine& own) {

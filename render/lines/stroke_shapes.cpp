@@ -76,7 +76,7 @@ void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, co
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
   each_surface([&](const SurfacePtr& surface) {
     if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
-    add(silhouette(surface, view), {surface}, style, hidden);
+    each_smooth_part(surface, [&](const SurfacePtr& part) { add(silhouette(part, view), {part}, style, hidden); });
   });
 }
 
@@ -95,10 +95,9 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
   in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
     const ViewOf own_view = seen_through(view, back);
     if (const auto* surface = dynamic_cast<const ImplicitSurface*>(&original)) {
-      if (!edges)
-        add(silhouette(*surface, own_view), style, hidden);
-      else if (kind_ == (surface->is_closed() ? "sharp" : "boundary"))
-        add(border(*surface, own_view), style, hidden);
+      if (!edges) add(silhouette(*surface, own_view), style, hidden);
+      if (kind_ == "sharp") add(creases(*surface, own_view), style, hidden);
+      if (kind_ == (surface->is_closed() ? "sharp" : "boundary")) add(border(*surface, own_view), style, hidden);
       return;
     }
     if (kind_ == "boundary") return;

@@ -1,4 +1,5 @@
 // Lines on tubes: where they meet other shapes (geometry/queries/tube_lines.h).
+#include "geometry/surfaces/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 
@@ -27,17 +28,18 @@ StrokeCollector::Meets StrokeCollector::meets_of_tube(const Tube& tube, const Af
   const TubeBoundary* boundary = &boundary_of(tube);
   const Affine to_solid = solid_to_world.inverse() * to_world, from_solid = to_solid.inverse();
   const ViewOf view = view_from(to_world.inverse());
-  return {[=, this](const ImplicitFormula& formula) {
-            add_on_tube(boundary->meeting(formula, to_solid, view), nullptr, style, hidden);
-          },
-          [=, this](const Vec3& through, const Vec3& normal) {
-            const Vec3 own_normal = glm::transpose(to_solid.linear) * normal;
-            add_on_tube(plane_section(boundary->tube(), from_solid.point(through), own_normal, view), nullptr, style,
-                        hidden);
+  return {transformed(tube.bounds(), to_solid),
+          [=, this](const ImplicitSurface& other) {
+            add_on_tube(boundary->meeting(other.formula(), to_solid, view), nullptr, style, hidden);
           },
           [=, this](const SurfacePtr& surface) {
             const SurfacePtr moved = transformed(surface, from_solid);
-            add_on_tube(boundary->meeting(moved, view), moved, style, hidden);
+            if (const auto* plane = dynamic_cast<const Plane*>(surface.get()))
+              add_on_tube(plane_section(boundary->tube(), from_solid.point(plane->frame().origin),
+                                        glm::transpose(to_solid.linear) * plane->frame().z, view),
+                          nullptr, style, hidden);
+            else
+              add_on_tube(boundary->meeting(moved, view), moved, style, hidden);
           }};
 }
 
@@ -52,10 +54,8 @@ bool StrokeCollector::add_meeting_of_tube(const PlacedShape& a, const PlacedShap
     add_on_tube(boundary_of(*tube).meeting(boundary_of(*other), a.to_world.inverse() * b.to_world,
                                            view_from(a.to_world.inverse())),
                 nullptr, style, hidden);
-  else if (const auto* implicit = solid_of<ImplicitSurface>(b.shape))
-    add_meeting(meets, *implicit, b.to_world);
-  else if (const auto* balls = solid_of<Balls>(b.shape))
-    add_meeting(meets, *balls, b.to_world);
+  else if (has_parts(b.shape))
+    meets_parts(meets, b);
   else
     known = false;
   met_ = -2;

@@ -146,8 +146,11 @@ camera: { view: top }
         errors = self.run_program("draw", scene, "-o", "x.svg")[1]
         for words in ("parameter lines of half-spaces", "self-intersections of 't'", "lines of 's', which is unbounded"):
             self.assertIn(words, errors)
-        # The formula has kinks.
+        # The formula jumps; kinks are known.
         scene = self.scene("i: { type: implicit, formula: 'abs(x) + abs(y) + abs(z) - 1', ball: { radius: 1.5 } }",
+                           "{ shape: i, lines: { silhouette: thick, sharp: thick } }")
+        self.assertNotIn("warning", self.run_program("draw", scene, "-o", "x.svg")[1])
+        scene = self.scene("i: { type: implicit, formula: 'z - 0.3*floor(2*x)', ball: { radius: 1.5 } }",
                            "{ shape: i, lines: { silhouette: thick } }")
         self.assertIn("not all lines are known: they nearly touch or coincide ('i')",
                       self.run_program("draw", scene, "-o", "x.svg")[1])

@@ -10,7 +10,10 @@
 #include "geometry/curves/circle.h"
 #include "geometry/curves/nurbs_curve.h"
 #include "geometry/curves/polyline.h"
+#include "geometry/point_formulas.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/shapes/implicit_surface.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/revolution.h"
 #include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
@@ -162,6 +165,64 @@ TEST(LinesOfSurfaces, OpenCutsAreBorders) {
     }
   const double height = glm::dot(plane.through, plane.normal);
   EXPECT_NEAR(length, kTwoPi * std::sqrt(4 - height * height), 1e-6);
+}
+
+// Solids and sheets by formulas with kinks hide as the bodies and patches that they are.
+TEST(LinesOfSurfaces, FormulasWithKinks) {
+  const auto implicit = [](const char* text, double half, bool closed) -> ShapePtr {
+    auto formula = std::get<Expression>(Expression::parse(text));
+    const std::vector<Expression::Variable> variables{{"x"}, {"y"}, {"z"}};
+    EXPECT_FALSE(formula.bind(variables));
+    return std::make_shared<ImplicitSurface>(std::move(formula), 0, ImplicitRegion{{Vec3(-half), Vec3(half)}}, closed);
+  };
+  const auto sheet = [](const char* z, const Rectangle& domain) -> SurfacePtr {
+    return std::make_shared<FormulaSurface>(point_formulas({"u", "v", z}, {"u", "v"}), domain,
+                                            FormulaSurface::Closed{});
+  };
+  const Rectangle all{{-2, 2}, {-2, 2}};
+  // Four quarters of a saddle, two of them turned over.
+  SurfaceSet quarters;
+  for (const Interval& u : {Interval(-2, 0), Interval(0, 2)})
+    for (const Interval& v : {Interval(-2, 0), Interval(0, 2)})
+      quarters.push_back(sheet(u.lo == v.lo ? "0.3*u*v" : "-0.3*u*v", {u, v}));
+  const BodyPtr block = std::make_shared<Body>(box(frame_from({-1, -1, -1}, {0, 0, 1}, {1, 0, 0}), Vec3(2)));
+  const std::pair<Entity, Entity> pairs[] = {
+      {implicit("max(abs(x), abs(y), abs(z)) - 1", 1.2, true), block},
+      {sheet("0.3*abs(u*v)", all), quarters},
+      {implicit("z - 0.3*abs(x*y)", 2, false), quarters},
+  };
+  Views views(23);
+  const int count = tests::tier_count(50, tests::least_of_slow(6));
+  for (const auto& [kinked, plain] : pairs)
+    for (int k = 0; k < count; ++k) {
+      std::map<int, double> lengths[2];  // in the picture, by layers, without what lies on other lines
+      for (const bool expected : {false, true}) {
+        SmallScene scene;
+        const bool is_sheet = !std::holds_alternative<BodyPtr>(plain);
+        show(scene, expected ? plain : kinked, {"silhouette", "sharp", "boundary"});
+        Views same(300 + k);
+        same.look(scene, k % 2);
+        const auto world = scene.world();
+        const VisibleLines lines = visible_lines(*world, drawing_work(*world));
+        EXPECT_EQ(lines.incomplete, 0);
+        for (const VisibleLine& line : lines.lines) {
+          // Quarters join in two borders for one crease.
+          const Vec3 middle = line.stroke.curve->point(line.stroke.curve->domain().middle());
+          const bool is_joint = expected && is_sheet && line.stroke.kind == "boundary" &&
+                                std::min(std::abs(middle.x), std::abs(middle.y)) < 1e-9;
+          for (const VisiblePiece& piece : line.pieces) {
+            constexpr int kSteps = 200;
+            double length = 0;
+            for (int i = 0; i < kSteps; ++i)
+              length += glm::length(line.curve->place(piece.t.lo + piece.t.width() * (i + 1) / kSteps).p -
+                                    line.curve->place(piece.t.lo + piece.t.width() * i / kSteps).p);
+            lengths[expected][piece.layers] += is_joint ? 0.5 * length : length;
+          }
+        }
+      }
+      for (int layers = 0; layers < 6; ++layers)
+        EXPECT_NEAR(lengths[0][layers], lengths[1][layers], 0.02) << k << " behind " << layers;
+    }
 }
 
 }  // namespace
