@@ -12,6 +12,7 @@
 #include "geometry/queries/smooth_parts.h"
 #include "geometry/shapes/balls.h"
 #include "geometry/surfaces/formula_surface.h"
+#include "support/curve_places.h"
 
 namespace lekalo::geometry {
 namespace {
@@ -28,18 +29,11 @@ ImplicitSurface surface(const std::string& text, double half, bool closed = fals
   return {formula(text), 0, {{Vec3(-half), Vec3(half)}}, closed};
 }
 
-double length_of(const Curve& curve) {
-  constexpr int kPlaces = 2000;
-  const Interval t = curve.domain();
-  double length = 0;
-  for (int k = 0; k < kPlaces; ++k)
-    length +=
-        glm::length(curve.point(t.lo + t.width() * (k + 1) / kPlaces) - curve.point(t.lo + t.width() * k / kPlaces));
-  return length;
-}
+constexpr int kChords = 2000;  // of a line
+
 double length_of(const ImplicitContours& lines) {
   double length = 0;
-  for (const ImplicitContour& line : lines.lines) length += length_of(*line.curve);
+  for (const ImplicitContour& line : lines.lines) length += checks::chord_length(*line.curve, kChords);
   return length;
 }
 
@@ -93,7 +87,7 @@ TEST(FormulaKinks, CubeAndOctahedron) {
   ASSERT_EQ(edges.lines.size(), 12u);
   ASSERT_EQ(ridges.lines.size(), 12u);
   for (const ImplicitContour& line : edges.lines) {
-    EXPECT_NEAR(length_of(*line.curve), 2, 1e-10);
+    EXPECT_NEAR(checks::chord_length(*line.curve, kChords), 2, 1e-10);
     EXPECT_TRUE(line.turns.empty());
     const Interval t = line.curve->domain();
     for (const double end : {t.lo, t.hi}) EXPECT_LT(glm::length(glm::abs(line.curve->point(end)) - Vec3(1)), 1e-10);
@@ -101,7 +95,7 @@ TEST(FormulaKinks, CubeAndOctahedron) {
     EXPECT_NEAR(middle.x + middle.y + middle.z, 2, 1e-10);
   }
   for (const ImplicitContour& line : ridges.lines) {
-    EXPECT_NEAR(length_of(*line.curve), std::sqrt(2.0), 1e-10);
+    EXPECT_NEAR(checks::chord_length(*line.curve, kChords), std::sqrt(2.0), 1e-10);
     for (const double x : {0.0, 0.3, 1.0}) {
       const Vec3 p = glm::abs(line.curve->point(line.curve->domain().lo + x * line.curve->domain().width()));
       EXPECT_NEAR(p.x + p.y + p.z, 1, 1e-12);
@@ -134,7 +128,7 @@ TEST(FormulaKinks, BallsThatOverlap) {
     EXPECT_TRUE(crease.lines[0].closed);
     double of_edges = 0, of_outlines = 0;
     for (const CsgLine& line : csg_lines(expected, view).lines)
-      (line.kind == CsgLine::Kind::silhouette ? of_outlines : of_edges) += length_of(*line.curve);
+      (line.kind == CsgLine::Kind::silhouette ? of_outlines : of_edges) += checks::chord_length(*line.curve, kChords);
     EXPECT_NEAR(length_of(crease), of_edges, 1e-5);
     EXPECT_NEAR(length_of(outline), of_outlines, 1e-5);
   }

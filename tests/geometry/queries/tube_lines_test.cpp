@@ -15,6 +15,7 @@
 #include "geometry/queries/arc_length.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/sphere.h"
+#include "support/curve_places.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry {
@@ -342,24 +343,9 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
   EXPECT_GT(corners, planes / 2);
 }
 
-// How near a point is to the nearest of some lines: by places and thirds.
 double distance_of(const ShapeOutlines& found, const Vec3& p) {
-  constexpr int kPlaces = 60, kSteps = 60;
   double least = kInfinity;
-  for (const ShapeOutline& line : found.lines) {
-    const Interval all = line.curve->domain();
-    const auto distance = [&](double t) { return glm::length(line.curve->point(t) - p); };
-    const auto place = [&](int k) { return all.clamp(all.lo + all.width() * k / kPlaces); };
-    for (int k = 0; k <= kPlaces; ++k) {
-      if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
-      double lo = place(k - 1), hi = place(k + 1);
-      for (int i = 0; i < kSteps; ++i) {
-        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
-      }
-      least = std::min(least, distance(0.5 * (lo + hi)));
-    }
-  }
+  for (const ShapeOutline& line : found.lines) least = std::min(least, checks::distance_to(*line.curve, p));
   return least;
 }
 

@@ -15,6 +15,7 @@
 #include "geometry/shapes/tube.h"
 #include "render/drawing/line_truth.h"
 #include "render/drawing/random_solids.h"
+#include "support/curve_places.h"
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
@@ -45,23 +46,9 @@ std::optional<bool> is_boundary(const Solid& solid, const Vec3& p, const Vec3& n
 }
 
 double distance_of(const std::vector<Stroke>& strokes, const Vec3& p) {
-  constexpr int kPlaces = 60, kSteps = 60;
   double least = kInfinity;
-  for (const Stroke& stroke : strokes) {
-    if (stroke.kind != "parameter") continue;
-    const Interval all = stroke.curve->domain();
-    const auto distance = [&](double t) { return glm::length(stroke.curve->point(t) - p); };
-    const auto place = [&](int k) { return all.clamp(all.lo + all.width() * k / kPlaces); };
-    for (int k = 0; k <= kPlaces; ++k) {
-      if (distance(place(k)) > std::min(distance(place(k - 1)), distance(place(k + 1)))) continue;
-      double lo = place(k - 1), hi = place(k + 1);
-      for (int i = 0; i < kSteps; ++i) {
-        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
-      }
-      least = std::min(least, distance(0.5 * (lo + hi)));
-    }
-  }
+  for (const Stroke& stroke : strokes)
+    if (stroke.kind == "parameter") least = std::min(least, checks::distance_to(*stroke.curve, p));
   return least;
 }
 
