@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "geometry/curves/bspline_basis.h"
+#include "geometry/numerics/instruction_sets.h"
+#include "geometry/numerics/lanes.h"
 #include "geometry/queries/bezier_sums.h"
 #include "geometry/tolerances.h"
 
@@ -39,18 +42,52 @@ constexpr double kUneven = 8;
 // better patch.
 constexpr double kTooWide = 0.25;
 
-// Two doubles side by side, (f, g) of a control point.
+// Two doubles side by side, (f, g) of a control point; and those of two control points, passed by reference as what may
+// be in two registers is.
 using Pair = double __attribute__((vector_size(16)));
 
 Pair pair(double a) { return Pair{a, a}; }
+template <class V>
+void raise(V& most, const V& a) {
+  most = a > most ? a : most;
+}
+template <class V>
+void lower(V& least, const V& a) {
+  least = a < least ? a : least;
+}
 Pair larger(Pair a, Pair b) { return a > b ? a : b; }
-Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
 Pair magnitude(Pair a) {
   using Bits = int64_t __attribute__((vector_size(16)));
   constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
   return (Pair)((Bits)a & Bits{kAllButSign, kAllButSign});
 }
+void to_magnitude(Lanes& a) {
+  using Bits = int64_t __attribute__((vector_size(32)));
+  constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
+  a = (Lanes)((Bits)a & Bits{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
+}
 double largest_of(Pair a) { return std::max(a[0], a[1]); }
+Pair larger_half(const Lanes& a) { return larger(Pair{a[0], a[1]}, Pair{a[2], a[3]}); }
+void twice(Pair a, Lanes& both) { both = Lanes{a[0], a[1], a[0], a[1]}; }
+
+// Two of the control points c[0], c[stride], ..., c[last stride]: the k-th and the next; the k-th twice where it is the
+// last.
+void load(const Pair* c, int k, int last, int stride, Lanes& two) {
+  if (stride == 1 && k < last) {
+    std::memcpy(&two, c + k, sizeof two);
+    return;
+  }
+  const Pair first = c[k * stride], second = c[(k < last ? k + 1 : k) * stride];
+  two = Lanes{first[0], first[1], second[0], second[1]};
+}
+void store(const Lanes& two, Pair* c, int k, int last, int stride) {
+  if (stride == 1 && k < last) {
+    std::memcpy(c + k, &two, sizeof two);
+    return;
+  }
+  c[k * stride] = Pair{two[0], two[1]};
+  if (k < last) c[(k + 1) * stride] = Pair{two[2], two[3]};
+}
 
 // Bernstein functions of degree n at the middle of [-1, 1], and their derivatives by x.
 struct Middle {
@@ -128,12 +165,39 @@ class NetSearch {
     if (near_) excludes_ += near_->slack;
   }
 
-  void run() { visit(room_, 0, 0, 1, 1, 0); }
+  void run() {
+    Cell cells[kDeepest + 1];
+    cells[0] = {0, 0, 1, 1, 0, true};
+    // What waits has its coefficients behind those of what waits longer.
+    for (int waiting = 0; waiting >= 0;) {
+      Pair* const c = room_ + waiting * n();
+      Cell& cell = cells[waiting];
+      switch (treat(c, cell)) {
+        case Rest::nothing:
+          --waiting;
+          break;
+        case Rest::smaller:
+          break;
+        case Rest::halves:
+          cells[waiting + 1] = halve(c, cell);
+          ++waiting;
+          break;
+      }
+    }
+  }
 
  private:
   int p() const { return kP == kAnyDegree ? patch_.degree_u : kP; }
   int q() const { return kQ == kAnyDegree ? patch_.degree_v : kQ; }
   int n() const { return (p() + 1) * (q() + 1); }
+
+  // [x - hx, x + hx] times [y - hy, y + hy].
+  struct Cell {
+    double x, y, hx, hy;
+    int depth;     // halvings
+    bool along_x;  // across which way it is to be halved
+  };
+  enum class Rest { nothing, smaller, halves };
 
   // Two directions of kSmallestCell each, and then some for clips that leave more than half.
   static constexpr int kDeepest = 96;
@@ -147,13 +211,38 @@ class NetSearch {
 
   // All coefficients of one function on one side of zero.
   bool excluded(const Pair* c) const {
-    Pair lo = c[0], hi = c[0];
-    for (int k = 1; k < n(); ++k) {
-      lo = smaller(lo, c[k]);
-      hi = larger(hi, c[k]);
+    Lanes lo, hi, two;
+    load(c, 0, n() - 1, 1, lo);
+    hi = lo;
+    for (int k = 2; k < n(); k += 2) {
+      load(c, k, n() - 1, 1, two);
+      lower(lo, two);
+      raise(hi, two);
     }
     const double e = excludes_;
-    return lo[0] > e || hi[0] < -e || lo[1] > e || hi[1] < -e;
+    return std::min(lo[0], lo[2]) > e || std::max(hi[0], hi[2]) < -e || std::min(lo[1], lo[3]) > e ||
+           std::max(hi[1], hi[3]) < -e;
+  }
+
+  // All coefficients on one side of the line through zero along the longer column of the derivatives at the centre:
+  // where the line passes beside an outline the functions hardly differ from zero but across that.
+  bool excluded_across(const Pair* c, const Jacobian& j) const {
+    const Pair x2 = j.x * j.x, y2 = j.y * j.y;
+    const Pair way = x2[0] + x2[1] > y2[0] + y2[1] ? j.x : j.y;
+    Lanes lo{}, hi{};
+    for (int k = 0; k < n(); k += 4) {
+      Lanes a, b;
+      load(c, k, n() - 1, 1, a);
+      load(c, std::min(k + 2, n() - 1), n() - 1, 1, b);
+      const Lanes height = way[0] * __builtin_shufflevector(a, b, 1, 3, 5, 7) -
+                           way[1] * __builtin_shufflevector(a, b, 0, 2, 4, 6);
+      if (k == 0) lo = hi = height;
+      lower(lo, height);
+      raise(hi, height);
+    }
+    const double e = excludes_ * (std::abs(way[0]) + std::abs(way[1]));
+    return std::min(std::min(lo[0], lo[1]), std::min(lo[2], lo[3])) > e ||
+           std::max(std::max(hi[0], hi[1]), std::max(hi[2], hi[3])) < -e;
   }
 
   // Functions and derivatives at the centre.
@@ -161,49 +250,60 @@ class NetSearch {
     const Middle &mx = middle(p()), &my = middle(q());
     Pair f = pair(0);
     j.x = j.y = pair(0);
-    for (int i = 0; i <= p(); ++i, c += q() + 1) {
-      Pair row = pair(0), slope = pair(0);
-      for (int k = 0; k <= q(); ++k) {
-        row += my.value[k] * c[k];
-        slope += my.slope[k] * c[k];
+    for (int k = 0; k <= q(); k += 2) {
+      Lanes column{}, slope{}, two;
+      for (int i = 0; i <= p(); ++i) {
+        load(c + i * (q() + 1), k, q(), 1, two);
+        column += mx.value[i] * two;
+        slope += mx.slope[i] * two;
       }
-      f += mx.value[i] * row;
-      j.x += mx.slope[i] * row;
-      j.y += mx.value[i] * slope;
+      for (int half = 0; half <= (k < q() ? 1 : 0); ++half) {
+        const Pair value = half == 0 ? Pair{column[0], column[1]} : Pair{column[2], column[3]};
+        f += my.value[k + half] * value;
+        j.y += my.slope[k + half] * value;
+        j.x += my.value[k + half] * (half == 0 ? Pair{slope[0], slope[1]} : Pair{slope[2], slope[3]});
+      }
     }
     return f;
   }
 
-  // The same at any place, by de Casteljau's algorithm along the rows and across.
+  // The same at any place, by de Casteljau's algorithm across the rows and along what is left.
   Pair at(const Pair* c, double x, double y, Jacobian& j) const {
     const double s = 0.5 * (x + 1), t = 0.5 * (y + 1);
-    Pair rows[kMaxDegree + 1], slopes[kMaxDegree + 1], work[kMaxDegree + 1];
-    for (int i = 0; i <= p(); ++i, c += q() + 1) {
-      for (int k = 0; k <= q(); ++k) work[k] = c[k];
-      rows[i] = reduce(work, q(), t, slopes[i]);
+    Pair row[kMaxDegree + 1], slopes[kMaxDegree + 1];
+    Lanes work[kMaxDegree + 1], slope;
+    for (int k = 0; k <= q(); k += 2) {
+      for (int i = 0; i <= p(); ++i) load(c + i * (q() + 1), k, q(), 1, work[i]);
+      reduce(work, p(), s, slope);
+      store(work[0], row, k, q(), 1);
+      store(slope, slopes, k, q(), 1);
     }
     Pair ignored;
-    j.y = reduce(slopes, p(), s, ignored);
-    return reduce(rows, p(), s, j.x);
+    reduce(slopes, q(), t, ignored);
+    j.x = slopes[0];
+    reduce(row, q(), t, j.y);
+    return row[0];
   }
   // The same of the surface itself.
-  Pair at_near(double x0, double y0, double hx, double hy, double x, double y, Jacobian& j) const {
-    const PatchPoint p = near_->at(x0 + hx * x, y0 + hy * y);
+  Pair at_near(const Cell& cell, double x, double y, Jacobian& j) const {
+    const PatchPoint p = near_->at(cell.x + cell.hx * x, cell.y + cell.hy * y);
     const Vec3 r = p.point - line_.line.origin;
-    j.x = hx * Pair{glm::dot(line_.n1, p.ds), glm::dot(line_.n2, p.ds)};
-    j.y = hy * Pair{glm::dot(line_.n1, p.dt), glm::dot(line_.n2, p.dt)};
+    j.x = cell.hx * Pair{glm::dot(line_.n1, p.ds), glm::dot(line_.n2, p.ds)};
+    j.y = cell.hy * Pair{glm::dot(line_.n1, p.dt), glm::dot(line_.n2, p.dt)};
     return Pair{glm::dot(line_.n1, r), glm::dot(line_.n2, r)};
   }
-  // Value at s of the polynomial with the given coefficients, which are overwritten; slope by x in [-1, 1].
-  static Pair reduce(Pair* c, int n, double s, Pair& slope) {
+  // Puts into c[0] the value at s of the polynomial with the given coefficients, which are overwritten; slope by x in
+  // [-1, 1].
+  template <class V>
+  static void reduce(V* c, int n, double s, V& slope) {
     if (n == 0) {
-      slope = pair(0);
-      return c[0];
+      slope = V{};
+      return;
     }
     for (int level = n; level > 1; --level)
       for (int i = 0; i < level; ++i) c[i] += s * (c[i + 1] - c[i]);
     slope = (0.5 * n) * (c[1] - c[0]);
-    return c[0] + s * (c[1] - c[0]);
+    c[0] += s * (c[1] - c[0]);
   }
 
   // What is to be known of a cell before it is cut.
@@ -212,43 +312,68 @@ class NetSearch {
     double bend_x = 0, bend_y = 0;      // change of the derivative by x along x, by y along y
   };
 
-  // Bounds |E| by rows (returned), and the outline. `a` and `b` are the columns of J^-1.
+  // Bounds |E| by rows. `a` and `b` are the columns of J^-1.
   Pair deviation(const Pair* c, const Pair& a, const Pair& b) const {
-    Pair ex = pair(0), ey = pair(0);
-    const double hp = 0.5 * p(), hq = 0.5 * q();
-    for (int i = 0; i <= p(); ++i)
-      for (int k = 0; k <= q(); ++k) {
-        const Pair& here = c[i * (q() + 1) + k];
-        if (i < p()) {
-          const Pair d = hp * (c[(i + 1) * (q() + 1) + k] - here);
-          ex = larger(ex, magnitude(d[0] * a + d[1] * b - Pair{1, 0}));
-        }
-        if (k < q()) {
-          const Pair d = hq * (c[i * (q() + 1) + k + 1] - here);
-          ey = larger(ey, magnitude(d[0] * a + d[1] * b - Pair{0, 1}));
-        }
+    Lanes ex{}, ey{}, two, next, a2, b2;
+    const auto include = [&](const Lanes& one, Lanes& most) {
+      // J^-1 (next - two) - one, of either.
+      const Lanes d = next - two;
+      Lanes e = __builtin_shufflevector(d, d, 0, 0, 2, 2) * a2 + __builtin_shufflevector(d, d, 1, 1, 3, 3) * b2 - one;
+      to_magnitude(e);
+      raise(most, e);
+    };
+    twice(0.5 * p() * a, a2), twice(0.5 * p() * b, b2);
+    for (int i = 0; i < p(); ++i)
+      for (int k = 0; k <= q(); k += 2) {
+        load(c + i * (q() + 1), k, q(), 1, two);
+        load(c + (i + 1) * (q() + 1), k, q(), 1, next);
+        include(Lanes{1, 0, 1, 0}, ex);
       }
-    return ex + ey;
+    twice(0.5 * q() * a, a2), twice(0.5 * q() * b, b2);
+    for (int i = 0; i <= p(); ++i)
+      for (int k = 0; k < q(); k += 2) {
+        const int from = std::min(k, std::max(q() - 2, 0));  // of an odd number the last two: one comes twice
+        load(c + i * (q() + 1), from, q() - 1, 1, two);
+        load(c + i * (q() + 1) + 1, from, q() - 1, 1, next);
+        include(Lanes{0, 1, 0, 1}, ey);
+      }
+    return larger_half(ex) + larger_half(ey);
   }
 
   Outline outline(const Pair* c) const {
-    Pair dx = pair(0), dy = pair(0), dxx = pair(0), dyy = pair(0);
-    for (int i = 0; i <= p(); ++i)
-      for (int k = 0; k <= q(); ++k) {
-        const Pair* here = c + i * (q() + 1) + k;
-        if (i < p()) dx = larger(dx, magnitude(here[q() + 1] - here[0]));
-        if (k < q()) dy = larger(dy, magnitude(here[1] - here[0]));
-        if (i > 0 && i < p()) dxx = larger(dxx, magnitude(here[q() + 1] - 2 * here[0] + here[-(q() + 1)]));
-        if (k > 0 && k < q()) dyy = larger(dyy, magnitude(here[1] - 2 * here[0] + here[-1]));
+    // The largest first and second differences of the lines of coefficients c[0], c[stride], ...
+    const auto differences = [](const Pair* line, int lines, int step, int degree, int stride, Lanes& first,
+                                Lanes& second) {
+      for (int k = 0; k < lines; k += 2) {
+        Lanes before, here, d, dd;
+        load(line, k, lines - 1, step, here);
+        for (int i = 1; i <= degree; ++i) {
+          const Lanes last = d;
+          before = here;
+          load(line + i * stride, k, lines - 1, step, here);
+          d = here - before;
+          if (i > 1) {
+            dd = d - last;
+            to_magnitude(dd);
+            raise(second, dd);
+          }
+          Lanes size = d;
+          to_magnitude(size);
+          raise(first, size);
+        }
       }
-    return {p() * largest_of(dx), q() * largest_of(dy), p() * (p() - 1) * largest_of(dxx),
-            q() * (q() - 1) * largest_of(dyy)};
+    };
+    Lanes dx{}, dy{}, dxx{}, dyy{};
+    differences(c, q() + 1, 1, p(), q() + 1, dx, dxx);
+    differences(c, p() + 1, q() + 1, q(), 1, dy, dyy);
+    const auto largest = [](const Lanes& a) { return largest_of(larger_half(a)); };
+    return {p() * largest(dx), q() * largest(dy), p() * (p() - 1) * largest(dxx), q() * (q() - 1) * largest(dyy)};
   }
 
   // Newton's iteration in a cell that has one root at most; false if it does not settle. Only where it `contracts` is
   // it is known that there is no root if none is found; then one that `border` allows outside of the cell is taken.
-  bool newton(const Pair* c, double x0, double y0, double hx, double hy, const Pair& first, const Pair& slacks,
-              const Pair& border, bool contracts) {
+  bool newton(const Pair* c, const Cell& cell, const Pair& first, const Pair& slacks, const Pair& border,
+              bool contracts) {
     const double slack = largest_of(slacks);
     const Pair outside = contracts ? larger(pair(slack), border) : pair(slack);
     // The remaining error is of the order of the square of the step, and not below the rounding of points of a surface
@@ -259,7 +384,7 @@ class NetSearch {
     const int most = contracts ? 40 : 8;
     for (int iteration = 0; iteration < most; ++iteration) {
       Jacobian j;
-      const Pair f = near_ ? at_near(x0, y0, hx, hy, x, y, j) : at(c, x, y, j);
+      const Pair f = near_ ? at_near(cell, x, y, j) : at(c, x, y, j);
       const double determinant = j.determinant();
       if (determinant == 0) return false;
       const double ex = x - (f[0] * j.y[1] - f[1] * j.y[0]) / determinant;
@@ -272,7 +397,7 @@ class NetSearch {
       if (std::abs(nx - x) < settles[0] && std::abs(ny - y) < settles[1]) {
         // What the projection cut off must be rounding, or the slack.
         if (std::abs(ex - nx) <= outside[0] && std::abs(ey - ny) <= outside[1]) {
-          add(x0 + hx * nx, y0 + hy * ny, 4 * slack * std::max(hx, hy));
+          add(cell.x + cell.hx * nx, cell.y + cell.hy * ny, 4 * slack * std::max(cell.hx, cell.hy));
           return true;
         }
         if (!contracts) return false;
@@ -305,11 +430,11 @@ class NetSearch {
 
   // What is left of a cell that cannot be decided. Cells around a singular point differ in the parameter that does not
   // matter there.
-  void leave(double x, double y, double hx, double hy) {
+  void leave(const Cell& cell) {
     if (near_)
-      near_->undecided(x, y, hx, hy);
+      near_->undecided(cell.x, cell.y, cell.hx, cell.hy);
     else
-      add_if_singular(x, y);
+      add_if_singular(cell.x, cell.y);
   }
   void add_if_singular(double x, double y) {
     const PatchPoint at = surface_at(x, y);
@@ -325,125 +450,131 @@ class NetSearch {
   }
 
   // Keeps the part of [-1, 1] of a row of coefficients from x on, or up to x.
-  static void keep_after(Pair* c, int n, int stride, double x) {
+  static void keep_after(Lanes* c, int n, double x) {
     const double s = 0.5 * (x + 1);
     for (int level = n; level > 0; --level)
-      for (int i = 0; i < level; ++i) c[i * stride] += s * (c[(i + 1) * stride] - c[i * stride]);
+      for (int i = 0; i < level; ++i) c[i] += s * (c[i + 1] - c[i]);
   }
-  static void keep_before(Pair* c, int n, int stride, double x) {
+  static void keep_before(Lanes* c, int n, double x) {
     const double s = 0.5 * (x + 1);
     for (int level = 1; level <= n; ++level)
-      for (int i = n; i >= level; --i) c[i * stride] = c[(i - 1) * stride] + s * (c[i * stride] - c[(i - 1) * stride]);
+      for (int i = n; i >= level; --i) c[i] = c[i - 1] + s * (c[i] - c[i - 1]);
   }
-  void clip_x(Pair* c, double lo, double hi) const {
-    for (int k = 0; k <= q(); ++k) {
-      if (hi < 1) keep_before(c + k, p(), q() + 1, hi);
-      if (lo > -1) keep_after(c + k, p(), q() + 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
+  // Of `lines` rows of coefficients c[0], c[stride], ... `step` apart.
+  static void clip(Pair* c, int lines, int step, int n, int stride, double lo, double hi) {
+    Lanes work[kMaxDegree + 1];
+    for (int k = 0; k < lines; k += 2) {
+      for (int i = 0; i <= n; ++i) load(c + i * stride, k, lines - 1, step, work[i]);
+      if (hi < 1) keep_before(work, n, hi);
+      if (lo > -1) keep_after(work, n, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
+      for (int i = 0; i <= n; ++i) store(work[i], c + i * stride, k, lines - 1, step);
     }
   }
-  void clip_y(Pair* c, double lo, double hi) const {
-    for (int i = 0; i <= p(); ++i) {
-      Pair* row = c + i * (q() + 1);
-      if (hi < 1) keep_before(row, q(), 1, hi);
-      if (lo > -1) keep_after(row, q(), 1, hi < 1 ? 2 * (lo + 1) / (hi + 1) - 1 : lo);
-    }
-  }
+  void clip_x(Pair* c, double lo, double hi) const { clip(c, q() + 1, 1, p(), q() + 1, lo, hi); }
+  void clip_y(Pair* c, double lo, double hi) const { clip(c, p() + 1, q() + 1, q(), 1, lo, hi); }
 
   // First half stays in c, second goes to `other`.
-  void halve_x(Pair* c, Pair* other) const {
-    for (int k = 0; k <= q(); ++k) halve_row(c + k, p(), q() + 1, other + k);
-  }
-  void halve_y(Pair* c, Pair* other) const {
-    for (int i = 0; i <= p(); ++i) halve_row(c + i * (q() + 1), q(), 1, other + i * (q() + 1));
-  }
-  static void halve_row(Pair* c, int n, int stride, Pair* other) {
-    other[n * stride] = c[n * stride];
-    for (int level = 1; level <= n; ++level) {
-      for (int i = n; i >= level; --i) c[i * stride] = 0.5 * (c[(i - 1) * stride] + c[i * stride]);
-      other[(n - level) * stride] = c[n * stride];
+  static void halve(Pair* c, int lines, int step, int n, int stride, Pair* other) {
+    Lanes work[kMaxDegree + 1];
+    for (int k = 0; k < lines; k += 2) {
+      for (int i = 0; i <= n; ++i) load(c + i * stride, k, lines - 1, step, work[i]);
+      store(work[n], other + n * stride, k, lines - 1, step);
+      for (int level = 1; level <= n; ++level) {
+        for (int i = n; i >= level; --i) work[i] = 0.5 * (work[i - 1] + work[i]);
+        store(work[n], other + (n - level) * stride, k, lines - 1, step);
+      }
+      for (int i = 0; i <= n; ++i) store(work[i], c + i * stride, k, lines - 1, step);
     }
+  }
+  void halve_x(Pair* c, Pair* other) const { halve(c, q() + 1, 1, p(), q() + 1, other); }
+  void halve_y(Pair* c, Pair* other) const { halve(c, p() + 1, q() + 1, q(), 1, other); }
+
+  // Finds the root of a cell with its coefficients in c, or that there is none; or makes the cell smaller; or says how
+  // it is to be halved.
+  Rest treat(Pair* c, Cell& cell) {
+    if (++cells_ > kMostCells || excluded(c)) return Rest::nothing;
+    Jacobian j;
+    const Pair f = center(c, j);
+    const double determinant = j.determinant();
+    Pair slack = pair(kBorderSlack);  // how far rounding moves a root, as a part of the cell
+    if (determinant != 0) {
+      const double inverse = 1 / determinant;
+      const Pair a{j.y[1] * inverse, -j.x[1] * inverse}, b{-j.y[0] * inverse, j.x[0] * inverse};
+      const Pair root = -(f[0] * a + f[1] * b);
+      const Pair sizes = magnitude(a) + magnitude(b), unknown = allowance_ * sizes;
+      const Pair border = near_ ? Pair{near_->slack_x / cell.hx, near_->slack_y / cell.hy} : pair(kBorderSlack);
+      const Pair uncertain = unknown + border;
+      Pair e = deviation(c, a, b);
+      if (near_) e += sizes * (cell.hx * near_->off_x + cell.hy * near_->off_y);
+      slack += rounding_ * sizes;
+      const Pair lo = root - e - uncertain, hi = root + e + uncertain;
+      if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return Rest::nothing;
+      const double worst = largest_of(slack);
+      const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
+      if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
+          newton(c, cell, root, slack, border, contracts))
+        return Rest::nothing;
+      if (near_ && largest_of(unknown) > kTooWide) {
+        near_->undecided(cell.x, cell.y, cell.hx, cell.hy);
+        return Rest::nothing;
+      }
+      if (!contracts) {
+        if (excluded_across(c, j)) return Rest::nothing;
+        if (clip_to(root, larger(e + uncertain, slack / (0.25 * kMostRounding)), c, cell)) {
+          if (std::max(cell.hx, cell.hy) >= kSmallestCell) return Rest::smaller;
+          leave(cell);
+          return Rest::nothing;
+        }
+      }
+    }
+    const Outline o = outline(c);
+    if (cell.depth == kDeepest || std::max(cell.hx, cell.hy) < kSmallestCell ||
+        std::max(o.extent_x, o.extent_y) <= 4 * allowance_) {
+      leave(cell);
+      return Rest::nothing;
+    }
+    // Across the direction in which the functions bend most; where that is neither (at a pole the sectors of a cap
+    // never become simpler by being made narrower), across the longer one.
+    const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
+    cell.along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
+    // Unless rounding has the last word there already, and not in the other one.
+    if (slack[cell.along_x ? 0 : 1] > 0.5 * kMostRounding && slack[cell.along_x ? 1 : 0] <= 0.5 * kMostRounding)
+      cell.along_x = !cell.along_x;
+    return Rest::halves;
   }
 
-  // A cell with its coefficients in c; what lies behind them is free for its parts.
-  void visit(Pair* c, double x0, double y0, double hx, double hy, int depth) {
-    for (;;) {
-      if (++cells_ > kMostCells || excluded(c)) return;
-      Jacobian j;
-      const Pair f = center(c, j);
-      const double determinant = j.determinant();
-      Pair slack = pair(kBorderSlack);  // how far rounding moves a root, as a part of the cell
-      double clip = 1;                  // part of the cell that a clip leaves
-      if (determinant != 0) {
-        const double inverse = 1 / determinant;
-        const Pair a{j.y[1] * inverse, -j.x[1] * inverse}, b{-j.y[0] * inverse, j.x[0] * inverse};
-        const Pair root = -(f[0] * a + f[1] * b);
-        const Pair sizes = magnitude(a) + magnitude(b), unknown = allowance_ * sizes;
-        const Pair border = near_ ? Pair{near_->slack_x / hx, near_->slack_y / hy} : pair(kBorderSlack);
-        const Pair uncertain = unknown + border;
-        Pair e = deviation(c, a, b);
-        if (near_) e += sizes * (hx * near_->off_x + hy * near_->off_y);
-        slack += rounding_ * sizes;
-        const Pair lo = root - e - uncertain, hi = root + e + uncertain;
-        if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return;
-        const double worst = std::fmax(slack[0], slack[1]);
-        const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
-        if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
-            newton(c, x0, y0, hx, hy, root, slack, border, contracts))
-          return;
-        if (near_ && largest_of(unknown) > kTooWide) {
-          near_->undecided(x0, y0, hx, hy);
-          return;
-        }
-        if (!contracts) {
-          const Pair reach = larger(e + uncertain, slack / (0.25 * kMostRounding));
-          const double lo_x = std::fmax(root[0] - reach[0], -1), hi_x = std::fmin(root[0] + reach[0], 1);
-          const double lo_y = std::fmax(root[1] - reach[1], -1), hi_y = std::fmin(root[1] + reach[1], 1);
-          clip = 0.5 * std::fmin(hi_x - lo_x, hi_y - lo_y);
-          if (clip < kWorthClipping) {
-            if (hi_x - lo_x < 2 * 0.95) {
-              clip_x(c, lo_x, hi_x);
-              x0 += 0.5 * hx * (lo_x + hi_x);
-              hx *= 0.5 * (hi_x - lo_x);
-            }
-            if (hi_y - lo_y < 2 * 0.95) {
-              clip_y(c, lo_y, hi_y);
-              y0 += 0.5 * hy * (lo_y + hi_y);
-              hy *= 0.5 * (hi_y - lo_y);
-            }
-            if (std::max(hx, hy) < kSmallestCell) {
-              leave(x0, y0, hx, hy);
-              return;
-            }
-            continue;
-          }
-        }
-      }
-      const Outline o = outline(c);
-      if (depth == kDeepest || std::max(hx, hy) < kSmallestCell || std::max(o.extent_x, o.extent_y) <= 4 * allowance_) {
-        leave(x0, y0, hx, hy);
-        return;
-      }
-      // Across the direction in which the functions bend most; where that is neither (at a pole the sectors of a cap
-      // never become simpler by being made narrower), across the longer one.
-      const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
-      bool along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
-      // Unless rounding has the last word there already, and not in the other one.
-      if (slack[along_x ? 0 : 1] > 0.5 * kMostRounding && slack[along_x ? 1 : 0] <= 0.5 * kMostRounding)
-        along_x = !along_x;
-      Pair* other = c + n();
-      if (along_x) {
-        halve_x(c, other);
-        hx *= 0.5;
-        visit(other, x0 + hx, y0, hx, hy, depth + 1);
-        x0 -= hx;
-      } else {
-        halve_y(c, other);
-        hy *= 0.5;
-        visit(other, x0, y0 + hy, hx, hy, depth + 1);
-        y0 -= hy;
-      }
-      ++depth;
+  // Cuts away what is farther from a place than `reach`, if that leaves little.
+  bool clip_to(const Pair& place, const Pair& reach, Pair* c, Cell& cell) const {
+    const double lo_x = std::max(-1.0, place[0] - reach[0]), hi_x = std::min(1.0, place[0] + reach[0]);
+    const double lo_y = std::max(-1.0, place[1] - reach[1]), hi_y = std::min(1.0, place[1] + reach[1]);
+    if (!(0.5 * std::min(hi_x - lo_x, hi_y - lo_y) < kWorthClipping)) return false;
+    if (hi_x - lo_x < 2 * 0.95) {
+      clip_x(c, lo_x, hi_x);
+      cell.x += 0.5 * cell.hx * (lo_x + hi_x);
+      cell.hx *= 0.5 * (hi_x - lo_x);
     }
+    if (hi_y - lo_y < 2 * 0.95) {
+      clip_y(c, lo_y, hi_y);
+      cell.y += 0.5 * cell.hy * (lo_y + hi_y);
+      cell.hy *= 0.5 * (hi_y - lo_y);
+    }
+    return true;
+  }
+
+  // The first half stays, the second is returned, with its coefficients behind the first one's.
+  Cell halve(Pair* c, Cell& cell) const {
+    ++cell.depth;
+    Cell second = cell;
+    if (cell.along_x) {
+      halve_x(c, c + n());
+      cell.hx = second.hx = 0.5 * cell.hx;
+      second.x += cell.hx, cell.x -= cell.hx;
+    } else {
+      halve_y(c, c + n());
+      cell.hy = second.hy = 0.5 * cell.hy;
+      second.y += cell.hy, cell.y -= cell.hy;
+    }
+    return second;
   }
 
   const PatchView& patch_;
@@ -459,18 +590,26 @@ class NetSearch {
   int cells_ = 0;
 };
 
+LEKALO_WIDE void search_bicubic(const PatchView& patch, const CellPlace& place, const Vec2& reach, NearSurface* near,
+                                const LineBasis& line, CellHits& hits) {
+  NetSearch<3, 3>(patch, place, reach, near, line, hits).run();
+}
+
 }  // namespace
 
 void search_net(const PatchView& patch, const CellPlace& place, double reach_x, double reach_y, const LineBasis& line,
                 CellHits& hits) {
   const Vec2 reach(reach_x, reach_y);
   for_degrees(patch, [&]<int kP, int kQ>() {
-    NetSearch<kP ? kP : kAnyDegree, kQ ? kQ : kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
+    if constexpr (kP == 3 && kQ == 3)
+      search_bicubic(patch, place, reach, nullptr, line, hits);
+    else
+      NetSearch<kP ? kP : kAnyDegree, kQ ? kQ : kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
   });
 }
 
 void search_net(const PatchView& patch, NearSurface& near, const LineBasis& line, CellHits& hits) {
-  NetSearch<3, 3>(patch, {}, Vec2(0), &near, line, hits).run();
+  search_bicubic(patch, {}, Vec2(0), &near, line, hits);
 }
 
 }  // namespace lekalo::geometry

@@ -51,6 +51,7 @@ class Parts {
     parts_.clear();
     parts_.emplace_back(curve, cell.t, cell.begin, cell.end, cell.bulge, cell.bow,
                         cell.is_chord ? kAnyTurn : kCellTurn);
+    cell_ = &cell;
   }
   const Part& operator[](int index) const { return parts_[index]; }
   int halves(int index) {
@@ -66,9 +67,11 @@ class Parts {
     parts_.emplace_back(*part.curve, Interval(middle, part.t.hi), at, part.end, bulge, bow, turn);
     return first;
   }
+  const ProjectedCurve::Cell& cell() const { return *cell_; }
 
  private:
   std::vector<Part> parts_;
+  const ProjectedCurve::Cell* cell_ = nullptr;
 };
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
@@ -129,6 +132,17 @@ bool solve(const Part& a, const Part& b, PictureCrossing& crossing) {
 // How a cell runs and bends along an axis: y' = Y'/X', y'' = (X' Y'' - Y' X'')/X'^3, X along the axis, Y across it.
 struct Bend {
   Interval x, second;
+  struct End {
+    double x, y, slope;
+  };
+  End begin, end;
+
+  // y there, by Taylor's formula from the nearer end.
+  Interval at(double place) const {
+    const End& from = std::abs(place - begin.x) < std::abs(place - end.x) ? begin : end;
+    const double by = place - from.x;
+    return from.y + by * from.slope + Interval(0.5 * by * by) * second;
+  }
 };
 std::optional<Bend> bend_along(const Vec2& axis, const ProjectedCurve::Cell& cell) {
   const Vec2 across(-axis.y, axis.x), mean = (cell.end - cell.begin) / cell.t.width();
@@ -144,8 +158,36 @@ std::optional<Bend> bend_along(const Vec2& axis, const ProjectedCurve::Cell& cel
   };
   const Interval x1 = first(axis, x2), y1 = first(across, y2);
   if (!(x1.lo > 0 || x1.hi < 0)) return std::nullopt;
-  const double begin = glm::dot(axis, cell.begin), end = glm::dot(axis, cell.end);
-  return Bend{{std::min(begin, end), std::max(begin, end)}, (x1 * y2 - y1 * x2) / (x1 * x1 * x1)};
+  const auto end = [&](const Vec2& p, const Vec2& tangent) {
+    return Bend::End{glm::dot(axis, p), glm::dot(across, p), glm::dot(across, tangent) / glm::dot(axis, tangent)};
+  };
+  const Bend::End from = end(cell.begin, cell.begin_tangent), to = end(cell.end, cell.end_tangent);
+  return Bend{{std::min(from.x, to.x), std::max(from.x, to.x)}, (x1 * y2 - y1 * x2) / (x1 * x1 * x1), from, to};
+}
+
+// Whether one lies to one side of the other where both are, y_a - y_b being known at the ends and, to bounds of its
+// second derivative, between them.
+bool is_beside(const Bend& a, const Bend& b, const Interval& both) {
+  const Interval at_lo = a.at(both.lo) - b.at(both.lo), at_hi = a.at(both.hi) - b.at(both.hi);
+  const Interval second = a.second - b.second;
+  const double sag = both.width() * both.width() / 8;
+  return std::min(at_lo.lo, at_hi.lo) - sag * std::max(0.0, second.hi) > kTouching ||
+         std::max(at_lo.hi, at_hi.hi) - sag * std::min(0.0, second.lo) < -kTouching;
+}
+
+// Whether two parts that meet at ends, whose directions are within `turn` of the chords, lead away from there to sides
+// that have nothing else in common.
+bool parts_ways(const Part& a, const Part& b, PictureCrossing& joint) {
+  if (!(a.turn + b.turn < geometry::kPi)) return false;
+  for (const bool at_end_of_a : {false, true})
+    for (const bool at_end_of_b : {false, true}) {
+      if (glm::length((at_end_of_a ? a.end : a.begin) - (at_end_of_b ? b.end : b.begin)) > kOneLine) continue;
+      const double both = at_end_of_a == at_end_of_b ? glm::dot(a.chord, b.chord) : -glm::dot(a.chord, b.chord);
+      if (!(both < std::cos(a.turn + b.turn) * a.length * b.length)) return false;
+      joint = {at_end_of_a ? a.t.hi : a.t.lo, at_end_of_b ? b.t.hi : b.t.lo, true};
+      return true;
+    }
+  return false;
 }
 
 // Two cells that run side by side, one bending more than the other: y_a - y_b is convex along the axis, or concave. It
@@ -160,10 +202,12 @@ Kiss kiss_of(const ProjectedCurve& a, const ProjectedCurve::Cell& of_a, const Pr
   if (!bend_a) return Kiss::unknown;
   const std::optional<Bend> bend_b = bend_along(axis, of_b);
   if (!bend_b) return Kiss::unknown;
+  const Interval both = intersect(bend_a->x, bend_b->x);
+  if (both.width() < -kTouching) return Kiss::apart;
+  if (!(both.width() > kTouching)) return Kiss::unknown;
+  if (is_beside(*bend_a, *bend_b, both)) return Kiss::apart;
   const bool convex = bend_a->second.lo > bend_b->second.hi;
   if (!convex && !(bend_a->second.hi < bend_b->second.lo)) return Kiss::unknown;
-  const Interval both = intersect(bend_a->x, bend_b->x);
-  if (!(both.width() > kTouching)) return Kiss::unknown;
   // Of a place on either: x, y, y', y''.
   struct Graph {
     double t, speed, x, y, slope, second;
@@ -205,10 +249,10 @@ Kiss kiss_of(const ProjectedCurve& a, const ProjectedCurve::Cell& of_a, const Pr
 class CellPair {
  public:
   using Cell = ProjectedCurve::Cell;
-  CellPair(Parts& parts_a, const Cell& cell_a, Parts& parts_b, const Cell& cell_b)
-      : parts_a_(parts_a), parts_b_(parts_b), cell_a_(cell_a), cell_b_(cell_b) {
+  CellPair(Parts& parts_a, Parts& parts_b)
+      : parts_a_(parts_a), parts_b_(parts_b) {
     cross_parts(0, 0);
-    if (runs_along_) common_ = common_part(parts_a[0], parts_b[0]).value_or(cell_a.t);
+    if (runs_along_) common_ = common_part(parts_a[0], parts_b[0]).value_or(parts_a[0].t);
   }
   // Where the first runs along the second.
   const std::optional<Interval>& common() const { return common_; }
@@ -233,7 +277,11 @@ class CellPair {
     if (!asked_) {
       asked_ = true;
       PictureCrossing touch;
-      const Kiss kiss = kiss_of(*a.curve, cell_a_, *b.curve, cell_b_, touch);
+      if (parts_ways(a, b, touch)) {
+        found_.push_back(touch);
+        return;
+      }
+      const Kiss kiss = kiss_of(*a.curve, parts_a_.cell(), *b.curve, parts_b_.cell(), touch);
       if (kiss == Kiss::touching) found_.push_back(touch);
       if (kiss != Kiss::unknown) return;
       runs_along_ = common_part(a, b).has_value();
@@ -292,7 +340,6 @@ class CellPair {
   static constexpr int kMostTouching = 16, kMostSteps = 4000;
   static constexpr double kLeastCommon = 1e-3;
   Parts &parts_a_, &parts_b_;
-  const Cell &cell_a_, &cell_b_;
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
   bool asked_ = false, runs_along_ = false;
@@ -349,7 +396,7 @@ void PictureCrossings::collect(const ProjectedCurve& curve, const std::function<
             (&of_other == &cell || of_other.t.lo == cell.t.hi || of_other.t.hi == cell.t.lo))
           continue;
         parts_of_other.begin(*curves_[item.curve], of_other);
-        const CellPair pair(parts, cell, parts_of_other, of_other);
+        const CellPair pair(parts, parts_of_other);
         pair.each([&](const PictureCrossing& crossing) { hits.push_back({item.curve, crossing}); });
         if (pair.common()) runs.push_back({item.curve, *pair.common()});
       }
