@@ -234,8 +234,8 @@ class NetSearch {
       Lanes a, b;
       load(c, k, n() - 1, 1, a);
       load(c, std::min(k + 2, n() - 1), n() - 1, 1, b);
-      const Lanes height = way[0] * __builtin_shufflevector(a, b, 1, 3, 5, 7) -
-                           way[1] * __builtin_shufflevector(a, b, 0, 2, 4, 6);
+      const Lanes height =
+          way[0] * __builtin_shufflevector(a, b, 1, 3, 5, 7) - way[1] * __builtin_shufflevector(a, b, 0, 2, 4, 6);
       if (k == 0) lo = hi = height;
       lower(lo, height);
       raise(hi, height);

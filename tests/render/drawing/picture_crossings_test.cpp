@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -89,6 +90,73 @@ TEST(PictureCrossings, OfCirclesThatTouch) {
           << k << " by " << by;
   }
   tests::report_figure("largest_error_pixels", largest);
+}
+
+// Two arcs that begin at one place, their directions there by some angle apart or the same: go on in one another, turn
+// back (a cusp), or make a corner. Both are less than a quarter of a turn long, so that two chords from the place to
+// one other of both circles are no part of both: that is the only place that both have.
+TEST(PictureCrossings, OfArcsThatMeetAtTheirEnds) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int touching = 0;
+  for (int k = 0; k < tests::tier_count(40000, 400); ++k) {
+    const double turn = geometry::kTwoPi * unit(random);
+    // On from one another; back along one another, the circles apart from there on; and a corner between.
+    const int kind = k % 3;
+    const double angle = kind == 0 ? geometry::kPi : kind == 1 ? 0 : geometry::kPi * (0.1 + 0.8 * unit(random));
+    const Vec3 joint(40 * unit(random) - 20, 40 * unit(random) - 20, 0);
+    // Leaves the joint in a direction and bends to one side.
+    const auto arc = [&](double direction, double radius, double side) {
+      const Vec3 way(std::cos(direction), std::sin(direction), 0), to_center = side * Vec3(-way.y, way.x, 0);
+      const double length = 0.25 * geometry::kPi * (0.1 + 0.9 * unit(random));
+      const bool backwards = unit(random) < 0.5;
+      const Frame from_joint{joint + radius * to_center, -to_center, way, {0, 0, side}};
+      if (!backwards) return std::make_shared<Circle>(from_joint, radius, geometry::Interval(0, length));
+      const Frame to_joint{joint + radius * to_center, -to_center, -way, {0, 0, -side}};
+      return std::make_shared<Circle>(to_joint, radius, geometry::Interval(-length, 0));
+    };
+    const double side = k % 2 ? 1 : -1, radius = 20 + 80 * unit(random);
+    // Of those that turn back the second bends more to the same side, or to the other one.
+    const bool same = unit(random) < 0.5;
+    const auto first = arc(turn, radius, side);
+    const auto second = kind == 1 ? arc(turn, same ? 0.7 * radius : radius, same ? side : -side)
+                                  : arc(turn + angle, 20 + 80 * unit(random), k % 4 < 2 ? 1 : -1);
+    const Found found = crossings(first, second);
+    touching += found.touching > 0;
+    const Vec2 place(0.5 * kSize + joint.x, 0.5 * kSize - joint.y);
+    if (kind == 2) {
+      // A corner's arcs may cross once more; both circles' other common place is known.
+      EXPECT_GE(found.places.size(), 1u) << k;
+      EXPECT_TRUE(std::any_of(found.places.begin(), found.places.end(), [&](const Vec2& one) {
+        return glm::length(one - place) < 1e-4;
+      })) << k;
+      continue;
+    }
+    // Along one another they are as near as what touches for a while: their curvatures tell how long.
+    const double apart = (same ? 1 / 0.7 - 1 : 2) / radius;
+    EXPECT_GE(found.places.size(), 1u) << k;
+    if (kind == 0) {
+      EXPECT_EQ(found.places.size(), 1u) << k;
+    }
+    for (const Vec2& one : found.places)
+      EXPECT_LT(glm::length(one - place), kind == 0 ? 1e-4 : std::sqrt(2 * 1e-4 / apart) + 1e-4) << k;
+  }
+  tests::report_figure("joints_that_touch", touching);
+}
+
+// Circles about one place whose radii differ by 1e-3 to 1 pixels run side by side all around.
+TEST(PictureCrossings, OfCirclesSideBySide) {
+  std::mt19937 random(22);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int k = 0; k < tests::tier_count(4000, 100); ++k) {
+    const double radius = 20 + 120 * unit(random), by = std::pow(10, -3 * unit(random));
+    const auto circle = [&](double r) {
+      const double turn = geometry::kTwoPi * unit(random);
+      const Vec3 x(std::cos(turn), std::sin(turn), 0);
+      return std::make_shared<Circle>(Frame{Vec3(0), x, {-x.y, x.x, 0}, {0, 0, 1}}, r);
+    };
+    EXPECT_TRUE(crossings(circle(radius), circle(radius + by)).places.empty()) << k << " apart by " << by;
+  }
 }
 
 }  // namespace
