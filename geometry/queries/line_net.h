@@ -8,7 +8,8 @@
 // weights. A cell x, y in [-1, 1] of parameters is treated by F = J^-1 (f, g), J the derivatives at its centre, for
 // which the differences of the coefficients bound E = dF/d(x, y) - I over the cell:
 //
-//   - no coefficient of f, or of g, changes sign: no root (convex hull);
+//   - no coefficient of f, or of g, changes sign: no root (convex hull). The same of the combination of both that does
+//   not change along the longer column of J, which is what sets a line beside an outline apart;
 //   - a root lies within -F(0) +- |E|(1, 1): the cell is clipped to that (mean value theorem), and without overlap
 //   there
 //     is no root;

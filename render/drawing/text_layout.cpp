@@ -146,18 +146,32 @@ class Setter {
     return box;
   }
 
+  // Takes the primes at the beginning away.
+  Box primes(TexNode& above, double scale) const {
+    // {..} or the one thing in it.
+    if (above.parts.size() == 1 && above.parts[0].kind == Kind::row) above = TexNode(above.parts[0]);
+    std::string signs;
+    const auto first = above.parts.begin();
+    auto last = first;
+    for (; last != above.parts.end() && last->text == kPrime; ++last) signs += kPrime;
+    above.parts.erase(first, last);
+    return characters(signs, {font_family(family_), false, false}, scale);
+  }
+
   Box scripts(const TexNode& node, double scale) const {
     const Box base = box(node.parts[0], scale);
-    const bool has_below = !node.parts[1].parts.empty(), has_above = !node.parts[2].parts.empty();
+    TexNode raised = node.parts[2];
+    const Box prime = primes(raised, scale);
+    const bool has_below = !node.parts[1].parts.empty(), has_above = !raised.parts.empty();
     Box result;
     result.put(base, 0, 0);
     result.width = base.width;
     const double small = smaller(scale);
     double width = base.width;
     double up = std::max(kSuperscript * em(scale), base.ascent - 0.45 * em(scale));
-    double down = std::max((has_above ? kSubscriptUnder : kSubscript) * em(scale), base.descent - 0.02 * em(scale));
-    const Box below = has_below ? box(node.parts[1], small) : Box(),
-              above = has_above ? box(node.parts[2], small) : Box();
+    double down = std::max((has_above || prime.width > 0 ? kSubscriptUnder : kSubscript) * em(scale),
+                           base.descent - 0.02 * em(scale));
+    const Box below = has_below ? box(node.parts[1], small) : Box(), above = has_above ? box(raised, small) : Box();
     if (has_below && has_above) {
       // They keep apart.
       const double free = (up - above.descent) + (down - below.ascent);
@@ -168,9 +182,14 @@ class Setter {
       result.put(below, base.width, down);
       width = std::max(width, base.width + below.width);
     }
+    if (prime.width > 0) {
+      result.put(prime, base.width + base.overhang, 0);
+      width = std::max(width, base.width + base.overhang + prime.width);
+    }
     if (has_above) {
-      result.put(above, base.width + base.overhang, -up);
-      width = std::max(width, base.width + base.overhang + above.width);
+      const double behind = base.width + base.overhang + prime.width;
+      result.put(above, behind, -up);
+      width = std::max(width, behind + above.width);
     }
     result.width = width + 0.03 * em(scale);
     return result;

@@ -401,13 +401,13 @@ class Parser {
     ++i_;
     if (c == '\'') {
       TexNode& above = base.parts[2];
-      above.parts.push_back(symbol("′", Role::ordinary, face));
+      above.parts.push_back(symbol(std::string(kPrime), Role::ordinary, face));
       return;
     }
     TexNode& place = base.parts[c == '_' ? 1 : 2];
     const bool primes =
         c == '^' && !place.parts.empty() && place.kind == Kind::row &&
-        std::all_of(place.parts.begin(), place.parts.end(), [](const TexNode& one) { return one.text == "′"; });
+        std::all_of(place.parts.begin(), place.parts.end(), [](const TexNode& one) { return one.text == kPrime; });
     if (!place.parts.empty() && !primes)
       fail(at, c == '_' ? "two subscripts at one place" : "two superscripts at one place", "put them into one: x_{ij}");
     place.parts.push_back(argument(face, at));

@@ -20,6 +20,9 @@
 
 namespace lekalo::render {
 
+// The sign for a prime, whose glyphs are raised and small as they are.
+inline constexpr std::string_view kPrime = "′";
+
 struct TexNode {
   enum class Kind {
     row,       // parts one after another
