@@ -30,6 +30,9 @@ constexpr double kTouch = 1e-9;
 // The same of a line that is known to lie on a surface, as exactly as lines are found: where it goes round the surface
 // another sheet comes near.
 constexpr double kOnHost = 2e-12;
+// Rays to a border are aimed a little inside of it, and a surface that joins there may lie before it, but not by more
+// than this along the way of sight, of the radius: a sheet that goes round near the border does.
+constexpr double kBeforeBorder = 1e-7;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
@@ -42,13 +45,16 @@ constexpr double kNoNormal = 1e-6;
 // How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
 // way of sight for that, times the radius.
 constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
-// Inside of a border, of the domain: enough that a ray meets the surface, and less than kTouch, as another surface that
-// joins it there may lie before it.
-constexpr double kInside = 1e-10;
+// Inside of a border, of the domain: enough that a ray need not be found to meet the border itself, and less than
+// kBeforeBorder, as another surface that joins it there may lie before it.
+constexpr double kInside = 1e-12;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
 constexpr double kNearer = 1e-2;      // of that, once more and again, where rays disagree
 // A face whose normal stands across the sight but for this is seen edge-on.
 constexpr double kEdgeOn = 1e-9;
+// Nearer to the end of a stretch, in pixels, a ray through a line that goes round its surface there may miss both
+// sheets.
+constexpr double kFromEnds = 0.02;
 // Where rays disagree inside of a stretch the place is found to this part of the domain.
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
@@ -57,6 +63,12 @@ constexpr double kReach = 0.01;
 // along the surface.
 constexpr double kNear = 1e-7;
 constexpr int kFewTouches = 6, kManyPairs = 400000;
+
+// Which sheets before a point of a line are those on which it lies, of the scene's radius: those that pass it so near,
+// and no farther before it along the way of sight.
+struct Own {
+  double across = kTouch, along = kInfinity;
+};
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -401,12 +413,12 @@ class Drawing {
 
   int layers_at(int line, double t, double aside) {
     const Stroke& stroke = strokes_[line];
-    const double touch = lies_on_own(stroke) ? kOnHost : kTouch;
+    const Own own = own_sheets(stroke);
     const std::optional<Vec3> across = normal_seen_edge_on(line, t);
-    if (!across) return layers_before(probe(line, t, aside), touch);
+    if (!across) return layers_before(probe(line, t, aside), own);
     // Rays would run along the face. What it is the outline of hides the line on one side alone.
     const Vec3 exact = curves_[line]->tangent(t).origin, by = aside * world_.radius() * *across;
-    return std::min(layers_before(exact + by, touch), layers_before(exact - by, touch));
+    return std::min(layers_before(exact + by, own), layers_before(exact - by, own));
   }
 
   // Of a surface on which a line lies, where it is seen edge-on.
@@ -423,11 +435,13 @@ class Drawing {
     return std::nullopt;
   }
 
-  // Whether a line is known to lie on what it belongs to as exactly as lines are found, the surfaces given or not.
-  bool lies_on_own(const Stroke& stroke) const {
-    if (stroke.met != -2) return false;
-    if (!stroke.hosts.empty()) return stroke.kind != "boundary";
-    return stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
+  Own own_sheets(const Stroke& stroke) const {
+    if (stroke.met != -2) return {};
+    // Known to lie on what they belong to as exactly as lines are found, the surfaces given or not.
+    if (!stroke.hosts.empty()) return stroke.kind == "boundary" ? Own{kTouch, kBeforeBorder} : Own{kOnHost, kInfinity};
+    const bool is_of_shape =
+        stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
+    return is_of_shape ? Own{kOnHost, kInfinity} : Own();
   }
 
   // How far beside a stretch of a line rays may be aimed: what is seen there is to be seen on the stretch too.
@@ -493,8 +507,8 @@ class Drawing {
   }
   Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }
 
-  // How many sheets a point lies behind; those nearer than `touch` are its own.
-  int layers_before(const Vec3& point, double touch = kTouch) {
+  // How many sheets a point lies behind.
+  int layers_before(const Vec3& point, const Own& own = {}) {
     ++result_.statistics.rays;
     const PicturePoint at = camera_.project(point);
     Ray ray = camera_.ray(at.x, at.y);
@@ -503,8 +517,9 @@ class Drawing {
     for (const Hit& hit : world_.all_hits(ray)) {
       if (!(hit.t < at.depth)) continue;
       const SurfacePoint met = world_.surface_point(ray, hit);
-      const double across = std::abs((hit.t - at.depth) * glm::dot(ray.direction, met.geometric_normal));
-      if (across > touch * world_.radius() + 4 * met.error) ++layers;
+      const double along = at.depth - hit.t, across = along * std::abs(glm::dot(ray.direction, met.geometric_normal));
+      const auto passes = [&](double near) { return across <= near * world_.radius() + 4 * met.error; };
+      if (!passes(kOnHost) && !(passes(own.across) && along <= own.along * world_.radius())) ++layers;
     }
     return layers;
   }
@@ -537,12 +552,17 @@ class Drawing {
       pieces.push_back({t, layers});
   }
 
-  // Layers at places of a stretch.
+  // Layers at places of a stretch: not so near its ends, where they can be farther, that rays nearly touch what ends
+  // it.
   std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double aside) {
+    const ProjectedCurve& curve = *curves_[line];
+    const Vec2 middle = curve.point(t.middle());
+    const double pixels = glm::length(curve.point(t.lo) - middle) + glm::length(curve.point(t.hi) - middle);
+    const double first = kFromEnds < 0.5 * pixels ? std::max(0.17, kFromEnds / pixels) : 0.5;
     std::vector<std::pair<double, int>> seen;
-    for (const double share : {0.17, 0.5, 0.83}) {
+    for (const double share : {first, 0.5, 1 - first}) {
       const double at = t.lo + share * t.width();
-      seen.emplace_back(at, layers_at(line, at, aside));
+      if (seen.empty() || at > seen.back().first) seen.emplace_back(at, layers_at(line, at, aside));
     }
     return seen;
   }
