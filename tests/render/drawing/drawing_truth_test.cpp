@@ -330,19 +330,47 @@ TEST(DrawingTruth, CrossingSheets) {
   expect_right(found, "sheets", true);
 }
 
-TEST(DrawingTruth, Teapot) {
+SurfaceSet teapot() {
   const auto file = std::filesystem::path(LEKALO_SOURCE_DIR) / "tools/benchmarks/scenes/teapot_lines.yaml";
-  const auto loaded = load_scene(file);
-  const SurfaceSet teapot = std::get<SurfaceSet>(loaded.model->objects.front().shape);
+  return std::get<SurfaceSet>(load_scene(file).model->objects.front().shape);
+}
+
+TEST(DrawingTruth, Teapot) {
+  const SurfaceSet patches = teapot();
   Views views(47);
   Found found;
   for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
     SmallScene scene;
-    show(scene, teapot, {"boundary", "silhouette"});
+    show(scene, patches, {"boundary", "silhouette"});
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of_patches(teapot), views, found, 2);
+    Truth(*scene.world(), sheets_of_patches(patches), views, found, 2);
   }
   expect_right(found, "teapot", true);
+}
+
+// Views in which a border goes round the patches on both of its sides within a tenth of a pixel, and the sheet before
+// it is hardly farther from it than rounding.
+TEST(DrawingTruth, BordersThatGoRoundBothPatches) {
+  const SurfaceSet patches = teapot();
+  Views views(48);
+  Found found;
+  const Vec3 looks[][2] = {
+      {{-2.3881252886757931, 0.053492772792936398, 8.3183028872178575},
+       {0.89759782110730879, -0.21234445094578325, 0.3863003827281889}},
+      {{-0.63754637014392401, -3.2642124343280052, 12.534762215298167},
+       {-0.018027148372679158, -0.57222453054955569, -0.81989884044245986}},
+      {{4.259357131986147, -2.7276068707000864, 5.0691975375063798},
+       {-0.6546759361853034, -0.35223679148883635, 0.66882633119633295}},
+  };
+  for (const auto& [from, up] : looks) {
+    SmallScene scene;
+    show(scene, patches, {"boundary", "silhouette"});
+    scene.model.film.width = 600;
+    scene.model.film.height = 500;
+    scene.model.camera = make_camera(ParallelView{from, {0, 0, 0}, up, 8}, 600, 500);
+    Truth(*scene.world(), sheets_of_patches(patches), views, found, 2);
+  }
+  expect_right(found, "borders", true);
 }
 
 }  // namespace
