@@ -40,7 +40,9 @@ class Asking {
   CsgBoundary boundary() {
     if (question_.touching && on_square(kAsideOfContact * question_.reach, kSharpAtContact) == CsgBoundary::sharp_edge)
       return CsgBoundary::sharp_edge;
-    const CsgBoundary found = on_square(kAside * size_, kSharp);
+    // So large that the solid takes the sides of a thin wedge for two crossings too.
+    const double half = kAside * size_ / (question_.sine > kSharp ? question_.sine : 1);
+    const CsgBoundary found = on_square(half, kSharp);
     return found == CsgBoundary::face && question_.smooth && bends_change() ? CsgBoundary::smooth_edge : found;
   }
 

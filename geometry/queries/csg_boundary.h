@@ -18,6 +18,7 @@ struct CsgBoundaryQuestion {
   Vec3 point{0};
   Vec3 tangent{0};        // of the line; of any length but zero
   double reach = 1;       // the length along which lines and surfaces about the point hardly bend, or less
+  double sine = 1;        // of the angle at which the line's surfaces meet; 1 where it is not known
   bool touching = false;  // surfaces touch along the line: as far as they are one crossing, the square is larger
   bool smooth = false;    // whether faces and smooth edges need to be told apart
 };

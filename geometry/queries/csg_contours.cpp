@@ -402,12 +402,24 @@ class Lines {
     return cuts;
   }
 
+  // Of the angle at which the surfaces of a line meet there; 1 where they are not known.
+  static double sine_at(const CsgLine& line, double t) {
+    if (line.hosts.size() != 2 || !line.hosts[0].image || !line.hosts[1].image) return 1;
+    const auto normal = [&](const CsgLine::Host& host) {
+      const Vec3 uv = host.image->point(t);
+      return host.surface->normal(uv.x, uv.y);
+    };
+    return glm::length(glm::cross(normal(line.hosts[0]), normal(line.hosts[1])));
+  }
+
   // Of a stretch on the boundary: what it is there. Notes faces that are one across it.
   std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) {
-    const CurveJet at = found.line.curve->evaluate(stretch.lo + kAskedAt * stretch.width(), 1);
+    const double place = stretch.lo + kAskedAt * stretch.width();
+    const CurveJet at = found.line.curve->evaluate(place, 1);
     if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
     const bool is_edge = found.line.kind == Kind::sharp;
-    const CsgBoundaryQuestion question{at.d[0], at.d[1], found.reach, found.touching, is_edge && !found.smooth};
+    const CsgBoundaryQuestion question{
+        at.d[0], at.d[1], found.reach, sine_at(found.line, place), found.touching, is_edge && !found.smooth};
     const auto [boundary, faces] = boundary_at(solid_, size_, question);
     if (boundary == CsgBoundary::none) return std::nullopt;
     if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;

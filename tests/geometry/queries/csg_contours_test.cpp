@@ -280,5 +280,21 @@ TEST(CsgLines, LeftOut) {
   EXPECT_EQ(found.left_out, std::set<std::string>{"some edges along which a tube goes through itself"});
 }
 
+// The hollow of a ball in a cube, filled to a little below the ball's lowest place: the wedges that are left are thin.
+TEST(CsgLines, EdgesOfThinWedges) {
+  const double edges_of_cube = 24, radius = 0.5;
+  for (const double depth : {0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const auto hollow =
+        std::make_shared<Csg>(Operation::subtract, std::vector<ShapePtr>{cube(), ball_at({0, 0, 0}, radius)});
+    const ShapePtr fill = shape_of(box(frame_from({-0.9, -0.9, -0.9}, {0, 0, 1}, {1, 0, 0}), {1.8, 1.8, 0.4 + depth}));
+    const Csg solid(Operation::unite, {hollow, fill});
+    EXPECT_NEAR(length_of(solid, Kind::sharp), edges_of_cube + kTwoPi * std::sqrt(depth * (2 * radius - depth)), 1e-9)
+        << depth;
+    // The lens that both have in common, whose edges are as thin.
+    const Csg lens(Operation::intersect, {fill, ball_at({0, 0, 0}, radius)});
+    EXPECT_NEAR(length_of(lens, Kind::sharp), kTwoPi * std::sqrt(depth * (2 * radius - depth)), 1e-9) << depth;
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::geometry
