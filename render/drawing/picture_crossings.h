@@ -1,10 +1,10 @@
 // Where curves cross in the picture.
 //
 // Curves are cut into cells that hardly turn (render/lines/projected_curve.h). Two cells whose directions cannot agree
-// cross at most once. Two that meet at ends and lead away to different sides have that place alone. Two that run side by
-// side are apart if their ends and the bounds of how they bend say so; if one bends more than the other they are nearest
-// or deepest in one another at one place: if they are apart there, or touch there, that is all. Others are halved until
-// they are apart, cross once, or are shorter than a ten-thousandth of a pixel: there they touch.
+// cross at most once. Two that meet at ends and lead away to different sides have that place alone. Two that run side
+// by side are apart if their ends and the bounds of how they bend say so; if one bends more than the other they are
+// nearest or deepest in one another at one place: if they are apart there, or touch there, that is all. Others are
+// halved until they are apart, cross once, or are shorter than a ten-thousandth of a pixel: there they touch.
 #pragma once
 
 #include <functional>
