@@ -69,11 +69,6 @@ struct Net {
   Lanes points[kMostSide * kMostSide];
 };
 
-inline void absolute(const Lanes& x, Lanes& result) {
-  using Bits = int64_t __attribute__((vector_size(32)));
-  constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
-  result = (Lanes)((Bits)x & Bits{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
-}
 inline void largest(const Net& net, Size size, Lanes& most) {
   most = Lanes{};
   Lanes of_point;

@@ -61,11 +61,6 @@ Pair magnitude(Pair a) {
   constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
   return (Pair)((Bits)a & Bits{kAllButSign, kAllButSign});
 }
-void to_magnitude(Lanes& a) {
-  using Bits = int64_t __attribute__((vector_size(32)));
-  constexpr int64_t kAllButSign = std::numeric_limits<int64_t>::max();
-  a = (Lanes)((Bits)a & Bits{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
-}
 double largest_of(Pair a) { return std::max(a[0], a[1]); }
 Pair larger_half(const Lanes& a) { return larger(Pair{a[0], a[1]}, Pair{a[2], a[3]}); }
 void twice(Pair a, Lanes& both) { both = Lanes{a[0], a[1], a[0], a[1]}; }
@@ -319,7 +314,7 @@ class NetSearch {
       // J^-1 (next - two) - one, of either.
       const Lanes d = next - two;
       Lanes e = __builtin_shufflevector(d, d, 0, 0, 2, 2) * a2 + __builtin_shufflevector(d, d, 1, 1, 3, 3) * b2 - one;
-      to_magnitude(e);
+      absolute(e, e);
       raise(most, e);
     };
     twice(0.5 * p() * a, a2), twice(0.5 * p() * b, b2);
@@ -354,11 +349,11 @@ class NetSearch {
           d = here - before;
           if (i > 1) {
             dd = d - last;
-            to_magnitude(dd);
+            absolute(dd, dd);
             raise(second, dd);
           }
-          Lanes size = d;
-          to_magnitude(size);
+          Lanes size;
+          absolute(d, size);
           raise(first, size);
         }
       }

@@ -248,7 +248,6 @@ Kiss kiss_of(const ProjectedCurve& a, const ProjectedCurve::Cell& of_a, const Pr
 // The crossings of two cells. Cells that run along one another would touch everywhere: then none is told.
 class CellPair {
  public:
-  using Cell = ProjectedCurve::Cell;
   CellPair(Parts& parts_a, Parts& parts_b) : parts_a_(parts_a), parts_b_(parts_b) {
     cross_parts(0, 0);
     if (runs_along_) common_ = common_part(parts_a[0], parts_b[0]).value_or(parts_a[0].t);

@@ -146,9 +146,9 @@ class Setter {
     return box;
   }
 
-  // Takes the primes at the beginning away.
+  // The primes at the beginning of what stands above, which loses them.
   Box primes(TexNode& above, double scale) const {
-    // {..} or the one thing in it.
+    // What stands in braces is a row in a row.
     if (above.parts.size() == 1 && above.parts[0].kind == Kind::row) above = TexNode(above.parts[0]);
     std::string signs;
     const auto first = above.parts.begin();

@@ -93,8 +93,7 @@ TEST(PictureCrossings, OfCirclesThatTouch) {
 }
 
 // Two arcs that begin at one place, their directions there by some angle apart or the same: go on in one another, turn
-// back (a cusp), or make a corner. Both are less than a quarter of a turn long, so that two chords from the place to
-// one other of both circles are no part of both: that is the only place that both have.
+// back (a cusp), or make a corner. Where they have one direction that place is all that their circles have in common.
 TEST(PictureCrossings, OfArcsThatMeetAtTheirEnds) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -125,8 +124,9 @@ TEST(PictureCrossings, OfArcsThatMeetAtTheirEnds) {
     touching += found.touching > 0;
     const Vec2 place(0.5 * kSize + joint.x, 0.5 * kSize - joint.y);
     if (kind == 2) {
-      // A corner's arcs may cross once more; both circles' other common place is known.
+      // Two circles have two places in common at most.
       EXPECT_GE(found.places.size(), 1u) << k;
+      EXPECT_LE(found.places.size(), 2u) << k;
       EXPECT_TRUE(std::any_of(found.places.begin(), found.places.end(), [&](const Vec2& one) {
         return glm::length(one - place) < 1e-4;
       })) << k;
