@@ -250,7 +250,11 @@ class CellPair {
  public:
   CellPair(Parts& parts_a, Parts& parts_b) : parts_a_(parts_a), parts_b_(parts_b) {
     cross_parts(0, 0);
-    if (runs_along_) common_ = common_part(parts_a[0], parts_b[0]).value_or(parts_a[0].t);
+    if (!runs_along_) return;
+    common_ = common_part(parts_a[0], parts_b[0]);
+    if (common_) return;
+    common_ = parts_a[0].t;
+    change_sides(parts_a[0], parts_b[0]);
   }
   // Where the first runs along the second.
   const std::optional<Interval>& common() const { return common_; }
@@ -303,8 +307,12 @@ class CellPair {
       cross_parts(of_a, first + 1);
     }
   }
-  // The parameter of the place of a part nearest to q, if that is at q.
-  static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
+  // The place of a part nearest to q, and how far q is to the left of it; none if q lies beyond its ends, or farther
+  // beside it than `most`.
+  struct Foot {
+    double t, beside;
+  };
+  static std::optional<Foot> foot_on(const Part& part, const Vec2& q, double most) {
     constexpr int kSteps = 6;
     const double square = glm::dot(part.chord, part.chord);
     double t = part.t.lo + part.t.width() * (square > 0 ? glm::dot(q - part.begin, part.chord) / square : 0.5);
@@ -312,16 +320,20 @@ class CellPair {
       t = part.t.clamp(t);
       const auto at = part.curve->place(t);
       const Vec2 off = q - at.p;
-      if (glm::length(off) <= kOneLine) return t;
       const double speed = glm::length(at.tangent);
-      if (!(speed > 0)) break;
+      if (!(speed > 0)) return glm::length(off) <= kOneLine ? std::optional(Foot{t, 0}) : std::nullopt;
+      const double ahead = glm::dot(off, at.tangent) / speed, beside = cross(at.tangent, off) / speed;
       // The part turns little: it does not come nearer to a place that is farther beside it than ahead.
-      const double ahead = glm::dot(off, at.tangent) / speed, beside = std::abs(cross(off, at.tangent)) / speed;
-      if (beside > kOneLine + 2 * std::abs(ahead)) break;
-      if ((t == part.t.lo && ahead < 0) || (t == part.t.hi && ahead > 0)) break;  // it lies beyond the end
+      if (std::abs(beside) > most + 2 * std::abs(ahead)) break;
+      if (std::abs(ahead) <= kOneLine) return Foot{t, beside};
+      if ((t == part.t.lo && ahead < 0) || (t == part.t.hi && ahead > 0)) break;
       t += ahead / speed;
     }
     return std::nullopt;
+  }
+  static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
+    const std::optional<Foot> foot = foot_on(part, q, kOneLine);
+    return foot && std::abs(foot->beside) <= kOneLine ? std::optional(foot->t) : std::nullopt;
   }
 
   // The stretch of one part that lies on the other: its ends, which are ends of either, and its middle do.
@@ -333,6 +345,35 @@ class CellPair {
       if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
     if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle()))) return common;
     return std::nullopt;
+  }
+
+  // The crossings of parts that are nearly one, or run side by side for long: where the first goes over to the other
+  // side.
+  void change_sides(const Part& a, const Part& b) {
+    constexpr int kPlaces = 256, kHalvings = 50;
+    constexpr double kNoSide = 1e-9;  // pixels
+    const auto foot_of = [&](double t) { return foot_on(b, a.curve->point(t), geometry::kInfinity); };
+    // At a break the curve's own place is that from the right.
+    const Interval range{a.t.lo, geometry::next_down(a.t.hi)};
+    std::optional<double> left, right;  // the last place there, since it changed sides
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double t = range.lo + range.width() * k / kPlaces;
+      const std::optional<Foot> foot = foot_of(t);
+      if (!foot) left = right = std::nullopt;
+      if (!foot || std::abs(foot->beside) <= kNoSide) continue;
+      const bool is_left = foot->beside > 0;
+      std::optional<double>&here = is_left ? left : right, &before = is_left ? right : left;
+      if (before) {
+        Interval change{*before, t};
+        for (int halving = 0; halving < kHalvings; ++halving) {
+          const std::optional<Foot> middle = foot_of(change.middle());
+          (middle && (middle->beside > 0) == is_left ? change.hi : change.lo) = change.middle();
+        }
+        const std::optional<Foot> there = foot_of(change.hi);
+        if (there && std::abs(there->beside) <= kOneLine) found_.push_back({change.hi, there->t, false});
+      }
+      here = t, before = std::nullopt;
+    }
   }
 
   static constexpr int kMostTouching = 16, kMostSteps = 4000;

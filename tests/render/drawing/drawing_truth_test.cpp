@@ -354,20 +354,29 @@ TEST(DrawingTruth, BordersThatGoRoundBothPatches) {
   const SurfaceSet patches = teapot();
   Views views(48);
   Found found;
-  const Vec3 looks[][2] = {
-      {{-2.3881252886757931, 0.053492772792936398, 8.3183028872178575},
-       {0.89759782110730879, -0.21234445094578325, 0.3863003827281889}},
-      {{-0.63754637014392401, -3.2642124343280052, 12.534762215298167},
-       {-0.018027148372679158, -0.57222453054955569, -0.81989884044245986}},
-      {{4.259357131986147, -2.7276068707000864, 5.0691975375063798},
-       {-0.6546759361853034, -0.35223679148883635, 0.66882633119633295}},
+  const auto parallel = [](const Vec3& from, const Vec3& up) {
+    return make_camera(ParallelView{from, {0, 0, 0}, up, 8}, 600, 500);
   };
-  for (const auto& [from, up] : looks) {
+  const CameraPtr looks[] = {
+      parallel({-2.3881252886757931, 0.053492772792936398, 8.3183028872178575},
+               {0.89759782110730879, -0.21234445094578325, 0.3863003827281889}),
+      parallel({-0.63754637014392401, -3.2642124343280052, 12.534762215298167},
+               {-0.018027148372679158, -0.57222453054955569, -0.81989884044245986}),
+      parallel({4.259357131986147, -2.7276068707000864, 5.0691975375063798},
+               {-0.6546759361853034, -0.35223679148883635, 0.66882633119633295}),
+      // Two borders run within 1e-4 pixels from a corner of patches to where they cross.
+      make_camera(PerspectiveView{{-1.0124405364578373, -5.5687574570734331, -6.7529161476931652},
+                                  {0, 0, 0},
+                                  {-0.46861062856179164, -0.76549182463477961, -0.44093802877075411},
+                                  1},
+                  600, 500),
+  };
+  for (const CameraPtr& look : looks) {
     SmallScene scene;
     show(scene, patches, {"boundary", "silhouette"});
     scene.model.film.width = 600;
     scene.model.film.height = 500;
-    scene.model.camera = make_camera(ParallelView{from, {0, 0, 0}, up, 8}, 600, 500);
+    scene.model.camera = look;
     Truth(*scene.world(), sheets_of_patches(patches), views, found, 2);
   }
   expect_right(found, "borders", true);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 
+#include "geometry/curves/bezier_curve.h"
 #include "geometry/curves/circle.h"
 #include "render/cameras/cameras.h"
 #include "support/tier.h"
@@ -142,6 +143,37 @@ TEST(PictureCrossings, OfArcsThatMeetAtTheirEnds) {
       EXPECT_LT(glm::length(one - place), kind == 0 ? 1e-4 : std::sqrt(2 * 1e-4 / apart) + 1e-4) << k;
   }
   tests::report_figure("joints_that_touch", touching);
+}
+
+// Two curves that begin at one place in one direction, bent by curvatures that differ little, run within some 1e-4 to
+// 1e-7 pixels of one another and cross: y = b x^2 and y = b x^2 + c x^2 (x - x1).
+TEST(PictureCrossings, OfCurvesThatCrossAtNearlyNoAngle) {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double largest = 0;
+  for (int k = 0; k < tests::tier_count(40000, 400); ++k) {
+    const double turn = geometry::kTwoPi * unit(random), length = 10, bend = 0.02 * unit(random);
+    const Vec3 way(std::cos(turn), std::sin(turn), 0), side(-way.y, way.x, 0);
+    const Vec3 begin(40 * unit(random) - 20, 40 * unit(random) - 20, 0);
+    const double crossing = 0.3 + 2 * unit(random), depth = std::pow(10, -4 - 3 * unit(random));
+    const double third = 27 * depth / (4 * std::pow(crossing, 3));
+    // b x^2 + a x^3 has the blossom b (x1 x2 + x2 x3 + x3 x1)/3 + a x1 x2 x3.
+    const auto graph = [&](double b, double a) {
+      std::vector<Vec3> net;
+      const double ordinates[] = {0, 0, b * length * length / 3, b * length * length + a * std::pow(length, 3)};
+      for (int i = 0; i <= 3; ++i) net.push_back(begin + length * i / 3 * way + ordinates[i] * side);
+      return std::make_shared<geometry::NurbsCurve>(geometry::bezier_curve(net));
+    };
+    const auto line = graph(bend, 0), curve = graph(bend - third * crossing, third);
+    const Found found = k % 2 ? crossings(curve, line) : crossings(line, curve);
+    const Vec3 at = begin + crossing * way + bend * crossing * crossing * side;
+    const Vec2 place(0.5 * kSize + at.x, 0.5 * kSize - at.y);
+    double off = geometry::kInfinity;
+    for (const Vec2& one : found.places) off = std::min(off, glm::length(one - place));
+    EXPECT_LT(off, 1e-4) << k << ": " << found.places.size();
+    largest = std::max(largest, off);
+  }
+  tests::report_figure("largest_error_pixels", largest);
 }
 
 // Circles about one place whose radii differ by 1e-3 to 1 pixels run side by side all around.
