@@ -6,18 +6,14 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <set>
 
-#include "geometry/queries/box_tree.h"
 #include "geometry/queries/contour_approximation.h"
-#include "geometry/queries/csg_leaves.h"
-#include "geometry/queries/curve_entries.h"
 #include "geometry/queries/curve_intersections.h"
-#include "geometry/queries/mesh_contours.h"
-#include "geometry/queries/passages.h"
 #include "geometry/queries/sight_turns.h"
 #include "geometry/transformed.h"
+#include "render/drawing/covering_layers.h"
 #include "render/drawing/picture_crossings.h"
+#include "render/drawing/piercings.h"
 
 namespace lekalo::render {
 
@@ -25,33 +21,13 @@ using namespace geometry;
 
 namespace {
 
-// A sheet that passes nearer than this to a point of a line, of the scene's radius, is that on which the line lies.
-constexpr double kTouch = 1e-9;
-// The same of a line that is known to lie on a surface, as exactly as lines are found: where it goes round the surface
-// another sheet comes near.
-constexpr double kOnHost = 2e-12;
-// Rays to a border are aimed a little inside of it, and a surface that joins there may lie before it, but not by more
-// than this along the way of sight, of the radius: a sheet that goes round near the border does.
-constexpr double kBeforeBorder = 1e-7;
 // Events nearer than this part of a curve's domain are one.
 constexpr double kSameEvent = 1e-9;
 // A line that goes round its surface touches the outline in the picture, which is found to so many pixels.
 constexpr double kSameTurn = 5e-4;
 // Pieces of a curve go on in one another if their directions, and their ends, of the curve's length, differ by no more.
 constexpr double kSmooth = 1e-7;
-// Where one singular value of (s_u, s_v), over the domain's widths, is so small a part of the other the surface has no
-// normal.
-constexpr double kNoNormal = 1e-6;
-// How far beside a line rays are aimed, of the scene's radius; and how much an outline's surface must bend along the
-// way of sight for that, times the radius.
-constexpr double kAside = 1e-6, kLeastAside = 1e-11, kBends = 1e-9;
-// Inside of a border, of the domain: enough that a ray need not be found to meet the border itself, and less than
-// kBeforeBorder, as another surface that joins it there may lie before it.
-constexpr double kInside = 1e-12;
-constexpr double kShareAside = 1e-3;  // of a stretch's length
-constexpr double kNearer = 1e-2;      // of that, once more and again, where rays disagree
-// A face whose normal stands across the sight but for this is seen edge-on.
-constexpr double kEdgeOn = 1e-9;
+constexpr double kNearer = 1e-2;  // rays are aimed by that nearer to a line where they disagree, again and again
 // Nearer to the end of a stretch, in pixels, a ray through a line that goes round its surface there may miss both
 // sheets.
 constexpr double kFromEnds = 0.02;
@@ -59,16 +35,8 @@ constexpr double kFromEnds = 0.02;
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
-// A stretch of a line as near to a surface, of the scene's radius, is told by rays; after a few of them it may run
-// along the surface.
+// Lines nearer to one another, of the scene's radius, lie on one another.
 constexpr double kNear = 1e-7;
-constexpr int kFewTouches = 6, kManyPairs = 400000;
-
-// Which sheets before a point of a line are those on which it lies, of the scene's radius: those that pass it so near,
-// and no farther before it along the way of sight.
-struct Own {
-  double across = kTouch, along = kInfinity;
-};
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -77,7 +45,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 class Drawing {
  public:
   Drawing(const World& world, const std::function<void(double)>& progress)
-      : world_(world), camera_(*world.model().camera), progress_(progress) {}
+      : world_(world), camera_(*world.model().camera), progress_(progress), layers_(world) {}
 
   VisibleLines run(LineWork work) {
     auto begin = std::chrono::steady_clock::now();
@@ -90,6 +58,7 @@ class Drawing {
       strokes_.push_back(std::move(stroke));
     }
     find_repeated_lines();
+    piercings_.emplace(world_, strokes_);
     std::vector<const ProjectedCurve*> outlines;
     for (size_t k = 0; k < strokes_.size(); ++k)
       if (strokes_[k].outlines) outlines.push_back(curves_[k].get()), outline_of_.push_back(static_cast<int>(k));
@@ -111,13 +80,14 @@ class Drawing {
     }
     for (const Mark& mark : work.marks) {
       const PicturePoint at = camera_.project(mark.point);
-      if (at.visible_side) result_.marks.push_back({mark, {at.x, at.y}, layers_before(mark.point)});
+      if (at.visible_side) result_.marks.push_back({mark, {at.x, at.y}, layers_.before(mark.point)});
     }
     for (PointText& text : work.texts) {
       const PicturePoint at = camera_.project(text.point);
-      const int layers = text.hidden_opacity < 1 ? layers_before(text.point) : 0;
+      const int layers = text.hidden_opacity < 1 ? layers_.before(text.point) : 0;
       if (at.visible_side) result_.texts.push_back({std::move(text), {at.x, at.y}, layers});
     }
+    result_.statistics.rays = layers_.rays();
     return std::move(result_);
   }
 
@@ -132,7 +102,7 @@ class Drawing {
   // along a border, all of it, crosses it nowhere.
   void find_repeated_lines() {
     constexpr int kPlaces = 4;
-    const double same = kOnHost * world_.radius();
+    const double same = CoveringLayers::kOnHost * world_.radius();
     using Places = std::array<Vec3, kPlaces + 1>;
     std::vector<std::pair<Places, int>> lines;
     for (size_t k = 0; k < strokes_.size(); ++k) {
@@ -175,7 +145,10 @@ class Drawing {
     const std::vector<double>& own = own_outlines_of(line);
     events.insert(events.end(), own.begin(), own.end());
     add_outlines_of_twins(line, events);
-    add_piercings(line, events);
+    add_self_piercings(stroke, events);
+    std::vector<const Stroke*> along;
+    for (const int twin : twins_[line]) along.push_back(&strokes_[twin]);
+    piercings_->add(stroke, along, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
     // a place is known better than as a crossing.
     std::vector<Vec2> known;
@@ -197,7 +170,7 @@ class Drawing {
       ++result_.statistics.crossings;
       const int outline = outline_of_[other];
       if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(crossing.t)) return;
-      const double near = kTouch * world_.radius();
+      const double near = CoveringLayers::kTouch * world_.radius();
       if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
         events.push_back(crossing.t);
     });
@@ -227,7 +200,7 @@ class Drawing {
     if (stroke.kind == "silhouette") return;  // it is one
     const Affine back = stroke.to_world.inverse();
     const ViewOf view = camera_.is_parallel() ? ViewOf{false, back.direction(camera_.view_direction())}
-                                              : ViewOf{true, back.point(eye())};
+                                              : ViewOf{true, back.point(layers_.eye())};
     for (const Stroke::Host& host : stroke.hosts)
       add_sight_turns(*stroke.curve, *host.surface, *host.image, view, events);
   }
@@ -258,35 +231,6 @@ class Drawing {
         if (meets(t)) events.push_back(t);
       }
     }
-  }
-
-  // Where it meets other surfaces.
-  void add_piercings(int line, std::vector<double>& events) {
-    const Stroke& stroke = strokes_[line];
-    prepare_surfaces();
-    add_self_piercings(stroke, events);
-    const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
-    const Box3 box = bounds(*curve);
-    add_shape_entries(*curve, box, stroke, events);
-    std::optional<CurveCells> cells;
-    tree_.around(box, [&](int number) {
-      WorldSurface& other = surfaces_[number];
-      const auto lies_on_it = [&](const Stroke& one) {
-        return std::any_of(one.hosts.begin(), one.hosts.end(), [&](const Stroke::Host& host) {
-          return host.surface == other.original && one.object == other.object;
-        });
-      };
-      if (lies_on_it(stroke) ||
-          std::any_of(twins_[line].begin(), twins_[line].end(), [&](int twin) { return lies_on_it(strokes_[twin]); }))
-        return;
-      if (!cells) cells.emplace(*curve);
-      if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
-      const double near = kNear * world_.radius();
-      if (add_passages(*cells, *other.cells, near, kFewTouches, kManyPairs, events) || lies_on(*curve, other) ||
-          add_passages(*cells, *other.cells, near, kManyPairs, kManyPairs, events))
-        return;
-      for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) events.push_back(meeting.t);
-    });
   }
 
   // Where it meets the lines in which a surface on which it lies goes through itself.
@@ -336,194 +280,6 @@ class Drawing {
     return t;
   }
 
-  // Where a curve enters or leaves shapes that no surfaces describe.
-  void add_shape_entries(const Curve& curve, const Box3& box, const Stroke& stroke, std::vector<double>& events) const {
-    for (const WorldShape& other : shapes_)
-      if (other.object != stroke.object && other.object != stroke.met && BoxTree::meets(other.box, box))
-        add_entries(curve, other.box, world_.radius(), other.add_hits, events);
-  }
-
-  // Shapes whose boundary is not made of parametric surfaces.
-  struct WorldShape {
-    Box3 box;
-    int object;
-    ChordHits add_hits;
-  };
-
-  struct WorldSurface {
-    SurfacePtr surface, original;
-    int object;
-    std::unique_ptr<SurfaceCells> cells;  // when they are first asked for
-  };
-
-  // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.
-  bool lies_on(const Curve& curve, WorldSurface& other) const {
-    const Interval domain = curve.domain();
-    for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58})
-      if (!other.cells->holds(curve.point(domain.lo + x * domain.width()), kTouch * world_.radius())) return false;
-    return true;
-  }
-
-  void prepare_surfaces() {
-    if (prepared_) return;
-    prepared_ = true;
-    std::vector<Box3> boxes;
-    std::set<std::pair<const Surface*, int>> known;
-    for (size_t k = 0; k < strokes_.size(); ++k)
-      for (const Stroke::Host& host : strokes_[k].hosts) {
-        if (!host.surface->bounded() || !known.insert({host.surface.get(), strokes_[k].object}).second) continue;
-        const SurfacePtr placed = transformed(host.surface, strokes_[k].to_world);
-        boxes.push_back(bounds(*placed));
-        surfaces_.push_back({placed, host.surface, strokes_[k].object, nullptr});
-      }
-    tree_ = BoxTree(boxes);
-    const auto visit = [&](const auto& self, const std::vector<Object>& objects, const Affine& to_world) -> void {
-      for (const Object& object : objects) {
-        const Affine map = to_world * object.transform;
-        if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
-        if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
-        const auto& all = world_.objects();
-        const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
-        if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
-          const ShapePtr placed = transformed(*shape, map);
-          shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
-                               std::vector<SurfaceHit> found;
-                               placed->all_hits(chord, {0, 1}, found);
-                               for (const SurfaceHit& hit : found) hits.push_back(hit.t);
-                             }});
-        }
-        if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
-          const auto placed = std::make_shared<MeshTriangles>(std::make_shared<Mesh>(transformed(**mesh, map)));
-          shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
-                               placed->add_crossings(chord, {0, 1}, hits);
-                             }});
-        }
-      }
-    };
-    visit(visit, world_.model().objects, Affine());
-  }
-
-  static bool has_surfaces(const Shape& shape) {
-    const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
-    const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
-    if (!solid) return false;
-    const std::vector<CsgLeaf> leaves = csg_leaves(*solid);
-    return std::none_of(leaves.begin(), leaves.end(), [](const CsgLeaf& leaf) { return leaf.shape != nullptr; });
-  }
-
-  int layers_at(int line, double t, double aside) {
-    const Stroke& stroke = strokes_[line];
-    const Own own = own_sheets(stroke);
-    const std::optional<Vec3> across = normal_seen_edge_on(line, t);
-    if (!across) return layers_before(probe(line, t, aside), own);
-    // Rays would run along the face. What it is the outline of hides the line on one side alone.
-    const Vec3 exact = curves_[line]->tangent(t).origin, by = aside * world_.radius() * *across;
-    return std::min(layers_before(exact + by, own), layers_before(exact - by, own));
-  }
-
-  // Of a surface on which a line lies, where it is seen edge-on.
-  std::optional<Vec3> normal_seen_edge_on(int line, double t) const {
-    const Stroke& stroke = strokes_[line];
-    if (stroke.kind == "silhouette") return std::nullopt;
-    for (const Stroke::Host& host : stroke.hosts) {
-      const Vec3 uv = host.image->point(t);
-      const Vec3 normal = glm::normalize(stroke.to_world.normal(host.surface->normal(uv.x, uv.y)));
-      const Vec3 sight =
-          camera_.is_parallel() ? camera_.view_direction() : glm::normalize(curves_[line]->tangent(t).origin - eye());
-      if (std::abs(glm::dot(normal, sight)) < kEdgeOn) return normal;
-    }
-    return std::nullopt;
-  }
-
-  Own own_sheets(const Stroke& stroke) const {
-    if (stroke.met != -2) return {};
-    // Known to lie on what they belong to as exactly as lines are found, the surfaces given or not.
-    if (!stroke.hosts.empty()) return stroke.kind == "boundary" ? Own{kTouch, kBeforeBorder} : Own{kOnHost, kInfinity};
-    const bool is_of_shape =
-        stroke.object >= 0 && std::holds_alternative<ShapePtr>(world_.objects()[stroke.object]->shape);
-    return is_of_shape ? Own{kOnHost, kInfinity} : Own();
-  }
-
-  // How far beside a stretch of a line rays may be aimed: what is seen there is to be seen on the stretch too.
-  double room_beside(int line, const Interval& t) const {
-    const Vec2 chord = curves_[line]->place(t.hi).p - curves_[line]->place(t.lo).p;
-    const double length = glm::length(chord) * camera_.pixel_size(curves_[line]->tangent(t.middle()).origin);
-    return std::clamp(kShareAside * length / world_.radius(), kLeastAside, kAside);
-  }
-
-  // The point at which a ray is aimed for a point of a line. Rays along an outline touch its surface, and rays to a
-  // border of a surface meet it or not: both are found slowly, so that they are aimed a little outside of the outline,
-  // where its surface does not go, and a little inside of the border.
-  Vec3 probe(int line, double t, double aside) const {
-    const Stroke& stroke = strokes_[line];
-    const Vec3 exact = curves_[line]->tangent(t).origin;
-    if (stroke.aside) {
-      const Vec3 out = stroke.to_world.direction(stroke.aside->point(t));
-      return exact + aside * world_.radius() / glm::length(out) * out;
-    }
-    if (stroke.hosts.size() != 1) return exact;
-    const Surface& surface = *stroke.hosts[0].surface;
-    Vec3 uv = stroke.hosts[0].image->point(t);
-    if (stroke.kind == "silhouette") {
-      const SurfaceJet s = surface.evaluate(uv.x, uv.y, 2);
-      const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
-      const double area = e * g - f * f;
-      const Rectangle domain = surface.domain();
-      const double wide = domain.u.width() * domain.u.width(), high = domain.v.width() * domain.v.width(),
-                   largest = kNoNormal * std::max(e * wide, g * high);
-      if (!(area * wide * high > largest * largest)) return beside_cuspidal_edge(stroke, exact, s, aside);
-      const Affine back = stroke.to_world.inverse();
-      const Vec3 sight =
-          glm::normalize(back.direction(camera_.is_parallel() ? camera_.view_direction() : exact - eye()));
-      const Vec3 normal = glm::normalize(glm::cross(s.du(), s.dv()));
-      // The way of sight is tangent, sight = a s_u + b s_v: the surface bends to one side along it.
-      const double x = glm::dot(sight, s.du()), y = glm::dot(sight, s.dv());
-      const double a = (g * x - f * y) / area, b = (e * y - f * x) / area;
-      const double bend = glm::dot(normal, s.duu() * a * a + 2.0 * s.duv() * a * b + s.dvv() * b * b);
-      const double size = world_.radius();
-      if (!(std::abs(bend) * size > kBends)) return exact;
-      const Vec3 out = stroke.to_world.direction(bend > 0 ? -normal : normal);
-      return exact + aside * size / glm::length(out) * out;
-    }
-    if (stroke.kind != "boundary" || std::holds_alternative<BodyPtr>(world_.objects()[stroke.object]->shape))
-      return exact;
-    const Rectangle domain = surface.domain();
-    const double inside = std::min(aside, kInside);
-    uv.x += inside * (domain.u.middle() - uv.x), uv.y += inside * (domain.v.middle() - uv.y);
-    return stroke.to_world.point(surface.point(uv.x, uv.y));
-  }
-
-  // Where s_u and s_v are parallel, a s_u + b s_v = 0, both sheets go away from the edge along the second derivative in
-  // that direction of the parameters.
-  Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const SurfaceJet& s, double aside) const {
-    const bool by_u = glm::length(s.du()) > glm::length(s.dv());
-    const Vec3 along = by_u ? s.du() : s.dv();
-    const double square = glm::dot(along, along), share = glm::dot(s.du(), s.dv()) / square;
-    if (!(square > 0)) return exact;
-    const double a = by_u ? -share : 1, b = by_u ? 1 : -share;
-    Vec3 away = s.duu() * a * a + 2.0 * s.duv() * a * b + s.dvv() * b * b;
-    away = stroke.to_world.direction(away - glm::dot(away, along) / square * along);
-    return glm::length(away) > 0 ? exact - aside * world_.radius() / glm::length(away) * away : exact;
-  }
-  Vec3 eye() const { return camera_.ray(0.5 * camera_.width(), 0.5 * camera_.height()).origin; }
-
-  // How many sheets a point lies behind.
-  int layers_before(const Vec3& point, const Own& own = {}) {
-    ++result_.statistics.rays;
-    const PicturePoint at = camera_.project(point);
-    Ray ray = camera_.ray(at.x, at.y);
-    ray.t_max = at.depth;
-    int layers = 0;
-    for (const Hit& hit : world_.all_hits(ray)) {
-      if (!(hit.t < at.depth)) continue;
-      const SurfacePoint met = world_.surface_point(ray, hit);
-      const double along = at.depth - hit.t, across = along * std::abs(glm::dot(ray.direction, met.geometric_normal));
-      const auto passes = [&](double near) { return across <= near * world_.radius() + 4 * met.error; };
-      if (!passes(kOnHost) && !(passes(own.across) && along <= own.along * world_.radius())) ++layers;
-    }
-    return layers;
-  }
-
   std::vector<VisiblePiece> pieces_of(int line, std::vector<double> events) {
     const Interval domain = strokes_[line].curve->domain();
     const double same = kSameEvent * domain.width();
@@ -552,6 +308,8 @@ class Drawing {
       pieces.push_back({t, layers});
   }
 
+  int layers_at(int line, double t, double aside) { return layers_.before(strokes_[line], *curves_[line], t, aside); }
+
   // Layers at places of a stretch: not so near its ends, where they can be farther, that rays nearly touch what ends
   // it.
   std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double aside) {
@@ -572,9 +330,9 @@ class Drawing {
 
   void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
     // Where rays disagree they may be aimed too far beside a line that hardly leaves another; then nearer ones agree.
-    const double aside = room_beside(line, t);
+    const double aside = layers_.room_beside(*curves_[line], t);
     std::vector<std::pair<double, int>> seen = seen_on(line, t, aside);
-    for (double nearer = kNearer * aside; !agree(seen) && nearer > kLeastAside; nearer *= kNearer) {
+    for (double nearer = kNearer * aside; !agree(seen) && nearer > CoveringLayers::kLeastAside; nearer *= kNearer) {
       std::vector<std::pair<double, int>> again = seen_on(line, t, nearer);
       if (agree(again)) seen = std::move(again);
     }
@@ -601,10 +359,8 @@ class Drawing {
   std::vector<int> outline_of_;
   std::vector<std::vector<int>> twins_;                           // lines along the whole of which another lies
   std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
-  std::vector<WorldSurface> surfaces_;
-  BoxTree tree_;  // of their boxes
-  std::vector<WorldShape> shapes_;
-  bool prepared_ = false;
+  CoveringLayers layers_;
+  std::optional<Piercings> piercings_;
   VisibleLines result_;
 };
 

@@ -1,0 +1,108 @@
+#include "render/drawing/piercings.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "geometry/queries/csg_leaves.h"
+#include "geometry/queries/curve_intersections.h"
+#include "geometry/queries/mesh_contours.h"
+#include "geometry/transformed.h"
+#include "render/drawing/covering_layers.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// A stretch of a line as near to a surface, of the scene's radius, is told by rays; after a few of them it may run
+// along the surface.
+constexpr double kNear = 1e-7;
+constexpr int kFewTouches = 6, kManyPairs = 400000;
+
+bool has_surfaces(const Shape& shape) {
+  const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
+  const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
+  if (!solid) return false;
+  const std::vector<CsgLeaf> leaves = csg_leaves(*solid);
+  return std::none_of(leaves.begin(), leaves.end(), [](const CsgLeaf& leaf) { return leaf.shape != nullptr; });
+}
+
+}  // namespace
+
+Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : world_(world) {
+  std::vector<Box3> boxes;
+  std::set<std::pair<const Surface*, int>> known;
+  for (const Stroke& stroke : strokes)
+    for (const Stroke::Host& host : stroke.hosts) {
+      if (!host.surface->bounded() || !known.insert({host.surface.get(), stroke.object}).second) continue;
+      const SurfacePtr placed = transformed(host.surface, stroke.to_world);
+      boxes.push_back(bounds(*placed));
+      surfaces_.push_back({placed, host.surface, stroke.object, nullptr});
+    }
+  tree_ = BoxTree(boxes);
+  add_shapes(world.model().objects, Affine());
+}
+
+void Piercings::add_shapes(const std::vector<Object>& objects, const Affine& to_world) {
+  for (const Object& object : objects) {
+    const Affine map = to_world * object.transform;
+    if (const auto* group = std::get_if<GroupPtr>(&object.shape)) add_shapes((*group)->objects, map);
+    if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
+    const auto& all = world_.objects();
+    const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
+    if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
+      const ShapePtr placed = transformed(*shape, map);
+      shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
+                           std::vector<SurfaceHit> found;
+                           placed->all_hits(chord, {0, 1}, found);
+                           for (const SurfaceHit& hit : found) hits.push_back(hit.t);
+                         }});
+    }
+    if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
+      const auto placed = std::make_shared<MeshTriangles>(std::make_shared<Mesh>(transformed(**mesh, map)));
+      shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
+                           placed->add_crossings(chord, {0, 1}, hits);
+                         }});
+    }
+  }
+}
+
+void Piercings::add(const Stroke& stroke, const std::vector<const Stroke*>& along, std::vector<double>& places) {
+  const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
+  const Box3 box = bounds(*curve);
+  for (const PlacedShape& other : shapes_)
+    if (other.object != stroke.object && other.object != stroke.met && BoxTree::meets(other.box, box))
+      add_entries(*curve, other.box, world_.radius(), other.add_hits, places);
+  std::optional<CurveCells> cells;
+  tree_.around(box, [&](int number) {
+    PlacedSurface& other = surfaces_[number];
+    const auto lies_on_it = [&](const Stroke& one) {
+      return std::any_of(one.hosts.begin(), one.hosts.end(), [&](const Stroke::Host& host) {
+        return host.surface == other.original && one.object == other.object;
+      });
+    };
+    if (lies_on_it(stroke) ||
+        std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return lies_on_it(*one); }))
+      return;
+    if (!cells) cells.emplace(*curve);
+    if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
+    const double near = kNear * world_.radius();
+    if (add_passages(*cells, *other.cells, near, kFewTouches, kManyPairs, places) || lies_on(*curve, other) ||
+        add_passages(*cells, *other.cells, near, kManyPairs, kManyPairs, places))
+      return;
+    for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) places.push_back(meeting.t);
+  });
+}
+
+// A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.
+bool Piercings::lies_on(const Curve& curve, const PlacedSurface& other) const {
+  const Interval domain = curve.domain();
+  for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58})
+    if (!other.cells->holds(curve.point(domain.lo + x * domain.width()), CoveringLayers::kTouch * world_.radius()))
+      return false;
+  return true;
+}
+
+}  // namespace lekalo::render

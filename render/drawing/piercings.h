@@ -1,0 +1,45 @@
+// Where a drawing's lines pass through surfaces on which they do not lie.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/queries/box_tree.h"
+#include "geometry/queries/curve_entries.h"
+#include "geometry/queries/passages.h"
+#include "render/lines/strokes.h"
+
+namespace lekalo::render {
+
+class Piercings {
+ public:
+  // Through the surfaces on which the strokes lie, and through shapes and meshes of the world that no surfaces
+  // describe.
+  Piercings(const World& world, const std::vector<Stroke>& strokes);
+
+  // Adds the parameters at which a line passes through one. `along`: lines that lie along it, whose surfaces count as
+  // its own.
+  void add(const Stroke& stroke, const std::vector<const Stroke*>& along, std::vector<double>& places);
+
+ private:
+  struct PlacedSurface {
+    geometry::SurfacePtr surface, original;
+    int object;
+    std::unique_ptr<geometry::SurfaceCells> cells;  // when they are first asked for
+  };
+  // Whose boundary is not made of parametric surfaces.
+  struct PlacedShape {
+    geometry::Box3 box;
+    int object;
+    geometry::ChordHits add_hits;
+  };
+  bool lies_on(const geometry::Curve& curve, const PlacedSurface& other) const;
+  void add_shapes(const std::vector<Object>& objects, const geometry::Affine& to_world);
+
+  const World& world_;
+  std::vector<PlacedSurface> surfaces_;
+  geometry::BoxTree tree_;  // of their boxes
+  std::vector<PlacedShape> shapes_;
+};
+
+}  // namespace lekalo::render
