@@ -284,21 +284,53 @@ class Drawing {
     const Interval domain = strokes_[line].curve->domain();
     const double same = kSameEvent * domain.width();
     std::vector<VisiblePiece> pieces;
-    // The parts inside of the picture: runs of cells.
+    std::sort(events.begin(), events.end());
     const auto& cells = curves_[line]->cells();
     for (size_t first = 0; first < cells.size();) {
       size_t last = first;
       while (last + 1 < cells.size() && cells[last + 1].t.lo == cells[last].t.hi) ++last;
-      const Interval run{cells[first].t.lo, cells[last].t.hi};
-      std::vector<double> cuts{run.lo};
-      std::sort(events.begin(), events.end());
-      for (const double t : events)
-        if (t > cuts.back() + same && t < run.hi - same) cuts.push_back(t);
-      cuts.push_back(run.hi);
-      for (size_t k = 0; k + 1 < cuts.size(); ++k) add_stretch(line, {cuts[k], cuts[k + 1]}, pieces);
+      // What reaches out of the picture goes on as it is at the picture's border: what crosses it there is not known.
+      const size_t before = pieces.size();
+      for (const Interval& part : parts_in_picture(line, first, last)) {
+        if (pieces.size() > before) add_piece({pieces.back().t.hi, part.lo}, pieces.back().layers, pieces);
+        std::vector<double> cuts{part.lo};
+        for (const double t : events)
+          if (t > cuts.back() + same && t < part.hi - same) cuts.push_back(t);
+        cuts.push_back(part.hi);
+        for (size_t k = 0; k + 1 < cuts.size(); ++k) add_stretch(line, {cuts[k], cuts[k + 1]}, pieces);
+      }
+      pieces[before].t.lo = cells[first].t.lo, pieces.back().t.hi = cells[last].t.hi;
       first = last + 1;
     }
     return pieces;
+  }
+
+  // Of a run of cells: what lies between the places where it enters and leaves the picture, with the margin in which
+  // curves are known; all of it if no end of a cell is inside.
+  std::vector<Interval> parts_in_picture(int line, size_t first, size_t last) const {
+    const ProjectedCurve& curve = *curves_[line];
+    const auto is_inside = [&](const Vec2& p) {
+      return p.x >= -kReach && p.y >= -kReach && p.x <= camera_.width() + kReach && p.y <= camera_.height() + kReach;
+    };
+    std::vector<Interval> parts;
+    bool inside = false;
+    const auto& cells = curve.cells();
+    for (size_t k = first; k <= last; ++k) {
+      if (!inside && is_inside(cells[k].begin)) parts.emplace_back(cells[k].t.lo), inside = true;
+      if (is_inside(cells[k].end) != inside) {
+        constexpr int kHalvings = 40;
+        Interval border = cells[k].t;
+        for (int i = 0; i < kHalvings; ++i)
+          (is_inside(curve.place(border.middle()).p) == inside ? border.lo : border.hi) = border.middle();
+        if (!inside) parts.emplace_back(border.hi);
+        inside = !inside;
+        if (!inside) parts.back().hi = border.lo;
+      }
+      if (inside) parts.back().hi = cells[k].t.hi;
+    }
+    std::erase_if(parts, [](const Interval& part) { return !(part.lo < part.hi); });
+    if (parts.empty()) parts.push_back({cells[first].t.lo, cells[last].t.hi});
+    return parts;
   }
 
   static void add_piece(const Interval& t, int layers, std::vector<VisiblePiece>& pieces) {

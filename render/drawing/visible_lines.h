@@ -28,7 +28,8 @@ struct VisiblePiece {
 struct VisibleLine {
   Stroke stroke;
   std::shared_ptr<const ProjectedCurve> curve;  // its picture
-  std::vector<VisiblePiece> pieces;             // inside of the picture, by t
+  // Inside of the picture, by t; what reaches out of it goes on as it is at the picture's border.
+  std::vector<VisiblePiece> pieces;
 };
 struct VisibleMark {
   Mark mark;

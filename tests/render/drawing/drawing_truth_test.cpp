@@ -330,6 +330,26 @@ TEST(DrawingTruth, CrossingSheets) {
   expect_right(found, "sheets", true);
 }
 
+// A picture of a small part of them: lines come into it and leave it, and cross one another outside of it.
+TEST(DrawingTruth, LinesThatLeaveThePicture) {
+  Views views(49);
+  Found found;
+  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+    SmallScene scene;
+    SurfaceSet all;
+    for (int n = 0; n < 3; ++n) {
+      all.push_back(sheet_through_the_middle(views, n == 0));
+      show(scene, SurfaceSet{all.back()}, {"boundary", "silhouette", "parameter"}, 4);
+    }
+    views.look(scene, k % 2);
+    const Vec3 from = 9.0 * views.direction(), at = 0.8 * views.direction(), up = views.direction();
+    scene.model.camera = k % 2 ? make_camera(PerspectiveView{from, at, up, 0.08}, 600, 500)
+                               : make_camera(ParallelView{from, at, up, 0.7}, 600, 500);
+    Truth(*scene.world(), sheets_of_patches(all), views, found, 4);
+  }
+  expect_right(found, "leaving", true);
+}
+
 SurfaceSet teapot() {
   const auto file = std::filesystem::path(LEKALO_SOURCE_DIR) / "tools/benchmarks/scenes/teapot_lines.yaml";
   return std::get<SurfaceSet>(load_scene(file).model->objects.front().shape);

@@ -85,7 +85,7 @@ class Truth {
       const double margin = std::min(away_ * width, 0.25 * piece.t.width());
       for (int i = 0; i < places_; ++i) {
         const double t = random_.number(piece.t.lo + margin, piece.t.hi - margin);
-        if (near_cusp(line, t)) continue;
+        if (near_cusp(line, t) || !is_in_picture(line, t)) continue;
         ++found_.places;
         const int truth = layers(line, t);
         if (truth < 0) ++unclear_of(line);
@@ -94,6 +94,7 @@ class Truth {
         if (found_.wrong_places <= 5) report(line, piece, t, "place");
       }
       if (k + 1 == line.pieces.size() || line.pieces[k + 1].t.lo != piece.t.hi) continue;
+      if (!is_in_picture(line, piece.t.hi)) continue;
       ++found_.transitions;
       const VisiblePiece& next = line.pieces[k + 1];
       const double away = (near_cusp(line, piece.t.hi) ? 2 * kFromCusp : away_) * width;
@@ -110,6 +111,12 @@ class Truth {
       ++found_.wrong_transitions;
       if (found_.wrong_transitions <= 5) report(line, piece, piece.t.hi, "transition");
     }
+  }
+
+  // Outside of it lines go on as they are at its border.
+  bool is_in_picture(const VisibleLine& line, double t) const {
+    const Vec2 place = line.curve->place(t).p;
+    return place.x >= 0 && place.y >= 0 && place.x <= camera_.width() && place.y <= camera_.height();
   }
 
   static bool is_at_end(const VisibleLine& line, const VisiblePiece& piece, double t) {
@@ -158,7 +165,8 @@ class Truth {
     for (const VisiblePiece& one : line.pieces)
       pieces += " [" + std::to_string(one.t.lo) + " " + std::to_string(one.t.hi) + "]:" + std::to_string(one.layers);
     ADD_FAILURE() << "view " << found_.views << (camera_.is_parallel() ? " parallel " : " central ") << what << " of a "
-                  << line.stroke.kind << " at t = " << t << ": " << piece.layers << " layers found, there are "
+                  << line.stroke.kind << " at t = " << t << ", (" << line.curve->place(t).p.x << ", "
+                  << line.curve->place(t).p.y << ") px: " << piece.layers << " layers found, there are "
                   << layers(line, t) << " (before " << layers(line, t - away_ * width) << ", behind "
                   << layers(line, t + away_ * width) << ", 1e-5 away " << layers(line, t - 1e-5 * width) << ", "
                   << layers(line, t + 1e-5 * width) << "); pieces" << pieces;

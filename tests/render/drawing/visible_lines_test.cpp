@@ -120,6 +120,25 @@ TEST(VisibleLines, NeedlesAndABall) {
   EXPECT_EQ(found.lines[2].pieces[0].layers, 0);
 }
 
+// A line of 22 pixels, of which 2 are in the picture, and a box before it that ends one pixel outside of the picture:
+// its edges are not followed there.
+TEST(VisibleLines, InThePictureWhateverIsOutside) {
+  SmallScene scene;
+  show(scene, CurvePtr(std::make_shared<Segment>(Vec3(-320, 0, 0), Vec3(-298, 0, 0))), {"curve"});
+  const Frame corner{{-325, -10, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  show(scene, std::make_shared<Body>(box(corner, {24, 20, 3})), {"sharp"});
+  scene.model.film.width = 600, scene.model.film.height = 500;
+  scene.model.camera = make_camera(ParallelView{{0, 0, 1000}, {0, 0, 0}, {0, 1, 0}, 500}, 600, 500);
+  const auto world = scene.world();
+  const VisibleLines found = visible_lines(*world, drawing_work(*world));
+  for (const VisibleLine& line : found.lines) {
+    if (line.stroke.kind != "curve") continue;
+    EXPECT_NEAR(line.curve->place(1).p.x, 2, 1e-9);
+    EXPECT_EQ(line.pieces.back().layers, 0);
+    EXPECT_LT(line.curve->place(line.pieces.back().t.lo).p.x, 0);
+  }
+}
+
 TEST(FittedPaths, LieOnThePictures) {
   SmallScene scene;
   show(scene, sphere({0, 0, 0}, 2), {"silhouette", "parameter"}, 7);
