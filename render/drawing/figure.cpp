@@ -184,21 +184,43 @@ class ViewDrawing {
   }
 
   SheetGroup line_paths(const VisibleLines& lines, bool hidden) {
-    // Of lines that lie on one another the later ones are drawn, which lie over the earlier: edges, not the parameter
-    // lines along them.
-    std::vector<DrawnLines> found;
+    struct Candidate {
+      const VisibleLine* line;
+      VisiblePiece piece;
+      int rank;
+      double depth;  // of its middle
+      DrawnLines drawn;
+    };
+    // From the last, which lies over the others.
+    std::vector<Candidate> all;
     for (auto line = lines.lines.rbegin(); line != lines.lines.rend(); ++line) {
       if (!line->stroke.drawn || (hidden && !line->stroke.hidden)) continue;
       for (const VisiblePiece& piece : line->pieces)
-        if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers) add_piece(*line, piece, found);
+        if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers)
+          all.push_back({&*line,
+                         piece,
+                         line_rank(line->stroke.kind),
+                         view_.camera.project(line->curve->tangent(piece.t.middle()).origin).depth,
+                         {}});
     }
+    // Of lines that lie on one another in the picture edges are drawn, not the parameter lines along them; of one kind
+    // what is nearer, so that the edges of a face that is seen straight on are its own and meet in its corners.
+    std::vector<Candidate*> order;
+    for (Candidate& one : all) order.push_back(&one);
+    std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
+      return a->rank != b->rank ? a->rank > b->rank : a->depth < b->depth;
+    });
+    for (Candidate* one : order) one->drawn = drawn_piece(*one->line, one->piece);
+    std::vector<DrawnLines> found;
+    for (Candidate& one : all)
+      if (!one.drawn.paths.empty() || !one.drawn.heads.empty()) found.push_back(std::move(one.drawn));
     SheetGroup result = line_groups(std::move(found), hidden, kJoined * world_.radius(), kFitted * view_.millimetres);
     clip(result);
     return result;
   }
 
   // A stretch of a line as far as nothing that has been drawn lies over it, with arrow heads.
-  void add_piece(const VisibleLine& line, const VisiblePiece& piece, std::vector<DrawnLines>& found) {
+  DrawnLines drawn_piece(const VisibleLine& line, const VisiblePiece& piece) {
     const Stroke& stroke = line.stroke;
     const bool hidden = piece.layers > 0;
     // The number of layers before it is one of its classes.
@@ -226,8 +248,9 @@ class ViewDrawing {
     for (const CurvePiece& one : stroke.curve->pieces()) breaks.push_back(one.domain.lo);
     const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
     // Without caps it shows nothing.
-    if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole, kPoint)) return;
-    for (Path& path : overlaps_.left_of(whole)) {
+    if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole, kPoint)) return drawn;
+    const Overlaps::Pen pen{drawn.pen.half_width, drawn.pen.opacity, drawn.pen.dash.empty(), hidden, stroke.object < 0};
+    for (Path& path : overlaps_.left_of(whole, pen)) {
       add_obstacles(path);
       // Where it is cut, or has a head, nothing goes on.
       PathInSpace part;
@@ -236,7 +259,7 @@ class ViewDrawing {
       part.path = std::move(path);
       drawn.paths.push_back(std::move(part));
     }
-    if (!drawn.paths.empty() || !drawn.heads.empty()) found.push_back(std::move(drawn));
+    return drawn;
   }
 
   void add_obstacles(const Path& path) {

@@ -123,9 +123,16 @@ std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
   return numbers;
 }
 
-bool Overlaps::is_covered(const Vec2& place) const {
+bool Overlaps::covers(const Pen& above, const Pen& below) {
+  if (below.hidden && !above.hidden) return true;
+  return above.annotation == below.annotation && above.half_width >= below.half_width &&
+         above.opacity >= below.opacity && (above.solid || !below.solid);
+}
+
+bool Overlaps::is_covered(const Vec2& place, const Pen& pen) const {
   for (const int number : near(place)) {
     const Drawn& one = drawn_[number];
+    if (!covers(one.pen, pen)) continue;
     const double near = kSame + one.bow;
     if (place.x < one.lo.x - near || place.x > one.hi.x + near || place.y < one.lo.y - near ||
         place.y > one.hi.y + near)
@@ -153,7 +160,7 @@ bool Overlaps::comes_near(const Drawn& drawn, size_t number, const Vec2& place) 
   return false;
 }
 
-std::vector<Path> Overlaps::left_of(const Path& given) {
+std::vector<Path> Overlaps::left_of(const Path& given, const Pen& pen) {
   Drawn own;
   own.path = given;
   add_places(own);
@@ -162,6 +169,7 @@ std::vector<Path> Overlaps::left_of(const Path& given) {
     own.path = std::move(*line);
     add_places(own);
   }
+  own.pen = pen;
   const Path path = own.path;
   const bool straight = path.steps.size() == 1 && path.steps[0].kind == PathStep::Kind::line;
   own.straight = straight;
@@ -173,8 +181,8 @@ std::vector<Path> Overlaps::left_of(const Path& given) {
     bool covered = true;
     for (size_t k = 0; k < own.chords.size() && covered; ++k) {
       const Chord& chord = own.chords[k];
-      covered = is_covered(own.places[k]) &&
-                is_covered(point_on(chord.begin, path.steps[chord.step], 0.5 * (chord.from + chord.to)));
+      covered = is_covered(own.places[k], pen) &&
+                is_covered(point_on(chord.begin, path.steps[chord.step], 0.5 * (chord.from + chord.to)), pen);
     }
     if (!covered) left.push_back(path);
   } else {
@@ -186,8 +194,8 @@ std::vector<Path> Overlaps::left_of(const Path& given) {
     std::vector<std::pair<double, double>> covered;
     for (const int number : near(own.places)) {
       const Drawn& one = drawn_[number];
-      if (!one.straight || own.lo.x > one.hi.x + kSame || one.lo.x > own.hi.x + kSame || own.lo.y > one.hi.y + kSame ||
-          one.lo.y > own.hi.y + kSame)
+      if (!one.straight || !covers(one.pen, pen) || own.lo.x > one.hi.x + kSame || one.lo.x > own.hi.x + kSame ||
+          own.lo.y > one.hi.y + kSame || one.lo.y > own.hi.y + kSame)
         continue;
       const auto off = [&](const Vec2& p) {
         return std::abs((p.x - own.from.x) * along.y - (p.y - own.from.y) * along.x);

@@ -1,7 +1,9 @@
 // Lines that lie on one another in the picture are drawn once.
 //
-// Of a straight line what others cover is cut away; of a curve the whole, if others cover all of it. Visible lines come
-// before hidden ones, and lines of an earlier object before those of a later one.
+// Of a straight line what others cover is cut away; of a curve the whole, if others cover all of it. A line that was
+// drawn covers one that is no wider, no more opaque and, unless itself solid, not solid: of a wider one under it
+// something would be missed. What is seen covers all that is hidden. Annotations do not cover lines of objects that are
+// seen, nor these annotations: somebody wants both.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +16,14 @@ namespace lekalo::render {
 
 class Overlaps {
  public:
+  // How a line is drawn.
+  struct Pen {
+    double half_width = 0.5;  // of any unit
+    double opacity = 1;
+    bool solid = true, hidden = false, annotation = false;
+  };
   // What of the path is not drawn yet, in order; it counts as drawn then. Millimetres.
-  std::vector<Path> left_of(const Path& path);
+  std::vector<Path> left_of(const Path& path, const Pen& pen);
 
  private:
   // What a curve does between two of its places.
@@ -28,6 +36,7 @@ class Overlaps {
     Vec2 lo{0}, hi{0};
     bool straight = false;
     Path path;
+    Pen pen;
     std::vector<Vec2> places;   // of a curve, close together
     std::vector<Chord> chords;  // from each place to the next
     double bow = 0;             // how far the curve is from these, at most
@@ -35,7 +44,8 @@ class Overlaps {
   };
   static void add_places(Drawn& drawn);
   static bool comes_near(const Drawn& drawn, size_t chord, const Vec2& place);
-  bool is_covered(const Vec2& place) const;
+  static bool covers(const Pen& above, const Pen& below);
+  bool is_covered(const Vec2& place, const Pen& pen) const;
   // What was drawn near a place; near some line, each once.
   const std::vector<int>& near(const Vec2& place) const;
   std::vector<int> near(const std::vector<Vec2>& places) const;

@@ -345,6 +345,11 @@ std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& se
   return hidden_look(model, seen, hidden, 1, 0);
 }
 
+int line_rank(std::string_view kind) {
+  const auto found = std::find(std::begin(kLinesDrawn), std::end(kLinesDrawn), kind);
+  return found == std::end(kLinesDrawn) ? -1 : static_cast<int>(found - std::begin(kLinesDrawn));
+}
+
 std::optional<Mark::Sign> mark_sign(std::string_view name) {
   const auto found = kSigns.find(name);
   return found == kSigns.end() ? std::nullopt : std::optional(found->second);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/scene/look.h"
@@ -111,6 +112,8 @@ struct LineWork {
 
 // How a style's lines look in a drawing, widths in millimetres; and what lies behind something (none: not drawn), with
 // the dashes of the style `hidden`.
+// Of a kind of lines: the higher is drawn over the lower where they coincide; -1: of helpers and annotations.
+int line_rank(std::string_view kind);
 LineLook drawn_look(const Style& style);
 std::optional<LineLook> drawn_hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden);
 // The sign at points that a scene calls so.

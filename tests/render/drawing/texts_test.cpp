@@ -148,17 +148,18 @@ Path straight(const Vec2& from, const Vec2& to) {
 
 TEST(Overlaps, DrawnOnce) {
   Overlaps overlaps;
-  EXPECT_EQ(overlaps.left_of(straight({0, 0}, {10, 0})).size(), 1u);
-  EXPECT_EQ(overlaps.left_of(straight({9, 0}, {1, 0})).size(), 0u);
-  const auto beyond = overlaps.left_of(straight({-5, 0}, {15, 0}));
+  const auto left_of = [&](const Path& path) { return overlaps.left_of(path, {}); };
+  EXPECT_EQ(left_of(straight({0, 0}, {10, 0})).size(), 1u);
+  EXPECT_EQ(left_of(straight({9, 0}, {1, 0})).size(), 0u);
+  const auto beyond = left_of(straight({-5, 0}, {15, 0}));
   ASSERT_EQ(beyond.size(), 2u);
   EXPECT_EQ(beyond[0].steps[0].to.x, 0);
   EXPECT_EQ(beyond[1].from.x, 10);
-  EXPECT_EQ(overlaps.left_of(straight({0, 0}, {10, 5})).size(), 1u);
+  EXPECT_EQ(left_of(straight({0, 0}, {10, 5})).size(), 1u);
   Path curve;
   curve.steps.push_back(curve_to({3, 4}, {7, 4}, {10, 0}));
-  EXPECT_EQ(overlaps.left_of(curve).size(), 1u);
-  EXPECT_EQ(overlaps.left_of(curve).size(), 0u);
+  EXPECT_EQ(left_of(curve).size(), 1u);
+  EXPECT_EQ(left_of(curve).size(), 0u);
   // A large circle that begins elsewhere, and one a little larger.
   const auto circle = [](double radius, double from) {
     const PictureEllipse ellipse{{100, 100}, {radius, 0}, {0, radius}};
@@ -168,20 +169,45 @@ TEST(Overlaps, DrawnOnce) {
     path.closed = true;
     return path;
   };
-  EXPECT_EQ(overlaps.left_of(circle(60, 0)).size(), 1u);
-  EXPECT_EQ(overlaps.left_of(circle(60, 0.37)).size(), 0u);
-  EXPECT_EQ(overlaps.left_of(circle(60.003, 0.37)).size(), 1u);
+  EXPECT_EQ(left_of(circle(60, 0)).size(), 1u);
+  EXPECT_EQ(left_of(circle(60, 0.37)).size(), 0u);
+  EXPECT_EQ(left_of(circle(60.003, 0.37)).size(), 1u);
   // One that is seen edge-on is a straight line, there and back.
   const PictureEllipse flat{{0, 50}, {8, 6}, {0, 0}};
   Path edge_on;
   edge_on.from = flat.point(1);
   edge_on.steps = arcs_to(flat, 1, 1 + geometry::kTwoPi);
   edge_on.closed = true;
-  const auto line = overlaps.left_of(edge_on);
+  const auto line = left_of(edge_on);
   ASSERT_EQ(line.size(), 1u);
   ASSERT_EQ(line[0].steps.size(), 1u);
   EXPECT_NEAR(glm::length(line[0].end() - line[0].from), 20, 1e-3);
-  EXPECT_EQ(overlaps.left_of(straight({0, 50}, {4, 53})).size(), 0u);
+  EXPECT_EQ(left_of(straight({0, 50}, {4, 53})).size(), 0u);
+}
+
+// What covers another is no thinner, no fainter, and solid if that is; hidden lines are covered by all that are seen.
+TEST(Overlaps, OfLinesOfDifferentPens) {
+  const Path path = straight({0, 0}, {10, 0});
+  const auto covers = [&](const Overlaps::Pen& above, const Overlaps::Pen& below) {
+    Overlaps overlaps;
+    overlaps.left_of(path, above);
+    return overlaps.left_of(path, below).empty();
+  };
+  const Overlaps::Pen thin{.half_width = 0.1}, thick{.half_width = 0.5}, dashed{.half_width = 0.5, .solid = false},
+      faint{.half_width = 0.5, .opacity = 0.5}, hidden{.half_width = 0.5, .solid = false, .hidden = true},
+      annotation{.half_width = 0.5, .annotation = true};
+  EXPECT_TRUE(covers(thick, thin));
+  EXPECT_FALSE(covers(thin, thick));
+  EXPECT_TRUE(covers(thick, dashed));
+  EXPECT_FALSE(covers(dashed, thick));
+  EXPECT_TRUE(covers(dashed, dashed));
+  EXPECT_TRUE(covers(thick, faint));
+  EXPECT_FALSE(covers(faint, thick));
+  EXPECT_TRUE(covers(thin, hidden));
+  EXPECT_FALSE(covers(hidden, thick));
+  EXPECT_FALSE(covers(annotation, thin));
+  EXPECT_FALSE(covers(thick, annotation));
+  EXPECT_TRUE(covers(annotation, annotation));
 }
 
 TEST(Sheets, Formats) {
