@@ -22,6 +22,9 @@ constexpr double kAside = 1e-6, kBends = 1e-9;
 // kBeforeBorder, as another surface that joins it there may lie before it.
 constexpr double kInside = 1e-12;
 constexpr double kShareAside = 1e-3;  // of a stretch's length
+// A sheet no farther across the line than this many times what a ray is aimed beside an outline may touch it: one that
+// bends away from it is twice as far.
+constexpr double kTouched = 8;
 // A face whose normal stands across the sight but for this is seen edge-on.
 constexpr double kEdgeOn = 1e-9;
 
@@ -35,10 +38,17 @@ CoveringLayers::CoveringLayers(const World& world)
 int CoveringLayers::before(const Stroke& stroke, const ProjectedCurve& curve, double t, double aside) {
   const Own own = own_sheets(stroke);
   const std::optional<Vec3> across = normal_seen_edge_on(stroke, curve, t);
-  if (!across) return before(probe(stroke, curve, t, aside), own);
+  if (!across) {
+    const Count count = count_before(probe(stroke, curve, t, aside), own);
+    if (stroke.kind != "silhouette" || !(count.nearest <= kTouched * aside)) return count.layers;
+    // What touches the surface from outside along its outline lies before all that is beside the line, the less the
+    // nearer to it.
+    const Own touching{kTouched * kLeastAside, kInfinity};
+    return std::min(count.layers, count_before(probe(stroke, curve, t, kLeastAside), touching).layers);
+  }
   // Rays would run along the face. What it is the outline of hides the line on one side alone.
   const Vec3 exact = curve.tangent(t).origin, by = aside * world_.radius() * *across;
-  return std::min(before(exact + by, own), before(exact - by, own));
+  return std::min(count_before(exact + by, own).layers, count_before(exact - by, own).layers);
 }
 
 // Of a surface on which a line lies, where it is seen edge-on.
@@ -124,20 +134,22 @@ Vec3 CoveringLayers::beside_cuspidal_edge(const Stroke& stroke, const Vec3& exac
   return glm::length(away) > 0 ? exact - aside * world_.radius() / glm::length(away) * away : exact;
 }
 
-int CoveringLayers::before(const Vec3& point, const Own& own) {
+CoveringLayers::Count CoveringLayers::count_before(const Vec3& point, const Own& own) {
   ++rays_;
   const PicturePoint at = camera_.project(point);
   Ray ray = camera_.ray(at.x, at.y);
   ray.t_max = at.depth;
-  int layers = 0;
+  Count count;
   for (const Hit& hit : world_.all_hits(ray)) {
     if (!(hit.t < at.depth)) continue;
     const SurfacePoint met = world_.surface_point(ray, hit);
     const double along = at.depth - hit.t, across = along * std::abs(glm::dot(ray.direction, met.geometric_normal));
     const auto passes = [&](double near) { return across <= near * world_.radius() + 4 * met.error; };
-    if (!passes(kOnHost) && !(passes(own.across) && along <= own.along * world_.radius())) ++layers;
+    if (passes(kOnHost) || (passes(own.across) && along <= own.along * world_.radius())) continue;
+    ++count.layers;
+    count.nearest = std::min(count.nearest, across / world_.radius());
   }
-  return layers;
+  return count;
 }
 
 }  // namespace lekalo::render

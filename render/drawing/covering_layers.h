@@ -21,7 +21,7 @@ class CoveringLayers {
   explicit CoveringLayers(const World& world);
 
   // Before a point.
-  int before(const Vec3& point) { return before(point, {}); }
+  int before(const Vec3& point) { return count_before(point, {}).layers; }
   // Before the point of a line at t, its curve's parameter. `aside`: how far beside it rays may be aimed, of the
   // scene's radius.
   int before(const Stroke& stroke, const ProjectedCurve& curve, double t, double aside);
@@ -42,7 +42,11 @@ class CoveringLayers {
   std::optional<Vec3> normal_seen_edge_on(const Stroke& stroke, const ProjectedCurve& curve, double t) const;
   Vec3 probe(const Stroke& stroke, const ProjectedCurve& curve, double t, double aside) const;
   Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const geometry::SurfaceJet& s, double aside) const;
-  int before(const Vec3& point, const Own& own);
+  struct Count {
+    int layers = 0;
+    double nearest = geometry::kInfinity;  // of them across the line, of the scene's radius
+  };
+  Count count_before(const Vec3& point, const Own& own);
 
   const World& world_;
   const Camera& camera_;

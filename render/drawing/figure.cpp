@@ -301,7 +301,10 @@ class ViewDrawing {
       label.side = text.side;
       label.distance = text.distance;
       label.kind = text.kind, label.object = name_of(text.object);
-      if (text.leader) label.leader = drawn_look(text.style);
+      if (text.leader) {
+        label.leader = drawn_look(text.style);
+        label.leader->opacity *= opacity;
+      }
       if (text.style.fill) label.box = Brush{rgb(*text.style.fill), 1};
       labels.push_back(std::move(label));
     }

@@ -63,7 +63,10 @@ void add_texts(const std::vector<SheetItem>& items, const Sheet& sheet, std::str
     const Vec2 along(std::cos(text->angle), -std::sin(text->angle));
     const Vec2 at = text->at + text->alignment * text->width * along - sheet.corner;
     if (!(at.x >= 0 && at.y >= 0 && at.x <= sheet.width && at.y <= sheet.height)) continue;
-    const auto encoded = [&](int k) { return std::clamp(srgb_encode(text->brush.color[k]), 0.0, 1.0); };
+    // What is not opaque is as on white paper: LaTeX's colours know nothing else.
+    const auto encoded = [&](int k) {
+      return std::clamp(1 + text->brush.opacity * (srgb_encode(text->brush.color[k]) - 1), 0.0, 1.0);
+    };
     const char* side = text->alignment < 0.25 ? "lb" : text->alignment > 0.75 ? "rb" : "b";
     std::string box = fmt::format("\\makebox(0,0)[{}]{{\\smash{{{}}}}}", side, for_latex(text->tex));
     if (text->angle != 0) box = fmt::format("\\rotatebox{{{:.4f}}}{{{}}}", text->angle * 180 / geometry::kPi, box);

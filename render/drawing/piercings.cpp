@@ -1,14 +1,15 @@
 #include "render/drawing/piercings.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
 
 #include "geometry/queries/csg_leaves.h"
 #include "geometry/queries/curve_intersections.h"
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/transformed.h"
 #include "render/drawing/covering_layers.h"
+#include "render/lines/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -33,58 +34,57 @@ bool has_surfaces(const Shape& shape) {
 
 Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : world_(world) {
   std::vector<Box3> boxes;
-  std::set<std::pair<const Surface*, int>> known;
+  std::map<const Surface*, std::vector<size_t>> copies;
   for (const Stroke& stroke : strokes)
     for (const Stroke::Host& host : stroke.hosts) {
-      if (!host.surface->bounded() || !known.insert({host.surface.get(), stroke.object}).second) continue;
+      if (!host.surface->bounded()) continue;
+      std::vector<size_t>& known = copies[host.surface.get()];
+      if (std::any_of(known.begin(), known.end(), [&](size_t k) { return is_host(surfaces_[k], stroke); })) continue;
+      known.push_back(surfaces_.size());
       const SurfacePtr placed = transformed(host.surface, stroke.to_world);
       boxes.push_back(bounds(*placed));
-      surfaces_.push_back({placed, host.surface, stroke.object, nullptr});
+      surfaces_.push_back({placed, host.surface, stroke.to_world, stroke.object, nullptr});
     }
   tree_ = BoxTree(boxes);
-  add_shapes(world.model().objects, Affine());
+  each_placed(world.model().objects, [&](const Object& object, const Affine& to_world, int placement) {
+    add_shape(object, to_world, placement);
+  });
 }
 
-void Piercings::add_shapes(const std::vector<Object>& objects, const Affine& to_world) {
-  for (const Object& object : objects) {
-    const Affine map = to_world * object.transform;
-    if (const auto* group = std::get_if<GroupPtr>(&object.shape)) add_shapes((*group)->objects, map);
-    if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
-    const auto& all = world_.objects();
-    const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
-    if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
-      const ShapePtr placed = transformed(*shape, map);
-      shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
-                           std::vector<SurfaceHit> found;
-                           placed->all_hits(chord, {0, 1}, found);
-                           for (const SurfaceHit& hit : found) hits.push_back(hit.t);
-                         }});
-    }
-    if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
-      const auto placed = std::make_shared<MeshTriangles>(std::make_shared<Mesh>(transformed(**mesh, map)));
-      shapes_.push_back({placed->bounds(), number, [placed](const Line& chord, std::vector<double>& hits) {
-                           placed->add_crossings(chord, {0, 1}, hits);
-                         }});
-    }
+void Piercings::add_shape(const Object& object, const Affine& to_world, int placement) {
+  if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) return;
+  const auto& all = world_.objects();
+  const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
+  if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
+    const ShapePtr placed = transformed(*shape, to_world);
+    shapes_.push_back({placed->bounds(), number, placement, [placed](const Line& chord, std::vector<double>& hits) {
+                         std::vector<SurfaceHit> found;
+                         placed->all_hits(chord, {0, 1}, found);
+                         for (const SurfaceHit& hit : found) hits.push_back(hit.t);
+                       }});
+  }
+  if (const auto* mesh = std::get_if<MeshPtr>(&object.shape)) {
+    const auto placed = std::make_shared<MeshTriangles>(std::make_shared<Mesh>(transformed(**mesh, to_world)));
+    shapes_.push_back({placed->bounds(), number, placement, [placed](const Line& chord, std::vector<double>& hits) {
+                         placed->add_crossings(chord, {0, 1}, hits);
+                       }});
   }
 }
 
 void Piercings::add(const Stroke& stroke, const std::vector<const Stroke*>& along, std::vector<double>& places) {
   const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
   const Box3 box = bounds(*curve);
-  for (const PlacedShape& other : shapes_)
-    if (other.object != stroke.object && other.object != stroke.met && BoxTree::meets(other.box, box))
+  for (const PlacedShape& other : shapes_) {
+    const bool is_own = other.object == stroke.object && other.placement == stroke.placement,
+               is_met = other.object == stroke.met && other.placement == stroke.met_placement;
+    if (!is_own && !is_met && BoxTree::meets(other.box, box))
       add_entries(*curve, other.box, world_.radius(), other.add_hits, places);
+  }
   std::optional<CurveCells> cells;
   tree_.around(box, [&](int number) {
     PlacedSurface& other = surfaces_[number];
-    const auto lies_on_it = [&](const Stroke& one) {
-      return std::any_of(one.hosts.begin(), one.hosts.end(), [&](const Stroke::Host& host) {
-        return host.surface == other.original && one.object == other.object;
-      });
-    };
-    if (lies_on_it(stroke) ||
-        std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return lies_on_it(*one); }))
+    if (is_host(other, stroke) ||
+        std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return is_host(other, *one); }))
       return;
     if (!cells) cells.emplace(*curve);
     if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
@@ -94,6 +94,12 @@ void Piercings::add(const Stroke& stroke, const std::vector<const Stroke*>& alon
       return;
     for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) places.push_back(meeting.t);
   });
+}
+
+bool Piercings::is_host(const PlacedSurface& surface, const Stroke& stroke) {
+  return stroke.object == surface.object && same_map(stroke.to_world, surface.to_world) &&
+         std::any_of(stroke.hosts.begin(), stroke.hosts.end(),
+                     [&](const Stroke::Host& host) { return host.surface == surface.original; });
 }
 
 // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.

@@ -24,17 +24,20 @@ class Piercings {
  private:
   struct PlacedSurface {
     geometry::SurfacePtr surface, original;
+    geometry::Affine to_world;
     int object;
     std::unique_ptr<geometry::SurfaceCells> cells;  // when they are first asked for
   };
   // Whose boundary is not made of parametric surfaces.
   struct PlacedShape {
     geometry::Box3 box;
-    int object;
+    int object, placement;
     geometry::ChordHits add_hits;
   };
+  // Whether the line is known to lie on it.
+  static bool is_host(const PlacedSurface& surface, const Stroke& stroke);
   bool lies_on(const geometry::Curve& curve, const PlacedSurface& other) const;
-  void add_shapes(const std::vector<Object>& objects, const geometry::Affine& to_world);
+  void add_shape(const Object& object, const geometry::Affine& to_world, int placement);
 
   const World& world_;
   std::vector<PlacedSurface> surfaces_;

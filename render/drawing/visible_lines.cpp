@@ -14,6 +14,7 @@
 #include "render/drawing/covering_layers.h"
 #include "render/drawing/picture_crossings.h"
 #include "render/drawing/piercings.h"
+#include "render/lines/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -187,11 +188,11 @@ class Drawing {
   }
 
   static bool share_host(const Stroke& a, const Stroke& b) {
-    if (a.object != b.object) return false;
+    if (a.object != b.object || a.placement != b.placement) return false;
     if (a.hosts.empty() && b.hosts.empty() && (a.aside || b.aside)) return true;  // of one tube
     for (const Stroke::Host& one : a.hosts)
       for (const Stroke::Host& other : b.hosts)
-        if (one.surface == other.surface) return true;
+        if (one.surface == other.surface && same_map(a.to_world, b.to_world)) return true;
     return false;
   }
 

@@ -39,7 +39,7 @@ class StrokeCollector {
   LineWork take() { return std::move(work_); }
 
  private:
-  void add(const std::vector<Object>& objects, const geometry::Affine& to_world);
+  void add_object(const Object& object, const geometry::Affine& to_world, int placement);
 
   void leave_out(const std::string& what);
   // Of the object not all lines are known.
@@ -152,6 +152,7 @@ class StrokeCollector {
     Entity shape;
     geometry::Affine to_world;
     int object = -1;  // its number, if an object shows it
+    int placement = 0;
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
   void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
@@ -252,17 +253,17 @@ class StrokeCollector {
   int order_ = 0;
   // What is being added.
   const Object* object_ = nullptr;
-  int object_number_ = 0;
+  int object_number_ = 0, placement_ = 0;
   geometry::Affine to_world_;
   std::string kind_;
   bool undrawn_ = false, outlines_ = false, borders_ = false;
-  std::vector<Stroke::Host> hosts_;  // of the next stroke
-  std::vector<double> cusps_;        // likewise
-  geometry::CurvePtr aside_;         // likewise
-  geometry::SurfacePtr cap_;         // on which strokes lie, if any
-  std::vector<Cutter> cutters_;      // of strokes
-  int met_ = -2;                     // Stroke::met
-  geometry::ShapePtr solid_;         // the last one, and its lines as seen so
+  std::vector<Stroke::Host> hosts_;   // of the next stroke
+  std::vector<double> cusps_;         // likewise
+  geometry::CurvePtr aside_;          // likewise
+  geometry::SurfacePtr cap_;          // on which strokes lie, if any
+  std::vector<Cutter> cutters_;       // of strokes
+  int met_ = -2, met_placement_ = 0;  // Stroke::met
+  geometry::ShapePtr solid_;          // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;
   std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met
@@ -271,7 +272,7 @@ class StrokeCollector {
   // Of fills: all faces in the world.
   struct PlacedFace {
     geometry::SurfacePtr surface;
-    int object;
+    int object, placement;
   };
   std::vector<PlacedFace> faces_;
   std::vector<std::pair<const Object*, PlacedShape>> filled_;  // and what they belong to

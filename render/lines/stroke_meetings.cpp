@@ -13,6 +13,7 @@
 #include "geometry/shapes/half_space.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/transformed.h"
+#include "render/lines/placed_objects.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/objects.h"
 
@@ -70,15 +71,10 @@ bool has_faces(const Entity& shape) {
 
 std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
   std::vector<PlacedShape> found;
-  const auto visit = [&](const auto& self, const std::vector<Object>& objects, const Affine& to_world) -> void {
-    for (const Object& object : objects) {
-      const Affine map = to_world * object.transform;
-      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects, map);
-      if (&object != object_ && identity(object.shape) == identity(shape))
-        found.push_back({shape, map, numbers_.at(&object)});
-    }
-  };
-  visit(visit, model_.objects, Affine());
+  each_placed(model_.objects, [&](const Object& object, const Affine& to_world, int placement) {
+    if (&object != object_ && identity(object.shape) == identity(shape))
+      found.push_back({shape, to_world, numbers_.at(&object), placement});
+  });
   if (found.empty()) found.push_back({shape, Affine(), -1});
   return found;
 }
@@ -86,7 +82,7 @@ std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const E
 void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
   const Affine to_world = to_world_;
   for (const PlacedShape& placed : placements_of(other)) {
-    add_meeting({object_->shape, to_world, object_number_}, placed, style, hidden);
+    add_meeting({object_->shape, to_world, object_number_, placement_}, placed, style, hidden);
     to_world_ = to_world;
   }
 }
@@ -144,7 +140,7 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
       if (!std::holds_alternative<MeshPtr>(one.shape) ||
           !(std::holds_alternative<MeshPtr>(other.shape) || std::holds_alternative<ShapePtr>(other.shape)))
         continue;
-      met_ = b.object;
+      met_ = b.object, met_placement_ = b.placement;
       add_meeting_of_mesh(one, other, style, hidden);
       met_ = -2;
       return;
@@ -166,7 +162,7 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
                                           const Style& style, const HiddenLines& hidden) {
   to_world_ = to_world;
   const size_t before = cutters_.size();
-  met_ = solid.object;
+  met_ = solid.object, met_placement_ = solid.placement;
   const auto* plane = dynamic_cast<const Plane*>(face.surface.get());
   const auto* tube = solid_of<Tube>(solid.shape);
   if (has_parts(solid.shape)) {

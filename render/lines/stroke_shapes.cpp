@@ -195,12 +195,12 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
     }
   }
   undrawn_ = borders_ = false;
-  filled_.push_back({object_, {object_->shape, to_world_, object_number_}});
+  filled_.push_back({object_, {object_->shape, to_world_, object_number_, placement_}});
   each_face([&](const SurfacePtr& surface) {
-    if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_});
+    if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_, placement_});
   });
   for (const ClipPlane& plane : object_->clips)
-    if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_});
+    if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_, placement_});
 }
 
 void StrokeCollector::add_meetings() {
@@ -213,8 +213,8 @@ void StrokeCollector::add_meetings() {
   for (size_t k = 0; k < faces_.size(); ++k)
     tree.around(boxes[k], [&](int other) {
       const PlacedFace &a = faces_[k], &b = faces_[static_cast<size_t>(other)];
-      if (static_cast<size_t>(other) <= k || a.object == b.object) return;
-      object_number_ = a.object;
+      if (static_cast<size_t>(other) <= k || (a.object == b.object && a.placement == b.placement)) return;
+      object_number_ = a.object, placement_ = a.placement;
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });
   // What has no faces of its own, as far as its meetings are known: areas that stay open are told of later.
@@ -227,7 +227,7 @@ void StrokeCollector::add_meetings() {
       const PlacedShape &a = filled_[k].second, &b = filled_[j].second;
       if (has_faces(a.shape) && has_faces(b.shape)) continue;
       if (!BoxTree::meets(boxes_of_all[k], boxes_of_all[j])) continue;
-      object_ = filled_[k].first, object_number_ = a.object;
+      object_ = filled_[k].first, object_number_ = a.object, placement_ = a.placement;
       add_meeting(a, b, Style(), {});
     }
   work_.left_out = left_out;

@@ -47,7 +47,7 @@ bool StrokeCollector::add_meeting_of_tube(const PlacedShape& a, const PlacedShap
                                           const HiddenLines& hidden) {
   const auto* tube = solid_of<Tube>(a.shape);
   if (!tube) return false;
-  met_ = b.object;
+  met_ = b.object, met_placement_ = b.placement;
   const Meets meets = meets_of_tube(*tube, a.to_world, b.to_world, style, hidden);
   bool known = true;
   if (const auto* other = solid_of<Tube>(b.shape))

@@ -8,6 +8,7 @@
 #include "geometry/curves/polyline.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/surfaces/plane.h"
+#include "render/lines/placed_objects.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
@@ -100,40 +101,35 @@ StrokeCollector::StrokeCollector(const World& world, bool drawing) : model_(worl
   }
   for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
   work_.fills = drawing && model_.camera && model_.drawing.ground == Ground::fill;
-  add(model_.objects, Affine());
+  each_placed(model_.objects, [&](const Object& object, const Affine& to_world, int placement) {
+    add_object(object, to_world, placement);
+  });
   if (work_.fills) add_meetings();
 }
 
-void StrokeCollector::add(const std::vector<Object>& objects, const Affine& to_world) {
-  for (const Object& object : objects) {
-    const Affine map = to_world * object.transform;
-    if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-      add((*group)->objects, map);
-      continue;
+void StrokeCollector::add_object(const Object& object, const Affine& to_world, int placement) {
+  if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) return;
+  object_ = &object;
+  object_number_ = numbers_.at(&object), placement_ = placement;
+  to_world_ = to_world;
+  solid_ = nullptr;
+  mesh_lines_.clear();
+  if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && drawing_)
+    mesh_lines_ = mesh_lines(**mesh, view_from(to_world.inverse()));
+  const bool is_point = std::holds_alternative<Vec3>(object.shape),
+             is_curve = std::holds_alternative<CurvePtr>(object.shape);
+  const bool says = object.look && object.look->lines;
+  cutters_.clear();
+  for (const ClipPlane& plane : object.clips) cutters_.push_back(cutter_of(plane));
+  if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
+  if (work_.fills) add_borders_of_fill(fill_of(model_, object));
+  cutters_.clear();
+  if (object.look)
+    for (const Helper& helper : object.look->helpers) {
+      kind_ = helper.type;
+      add_helper(helper);
     }
-    if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) continue;
-    object_ = &object;
-    object_number_ = numbers_.at(&object);
-    to_world_ = map;
-    solid_ = nullptr;
-    mesh_lines_.clear();
-    if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && drawing_)
-      mesh_lines_ = mesh_lines(**mesh, view_from(map.inverse()));
-    const bool is_point = std::holds_alternative<Vec3>(object.shape),
-               is_curve = std::holds_alternative<CurvePtr>(object.shape);
-    const bool says = object.look && object.look->lines;
-    cutters_.clear();
-    for (const ClipPlane& plane : object.clips) cutters_.push_back(cutter_of(plane));
-    if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
-    if (work_.fills) add_borders_of_fill(fill_of(model_, object));
-    cutters_.clear();
-    if (object.look)
-      for (const Helper& helper : object.look->helpers) {
-        kind_ = helper.type;
-        add_helper(helper);
-      }
-    if (drawing_ && !object.legend.empty()) add_legend(object);
-  }
+  if (drawing_ && !object.legend.empty()) add_legend(object);
 }
 
 void StrokeCollector::leave_out(const std::string& what) {
@@ -188,8 +184,8 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, least_width_);
   if (hidden.way == HiddenLines::Way::faded) stroke.fade = kFadeOfLayer;
   stroke.most_layers = hidden.most_layers;
-  stroke.object = object_number_;
-  stroke.met = met_;
+  stroke.object = object_number_, stroke.placement = placement_;
+  stroke.met = met_, stroke.met_placement = met_placement_;
   stroke.order = order_++;
   stroke.kind = kind_;
   stroke.drawn = !undrawn_;

@@ -49,8 +49,10 @@ struct Stroke {
   double fade = 1;                 // of drawings: of its opacity for each layer beyond the first
   int most_layers = 1 << 30;       // of drawings: what lies behind more is not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
+  int placement = 0;               // of the object's (placed_objects.h)
   int met = -2;                    // likewise of a shape without surfaces that it runs along, not exactly; -2: none
-  int order = 0;                   // of lines at the same depth the one of the higher order is seen
+  int met_placement = 0;
+  int order = 0;                                      // of lines at the same depth the one of the higher order is seen
   bool arrow_at_start = false, arrow_at_end = false;  // of drawings
   double arrow_size = 2;                              // millimetres
 };

@@ -175,6 +175,8 @@ class Builder {
   std::optional<Built> refer(const Value& value, const Counters& counters, std::span<const Category> wanted);
   std::optional<std::vector<std::any>> refer_all(const Value& value, const Counters& counters,
                                                  std::span<const Category> wanted);
+  std::vector<std::string> names_of_references(const Value& value, const Counters& counters,
+                                               std::span<const Category> wanted);
   std::optional<std::vector<Built>> named(const Value& value, std::span<const Category> wanted);
   const Built* member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted);
   std::optional<Built> part_of(const Built& whole, std::string_view part, const Value& asked);

@@ -142,7 +142,10 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
     }
     if (value) {
       fields.set_written(field.name, value->is_scalar() ? value->text : std::string());
-      good = read_field(field, *value, counters, fields) && good;
+      const bool read = read_field(field, *value, counters, fields);
+      if (read && field.type.kind == Kind::references)
+        fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
+      good = read && good;
     } else if (!field.default_text.empty()) {
       good = read_field(field, default_value(field.default_text), {}, fields) && good;
     } else if (field.required) {

@@ -286,4 +286,16 @@ std::optional<std::vector<std::any>> Builder::refer_all(const Value& value, cons
   return good ? std::optional(std::move(all)) : std::nullopt;
 }
 
+// One for each that refer_all() finds.
+std::vector<std::string> Builder::names_of_references(const Value& value, const Counters& counters,
+                                                      std::span<const Category> wanted) {
+  std::vector<std::string> names;
+  for (const Scoped& item : items(value, counters)) {
+    const bool is_name = item.value->is_scalar() && section_of(wanted.front());
+    const auto some = is_name ? named(*item.value, wanted) : std::nullopt;
+    names.insert(names.end(), some ? some->size() : 1, is_name ? item.value->text : std::string());
+  }
+  return names;
+}
+
 }  // namespace lekalo::render

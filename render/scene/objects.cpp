@@ -116,7 +116,6 @@ void check_caps(const Object& object) {
 
 Objects objects_of(const Fields& fields) {
   Object object;
-  object.name = fields.has("name") ? fields.text("name") : fields.written("shape");
   if (fields.has("material")) object.material = fields.get<MaterialPtr>("material");
   if (fields.has("back_material")) object.back_material = fields.get<MaterialPtr>("back_material");
   object.representation = fields.text("representation") == "mesh" ? Representation::mesh : Representation::direct;
@@ -139,7 +138,9 @@ Objects objects_of(const Fields& fields) {
     object.look = std::make_shared<const Look>(std::move(look));
   }
   Objects all;
+  const auto& names = fields.get<std::vector<std::string>>("shape.names");
   for (const std::any& one : fields.references("shape")) {
+    object.name = fields.has("name") ? fields.text("name") : names[all.size()];
     object.shape = entity_of(one);
     check_caps(object);
     check_unbounded(object);
