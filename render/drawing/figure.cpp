@@ -70,10 +70,7 @@ class ViewDrawing {
     const std::vector<LegendEntry> legend = std::move(work.legend);
     PageWork page;
     add_annotations(view_, work, page);
-    std::vector<std::string> left_out = std::move(work.left_out);
-    for (std::string& what : left_out)
-      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
-        figure_.left_out.push_back(std::move(what));
+    note_left_out(std::move(work.left_out));
     const OneFaces one_faces = std::move(work.one_faces);
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
     add_statistics(lines);
@@ -82,6 +79,7 @@ class ViewDrawing {
     if (model_->drawing.ground == Ground::shaded) add_ground();
     if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
     GraphWork graph = graph_axes(view_, legend);
+    note_left_out(std::move(graph.left_out));
     append(std::move(graph.under));
     // What is hidden lies under what is seen, which is known first.
     SheetGroup seen = line_paths(lines, false), hidden = line_paths(lines, true);
@@ -100,6 +98,12 @@ class ViewDrawing {
  private:
   void append(std::vector<SheetItem> items) {
     for (SheetItem& item : items) figure_.sheet.items.push_back(std::move(item));
+  }
+
+  void note_left_out(std::vector<std::string> left_out) {
+    for (std::string& what : left_out)
+      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
+        figure_.left_out.push_back(std::move(what));
   }
 
   void add_statistics(const VisibleLines& lines) {

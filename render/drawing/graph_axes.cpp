@@ -16,6 +16,9 @@ constexpr double kTick = 1.2;         // outwards, of the marks
 constexpr double kFromTick = 0.9;     // to their numbers
 constexpr double kFromNumbers = 1.2;  // to the axis's name
 constexpr double kPerTick = 14;       // of an axis, for each mark of `auto`
+constexpr size_t kFewTicks = 3;       // so many of `auto` are wished for, nearer to one another if need be
+constexpr double kBetweenNumbers = 2.5;
+constexpr double kAtEnd = 1e-6;  // of a range, beyond it: still its end
 constexpr double kSample = 7, kSampleToText = 1.5, kEntry = 1.5, kLegendFree = 3;
 
 // What the picture of a graph shows.
@@ -47,8 +50,8 @@ class Axes {
     const auto& axes = view.model.drawing.axes;
     if (axes) {
       style_ = axes->style;
-      if (axes->x) x_ticks_ = ticks(*axes->x, ranges_.x, view.width());
-      if (axes->y) y_ticks_ = ticks(*axes->y, ranges_.y, view.height());
+      if (axes->x) x_ticks_ = ticks(*axes->x, ranges_.x, view.width(), "x");
+      if (axes->y) y_ticks_ = ticks(*axes->y, ranges_.y, view.height(), "y");
     }
     for (const Annotation& one : view.model.drawing.annotations)
       if (one.type == "knots") add_knots(one);
@@ -99,15 +102,37 @@ class Axes {
  private:
   using Tick = std::pair<double, SheetText>;
 
-  std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length) const {
-    std::vector<Tick> result;
-    const std::vector<double> values = axis.ticks == "auto" ? round_values(range, length / kPerTick)
-                                       : axis.ticks.empty() ? axis.tick_values
-                                                            : std::vector<double>();
-    const double slack = 1e-9 * range.width();
-    for (const double value : values)
+  std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length, const char* name) {
+    if (axis.ticks == "auto") return automatic_ticks(range, length, *name == 'x');
+    std::vector<double> inside;
+    const double slack = kAtEnd * range.width();
+    for (const double value : axis.ticks.empty() ? axis.tick_values : std::vector<double>())
       if (value >= range.lo - slack && value <= range.hi + slack)
-        result.emplace_back(value, text_in(style_, tick_text(value)));
+        inside.push_back(value);
+      else
+        work_.left_out.push_back(fmt::format("the tick {} of the {} axis, which shows {} to {}", tick_text(value), name,
+                                             tick_text(range.lo), tick_text(range.hi)));
+    return with_numbers(inside);
+  }
+
+  std::vector<Tick> with_numbers(const std::vector<double>& values) const {
+    std::vector<Tick> result;
+    for (const double value : values) result.emplace_back(value, text_in(style_, tick_text(value)));
+    return result;
+  }
+
+  // Of finer steps if there are few, as long as their numbers stand apart.
+  std::vector<Tick> automatic_ticks(const Interval& range, double length, bool across) const {
+    double count = length / kPerTick;
+    std::vector<Tick> result = with_numbers(round_values(range, count));
+    while (result.size() < kFewTicks && count < length) {
+      count *= 1.3;
+      std::vector<Tick> finer = with_numbers(round_values(range, count));
+      if (finer.size() < 2) continue;
+      const double apart = (finer[1].first - finer[0].first) / range.width() * length;
+      if (apart < kBetweenNumbers + (across ? width_of(finer) : height_of(finer))) break;
+      result = std::move(finer);
+    }
     return result;
   }
 
@@ -373,8 +398,8 @@ std::vector<double> round_values(const Interval& range, double count) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= 0.999 * rough) step = factor * power;
   std::vector<double> values;
-  for (double k = std::ceil(range.lo / step - 1e-9); k * step <= range.hi + 1e-9 * step; ++k)
-    values.push_back(k * step);
+  const double slack = kAtEnd * range.width() / step;
+  for (double k = std::ceil(range.lo / step - slack); k <= range.hi / step + slack; ++k) values.push_back(k * step);
   return values;
 }
 

@@ -340,6 +340,31 @@ drawing:
         grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
         self.assertEqual([path.get("fill") for path in grounds], ["#ffffff"])
 
+    def ticks(self, axes, curve="point: [t, sin(t), 0], domain: [0, 6.28]"):
+        """The numbers at the axes of a curve's graph, and what the program says."""
+        root, errors = self.drawn(f"""lekalo: 1
+geometry: {{ f: {{ type: formula_curve, {curve} }} }}
+camera: {{ type: graph }}
+drawing: {{ axes: {axes} }}
+image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
+""")
+        texts = [text for group in self.of_class(root, "tick") for text in self.texts(group)]
+        return texts, errors
+
+    def test_ticks_at_the_ends(self):
+        """What is found of the range is exact: the summits of a sine, which no sample meets, have their ticks."""
+        self.assertEqual(self.ticks("{ y: { ticks: [-1, 0, 1] } }")[0], ["−1", "0", "1"])
+        texts, errors = self.ticks("{ x: { ticks: [0, 3, 6.28, 9] } }")
+        self.assertEqual(texts, ["0", "3", "6.28"])
+        self.assertIn("note: not in the drawing: the tick 9 of the x axis, which shows 0 to 6.28", errors)
+
+    def test_automatic_ticks_are_several(self):
+        self.assertEqual(self.ticks("{ y: {} }")[0], ["−1", "0", "1"])
+        for top in (1, 2, 3, 4, 6, 7, 9, 11, 13, 19, 29):
+            curve = f"point: [{top} * t, 0.01 * {top} * t^2, 0], domain: [0.1, 1]"
+            for axis in "xy":
+                self.assertGreaterEqual(len(self.ticks(f"{{ {axis}: {{}} }}", curve)[0]), 3, (axis, curve))
+
     def test_notes_on_lights(self):
         """The studio is named where something is lit by it."""
         self.assertNotIn("studio", self.drawn(CIRCLE)[1])

@@ -238,6 +238,12 @@ TEST(Graph, AxesAreScaledIndependently) {
   // Without ranges all is shown: the circle of radius 2.
   const Model all = model("objects: [{ shape: { type: circle, radius: 2 } }]\ncamera: { type: graph }\n");
   EXPECT_NEAR(all.camera->project({2, 0, 0}).x, all.camera->width(), 1e-9);
+  // To the summits between samples, and to corners: 2 (|x - 0.3| - 0.7) in (-1, 1).
+  const Model summits = model(
+      "geometry: { f: { type: formula_curve, y: abs(x - 0.3) - 0.7, domain: [-1, 1] } }\n"
+      "objects: [{ shape: f, transform: { scale: [1, 2, 1] } }]\ncamera: { type: graph }\n");
+  EXPECT_NEAR(summits.camera->project({0, 1.2, 0}).y, 0, 1e-9);
+  EXPECT_NEAR(summits.camera->project({0, -1.4, 0}).y, summits.camera->height(), 1e-9);
 }
 
 }  // namespace
