@@ -354,11 +354,14 @@ void add_page(Model model, const FigureOptions& options, Figure& figure) {
   figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;
   const Vec2 margin(model.paper.margin);
   const Vec2 size = Vec2(figure.sheet.width, figure.sheet.height) - 2.0 * margin;
+  const double given = model.paper.auto_height  ? figure.sheet.width
+                       : model.paper.auto_width ? figure.sheet.height
+                                                : std::min(figure.sheet.width, figure.sheet.height);
   if (!(size.x > 1 && size.y > 1))
     does_not_fit(model.paper.margin_place,
-                 fmt::format("a margin of {:g} mm leaves nothing of a page of {:.1f} x {:.1f} mm", model.paper.margin,
-                             figure.sheet.width, figure.sheet.height),
-                 fmt::format("less than {:.1f} mm", 0.5 * (std::min(figure.sheet.width, figure.sheet.height) - 1)));
+                 fmt::format("a margin of {:g} mm leaves nothing of {}", model.paper.margin,
+                             page_in_words(model.paper, figure.sheet.width, figure.sheet.height)),
+                 fmt::format("less than {:.1f} mm", 0.5 * (given - 1)));
   add_view(std::move(model), margin, size, false, options, figure);
 }
 
@@ -372,8 +375,11 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
     model.paper.width = model.film.width * per_pixel, model.paper.height = model.film.height * per_pixel;
   }
   if (options.width > 0) {
-    model.paper.height *= options.width / model.paper.width;
-    model.paper.width = options.width;
+    // Margins keep their width: an automatic page has the shape of what is between them.
+    Paper& paper = model.paper;
+    const double margins = paper.auto_width || paper.auto_height ? 2 * paper.margin : 0;
+    paper.height = margins + (paper.height - margins) * (options.width - margins) / (paper.width - margins);
+    paper.width = options.width;
   }
   figure.sheet.title = model.title;
   figure.sheet.paper = rgb(model.drawing.paper);

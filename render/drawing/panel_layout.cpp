@@ -231,6 +231,12 @@ void does_not_fit(const Place& place, std::string message, std::string hint) {
   throw SceneError(std::move(found));
 }
 
+std::string page_in_words(const Paper& paper, double width, double height) {
+  if (paper.auto_height) return fmt::format("a page {:.1f} mm wide", width);
+  if (paper.auto_width) return fmt::format("a page {:.1f} mm high", height);
+  return fmt::format("a page of {:.1f} x {:.1f} mm", width, height);
+}
+
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;

@@ -21,6 +21,7 @@ namespace {
 constexpr double kMostPixels = 1e8;  // of a picture
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of drawings without a size on paper
+constexpr double kLeastFree = 2;       // millimetres between the margins of a page whose side is automatic
 
 // The picture's shape that fits what the camera shows: the ratio height / width of its image, within reason.
 double natural_aspect(const CameraFactory& factory, const Shown& shown) {
@@ -116,14 +117,21 @@ void Builder::build_camera(Model& model) {
     PictureSize size = image->get<PictureSize>("size");
     const double scale = size.on_paper ? image->number("dpi") / kMillimetresPerInch : 1;
     model.paper.auto_width = size.width == 0, model.paper.auto_height = size.height == 0;
+    double aspect = 0;
     if (size.width == 0 || size.height == 0) {
-      const double aspect = natural_aspect(make, all);
+      aspect = natural_aspect(make, all);
       if (size.width == 0) size.width = size.height / aspect;
       if (size.height == 0) size.height = size.width * aspect;
     }
     const double millimetres = size.on_paper ? 1 : kMillimetresPerInch / kPixelsPerInch;
     model.paper.width = size.width * millimetres;
     model.paper.height = size.height * millimetres;
+    // A page has its margins beside that: what is between them has the content's shape. Rendered pictures have none.
+    if (const double margins = 2 * model.paper.margin; margins > 0) {
+      const double free_width = model.paper.width - margins, free_height = model.paper.height - margins;
+      if (model.paper.auto_height) model.paper.height = margins + std::max(kLeastFree, free_width * aspect);
+      if (model.paper.auto_width) model.paper.width = margins + std::max(kLeastFree, free_height / aspect);
+    }
     const double width = std::max(1.0, std::round(size.width * scale)),
                  height = std::max(1.0, std::round(size.height * scale));
     if (width * height > kMostPixels) {

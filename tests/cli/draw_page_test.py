@@ -270,6 +270,35 @@ image: { size: [60 mm, 80 mm] }
             self.assertEqual(next(root.iter(SVG + "path")).get("stroke-width"), "0.5")
         self.run_program("draw", "scene.yaml", "--size", "300", code=USAGE)
 
+    def test_automatic_sides_have_their_margins(self):
+        """What is between the margins has the content's shape, whichever side is given; pictures have no margins."""
+        scene = """lekalo: 1
+geometry: { f: { type: plane, domain: { u: [0, 10], v: [0, 3] } } }
+objects: { shape: f, lines: { boundary: thick } }
+camera: { view: top, margin: 0 }
+image: { size: SIZE, margin: 8 mm }
+"""
+        for size, page, content in (("[80 mm, auto]", (80, 35.2), (64, 19.2)), ("[auto, 35.2 mm]", (80, 35.2), (64, 19.2)),
+                                    ("[302, auto]", (79.904, 35.171), (63.904, 19.171))):
+            root, _ = self.drawn(scene.replace("SIZE", size))
+            self.assert_near([float(root.get(side).removesuffix("mm")) for side in ("width", "height")], page, 0.01)
+            lo_x, lo_y, hi_x, hi_y = self.box(root)
+            self.assert_near((hi_x - lo_x, hi_y - lo_y), content, 0.05)
+            self.assert_near((lo_x, lo_y), (8, 8), 0.05)
+        self.write("wide.yaml", scene.replace("SIZE", "[80 mm, auto]") + "outputs: [{ file: a.svg, width: 160 mm }]\n")
+        self.run_program("draw", "wide.yaml")
+        root = tree.fromstring(self.bytes_of("a.svg"))
+        self.assert_near(float(root.get("height").removesuffix("mm")), 0.3 * 144 + 16, 0.01)
+        # The height is free, so that only the width must hold the margins.
+        self.drawn(scene.replace("SIZE", "[80 mm, auto]").replace("8 mm", "13 mm"))
+        self.write("thick.yaml", scene.replace("SIZE", "[80 mm, auto]").replace("8 mm", "40 mm"))
+        errors = self.run_program("draw", "thick.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("thick.yaml:5:39: a margin of 40 mm leaves nothing of a page 80.0 mm wide", errors)
+        self.assertIn("hint: less than 39.5 mm", errors)
+        self.write("picture.yaml", scene.replace("SIZE", "[100, auto]"))
+        self.run_program("render", "picture.yaml", "-o", "a.png")
+        self.assertEqual(self.bytes_of("a.png")[16:24].hex(), f"{100:08x}{30:08x}")
+
     def test_places_on_the_page(self):
         """They count from the page's lower left corner, whatever the margin."""
         root, _ = self.drawn(self.annotated("{ type: point, at: { page: [10 mm, 20 mm] }, marker: square }"))
