@@ -30,6 +30,7 @@ std::string about(const std::string& annotation) { return said(scene_with(annota
 
 TEST(Drawing, PageWideChoices) {
   const Model m = model(
+      "camera: { type: graph }\n"
       "styles: { net: { like: thin } }\n"
       "drawing:\n"
       "  ground: shaded\n"
@@ -215,6 +216,20 @@ TEST(Outputs, FieldsBelongToTheirKind) {
   EXPECT_EQ(said("outputs: [{ file: a.exr, kind: drawing }]\n"), "3:32 'a.exr' is always a render\n");
   EXPECT_EQ(said("outputs: [{ file: a.pdf, width: -5 mm }]\n"),
             "3:33 expected a length greater than 0 and at most 5000 mm, found -5 mm\n");
+}
+
+TEST(Graph, AxesNeedOne) {
+  EXPECT_EQ(said(kGeometry + "drawing: { axes: { x: {} } }\n"),
+            "4:12 'axes' belong to a graph, and this camera shows none\n");
+  const std::string graph = "a: { camera: { type: graph } }", top = "b: { camera: { view: top } }";
+  EXPECT_EQ(said(kGeometry + "panels: { " + top + " }\ndrawing: { axes: { x: {} } }\n"),
+            "5:12 'axes' belong to a graph, and this camera shows none\n");
+  EXPECT_EQ(said(kGeometry + "panels: { b: { camera: { view: top }, drawing: { axes: { x: {} } } } }\n"),
+            "4:50 'axes' belong to a graph, and this camera shows none\n");
+  // Those of a page are for its graphs.
+  const Model m = model(kGeometry + "panels: { " + graph + ", " + top + " }\ndrawing: { axes: { x: {} } }\n");
+  EXPECT_TRUE(m.panels.at(0).drawing.axes);
+  EXPECT_FALSE(m.panels.at(1).drawing.axes);
 }
 
 TEST(Paper, SizeAndMarginInMillimetres) {
