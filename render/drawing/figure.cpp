@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "render/cameras/shown.h"
@@ -365,6 +366,16 @@ void add_page(Model model, const FigureOptions& options, Figure& figure) {
   add_view(std::move(model), margin, size, false, options, figure);
 }
 
+// Panels that neither the layout nor an output of their own shows.
+void note_unplaced_panels(const Model& model, Figure& figure) {
+  std::set<std::string> placed;
+  for (const auto& row : model.layout.rows) placed.insert(row.begin(), row.end());
+  for (const OutputFile& file : model.outputs) placed.insert(file.panel);
+  for (const Panel& panel : model.panels)
+    if (!placed.contains(panel.name))
+      figure.left_out.push_back(fmt::format("the panel '{}', which `rows` of the layout do not name", panel.name));
+}
+
 }  // namespace
 
 Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions& options) {
@@ -385,6 +396,7 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
   figure.sheet.paper = rgb(model.drawing.paper);
   if (!model.panels.empty()) {
     PanelLayout layout = panel_layout(model, options.panel);
+    if (options.panel.empty()) note_unplaced_panels(model, figure);
     figure.sheet.width = layout.width, figure.sheet.height = layout.height;
     for (PlacedPanel& panel : layout.panels) {
       std::vector<SheetItem> before;

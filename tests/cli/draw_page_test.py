@@ -394,6 +394,17 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
             for axis in "xy":
                 self.assertGreaterEqual(len(self.ticks(f"{{ {axis}: {{}} }}", curve)[0]), 3, (axis, curve))
 
+    def test_panels_without_a_place(self):
+        """A panel that the layout does not name is said to be left out, unless it has a file of its own."""
+        scene = """lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+panels: { a: { camera: { view: top } }, b: { camera: { view: front } }, c: { camera: { view: left } } }
+layout: { rows: [[a, empty]] }
+outputs: [a.svg, { file: c.svg, panel: c }]
+"""
+        errors = self.drawn(scene)[1]
+        self.assertIn("note: not in the drawing: the panel 'b', which `rows` of the layout do not name\n", errors)
+
     def test_notes_on_lights(self):
         """The studio is named where something is lit by it."""
         self.assertNotIn("studio", self.drawn(CIRCLE)[1])
