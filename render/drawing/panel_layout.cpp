@@ -372,10 +372,11 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const double height : heights) layout.height += height;
   }
   if (!(width > 1) || !(*std::min_element(heights.begin(), heights.end()) > 1))
-    does_not_fit(page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
-                 fmt::format("margins and gaps leave no room for {} x {} panels on {:.1f} x {:.1f} mm", columns,
-                             rows.size(), layout.width, layout.height),
-                 "smaller ones, or a larger `size` of the image");
+    does_not_fit(
+        page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
+        fmt::format("margins and gaps leave no room for {} panel{} in a row and {} in a column on {}", columns,
+                    columns == 1 ? "" : "s", rows.size(), page_in_words(page.paper, layout.width, layout.height)),
+        "smaller ones, or a larger `size` of the image");
   double y = margin;
   for (size_t i = 0; i < rows.size(); ++i) {
     for (size_t j = 0; j < rows[i].size(); ++j)

@@ -330,7 +330,8 @@ image: { size: [80 mm, auto] }
         self.assertIn("hint: less than 29.5 mm", errors)
         self.write("panels.yaml", panels.replace(", scale: SCALE", "").replace("auto]", "auto], margin: 45 mm"))
         errors = self.run_program("draw", "panels.yaml", code=SCENE_ERROR)[1]
-        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 x 1 panels", errors)
+        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 panels in a row and 1 in a column on "
+                      "a page 80.0 mm wide", errors)
 
     # ---------------------------------------------------------------- numbers, graphs, notes
 
