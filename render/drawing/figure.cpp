@@ -16,6 +16,7 @@
 #include "render/drawing/label_placement.h"
 #include "render/drawing/line_groups.h"
 #include "render/drawing/overlaps.h"
+#include "render/drawing/page_edges.h"
 #include "render/drawing/panel_layout.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
@@ -289,6 +290,10 @@ class ViewDrawing {
     }
     obstacles_.width = figure_.sheet.width, obstacles_.height = figure_.sheet.height;
     place_labels(labels, obstacles_);
+    for (const Label& label : labels)
+      if (std::string cut = over_the_edge(label, {figure_.sheet.width, figure_.sheet.height}, model_->paper.margin);
+          !cut.empty() && std::find(figure_.cut_off.begin(), figure_.cut_off.end(), cut) == figure_.cut_off.end())
+        figure_.cut_off.push_back(std::move(cut));
     SheetGroup all{"labels", "", {}, {}, {}};
     for (const Label& label : labels) all.items.push_back(drawn_label(label));
     if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));

@@ -10,6 +10,7 @@
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
+#include "render/drawing/page_edges.h"
 #include "render/scene/diagnostics.h"
 
 namespace lekalo::render {
@@ -154,10 +155,7 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
   for (Label& label : labels) {
     std::vector<Label> one{label};
     place_labels(one, free);
-    const SheetText& text = one[0].text;
-    const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
-    for (const double x : {0.0, text.width})
-      for (const double y : {text.ascent, -text.descent}) all.include(text.at + x * along + y * up);
+    include(box_of(one[0].text), all);
   }
   return all;
 }

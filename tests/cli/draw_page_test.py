@@ -283,8 +283,9 @@ image: { size: SIZE, margin: 8 mm }
             root, _ = self.drawn(scene.replace("SIZE", size))
             self.assert_near([float(root.get(side).removesuffix("mm")) for side in ("width", "height")], page, 0.01)
             lo_x, lo_y, hi_x, hi_y = self.box(root)
-            self.assert_near((hi_x - lo_x, hi_y - lo_y), content, 0.05)
-            self.assert_near((lo_x, lo_y), (8, 8), 0.05)
+            whole_pixels = 0.05 if "mm" in size else 0.5
+            self.assert_near((hi_x - lo_x, hi_y - lo_y), content, whole_pixels)
+            self.assert_near((lo_x, lo_y), (8, 8), whole_pixels)
         self.write("wide.yaml", scene.replace("SIZE", "[80 mm, auto]") + "outputs: [{ file: a.svg, width: 160 mm }]\n")
         self.run_program("draw", "wide.yaml")
         root = tree.fromstring(self.bytes_of("a.svg"))
@@ -405,6 +406,42 @@ outputs: [a.svg, { file: c.svg, panel: c }]
 """
         errors = self.drawn(scene)[1]
         self.assertIn("note: not in the drawing: the panel 'b', which `rows` of the layout do not name\n", errors)
+
+    def test_texts_beyond_the_page(self):
+        """What goes over an edge is named, with what has room for it; what a graph places itself stays on the page."""
+        def warnings(margin, *annotations):
+            scene = self.annotated(*annotations).replace("4 mm", f"{margin} mm")
+            return re.findall("warning: (.*)", self.drawn(scene)[1])
+        self.assertEqual(warnings(4, "{ type: label, at: [0, 0], text: short }"), [])
+        held = "; `page` holds it there, whatever the margin$"
+        beyond = warnings(4, "{ type: label, at: { page: [500 mm, 5 mm] }, text: a, side: right }")[0]
+        self.assertRegex(beyond, "^the text 'a' is not on the page: it stands .* of 80.0 x 60.0 mm" + held)
+        self.assert_near(float(re.search("stands ([0-9.]+) mm beyond the right edge", beyond).group(1)), 420, 0.2)
+        over = warnings(4, "{ type: label, at: { page: [78 mm, 5 mm] }, text: corner, side: right }")[0]
+        self.assertRegex(over, "^the text 'corner' goes [0-9.]+ mm over the page's right edge" + held)
+        wide = warnings(4, "{ type: label, at: [0, 0], text: '" + 20 * "wide " + "' }")[0]
+        self.assertRegex(wide, "^the text 'wide .*' is cut off: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
+        graph = """lekalo: 1
+geometry: { N: { repeat: { i: 0..3 }, type: basis_function, degree: 2, knots: [0, 0, 0, 1, 2, 2, 2], index: i } }
+objects: [{ shape: N, legend: '$N_%i$' }]
+camera: { type: graph }
+drawing:
+  axes: { x: { ticks: 0..2, label: LABEL }, y: { ticks: [0, 1] } }
+  legend: { side: above }
+  annotations: [{ type: knots, of: N.0, label: '$t_%i$', multiplicity: once, marker: plus }]
+image: { size: [80 mm, 50 mm], margin: MARGIN mm }
+"""
+        for margin in "02":
+            self.assertNotIn("warning", self.drawn(graph.replace("MARGIN", margin).replace("LABEL", "x"))[1])
+        label = "{ type: label, at: [2, 0.5], text: end, side: right }"
+        at_the_end = graph.replace("LABEL", "x").replace("annotations: [", f"annotations: [{label}, ")
+        over = self.drawn(at_the_end.replace("MARGIN", "2"))[1]
+        enough = r"the text 'end' goes [0-9.]+ mm over the page's right edge; `margin: ([0-9.]+) mm` gives it room"
+        self.assertNotIn("warning", self.drawn(at_the_end.replace("MARGIN", re.search(enough, over).group(1)))[1])
+        # Beside a graph that is not in the middle of the page.
+        named = graph.replace("LABEL", "x").replace("[0, 1]", "[0, 1], label: " + 25 * "n")
+        over = self.drawn(named.replace("MARGIN", "0"))[1]
+        self.assertRegex(over, "the text 'n+' goes [0-9.]+ mm over .*; a larger page or a smaller `text_size` has room")
 
     def test_notes_on_lights(self):
         """The studio is named where something is lit by it."""

@@ -56,7 +56,7 @@ TEST(Drawing, Errors) {
   EXPECT_EQ(said("drawing: { grund: fill }\n"), "3:12 unknown field 'grund' of 'drawing' (did you mean 'ground'?)\n");
   EXPECT_EQ(said("drawing: { ground: shade }\n"), "3:20 unknown word 'shade' (did you mean 'shaded'?)\n");
   EXPECT_EQ(said("drawing: { lines: { parameter: {} } }\n"), "3:32 parameter lines need 'at_u' or 'at_v'\n");
-  EXPECT_EQ(said("drawing: { axes: { x: { ticks: many } } }\n"), "3:32 unknown name 'many'\n");
+  EXPECT_EQ(said("drawing: { axes: { x: { ticks: many } } }\ncamera: { type: graph }\n"), "3:32 unknown name 'many'\n");
   EXPECT_EQ(said("drawing: { legend: { side: rigth } }\n"), "3:28 unknown word 'rigth' (did you mean 'right'?)\n");
   EXPECT_EQ(said("drawing: 3\n"), "3:10 'drawing' is a map of fields, found a single value\n");
 }
