@@ -27,7 +27,9 @@ constexpr double kLeastFree = 2;       // millimetres between the margins of a p
 double natural_aspect(const CameraFactory& factory, const Shown& shown) {
   const CameraPtr camera = factory(1000, 1000, shown);
   double x0 = geometry::kInfinity, x1 = -x0, y0 = x0, y1 = -x0;
-  for (const Vec3& point : shown.points()) {
+  std::vector<Vec3> points = shown.points();
+  if (camera->is_graph()) points.insert(points.end(), {shown.tight_box().lo, shown.tight_box().hi});
+  for (const Vec3& point : points) {
     const PicturePoint p = camera->project(point);
     if (!p.visible_side) return 1;
     x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);

@@ -253,6 +253,11 @@ TEST(Graph, AxesAreScaledIndependently) {
   // Without ranges all is shown: the circle of radius 2.
   const Model all = model("objects: [{ shape: { type: circle, radius: 2 } }]\ncamera: { type: graph }\n");
   EXPECT_NEAR(all.camera->project({2, 0, 0}).x, all.camera->width(), 1e-9);
+  // Then a side that is automatic is as long as the other.
+  const Model square = model(
+      "objects: [{ shape: { type: formula_curve, y: sin(x), domain: [0, 6] } }]\ncamera: { type: graph }\n"
+      "image: { size: [80 mm, auto], margin: 5 mm }\n");
+  EXPECT_NEAR(square.paper.height, 80, 1e-9);
   // To the summits between samples, and to corners: 2 (|x - 0.3| - 0.7) in (-1, 1).
   const Model summits = model(
       "geometry: { f: { type: formula_curve, y: abs(x - 0.3) - 0.7, domain: [-1, 1] } }\n"
