@@ -67,8 +67,7 @@ TypeDeclaration graph_type() {
         if (f.has("x")) x = f.range("x");
         if (f.has("y")) y = f.range("y");
         return [x, y](int width, int height, const Shown& shown) -> CameraPtr {
-          Box3 box;
-          for (const Vec3& point : shown.points()) box.include(point);
+          const Box3& box = shown.tight_box();
           return std::make_shared<GraphCamera>(shown_range(x, box.lo.x, box.hi.x), shown_range(y, box.lo.y, box.hi.y),
                                                box.hi.z + std::max(1.0, box.size().z), width, height);
         };

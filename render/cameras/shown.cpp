@@ -1,5 +1,7 @@
 #include "render/cameras/shown.h"
 
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "render/lines/curve_helpers.h"
@@ -11,7 +13,8 @@ using namespace geometry;
 
 namespace {
 
-constexpr int kSteps = 32;  // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
+constexpr int kSteps = 32;       // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
+constexpr int kNarrowings = 80;  // by golden section: 0.618^80 of a step is below rounding
 constexpr size_t kMostObjects = 500;  // with grids of their own
 
 void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) {
@@ -85,12 +88,59 @@ void add(const std::vector<Object>& objects, const Affine& map, bool closely, st
   }
 }
 
+// The largest value between two parameters, where there is one summit; by golden section, which needs no derivatives:
+// summits may be corners.
+template <class F>
+double largest_between(const F& value, double lo, double hi) {
+  const double share = 0.5 * (std::sqrt(5.0) - 1);
+  double a = hi - share * (hi - lo), b = lo + share * (hi - lo), at_a = value(a), at_b = value(b);
+  for (int k = 0; k < kNarrowings; ++k)
+    if (at_a < at_b)
+      lo = a, a = b, at_a = at_b, b = lo + share * (hi - lo), at_b = value(b);
+    else
+      hi = b, b = a, at_b = at_a, a = hi - share * (hi - lo), at_a = value(a);
+  return std::max(at_a, at_b);
+}
+
+// The box grows to where a smooth piece of a curve is farthest along x and y: about each sample that may be next to it.
+void include_farthest(const Curve& curve, const Affine& map, const Interval& part, Box3& box) {
+  std::vector<Vec3> samples;
+  for (int i = 0; i <= kSteps; ++i) {
+    samples.push_back(map.point(curve.evaluate(between(part, i), 0).point()));
+    box.include(samples.back());
+  }
+  for (const int axis : {0, 1})
+    for (const double sign : {-1.0, 1.0})
+      for (int i = 0; i <= kSteps; ++i) {
+        const int before = std::max(i - 1, 0), after = std::min(i + 1, kSteps);
+        const auto height = [&](int k) { return sign * samples[static_cast<size_t>(k)][axis]; };
+        const double here = height(i), beside = std::min(height(before), height(after));
+        double& border = sign < 0 ? box.lo[axis] : box.hi[axis];
+        // A summit between two samples rises over them by less than their neighbours fall.
+        if (here < height(before) || here < height(after) || !(here + 2 * (here - beside) > sign * border)) continue;
+        const auto value = [&](double t) { return sign * map.point(curve.evaluate(t, 0).point())[axis]; };
+        const double summit = largest_between(value, between(part, before), between(part, after));
+        if (summit > sign * border) border = sign * summit;
+      }
+}
+
+void include_farthest(const std::vector<Object>& objects, const Affine& map, Box3& box) {
+  for (const Object& object : objects) {
+    const Affine placed = map * object.transform;
+    if (const auto* group = std::get_if<GroupPtr>(&object.shape)) include_farthest((*group)->objects, placed, box);
+    const auto* curve = std::get_if<CurvePtr>(&object.shape);
+    if (!curve) continue;
+    for (const CurvePiece& piece : (*curve)->pieces()) include_farthest(**curve, placed, piece.domain, box);
+  }
+}
+
 }  // namespace
 
 struct Shown::Points {
-  std::once_flag once;
+  std::once_flag once, box_once;
   std::vector<Object> objects;
   std::vector<Vec3> list;
+  Box3 tight;
 };
 
 Shown::Shown(const Box3& box) : box(box), points_(std::make_shared<Points>()) {}
@@ -106,6 +156,15 @@ const std::vector<Vec3>& Shown::points() const {
     add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), p.list);
   });
   return p.list;
+}
+
+const Box3& Shown::tight_box() const {
+  Points& p = *points_;
+  std::call_once(p.box_once, [&] {
+    for (const Vec3& point : points()) p.tight.include(point);
+    if (count(p.objects) <= kMostObjects) include_farthest(p.objects, Affine(), p.tight);
+  });
+  return p.tight;
 }
 
 }  // namespace lekalo::render

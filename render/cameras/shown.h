@@ -26,6 +26,10 @@ class Shown {
   // cameras do not ask.
   const std::vector<geometry::Vec3>& points() const;
 
+  // The box of these points, and of the places where curves are farthest along x and y, found to rounding: a graph of
+  // sin(t) is shown from -1 to 1.
+  const geometry::Box3& tight_box() const;
+
  private:
   struct Points;
   std::shared_ptr<Points> points_;

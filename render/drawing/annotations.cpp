@@ -135,6 +135,7 @@ class Annotator {
     const double distance = f.has("distance") ? f.number("distance") : at.on_page ? 0.0 : 1.2;
     if (!at.on_page) return text(at.point, words, side_of(f), distance, hidden(f), f.boolean("leader"));
     Label label = page_label(words, place(at));
+    label.on_page = true;
     label.side = f.has("side") ? f.text("side") : "center";
     label.distance = distance;
     page_.labels.push_back(std::move(label));
@@ -162,6 +163,7 @@ class Annotator {
     const double distance = 0.6 + mark.radius;
     if (!at.on_page) return text(at.point, words, side_of(f), distance, ways);
     Label label = page_label(words, view_.place(at));
+    label.on_page = true;
     label.side = side_of(f), label.distance = distance;
     page_.labels.push_back(std::move(label));
   }
@@ -184,6 +186,7 @@ class Annotator {
       page_line(a, b, start, end);
       if (words.empty()) return;
       Label label = page_label(words, b);
+      label.on_page = to.on_page;
       label.side = side_of(f);
       page_.labels.push_back(std::move(label));
       return;

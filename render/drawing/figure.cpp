@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "render/cameras/shown.h"
@@ -15,6 +16,7 @@
 #include "render/drawing/label_placement.h"
 #include "render/drawing/line_groups.h"
 #include "render/drawing/overlaps.h"
+#include "render/drawing/page_edges.h"
 #include "render/drawing/panel_layout.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
@@ -70,10 +72,7 @@ class ViewDrawing {
     const std::vector<LegendEntry> legend = std::move(work.legend);
     PageWork page;
     add_annotations(view_, work, page);
-    std::vector<std::string> left_out = std::move(work.left_out);
-    for (std::string& what : left_out)
-      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
-        figure_.left_out.push_back(std::move(what));
+    note_left_out(std::move(work.left_out));
     const OneFaces one_faces = std::move(work.one_faces);
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
     add_statistics(lines);
@@ -82,6 +81,7 @@ class ViewDrawing {
     if (model_->drawing.ground == Ground::shaded) add_ground();
     if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
     GraphWork graph = graph_axes(view_, legend);
+    note_left_out(std::move(graph.left_out));
     append(std::move(graph.under));
     // What is hidden lies under what is seen, which is known first.
     SheetGroup seen = line_paths(lines, false), hidden = line_paths(lines, true);
@@ -100,6 +100,12 @@ class ViewDrawing {
  private:
   void append(std::vector<SheetItem> items) {
     for (SheetItem& item : items) figure_.sheet.items.push_back(std::move(item));
+  }
+
+  void note_left_out(std::vector<std::string> left_out) {
+    for (std::string& what : left_out)
+      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
+        figure_.left_out.push_back(std::move(what));
   }
 
   void add_statistics(const VisibleLines& lines) {
@@ -310,6 +316,10 @@ class ViewDrawing {
     }
     obstacles_.width = figure_.sheet.width, obstacles_.height = figure_.sheet.height;
     place_labels(labels, obstacles_);
+    for (const Label& label : labels)
+      if (std::string cut = over_the_edge(label, {figure_.sheet.width, figure_.sheet.height}, model_->paper.margin);
+          !cut.empty() && std::find(figure_.cut_off.begin(), figure_.cut_off.end(), cut) == figure_.cut_off.end())
+        figure_.cut_off.push_back(std::move(cut));
     SheetGroup all{"labels", "", {}, {}, {}};
     for (const Label& label : labels) all.items.push_back(drawn_label(label));
     if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
@@ -376,12 +386,25 @@ void add_page(Model model, const FigureOptions& options, Figure& figure) {
   figure.sheet.width = model.paper.width, figure.sheet.height = model.paper.height;
   const Vec2 margin(model.paper.margin);
   const Vec2 size = Vec2(figure.sheet.width, figure.sheet.height) - 2.0 * margin;
+  const double given = model.paper.auto_height  ? figure.sheet.width
+                       : model.paper.auto_width ? figure.sheet.height
+                                                : std::min(figure.sheet.width, figure.sheet.height);
   if (!(size.x > 1 && size.y > 1))
     does_not_fit(model.paper.margin_place,
-                 fmt::format("a margin of {:g} mm leaves nothing of a page of {:.1f} x {:.1f} mm", model.paper.margin,
-                             figure.sheet.width, figure.sheet.height),
-                 fmt::format("less than {:.1f} mm", 0.5 * (std::min(figure.sheet.width, figure.sheet.height) - 1)));
+                 fmt::format("a margin of {:g} mm leaves nothing of {}", model.paper.margin,
+                             page_in_words(model.paper, figure.sheet.width, figure.sheet.height)),
+                 fmt::format("less than {:.1f} mm", 0.5 * (given - 1)));
   add_view(std::move(model), margin, size, false, options, figure);
+}
+
+// Panels that neither the layout nor an output of their own shows.
+void note_unplaced_panels(const Model& model, Figure& figure) {
+  std::set<std::string> placed;
+  for (const auto& row : model.layout.rows) placed.insert(row.begin(), row.end());
+  for (const OutputFile& file : model.outputs) placed.insert(file.panel);
+  for (const Panel& panel : model.panels)
+    if (!placed.contains(panel.name))
+      figure.left_out.push_back(fmt::format("the panel '{}', which `rows` of the layout do not name", panel.name));
 }
 
 }  // namespace
@@ -394,13 +417,17 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
     model.paper.width = model.film.width * per_pixel, model.paper.height = model.film.height * per_pixel;
   }
   if (options.width > 0) {
-    model.paper.height *= options.width / model.paper.width;
-    model.paper.width = options.width;
+    // Margins keep their width: an automatic page has the shape of what is between them.
+    Paper& paper = model.paper;
+    const double margins = paper.auto_width || paper.auto_height ? 2 * paper.margin : 0;
+    paper.height = margins + (paper.height - margins) * (options.width - margins) / (paper.width - margins);
+    paper.width = options.width;
   }
   figure.sheet.title = model.title;
   figure.sheet.paper = rgb(model.drawing.paper);
   if (!model.panels.empty()) {
     PanelLayout layout = panel_layout(model, options.panel);
+    if (options.panel.empty()) note_unplaced_panels(model, figure);
     figure.sheet.width = layout.width, figure.sheet.height = layout.height;
     for (PlacedPanel& panel : layout.panels) {
       std::vector<SheetItem> before;

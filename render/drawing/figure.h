@@ -27,6 +27,7 @@ struct Figure {
   int incomplete = 0;                           // surfaces of which not all lines are known
   std::vector<std::string> incomplete_objects;  // theirs, in words
   int open_areas = 0;                           // areas of fills whose border is not known all around
+  std::vector<std::string> cut_off;             // texts that go over the page's edges, with what would have room
   std::vector<std::string> left_out;            // what the scene asks for and drawings do not show
 };
 

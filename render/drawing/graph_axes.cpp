@@ -16,6 +16,12 @@ constexpr double kTick = 1.2;         // outwards, of the marks
 constexpr double kFromTick = 0.9;     // to their numbers
 constexpr double kFromNumbers = 1.2;  // to the axis's name
 constexpr double kPerTick = 14;       // of an axis, for each mark of `auto`
+constexpr size_t kFewTicks = 3;       // so many of `auto` are wished for, nearer to one another if need be
+constexpr double kBetweenNumbers = 2.5;
+constexpr double kLine = 0.5;       // for the width of lines at the edge of a graph
+constexpr double kFromEdge = 0.35;  // of texts from the page's
+constexpr double kNearEnd = 0.02;   // of a range: texts so near to its end need room beyond it
+constexpr double kAtEnd = 1e-6;     // of a range, beyond it: still its end
 constexpr double kSample = 7, kSampleToText = 1.5, kEntry = 1.5, kLegendFree = 3;
 
 // What the picture of a graph shows.
@@ -47,8 +53,8 @@ class Axes {
     const auto& axes = view.model.drawing.axes;
     if (axes) {
       style_ = axes->style;
-      if (axes->x) x_ticks_ = ticks(*axes->x, ranges_.x, view.width());
-      if (axes->y) y_ticks_ = ticks(*axes->y, ranges_.y, view.height());
+      if (axes->x) x_ticks_ = ticks(*axes->x, ranges_.x, view.width(), "x");
+      if (axes->y) y_ticks_ = ticks(*axes->y, ranges_.y, view.height(), "y");
     }
     for (const Annotation& one : view.model.drawing.annotations)
       if (one.type == "knots") add_knots(one);
@@ -57,34 +63,11 @@ class Axes {
   }
 
   Insets insets() const {
-    Insets room;
-    const auto& axes = view_.model.drawing.axes;
-    if (axes && axes->x) {
-      room.bottom = kTick;
-      if (!x_ticks_.empty()) room.bottom += kFromTick + height_of(x_ticks_);
-      // Half of the last number stands beyond the axis.
-      for (const double at : {ranges_.x.lo, ranges_.x.hi})
-        for (const auto& [value, text] : x_ticks_)
-          if (std::abs(value - at) < 0.02 * ranges_.x.width())
-            (at == ranges_.x.lo ? room.left : room.right) = 0.5 * text.width;
-    }
-    if (has_knot_texts()) room.bottom += kFromNumbers + knot_text_height();
-    if (axes && axes->x && !name(axes->x).empty()) {
-      const SheetText text = name_text(axes->x);
-      room.bottom += kFromNumbers + text.ascent + text.descent;
-    }
-    if (axes && axes->y) {
-      double left = kTick;
-      if (!y_ticks_.empty()) left += kFromTick + width_of(y_ticks_);
-      if (!name(axes->y).empty()) left += kFromNumbers + name_height(axes->y);
-      room.left = std::max(room.left, left);
-      room.top = std::max(room.top, 0.5 * height_of(y_ticks_));
-    }
-    // Marks of a multiple knot stand on one another below the axis.
-    const Insets legend = legend_room();
-    room.left += legend.left, room.right += legend.right, room.top += legend.top, room.bottom += legend.bottom;
-    // Lines are as wide as they are.
-    room.right = std::max(room.right, 0.5), room.top = std::max(room.top, 0.5);
+    Insets room = taken();
+    // Without a margin the page's edge would touch the texts.
+    const double free = std::max(0.0, kFromEdge - view_.model.paper.margin);
+    for (double* side : {&room.left, &room.right, &room.top, &room.bottom})
+      if (*side > kLine) *side += free;
     return room;
   }
 
@@ -99,15 +82,78 @@ class Axes {
  private:
   using Tick = std::pair<double, SheetText>;
 
-  std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length) const {
-    std::vector<Tick> result;
-    const std::vector<double> values = axis.ticks == "auto" ? round_values(range, length / kPerTick)
-                                       : axis.ticks.empty() ? axis.tick_values
-                                                            : std::vector<double>();
-    const double slack = 1e-9 * range.width();
-    for (const double value : values)
+  // Of the room around the graph, by what stands there.
+  Insets taken() const {
+    Insets room;
+    const auto& axes = view_.model.drawing.axes;
+    if (axes && axes->x) {
+      room.bottom = kTick;
+      if (!x_ticks_.empty()) room.bottom += kFromTick + height_of(x_ticks_);
+      // Half of the last number stands beyond the axis.
+      for (const double at : {ranges_.x.lo, ranges_.x.hi})
+        for (const auto& [value, text] : x_ticks_)
+          if (std::abs(value - at) < kNearEnd * ranges_.x.width())
+            (at == ranges_.x.lo ? room.left : room.right) = 0.5 * text.width;
+    }
+    if (has_knot_texts()) room.bottom += kFromNumbers + knot_text_height();
+    if (axes && axes->x && !name(axes->x).empty()) {
+      const SheetText text = name_text(axes->x);
+      room.bottom += kFromNumbers + text.ascent + text.descent;
+    }
+    if (axes && axes->y) {
+      double left = kTick;
+      if (!y_ticks_.empty()) left += kFromTick + width_of(y_ticks_);
+      if (!name(axes->y).empty()) left += kFromNumbers + name_height(axes->y);
+      room.left = std::max(room.left, left);
+      room.top = std::max(room.top, 0.5 * height_of(y_ticks_));
+      room.bottom = std::max(room.bottom, 0.5 * height_of(y_ticks_));
+    }
+    // Half of a text at an end of the axis stands beyond it.
+    for (const KnotMarks& one : knots_) {
+      if (one.text.empty()) continue;
+      const double half = 0.5 * text_in(knot_style_, one.text).width;
+      if (std::abs(one.t - ranges_.x.lo) < kNearEnd * ranges_.x.width()) room.left = std::max(room.left, half);
+      if (std::abs(one.t - ranges_.x.hi) < kNearEnd * ranges_.x.width()) room.right = std::max(room.right, half);
+    }
+    // Marks of a multiple knot stand on one another below the axis.
+    const Insets legend = legend_room();
+    room.left += legend.left, room.right += legend.right, room.top += legend.top, room.bottom += legend.bottom;
+    // Lines are as wide as they are.
+    room.right = std::max(room.right, kLine), room.top = std::max(room.top, kLine);
+    return room;
+  }
+
+  std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length, const char* name) {
+    if (axis.ticks == "auto") return automatic_ticks(range, length, *name == 'x');
+    std::vector<double> inside;
+    const double slack = kAtEnd * range.width();
+    for (const double value : axis.ticks.empty() ? axis.tick_values : std::vector<double>())
       if (value >= range.lo - slack && value <= range.hi + slack)
-        result.emplace_back(value, text_in(style_, tick_text(value)));
+        inside.push_back(value);
+      else
+        work_.left_out.push_back(fmt::format("the tick {} of the {} axis, which shows {} to {}", tick_text(value), name,
+                                             tick_text(range.lo), tick_text(range.hi)));
+    return with_numbers(inside);
+  }
+
+  std::vector<Tick> with_numbers(const std::vector<double>& values) const {
+    std::vector<Tick> result;
+    for (const double value : values) result.emplace_back(value, text_in(style_, tick_text(value)));
+    return result;
+  }
+
+  // Of finer steps if there are few, as long as their numbers stand apart.
+  std::vector<Tick> automatic_ticks(const Interval& range, double length, bool across) const {
+    double count = length / kPerTick;
+    std::vector<Tick> result = with_numbers(round_values(range, count));
+    while (result.size() < kFewTicks && count < length) {
+      count *= 1.3;
+      std::vector<Tick> finer = with_numbers(round_values(range, count));
+      if (finer.size() < 2) continue;
+      const double apart = (finer[1].first - finer[0].first) / range.width() * length;
+      if (apart < kBetweenNumbers + (across ? width_of(finer) : height_of(finer))) break;
+      result = std::move(finer);
+    }
     return result;
   }
 
@@ -299,7 +345,7 @@ class Axes {
   void draw_legend() {
     const Legend& legend = *view_.model.drawing.legend;
     const Vec2 size = legend_size();
-    const Insets room = insets();
+    const Insets room = taken();
     Vec2 at(view_.at.x + kLegendFree, view_.at.y + kLegendFree);
     if (legend.side == "right") at = {right() + room.right - size.x, 0.5 * (view_.at.y + bottom() - size.y)};
     if (legend.side == "left") at = {view_.at.x - room.left, 0.5 * (view_.at.y + bottom() - size.y)};
@@ -373,8 +419,8 @@ std::vector<double> round_values(const Interval& range, double count) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= 0.999 * rough) step = factor * power;
   std::vector<double> values;
-  for (double k = std::ceil(range.lo / step - 1e-9); k * step <= range.hi + 1e-9 * step; ++k)
-    values.push_back(k * step);
+  const double slack = kAtEnd * range.width() / step;
+  for (double k = std::ceil(range.lo / step - slack); k <= range.hi / step + slack; ++k) values.push_back(k * step);
   return values;
 }
 

@@ -18,6 +18,7 @@ Insets insets_of(const View& view, const std::vector<LegendEntry>& entries);
 struct GraphWork {
   std::vector<SheetItem> under, over;  // the lines: grids; axes and the legend
   std::vector<Label> labels;           // texts, all in their places
+  std::vector<std::string> left_out;   // ticks outside of the range, in words
 };
 
 // Of the view in its place.

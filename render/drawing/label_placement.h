@@ -24,6 +24,7 @@ struct Label {
   std::optional<LineLook> leader;  // a line from the text to the point: the text may stand farther off
   std::optional<Brush> box;        // behind the text
   std::string kind = "label", object;
+  bool on_page = false;  // the scene says where on the page
 };
 
 struct LabelObstacles {

@@ -10,6 +10,7 @@
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
+#include "render/drawing/page_edges.h"
 #include "render/scene/diagnostics.h"
 
 namespace lekalo::render {
@@ -154,10 +155,7 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
   for (Label& label : labels) {
     std::vector<Label> one{label};
     place_labels(one, free);
-    const SheetText& text = one[0].text;
-    const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
-    for (const double x : {0.0, text.width})
-      for (const double y : {text.ascent, -text.descent}) all.include(text.at + x * along + y * up);
+    include(box_of(one[0].text), all);
   }
   return all;
 }
@@ -229,6 +227,12 @@ void does_not_fit(const Place& place, std::string message, std::string hint) {
   Diagnostics found;
   found.error(place, std::move(message), std::move(hint));
   throw SceneError(std::move(found));
+}
+
+std::string page_in_words(const Paper& paper, double width, double height) {
+  if (paper.auto_height) return fmt::format("a page {:.1f} mm wide", width);
+  if (paper.auto_width) return fmt::format("a page {:.1f} mm high", height);
+  return fmt::format("a page of {:.1f} x {:.1f} mm", width, height);
 }
 
 namespace {
@@ -366,10 +370,11 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const double height : heights) layout.height += height;
   }
   if (!(width > 1) || !(*std::min_element(heights.begin(), heights.end()) > 1))
-    does_not_fit(page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
-                 fmt::format("margins and gaps leave no room for {} x {} panels on {:.1f} x {:.1f} mm", columns,
-                             rows.size(), layout.width, layout.height),
-                 "smaller ones, or a larger `size` of the image");
+    does_not_fit(
+        page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
+        fmt::format("margins and gaps leave no room for {} panel{} in a row and {} in a column on {}", columns,
+                    columns == 1 ? "" : "s", rows.size(), page_in_words(page.paper, layout.width, layout.height)),
+        "smaller ones, or a larger `size` of the image");
   double y = margin;
   for (size_t i = 0; i < rows.size(); ++i) {
     for (size_t j = 0; j < rows[i].size(); ++j)

@@ -43,6 +43,9 @@ struct PanelLayout {
 // Throws SceneError: something does not fit on the paper.
 [[noreturn]] void does_not_fit(const Place& place, std::string message, std::string hint);
 
+// The page for messages: the sides that the scene gives.
+std::string page_in_words(const Paper& paper, double width, double height);
+
 // `only`: the name of one panel, which gets a sheet of its own; empty: all. Throws SceneError where they do not fit,
 // with what would.
 PanelLayout panel_layout(const Model& model, const std::string& only);

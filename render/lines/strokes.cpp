@@ -352,7 +352,9 @@ std::optional<Mark::Sign> mark_sign(std::string_view name) {
 }
 
 double millimetres_of_pixel(const Model& model) {
-  return model.paper.width > 0 ? model.paper.width / model.film.width : kMillimetresPerInch / kPixelsPerInch;
+  if (!(model.paper.width > 0)) return kMillimetresPerInch / kPixelsPerInch;
+  // By the side that is given: the other has the margins of a drawing beside the picture.
+  return model.paper.auto_width ? model.paper.height / model.film.height : model.paper.width / model.film.width;
 }
 
 const Fill& fill_of(const Model& model, const Object& object) {

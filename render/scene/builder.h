@@ -212,6 +212,7 @@ class Builder {
   // --- builder_drawing.cpp
   void merge_styles();
   void build_drawing(Model& model);
+  void check_axes(const Value* drawing, bool graph);
   void build_panels(const std::optional<Fields>& drawing, Model& model);
   void build_layout(Model& model);
   // Reports a name that no panel has.

@@ -60,7 +60,23 @@ void Builder::build_drawing(Model& model) {
     if (auto drawing = attempt(map, "'drawing'", [&] { return drawing_of(*fields); }))
       model.drawing = *std::move(drawing);
   build_panels(fields, model);
+  // Axes of the page are those of its graphs.
+  if (model.camera && !section("panels")) check_axes(given, model.camera->is_graph());
+  if (!model.panels.empty() &&
+      std::all_of(model.panels.begin(), model.panels.end(), [](const Panel& one) { return one.camera != nullptr; }))
+    check_axes(given, std::any_of(model.panels.begin(), model.panels.end(),
+                                  [](const Panel& one) { return one.camera->is_graph(); }));
   build_layout(model);
+}
+
+// Axes that a drawing asks for, of a view or views none of which is a graph.
+void Builder::check_axes(const Value* drawing, bool graph) {
+  if (graph || !drawing || !drawing->is_map()) return;
+  for (const Entry& entry : drawing->entries)
+    if (entry.key.name == "axes")
+      diagnostics_.error(entry.key.place, "'axes' belong to a graph, and this camera shows none",
+                         "camera: { type: graph }; arrows along the directions of space are an annotation: "
+                         "{ type: axes, at: [0, 0, 0] }");
 }
 
 void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
@@ -101,6 +117,10 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
       const Value* own = place.find("drawing");
       if (auto made = attempt(own ? *own : place, "'drawing'", [&] { return drawing_of(merged); }))
         panel.drawing = *std::move(made);
+      if (panel.camera && !panel.camera->is_graph()) {
+        check_axes(own, false);
+        panel.drawing.axes.reset();  // those of the page's graphs
+      }
     }
     model.panels.push_back(std::move(panel));
   });

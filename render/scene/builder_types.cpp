@@ -302,16 +302,17 @@ bool Builder::check_helpers(const Value& object, const Fields& fields) {
     if (!seen.insert(type).second) continue;
     const bool is_curve = std::holds_alternative<CurvePtr>(entity),
                is_surface = std::holds_alternative<SurfacePtr>(entity);
+    std::vector<std::string> offered;
     if (type)
-      check_all(helpers_of(*type), "'" + type->name + "' has no helper");
+      offered = helpers_of(*type);
     else if (is_curve || is_surface)
-      check_all(helpers_of(is_curve ? Category::curve : Category::surface), "this shape has no helper");
-    else
-      check_all({}, "this shape has no helper");
+      offered = helpers_of(is_curve ? Category::curve : Category::surface);
+    check_all(offered, type ? "'" + type->name + "' has no helper" : "this shape has no helper");
     if (!fields.has("show")) continue;
     for (const std::any& any : fields.references("show")) {
       const auto& helper = std::any_cast<const Helper&>(any);
-      if (helper.type != "de_casteljau") continue;
+      if (helper.type != "de_casteljau" || std::find(offered.begin(), offered.end(), helper.type) == offered.end())
+        continue;
       const Place& place = place_of_field(*show, helper.type);
       for (const char* parameter : {"t", "u", "v"})
         if (helper.values.has(parameter) != ((parameter[0] == 't') == is_curve)) {

@@ -21,12 +21,15 @@ namespace {
 constexpr double kMostPixels = 1e8;  // of a picture
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of drawings without a size on paper
+constexpr double kLeastFree = 2;       // millimetres between the margins of a page whose side is automatic
 
 // The picture's shape that fits what the camera shows: the ratio height / width of its image, within reason.
 double natural_aspect(const CameraFactory& factory, const Shown& shown) {
   const CameraPtr camera = factory(1000, 1000, shown);
   double x0 = geometry::kInfinity, x1 = -x0, y0 = x0, y1 = -x0;
-  for (const Vec3& point : shown.points()) {
+  std::vector<Vec3> points = shown.points();
+  if (camera->is_graph()) points.insert(points.end(), {shown.tight_box().lo, shown.tight_box().hi});
+  for (const Vec3& point : points) {
     const PicturePoint p = camera->project(point);
     if (!p.visible_side) return 1;
     x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
@@ -116,14 +119,21 @@ void Builder::build_camera(Model& model) {
     PictureSize size = image->get<PictureSize>("size");
     const double scale = size.on_paper ? image->number("dpi") / kMillimetresPerInch : 1;
     model.paper.auto_width = size.width == 0, model.paper.auto_height = size.height == 0;
+    double aspect = 0;
     if (size.width == 0 || size.height == 0) {
-      const double aspect = natural_aspect(make, all);
+      aspect = natural_aspect(make, all);
       if (size.width == 0) size.width = size.height / aspect;
       if (size.height == 0) size.height = size.width * aspect;
     }
     const double millimetres = size.on_paper ? 1 : kMillimetresPerInch / kPixelsPerInch;
     model.paper.width = size.width * millimetres;
     model.paper.height = size.height * millimetres;
+    // A page has its margins beside that: what is between them has the content's shape. Rendered pictures have none.
+    if (const double margins = 2 * model.paper.margin; margins > 0) {
+      const double free_width = model.paper.width - margins, free_height = model.paper.height - margins;
+      if (model.paper.auto_height) model.paper.height = margins + std::max(kLeastFree, free_width * aspect);
+      if (model.paper.auto_width) model.paper.width = margins + std::max(kLeastFree, free_height / aspect);
+    }
     const double width = std::max(1.0, std::round(size.width * scale)),
                  height = std::max(1.0, std::round(size.height * scale));
     if (width * height > kMostPixels) {

@@ -29,7 +29,11 @@ std::vector<Field> image_fields() {
   return {
       {"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
       {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
-      {"margin", page_length().non_negative().at_most(1000), "free border of a drawing", false, {}},
+      {"margin",
+       page_length().non_negative().at_most(1000),
+       "free border of a drawing; an automatic side of the page has it beside the content",
+       false,
+       {}},
       {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
       {"contrast", number().between(0, 1),
        "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "

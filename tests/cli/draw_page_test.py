@@ -270,6 +270,36 @@ image: { size: [60 mm, 80 mm] }
             self.assertEqual(next(root.iter(SVG + "path")).get("stroke-width"), "0.5")
         self.run_program("draw", "scene.yaml", "--size", "300", code=USAGE)
 
+    def test_automatic_sides_have_their_margins(self):
+        """What is between the margins has the content's shape, whichever side is given; pictures have no margins."""
+        scene = """lekalo: 1
+geometry: { f: { type: plane, domain: { u: [0, 10], v: [0, 3] } } }
+objects: { shape: f, lines: { boundary: thick } }
+camera: { view: top, margin: 0 }
+image: { size: SIZE, margin: 8 mm }
+"""
+        for size, page, content in (("[80 mm, auto]", (80, 35.2), (64, 19.2)), ("[auto, 35.2 mm]", (80, 35.2), (64, 19.2)),
+                                    ("[302, auto]", (79.904, 35.171), (63.904, 19.171))):
+            root, _ = self.drawn(scene.replace("SIZE", size))
+            self.assert_near([float(root.get(side).removesuffix("mm")) for side in ("width", "height")], page, 0.01)
+            lo_x, lo_y, hi_x, hi_y = self.box(root)
+            whole_pixels = 0.05 if "mm" in size else 0.5
+            self.assert_near((hi_x - lo_x, hi_y - lo_y), content, whole_pixels)
+            self.assert_near((lo_x, lo_y), (8, 8), whole_pixels)
+        self.write("wide.yaml", scene.replace("SIZE", "[80 mm, auto]") + "outputs: [{ file: a.svg, width: 160 mm }]\n")
+        self.run_program("draw", "wide.yaml")
+        root = tree.fromstring(self.bytes_of("a.svg"))
+        self.assert_near(float(root.get("height").removesuffix("mm")), 0.3 * 144 + 16, 0.01)
+        # The height is free, so that only the width must hold the margins.
+        self.drawn(scene.replace("SIZE", "[80 mm, auto]").replace("8 mm", "13 mm"))
+        self.write("thick.yaml", scene.replace("SIZE", "[80 mm, auto]").replace("8 mm", "40 mm"))
+        errors = self.run_program("draw", "thick.yaml", code=SCENE_ERROR)[1]
+        self.assertIn("thick.yaml:5:39: a margin of 40 mm leaves nothing of a page 80.0 mm wide", errors)
+        self.assertIn("hint: less than 39.5 mm", errors)
+        self.write("picture.yaml", scene.replace("SIZE", "[100, auto]"))
+        self.run_program("render", "picture.yaml", "-o", "a.png")
+        self.assertEqual(self.bytes_of("a.png")[16:24].hex(), f"{100:08x}{30:08x}")
+
     def test_places_on_the_page(self):
         """They count from the page's lower left corner, whatever the margin."""
         root, _ = self.drawn(self.annotated("{ type: point, at: { page: [10 mm, 20 mm] }, marker: square }"))
@@ -301,7 +331,8 @@ image: { size: [80 mm, auto] }
         self.assertIn("hint: less than 29.5 mm", errors)
         self.write("panels.yaml", panels.replace(", scale: SCALE", "").replace("auto]", "auto], margin: 45 mm"))
         errors = self.run_program("draw", "panels.yaml", code=SCENE_ERROR)[1]
-        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 x 1 panels", errors)
+        self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 panels in a row and 1 in a column on "
+                      "a page 80.0 mm wide", errors)
 
     # ---------------------------------------------------------------- numbers, graphs, notes
 
@@ -339,6 +370,78 @@ drawing:
         root, _ = self.drawn(graph.replace("SIDE", "above right"))
         grounds = [path for path in self.of_class(root, "legend")[0].findall(SVG + "path") if path.get("fill")]
         self.assertEqual([path.get("fill") for path in grounds], ["#ffffff"])
+
+    def ticks(self, axes, curve="point: [t, sin(t), 0], domain: [0, 6.28]"):
+        """The numbers at the axes of a curve's graph, and what the program says."""
+        root, errors = self.drawn(f"""lekalo: 1
+geometry: {{ f: {{ type: formula_curve, {curve} }} }}
+camera: {{ type: graph }}
+drawing: {{ axes: {axes} }}
+image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
+""")
+        texts = [text for group in self.of_class(root, "tick") for text in self.texts(group)]
+        return texts, errors
+
+    def test_ticks_at_the_ends(self):
+        """What is found of the range is exact: the summits of a sine, which no sample meets, have their ticks."""
+        self.assertEqual(self.ticks("{ y: { ticks: [-1, 0, 1] } }")[0], ["−1", "0", "1"])
+        texts, errors = self.ticks("{ x: { ticks: [0, 3, 6.28, 9] } }")
+        self.assertEqual(texts, ["0", "3", "6.28"])
+        self.assertIn("note: not in the drawing: the tick 9 of the x axis, which shows 0 to 6.28", errors)
+
+    def test_automatic_ticks_are_several(self):
+        self.assertEqual(self.ticks("{ y: {} }")[0], ["−1", "0", "1"])
+        for top in (1, 2, 3, 4, 6, 7, 9, 11, 13, 19, 29):
+            curve = f"point: [{top} * t, 0.01 * {top} * t^2, 0], domain: [0.1, 1]"
+            for axis in "xy":
+                self.assertGreaterEqual(len(self.ticks(f"{{ {axis}: {{}} }}", curve)[0]), 3, (axis, curve))
+
+    def test_panels_without_a_place(self):
+        """A panel that the layout does not name is said to be left out, unless it has a file of its own."""
+        scene = """lekalo: 1
+geometry: { b: { type: box, size: [1, 1, 1] } }
+panels: { a: { camera: { view: top } }, b: { camera: { view: front } }, c: { camera: { view: left } } }
+layout: { rows: [[a, empty]] }
+outputs: [a.svg, { file: c.svg, panel: c }]
+"""
+        errors = self.drawn(scene)[1]
+        self.assertIn("note: not in the drawing: the panel 'b', which `rows` of the layout do not name\n", errors)
+
+    def test_texts_beyond_the_page(self):
+        """What goes over an edge is named, with what has room for it; what a graph places itself stays on the page."""
+        def warnings(margin, *annotations):
+            scene = self.annotated(*annotations).replace("4 mm", f"{margin} mm")
+            return re.findall("warning: (.*)", self.drawn(scene)[1])
+        self.assertEqual(warnings(4, "{ type: label, at: [0, 0], text: short }"), [])
+        held = "; `page` holds it there, whatever the margin$"
+        beyond = warnings(4, "{ type: label, at: { page: [500 mm, 5 mm] }, text: a, side: right }")[0]
+        self.assertRegex(beyond, "^the text 'a' is not on the page: it stands .* of 80.0 x 60.0 mm" + held)
+        self.assert_near(float(re.search("stands ([0-9.]+) mm beyond the right edge", beyond).group(1)), 420, 0.2)
+        over = warnings(4, "{ type: label, at: { page: [78 mm, 5 mm] }, text: corner, side: right }")[0]
+        self.assertRegex(over, "^the text 'corner' goes [0-9.]+ mm over the page's right edge" + held)
+        wide = warnings(4, "{ type: label, at: [0, 0], text: '" + 20 * "wide " + "' }")[0]
+        self.assertRegex(wide, "^the text 'wide .*' is cut off: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
+        graph = """lekalo: 1
+geometry: { N: { repeat: { i: 0..3 }, type: basis_function, degree: 2, knots: [0, 0, 0, 1, 2, 2, 2], index: i } }
+objects: [{ shape: N, legend: '$N_%i$' }]
+camera: { type: graph }
+drawing:
+  axes: { x: { ticks: 0..2, label: LABEL }, y: { ticks: [0, 1] } }
+  legend: { side: above }
+  annotations: [{ type: knots, of: N.0, label: '$t_%i$', multiplicity: once, marker: plus }]
+image: { size: [80 mm, 50 mm], margin: MARGIN mm }
+"""
+        for margin in "02":
+            self.assertNotIn("warning", self.drawn(graph.replace("MARGIN", margin).replace("LABEL", "x"))[1])
+        label = "{ type: label, at: [2, 0.5], text: end, side: right }"
+        at_the_end = graph.replace("LABEL", "x").replace("annotations: [", f"annotations: [{label}, ")
+        over = self.drawn(at_the_end.replace("MARGIN", "2"))[1]
+        enough = r"the text 'end' goes [0-9.]+ mm over the page's right edge; `margin: ([0-9.]+) mm` gives it room"
+        self.assertNotIn("warning", self.drawn(at_the_end.replace("MARGIN", re.search(enough, over).group(1)))[1])
+        # Beside a graph that is not in the middle of the page.
+        named = graph.replace("LABEL", "x").replace("[0, 1]", "[0, 1], label: " + 25 * "n")
+        over = self.drawn(named.replace("MARGIN", "0"))[1]
+        self.assertRegex(over, "the text 'n+' goes [0-9.]+ mm over .*; a larger page or a smaller `text_size` has room")
 
     def test_notes_on_lights(self):
         """The studio is named where something is lit by it."""

@@ -128,6 +128,7 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       const render::Figure& figure = found->figure;
       if (!settings.quiet && !figure.left_out.empty())
         fmt::print(stderr, "note: not in the drawing: {}\n", fmt::join(figure.left_out, ", "));
+      for (const std::string& cut : figure.cut_off) fmt::print(stderr, "warning: {}\n", cut);
       if (figure.incomplete > 0)
         fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide ({})\n",
                    figure.incomplete, figure.incomplete == 1 ? "" : "s", fmt::join(figure.incomplete_objects, ", "));

@@ -30,6 +30,7 @@ std::string about(const std::string& annotation) { return said(scene_with(annota
 
 TEST(Drawing, PageWideChoices) {
   const Model m = model(
+      "camera: { type: graph }\n"
       "styles: { net: { like: thin } }\n"
       "drawing:\n"
       "  ground: shaded\n"
@@ -55,7 +56,7 @@ TEST(Drawing, Errors) {
   EXPECT_EQ(said("drawing: { grund: fill }\n"), "3:12 unknown field 'grund' of 'drawing' (did you mean 'ground'?)\n");
   EXPECT_EQ(said("drawing: { ground: shade }\n"), "3:20 unknown word 'shade' (did you mean 'shaded'?)\n");
   EXPECT_EQ(said("drawing: { lines: { parameter: {} } }\n"), "3:32 parameter lines need 'at_u' or 'at_v'\n");
-  EXPECT_EQ(said("drawing: { axes: { x: { ticks: many } } }\n"), "3:32 unknown name 'many'\n");
+  EXPECT_EQ(said("drawing: { axes: { x: { ticks: many } } }\ncamera: { type: graph }\n"), "3:32 unknown name 'many'\n");
   EXPECT_EQ(said("drawing: { legend: { side: rigth } }\n"), "3:28 unknown word 'rigth' (did you mean 'right'?)\n");
   EXPECT_EQ(said("drawing: 3\n"), "3:10 'drawing' is a map of fields, found a single value\n");
 }
@@ -217,6 +218,20 @@ TEST(Outputs, FieldsBelongToTheirKind) {
             "3:33 expected a length greater than 0 and at most 5000 mm, found -5 mm\n");
 }
 
+TEST(Graph, AxesNeedOne) {
+  EXPECT_EQ(said(kGeometry + "drawing: { axes: { x: {} } }\n"),
+            "4:12 'axes' belong to a graph, and this camera shows none\n");
+  const std::string graph = "a: { camera: { type: graph } }", top = "b: { camera: { view: top } }";
+  EXPECT_EQ(said(kGeometry + "panels: { " + top + " }\ndrawing: { axes: { x: {} } }\n"),
+            "5:12 'axes' belong to a graph, and this camera shows none\n");
+  EXPECT_EQ(said(kGeometry + "panels: { b: { camera: { view: top }, drawing: { axes: { x: {} } } } }\n"),
+            "4:50 'axes' belong to a graph, and this camera shows none\n");
+  // Those of a page are for its graphs.
+  const Model m = model(kGeometry + "panels: { " + graph + ", " + top + " }\ndrawing: { axes: { x: {} } }\n");
+  EXPECT_TRUE(m.panels.at(0).drawing.axes);
+  EXPECT_FALSE(m.panels.at(1).drawing.axes);
+}
+
 TEST(Paper, SizeAndMarginInMillimetres) {
   const Model m = model("image: { size: [84 mm, 60 mm], margin: 2 mm }\n" + kGeometry);
   EXPECT_EQ(m.paper.width, 84);
@@ -238,6 +253,17 @@ TEST(Graph, AxesAreScaledIndependently) {
   // Without ranges all is shown: the circle of radius 2.
   const Model all = model("objects: [{ shape: { type: circle, radius: 2 } }]\ncamera: { type: graph }\n");
   EXPECT_NEAR(all.camera->project({2, 0, 0}).x, all.camera->width(), 1e-9);
+  // Then a side that is automatic is as long as the other.
+  const Model square = model(
+      "objects: [{ shape: { type: formula_curve, y: sin(x), domain: [0, 6] } }]\ncamera: { type: graph }\n"
+      "image: { size: [80 mm, auto], margin: 5 mm }\n");
+  EXPECT_NEAR(square.paper.height, 80, 1e-9);
+  // To the summits between samples, and to corners: 2 (|x - 0.3| - 0.7) in (-1, 1).
+  const Model summits = model(
+      "geometry: { f: { type: formula_curve, y: abs(x - 0.3) - 0.7, domain: [-1, 1] } }\n"
+      "objects: [{ shape: f, transform: { scale: [1, 2, 1] } }]\ncamera: { type: graph }\n");
+  EXPECT_NEAR(summits.camera->project({0, 1.2, 0}).y, 0, 1e-9);
+  EXPECT_NEAR(summits.camera->project({0, -1.4, 0}).y, summits.camera->height(), 1e-9);
 }
 
 }  // namespace

@@ -170,6 +170,9 @@ TEST(Helpers, Errors) {
   EXPECT_EQ(said(show("{ de_casteljau: { t: 0.5, levels: [1.5] } }")), "6:45 levels are whole numbers\n");
   EXPECT_EQ(said("objects: [{ shape: { type: ball, radius: 1 }, show: { comb: {} } }]\n"),
             "3:55 'ball' has no helper 'comb'\n");
+  // What it would need does not matter where there is none.
+  EXPECT_EQ(said("objects: [{ shape: { type: ball, radius: 1 }, show: { de_casteljau: { t: 0.5 } } }]\n"),
+            "3:55 'ball' has no helper 'de_casteljau'\n");
   // Whatever else is wrong with the object.
   EXPECT_EQ(said(kCurve + "objects: { shape: r, colour: red, show: { control_poligon: {} } }\n"),
             "4:22 unknown field 'colour' of an object\n"

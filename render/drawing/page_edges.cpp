@@ -1,0 +1,72 @@
+#include "render/drawing/page_edges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lekalo::render {
+
+namespace {
+
+// Millimetres.
+constexpr double kSeen = 0.05;     // of a text beyond the edge
+constexpr double kLeastRoom = 20;  // between margins that a message speaks of
+constexpr double kMarginStep = 0.5;
+constexpr size_t kLongest = 40;  // characters of a text in a message
+
+std::string shortened(const std::string& text) {
+  size_t end = 0;
+  for (size_t count = 0; end < text.size() && count < kLongest; ++count) do
+      ++end;
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80);  // of the same character
+  if (end == text.size()) return text;
+  while (end > 0 && text[end - 1] == ' ') --end;
+  return text.substr(0, end) + "...";
+}
+
+}  // namespace
+
+SheetBox box_of(const SheetText& text) {
+  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+  SheetBox box;
+  for (const double x : {0.0, text.width})
+    for (const double y : {text.ascent, -text.descent}) box.include(text.at + x * along + y * up);
+  return box;
+}
+
+std::string over_the_edge(const Label& label, const Vec2& page, double margin) {
+  const SheetBox box = box_of(label.text);
+  struct Edge {
+    const char* name;
+    double over, size;  // how far the text reaches beyond it, and that of all the text
+  };
+  const Vec2 size = box.size();
+  const Edge edges[] = {{"left", -box.lo.x, size.x},
+                        {"right", box.hi.x - page.x, size.x},
+                        {"upper", -box.lo.y, size.y},
+                        {"lower", box.hi.y - page.y, size.y}};
+  const Edge& worst = *std::max_element(std::begin(edges), std::end(edges),
+                                        [](const Edge& a, const Edge& b) { return a.over < b.over; });
+  if (!(worst.over > kSeen)) return {};
+  const std::string text = fmt::format("the text '{}'", shortened(label.text.tex));
+  for (const int axis : {0, 1})
+    if (size[axis] > page[axis])
+      return fmt::format(
+          "{} is cut off: it is {:.1f} mm {}, the page {:.1f} mm; a shorter text, a smaller `text_size` or a "
+          "larger page has room for it",
+          text, size[axis], axis == 0 ? "wide" : "high", page[axis]);
+  std::string where =
+      worst.over < worst.size
+          ? fmt::format("{} goes {:.1f} mm over the page's {} edge", text, worst.over, worst.name)
+          : fmt::format("{} is not on the page: it stands {:.1f} mm beyond the {} edge of {:.1f} x {:.1f} mm", text,
+                        worst.over - worst.size, worst.name, page.x, page.y);
+  const double enough = kMarginStep * std::ceil((margin + worst.over) / kMarginStep);
+  if (label.on_page) return where + "; `page` holds it there, whatever the margin";
+  // Names of axes and legends have their place beside the whole graph, which a margin does not change.
+  if (label.kind == "axis" || label.kind == "legend" || 2 * enough + kLeastRoom > std::min(page.x, page.y))
+    return where + "; a larger page or a smaller `text_size` has room for it";
+  return where + fmt::format("; `margin: {:g} mm` gives it room", enough);
+}
+
+}  // namespace lekalo::render
