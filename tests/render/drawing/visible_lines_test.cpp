@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "geometry/bodies/primitives.h"
 #include "geometry/curves/segment.h"
 #include "render/drawing/paths.h"
 #include "render/drawing/random_views.h"
+#include "render/scene/scene_text.h"
 #include "render/small_scene.h"
 #include "support/tier.h"
 
@@ -136,6 +139,65 @@ TEST(VisibleLines, InThePictureWhateverIsOutside) {
     EXPECT_NEAR(line.curve->place(1).p.x, 2, 1e-9);
     EXPECT_EQ(line.pieces.back().layers, 0);
     EXPECT_LT(line.curve->place(line.pieces.back().t.lo).p.x, 0);
+  }
+}
+
+// Pixels of each kind of lines behind so many sheets.
+std::map<std::pair<std::string, int>, double> lengths_of(const std::string& scene) {
+  const BuiltText text = build_text(scene);
+  EXPECT_EQ(text.said, "");
+  const World world(std::make_shared<Model>(text.model));
+  std::map<std::pair<std::string, int>, double> lengths;
+  for (const VisibleLine& line : visible_lines(world, drawing_work(world)).lines)
+    for (const VisiblePiece& piece : line.pieces) {
+      constexpr int kParts = 64;
+      for (int k = 0; k < kParts; ++k) {
+        const auto at = [&](int i) { return line.curve->place(piece.t.lo + piece.t.width() * i / kParts).p; };
+        lengths[{line.stroke.kind, piece.layers}] += glm::length(at(k + 1) - at(k));
+      }
+    }
+  return lengths;
+}
+
+// A box and a torus that go through one another, twice: as a group shown twice and as four objects.
+TEST(VisibleLines, OfAGroupShownTwice) {
+  const std::string shapes = R"(geometry:
+  b: { type: box, size: [1, 1, 1], center: [0, 0, 0] }
+  t: { type: torus_body, major_radius: 0.8, minor_radius: 0.2 }
+camera: { type: parallel, from: [6, -9, 5], at: [0, 0, 0], height: 6 }
+image: { size: [600, 500] }
+drawing: { lines: { sharp: thin, silhouette: thin, hidden: dashed } }
+objects:
+)";
+  const std::string moved = "transform: [{ rotate: 70, axis: [1, 1, 1] }, { translate: [1.8, 0.6, 0.3] }] }\n";
+  const std::string group = "  - { shape: { type: group, of: [{ shape: b }, { shape: t }] }";
+  const auto twice = lengths_of(shapes + group + " }\n" + group + ", " + moved);
+  const auto flat =
+      lengths_of(shapes + "  - { shape: b }\n  - { shape: t }\n  - { shape: b, " + moved + "  - { shape: t, " + moved);
+  ASSERT_EQ(twice.size(), flat.size());
+  for (const auto& [kind, length] : flat) {
+    const auto found = twice.find(kind);
+    ASSERT_NE(found, twice.end()) << kind.first << " " << kind.second;
+    EXPECT_NEAR(found->second, length, 1e-6) << kind.first << " " << kind.second;
+  }
+}
+
+// Cylinders that touch along lines, seen across the plane of their axes: nothing lies before these lines.
+TEST(VisibleLines, OutlinesAlongWhichOthersTouch) {
+  for (const char* camera : {"type: parallel, from: [0, -10, 1], at: [0, 0, 1], height: 3",
+                             "type: parallel, from: [0, 10, 4], at: [0, 0, 1], height: 3",
+                             "type: perspective, from: [0.4, -10, 1], at: [0.4, 0, 1], field_of_view: 20"}) {
+    const auto lengths = lengths_of(R"(geometry:
+  p: { type: cylinder_body, radius: 0.4, height: 2 }
+  q: { type: cylinder_body, radius: 0.4, height: 2, center: [0.8, 0, 0] }
+image: { size: [600, 500] }
+drawing: { lines: { silhouette: thick, hidden: dashed } }
+objects: [{ shape: p }, { shape: q }]
+camera: { )" + std::string(camera) + " }\n");
+    for (const auto& [kind, length] : lengths)
+      if (kind.first == "silhouette" && kind.second > 0) {
+        EXPECT_LT(length, 0.1) << camera;
+      }
   }
 }
 

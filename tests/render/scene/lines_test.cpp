@@ -84,6 +84,20 @@ TEST(LinesOfScenes, ObjectsGiveTheLinesThatTheyAskFor) {
   EXPECT_EQ(group.marks[0].point, Vec3(1, 2, 8));
 }
 
+TEST(LinesOfScenes, ObjectsHaveTheNamesOfTheirShapes) {
+  const BuiltText text = build_text(R"(geometry:
+  box: { type: box, size: [1, 1, 1] }
+  cans: { repeat: { i: 0..1 }, type: cylinder_body, center: [3 * i + 3, 0, 0], radius: 1, height: 2 }
+objects:
+  - { shape: [box, cans, { type: ball, radius: 1 }] }
+  - { shape: [box, cans.1], name: both }
+)");
+  EXPECT_EQ(text.said, "");
+  std::vector<std::string> names;
+  for (const Object& object : text.model.objects) names.push_back(object.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"box", "cans", "cans", "", "both", "both"}));
+}
+
 TEST(LinesOfScenes, ControlPolygonsAndNets) {
   const LineWork curve = work_of("  - { shape: r, show: control_polygon }\n");
   EXPECT_EQ(curve.strokes.size(), 2u);
