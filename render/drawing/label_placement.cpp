@@ -13,6 +13,7 @@ namespace {
 // Costs by what they are for; those of lines and texts grow with what is covered, in millimetres.
 constexpr double kOnText = 60, kOffPaper = 60, kOnLine = 3, kOnSign = 12;
 constexpr double kFarther = 0.5;  // for each step away from the point
+constexpr double kNextSpot = 0.1;  // for each place that is liked better
 constexpr int kRounds = 4;
 constexpr double kFree = 0.35;  // millimetres around a text that are its own
 
@@ -97,9 +98,9 @@ double fixed_cost(const Rect& box, const LabelObstacles& obstacles) {
 
 std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obstacles) {
   std::vector<Candidate> result;
-  const auto add = [&](const Vec2& way, double distance, double liked) {
+  const auto add = [&](const Vec2& point, const Vec2& way, double distance, double liked) {
     Candidate one;
-    one.at = baseline(label.text, label.at, way, distance);
+    one.at = baseline(label.text, point, way, distance);
     one.alignment = way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5;
     one.box = box_of(label.text, one.at);
     one.cost = liked + fixed_cost(one.box, obstacles);
@@ -108,13 +109,18 @@ std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obst
   if (label.side == "here") {
     result.push_back({label.text.at, label.text.alignment, 0, box_of(label.text, label.text.at)});
   } else if (!label.side.empty()) {
-    add(direction_of_side(label.side), label.distance, 0);
+    add(label.at, direction_of_side(label.side), label.distance, 0);
+  } else if (!label.spots.empty()) {
+    for (size_t k = 0; k < label.spots.size(); ++k) {
+      const LabelSpot& spot = label.spots[k];
+      add(spot.at, direction_of_side(spot.side), spot.distance, kNextSpot * static_cast<double>(k));
+    }
   } else {
     const std::vector<double> steps =
         label.leader ? std::vector<double>{5, 7, 10, 14, 19, 25} : std::vector<double>{0, 0.5, 1.2, 2.2, 3.5};
     for (size_t step = 0; step < steps.size(); ++step)
       for (size_t k = 0; k < kDirections.size(); ++k)
-        add(kDirections[k].way, label.distance + steps[step],
+        add(label.at, kDirections[k].way, label.distance + steps[step],
             kFarther * static_cast<double>(step) * (1 + step) + 0.05 * k);
   }
   return result;
