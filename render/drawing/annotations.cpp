@@ -377,7 +377,8 @@ class Annotator {
     if (angle < -kPi) angle += kTwoPi;
     const PictureEllipse circle{apex, {radius, 0}, {0, -radius}};
     shape({drawn({circle.point(from), arcs_to(circle, from, from + angle), false}, look_)});
-    arc_label(apex, [&](double part) { return circle.point(from + part * angle); }, words, text_side);
+    arc_label(
+        apex, [&](double part) { return circle.point(from + part * angle); }, words, text_side);
   }
 
   void add_leader(const Fields& f) {
@@ -464,10 +465,16 @@ class Annotator {
     label.side = "here";
     label.text.alignment = 0.5;
     label.text.angle = std::atan2(-way.y, way.x);
-    // Where it does not fit between the arrows, behind one of them.
-    const double beside =
-        label.text.width + 1 > length ? 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width : 0.0;
-    label.text.at = middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+    const auto at = [&](double beside) {
+      return middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+    };
+    label.text.at = at(0);
+    if (label.text.width + 1 > length) {
+      // It does not fit between the arrows: behind one of them.
+      label.side.clear();
+      const double beside = 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width;
+      label.spots = {{at(beside), "here", 0}, {at(-beside), "here", 0}};
+    }
     page_.labels.push_back(std::move(label));
   }
 

@@ -15,7 +15,7 @@
 
 namespace lekalo::render {
 
-// A place for a text: beside a point, on its `side`.
+// A place for a text: beside a point, on its `side`; `here`: the beginning of its baseline.
 struct LabelSpot {
   Vec2 at{0};
   std::string side;
