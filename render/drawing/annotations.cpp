@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "geometry/curves/circle.h"
 #include "geometry/curves/segment.h"
@@ -24,6 +25,7 @@ constexpr double kTextOff = 0.7;      // between a line and the text upon it
 constexpr double kShelf = 6;          // from a circle to the number of its radius
 constexpr double kLastPart = 0.4;     // of a light path, of the scene's radius
 constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
+constexpr double kStraight = 1e-9;    // radians: sides of an angle that are one line
 
 class Annotator {
  public:
@@ -47,7 +49,7 @@ class Annotator {
     else if (type == "axes")
       add_axes(f);
     else if (type == "angle")
-      add_angle(f, f.number("radius"), f.has("label") ? f.get<TextTemplate>("label").text() : std::string(), false);
+      add_angle(f);
     else if (type == "angle_dimension")
       add_angle_dimension(f);
     else if (type == "leader")
@@ -258,50 +260,98 @@ class Annotator {
     return 0.5 * (box.lo + box.hi);
   }
 
-  // The arc from one side of an angle to the other, `radius` millimetres on the page.
-  void add_angle(const Fields& f, double radius, const std::string& words, bool dimension) {
-    const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
-    if (at.on_page || from.on_page || to.on_page) {
-      const Vec2 apex = place(at), a = place(from) - apex, b = place(to) - apex;
-      const auto space = [](const Vec2& p) { return Vec3(p.x, -p.y, 0); };
-      page_arc(apex, space(a), space(b), radius);
-      return;
+  // The plane of an angle, x along its first side. The sides of 180 degrees are one line, which lies in many planes: it
+  // is the one across the way of sight, seen from its front. None where there is no angle, or such a line is seen
+  // end-on.
+  std::optional<Frame> plane_of_angle(const Vec3& apex, const Vec3& side, const Vec3& other) const {
+    Vec3 z = glm::cross(side, other);
+    if (!(glm::length(z) > kStraight * glm::length(side) * glm::length(other))) {
+      if (!(glm::dot(side, other) < 0)) return std::nullopt;
+      const PicturePoint seen = view_.camera.project(apex);
+      const Vec3 sight = view_.camera.ray(seen.x, seen.y).direction, along = glm::normalize(side);
+      z = glm::dot(sight, along) * along - sight;
+      if (!(glm::length(z) > kStraight)) return std::nullopt;
     }
-    const Vec3 x = from.point - at.point, other = to.point - at.point;
-    const Vec3 z = glm::cross(x, other);
-    const double angle = std::atan2(glm::length(z), glm::dot(x, other));
-    if (!(angle > 1e-9) || !(glm::length(z) > 0)) return;
-    page_.anchors.push_back(at.point);
-    const Frame frame = frame_from(at.point, glm::normalize(z), glm::normalize(x));
-    const double size = radius / view_.millimetres * view_.camera.pixel_size(at.point);
+    return frame_from(apex, glm::normalize(z), glm::normalize(side));
+  }
+
+  // Scene units of a length on the page that lies across the way of sight at this point.
+  double in_scene(double millimetres, const Vec3& point) const {
+    return millimetres / view_.millimetres * view_.camera.pixel_size(point);
+  }
+
+  void add_angle(const Fields& f) {
+    const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
+    const double radius = f.number("radius");
+    const std::string words = f.has("label") ? f.get<TextTemplate>("label").text() : std::string();
+    if (at.on_page || from.on_page || to.on_page)
+      page_arc(place(at), place(from), place(to), radius, words, side_of(f));
+    else
+      arc_of_angle(at.point, from.point, to.point, in_scene(radius, at.point), words, side_of(f), hidden(f));
+  }
+
+  // The arc from one side to the other, of a radius in scene units.
+  void arc_of_angle(const Vec3& apex, const Vec3& from, const Vec3& to, double radius, const std::string& words,
+                    const std::string& side, const HiddenLines& ways) {
+    const std::optional<Frame> frame = plane_of_angle(apex, from - apex, to - apex);
+    if (!frame) return;
+    page_.anchors.push_back(apex);
+    const Vec3 other = to - apex;
+    const double angle = std::atan2(std::abs(glm::dot(other, frame->y)), glm::dot(other, frame->x));
     const auto [start, end] = heads();
-    const HiddenLines ways = dimension ? HiddenLines{HiddenLines::Way::show, {}} : hidden(f);
-    stroke(std::make_shared<Circle>(frame, size, Interval{0, angle}), ways, start, end);
+    stroke(std::make_shared<Circle>(*frame, radius, Interval{0, angle}), ways, start, end);
+    const auto on_arc = [&](double part) {
+      return view_.place(frame->point(radius * Vec3(std::cos(part * angle), std::sin(part * angle), 0)));
+    };
+    constexpr int kPlaces = 8;
+    for (int k = 0; k <= kPlaces; ++k) page_.reach.push_back(on_arc(static_cast<double>(k) / kPlaces));
+    arc_label(view_.place(apex), on_arc, words, side);
+  }
+
+  // The text of an arc about `apex` on the page: outside of its middle or, where something is in the way there, at
+  // other places of it, inside of it, farther outside, or beside its ends.
+  template <class Place>
+  void arc_label(const Vec2& apex, const Place& on_arc, const std::string& words, const std::string& side) {
     if (words.empty()) return;
-    const Vec3 middle = frame.point(size * Vec3(std::cos(0.5 * angle), std::sin(0.5 * angle), 0));
-    // Outside of the arc.
-    Label label = page_label(words, view_.place(middle));
-    const Vec2 way = glm::normalize(view_.place(middle) - view_.place(at.point));
-    label.side = f.has("side") && !dimension ? f.text("side") : side_towards(way);
+    Label label = page_label(words, on_arc(0.5));
+    label.side = side;
     label.distance = kTextOff;
+    if (side.empty()) {
+      const auto beside = [&](const Vec2& point, const Vec2& way, double distance) {
+        label.spots.push_back({point, side_towards(way), distance});
+      };
+      constexpr double kParts[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
+      for (const double part : kParts) beside(on_arc(part), on_arc(part) - apex, kTextOff);
+      for (const double part : kParts) label.spots.push_back({apex + 0.6 * (on_arc(part) - apex), "center", 0});
+      for (const double farther : {1.5, 3.0, 5.0}) beside(on_arc(0.5), on_arc(0.5) - apex, kTextOff + farther);
+      for (const double end : {0.0, 1.0}) beside(on_arc(end), on_arc(end) - on_arc(0.5), kTextOff);
+    }
     page_.labels.push_back(std::move(label));
   }
 
+  // In the plane of the angle, beyond the nearer of the two points: so the offset is foreshortened as that plane is.
   void add_angle_dimension(const Fields& f) {
-    const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
-    if (at.on_page || from.on_page || to.on_page) return;
-    const Vec2 apex = place(at), a = place(from), b = place(to);
-    const double nearest = std::min(glm::length(a - apex), glm::length(b - apex));
-    const double radius = nearest + f.number("offset");
-    const Vec3 x = from.point - at.point, y = to.point - at.point;
-    const double degrees = std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180 / kPi;
-    for (const Vec2& side : {a, b}) {
-      const double length = glm::length(side - apex);
-      if (!(length > 0) || length + kGap > radius) continue;
-      const Vec2 way = (side - apex) / length;
-      page_line(side + kGap * way, apex + (radius + kBeyond) * way, false, false);
+    const Vec3 apex = f.get<Anchor>("at").point;
+    const std::array<Vec3, 2> ends = {f.get<Anchor>("from").point, f.get<Anchor>("to").point};
+    const Vec3 x = ends[0] - apex, y = ends[1] - apex;
+    const double radius = std::min(glm::length(x), glm::length(y)) + in_scene(f.number("offset"), apex);
+    std::array<Vec3, 2> feet;
+    for (size_t k = 0; k < 2; ++k) {
+      page_.anchors.push_back(ends[k]);
+      if (!(glm::length(ends[k] - apex) > 0)) return;
+      feet[k] = apex + radius * glm::normalize(ends[k] - apex);
+      if (!is_seen(feet[k])) return leave_out();
     }
-    add_angle(f, radius, number_text(f, degrees, "", "°"), true);
+    for (size_t k = 0; k < 2; ++k) {
+      const Vec2 point = view_.place(ends[k]), foot = view_.place(feet[k]);
+      const double length = glm::length(foot - point);
+      if (glm::length(ends[k] - apex) > radius || !(length > kGap)) continue;
+      const Vec2 way = (foot - point) / length;
+      page_line(point + kGap * way, foot + kBeyond * way, false, false);
+    }
+    const double degrees = std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180 / kPi;
+    arc_of_angle(apex, ends[0], ends[1], radius, number_text(f, degrees, "", "°"), "",
+                 HiddenLines{HiddenLines::Way::show, {}});
   }
 
   // ---------------------------------------------------------------- on the page
@@ -321,13 +371,17 @@ class Annotator {
     if (from != to) shape(line_with_heads(from, to, start, end, style_->arrow_size, look_));
   }
 
-  void page_arc(const Vec2& apex, const Vec3& x, const Vec3& y, double radius) {
-    const double from = std::atan2(x.y, x.x);
-    double angle = std::atan2(y.y, y.x) - from;
+  void page_arc(const Vec2& apex, const Vec2& side, const Vec2& other, double radius, const std::string& words,
+                const std::string& text_side) {
+    const Vec2 x = side - apex, y = other - apex;
+    const double from = std::atan2(-x.y, x.x);
+    double angle = std::atan2(-y.y, y.x) - from;
     if (angle > kPi) angle -= kTwoPi;
     if (angle < -kPi) angle += kTwoPi;
     const PictureEllipse circle{apex, {radius, 0}, {0, -radius}};
     shape({drawn({circle.point(from), arcs_to(circle, from, from + angle), false}, look_)});
+    arc_label(
+        apex, [&](double part) { return circle.point(from + part * angle); }, words, text_side);
   }
 
   void add_leader(const Fields& f) {
@@ -414,10 +468,16 @@ class Annotator {
     label.side = "here";
     label.text.alignment = 0.5;
     label.text.angle = std::atan2(-way.y, way.x);
-    const double beside = label.text.width + 1 > length && std::abs(way.y) < 1e-9
-                              ? 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width
-                              : 0.0;
-    label.text.at = middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+    const auto at = [&](double beside) {
+      return middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+    };
+    label.text.at = at(0);
+    if (label.text.width + 1 > length) {
+      // It does not fit between the arrows: behind one of them.
+      label.side.clear();
+      const double beside = 0.5 * length + 2.5 * style_->arrow_size + 0.5 * label.text.width;
+      label.spots = {{at(beside), "here", 0}, {at(-beside), "here", 0}};
+    }
     page_.labels.push_back(std::move(label));
   }
 

@@ -12,6 +12,7 @@ struct PageWork {
   std::vector<SheetItem> shapes;
   std::vector<Label> labels;
   std::vector<Vec3> anchors;  // points in space that the annotations speak of, those of the lines in space too
+  std::vector<Vec2> reach;    // places of lines in space whose size is one on the page
 };
 
 // Adds the annotations of the view's model. What stands on the page at points behind the eye is left out, and named in

@@ -89,6 +89,7 @@ class ViewDrawing {
       if (!group->items.empty()) figure_.sheet.items.push_back(std::move(*group));
     append(std::move(graph.over));
     add_marks(lines);
+    for (const SheetItem& item : page.shapes) add_obstacles(item);
     append(std::move(page.shapes));
     std::vector<Label> labels = std::move(page.labels);
     labels.insert(labels.end(), std::make_move_iterator(graph.labels.begin()),
@@ -246,6 +247,7 @@ class ViewDrawing {
       const Vec2 way = tip - view_.place(line.curve->place(back).p);
       if (!(glm::length(way) > 0)) return;
       drawn.heads.push_back(arrow_head(tip, glm::normalize(way), size, drawn.pen));
+      add_obstacles(drawn.heads.back());
       (at_end ? t.hi : t.lo) = shortened(line, end, other, shortened_by(size) / view_.millimetres);
     };
     if (stroke.arrow_at_end && piece.t.hi == domain.hi) head(true);
@@ -279,6 +281,14 @@ class ViewDrawing {
         at = next;
       }
     }
+    if (path.closed && at != path.from) obstacles_.segments.emplace_back(at, path.from);
+  }
+
+  void add_obstacles(const SheetItem& item) {
+    if (const auto* group = std::get_if<SheetGroup>(&item))
+      for (const SheetItem& one : group->items) add_obstacles(one);
+    if (const auto* path = std::get_if<SheetPath>(&item))
+      for (const Path& one : path->parts) add_obstacles(one);
   }
 
   void add_marks(const VisibleLines& lines) {

@@ -12,7 +12,8 @@ namespace {
 
 // Costs by what they are for; those of lines and texts grow with what is covered, in millimetres.
 constexpr double kOnText = 60, kOffPaper = 60, kOnLine = 3, kOnSign = 12;
-constexpr double kFarther = 0.5;  // for each step away from the point
+constexpr double kFarther = 0.5;   // for each step away from the point
+constexpr double kNextSpot = 0.1;  // for each place that is liked better
 constexpr int kRounds = 4;
 constexpr double kFree = 0.35;  // millimetres around a text that are its own
 
@@ -38,10 +39,36 @@ Rect box_of(const SheetText& text, const Vec2& at) {
   return {{at.x - kFree, at.y - text.ascent - kFree}, {at.x + text.width + kFree, at.y + text.descent + kFree}};
 }
 
+// What the text takes: its box or, where it is turned, the boxes of pieces of it about as long as high.
+std::vector<Rect> boxes_of(const SheetText& text, const Vec2& at) {
+  if (text.angle == 0) return {box_of(text, at)};
+  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+  const double height = text.ascent + text.descent;
+  const int pieces = height > 0 ? std::max(1, static_cast<int>(std::ceil(text.width / height))) : 1;
+  std::vector<Rect> boxes;
+  for (int k = 0; k < pieces; ++k) {
+    Rect box{Vec2(geometry::kInfinity), Vec2(-geometry::kInfinity)};
+    for (const double x : {text.width * k / pieces, text.width * (k + 1) / pieces})
+      for (const double y : {text.ascent, -text.descent}) {
+        const Vec2 corner = at + x * along + y * up;
+        box.lo = glm::min(box.lo, corner - kFree), box.hi = glm::max(box.hi, corner + kFree);
+      }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
 double overlap(const Rect& a, const Rect& b) {
   const double x = std::min(a.hi.x, b.hi.x) - std::max(a.lo.x, b.lo.x),
                y = std::min(a.hi.y, b.hi.y) - std::max(a.lo.y, b.lo.y);
   return x > 0 && y > 0 ? std::min(x, y) + x * y : 0;
+}
+
+double overlap(const std::vector<Rect>& some, const std::vector<Rect>& others) {
+  double sum = 0;
+  for (const Rect& a : some)
+    for (const Rect& b : others) sum += overlap(a, b);
+  return sum;
 }
 
 // Length of a segment within a rectangle.
@@ -75,7 +102,7 @@ struct Candidate {
   Vec2 at{0};
   double alignment = 0;
   double cost = 0;  // all but that of other texts
-  Rect box;
+  std::vector<Rect> boxes;
 };
 
 double fixed_cost(const Rect& box, const LabelObstacles& obstacles) {
@@ -97,24 +124,33 @@ double fixed_cost(const Rect& box, const LabelObstacles& obstacles) {
 
 std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obstacles) {
   std::vector<Candidate> result;
-  const auto add = [&](const Vec2& way, double distance, double liked) {
-    Candidate one;
-    one.at = baseline(label.text, label.at, way, distance);
-    one.alignment = way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5;
-    one.box = box_of(label.text, one.at);
-    one.cost = liked + fixed_cost(one.box, obstacles);
-    result.push_back(one);
+  const auto add_at = [&](const Vec2& at, double alignment, double liked) {
+    Candidate one{at, alignment, liked, boxes_of(label.text, at)};
+    for (const Rect& box : one.boxes) one.cost += fixed_cost(box, obstacles);
+    result.push_back(std::move(one));
+  };
+  const auto add = [&](const Vec2& point, const Vec2& way, double distance, double liked) {
+    add_at(baseline(label.text, point, way, distance), way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5, liked);
   };
   if (label.side == "here") {
-    result.push_back({label.text.at, label.text.alignment, 0, box_of(label.text, label.text.at)});
+    add_at(label.text.at, label.text.alignment, 0);
   } else if (!label.side.empty()) {
-    add(direction_of_side(label.side), label.distance, 0);
+    add(label.at, direction_of_side(label.side), label.distance, 0);
+  } else if (!label.spots.empty()) {
+    for (size_t k = 0; k < label.spots.size(); ++k) {
+      const LabelSpot& spot = label.spots[k];
+      const double liked = kNextSpot * static_cast<double>(k);
+      if (spot.side == "here")
+        add_at(spot.at, label.text.alignment, liked);
+      else
+        add(spot.at, direction_of_side(spot.side), spot.distance, liked);
+    }
   } else {
     const std::vector<double> steps =
         label.leader ? std::vector<double>{5, 7, 10, 14, 19, 25} : std::vector<double>{0, 0.5, 1.2, 2.2, 3.5};
     for (size_t step = 0; step < steps.size(); ++step)
       for (size_t k = 0; k < kDirections.size(); ++k)
-        add(kDirections[k].way, label.distance + steps[step],
+        add(label.at, kDirections[k].way, label.distance + steps[step],
             kFarther * static_cast<double>(step) * (1 + step) + 0.05 * k);
   }
   return result;
@@ -145,7 +181,7 @@ void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles) {
         double cost = all[i][k].cost;
         for (size_t j = 0; j < labels.size() && cost < best; ++j)
           if (j != i && placed[j])
-            if (const double over = overlap(all[i][k].box, all[j][chosen[j]].box); over > 0)
+            if (const double over = overlap(all[i][k].boxes, all[j][chosen[j]].boxes); over > 0)
               cost += kOnText + kOnText * over;
         if (cost < best) best = cost, chosen[i] = k;
       }

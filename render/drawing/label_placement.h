@@ -15,12 +15,20 @@
 
 namespace lekalo::render {
 
+// A place for a text: beside a point, on its `side`; `here`: the beginning of its baseline.
+struct LabelSpot {
+  Vec2 at{0};
+  std::string side;
+  double distance = 0;
+};
+
 // A text that wants a place; lengths in millimetres on the sheet.
 struct Label {
   SheetText text;
   Vec2 at{0};                      // what it speaks of
   std::string side;                // above left, ...: its place; empty: any; `here`: text.at is decided already
   double distance = 0.6;           // from the point to the text
+  std::vector<LabelSpot> spots;    // if any, these are its places, the best liked first, where no side is given
   std::optional<LineLook> leader;  // a line from the text to the point: the text may stand farther off
   std::optional<Brush> box;        // behind the text
   std::string kind = "label", object;

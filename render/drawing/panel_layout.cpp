@@ -136,6 +136,7 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
   add_annotations(view, work, page);
   SheetBox all;
   for (const SheetItem& item : page.shapes) include(item, all);
+  for (const Vec2& place : page.reach) all.include(place);
   for (const Mark& mark : work.marks) {
     const PicturePoint at = camera.project(mark.point);
     if (!at.visible_side) continue;
@@ -153,6 +154,8 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
   LabelObstacles free;
   free.width = free.height = kInfinity;
   for (Label& label : labels) {
+    // Of places to choose from the best liked one.
+    if (label.side.empty() && !label.spots.empty()) label.spots.resize(1);
     std::vector<Label> one{label};
     place_labels(one, free);
     include(box_of(one[0].text), all);

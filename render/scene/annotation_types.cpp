@@ -98,7 +98,9 @@ TypeDeclaration axes_annotation() {
 }
 
 TypeDeclaration angle_annotation() {
-  TypeDeclaration type = annotation("angle", "The arc of an angle, with a text.", "thin");
+  TypeDeclaration type = annotation(
+      "angle", "The arc of an angle, with a text. One of 180 degrees is seen from the front, counterclockwise.",
+      "thin");
   type.field("at", anchor(), "the apex")
       .field("from", anchor(), "a point on the first side")
       .field("to", anchor(), "a point on the second side")
@@ -142,6 +144,12 @@ void one_text(const Fields& f) {
       throw FieldError(field, "'text' stands instead of the number: there is nothing for '" + std::string(field) + "'");
 }
 
+void check_in_space(const Fields& f, std::initializer_list<const char*> anchors) {
+  for (const char* field : anchors)
+    if (f.get<Anchor>(field).on_page)
+      throw FieldError(field, "a dimension measures the model, not the page", "give a point of the scene");
+}
+
 TypeDeclaration linear_dimension() {
   TypeDeclaration type = dimension("linear_dimension", "A distance between two points, or a component of it.");
   type.field("from", anchor(), "the first point")
@@ -150,9 +158,7 @@ TypeDeclaration linear_dimension() {
       .field("offset", page_length(), "of the dimension line from the points; negative: on the other side", "8 mm");
   return finish(type, [](const Fields& f) {
     one_text(f);
-    for (const char* end : {"from", "to"})
-      if (f.get<Anchor>(end).on_page)
-        throw FieldError(end, "a dimension measures the model, not the page", "give a point of the scene");
+    check_in_space(f, {"from", "to"});
   });
 }
 
@@ -179,8 +185,12 @@ TypeDeclaration angle_dimension() {
   type.field("at", anchor(), "the apex")
       .field("from", anchor(), "a point on the first side")
       .field("to", anchor(), "a point on the second side")
-      .field("offset", page_length().non_negative(), "of the arc, beyond the nearer of the two points", "8 mm");
-  return finish(type, one_text);
+      .field("offset", page_length().non_negative(),
+             "of the arc, beyond the nearer of the two points; foreshortened as the plane of the angle is", "8 mm");
+  return finish(type, [](const Fields& f) {
+    one_text(f);
+    check_in_space(f, {"at", "from", "to"});
+  });
 }
 
 TypeDeclaration knots_annotation() {

@@ -1,5 +1,6 @@
 """Drawings on their page: what has room there, which way lines are written, what their elements are called."""
 
+import math
 import re
 import unittest
 import xml.etree.ElementTree as tree
@@ -26,12 +27,19 @@ class Page(ProgramTest):
 
     def places(self, root):
         """Of all paths the points that they go through or are drawn by."""
-        found = []
-        for path in root.iter(SVG + "path"):
-            data = re.sub(r"A\S+ \S+ \S+ \S+ \S+ ", "L", path.get("d"))
-            numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", data)]
-            found += list(zip(numbers[::2], numbers[1::2]))
-        return found
+        return [place for path in root.iter(SVG + "path") for place in self.places_of(path)]
+
+    def places_of(self, path):
+        data = re.sub(r"A\S+ \S+ \S+ \S+ \S+ ", "L", path.get("d"))
+        numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", data)]
+        return list(zip(numbers[::2], numbers[1::2]))
+
+    def place_of_text(self, root, words=None):
+        """Of the one text, or of that with these words: where it begins, and by how much it is turned."""
+        group, = [group for group in root.iter(SVG + "g") if group.find(SVG + "text") is not None and
+                  words in (None, "".join(group.find(SVG + "text").itertext()))]
+        numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", group.get("transform"))]
+        return tuple(numbers[:2]), numbers[2] if len(numbers) > 2 else 0
 
     def box(self, root):
         """Of all paths."""
@@ -333,6 +341,100 @@ image: { size: [80 mm, auto] }
         errors = self.run_program("draw", "panels.yaml", code=SCENE_ERROR)[1]
         self.assertIn("panels.yaml:5:39: margins and gaps leave no room for 2 panels in a row and 1 in a column on "
                       "a page 80.0 mm wide", errors)
+
+    # ---------------------------------------------------------------- angles, texts of dimensions
+
+    PLAN = """lekalo: 1
+geometry: { p: { type: plane, domain: { u: [0, 4], v: [0, 3] } } }
+objects: { shape: p, lines: { boundary: thick } }
+camera: { type: parallel, view: VIEW }
+drawing: { annotations: [ANNOTATIONS] }
+image: { size: [80 mm, auto], margin: 4 mm }
+"""
+
+    def planned(self, view, *annotations):
+        """The picture, and where the plane's points fall, by its corners (0, 0), (4, 0), (0, 3)."""
+        root, _ = self.drawn(self.PLAN.replace("VIEW", view).replace("ANNOTATIONS", ", ".join(annotations)))
+        sides = [self.places(group) for group in self.of_class(root, "boundary")]
+        corners = sorted({(round(x, 3), round(y, 3)) for side in sides for x, y in side})
+        self.assertEqual(len(corners), 4, corners)
+        return root, corners
+
+    def test_angle_dimensions_in_oblique_views(self):
+        """The arc is a circle in the plane of the angle, its end on the line beyond the nearer point."""
+        root, corners = self.planned("{ azimuth: -60, elevation: 30 }",
+                                     "{ type: angle_dimension, at: [4, 0, 0], from: [0, 0, 0], to: [4, 3, 0] }")
+        far, apex, near = corners[0], max(corners, key=lambda p: p[1]), corners[-1]
+        x = [(far[k] - apex[k]) / 4 for k in (0, 1)]
+        y = [(near[k] - apex[k]) / 3 for k in (0, 1)]
+
+        def in_plane(place):
+            a, b = place[0] - apex[0], place[1] - apex[1]
+            det = x[0] * y[1] - x[1] * y[0]
+            return (a * y[1] - b * y[0]) / det, (x[0] * b - x[1] * a) / det
+
+        # Millimetres of a scene unit across the sight: what lies along x is seen by sqrt(1 - (cos 30 sin 60)^2) of it.
+        unit = (x[0] ** 2 + x[1] ** 2) ** 0.5 / (1 - (0.75 ** 0.5 * 0.5) ** 2) ** 0.5
+        radius = 3 + 8 / unit
+        paths = [path for group in self.of_class(root, "angle_dimension") for path in group.findall(SVG + "path")]
+        tips = sorted(in_plane(self.places_of(path)[0]) for path in paths if path.get("fill"))
+        for tip, expected in zip(tips, ((0, radius), (radius, 0))):
+            self.assert_near(tip[0], expected[0], 2e-3)
+            self.assert_near(tip[1], expected[1], 2e-3)
+        line, = [path for path in paths if re.fullmatch(r"M\S+ \S+ L\S+ \S+", path.get("d"))]
+        begin, end = map(in_plane, self.places_of(line))
+        self.assert_near(begin[0], 0, 2e-3)
+        self.assertTrue(3 < begin[1] < radius < end[1], (begin, end))
+
+    def test_straight_angles(self):
+        """A half circle in the plane across the way of sight, counterclockwise from the first side."""
+        for view in ("top", "{ azimuth: -60, elevation: 30 }"):
+            for first, second, above in (("[1, 0, 0]", "[-1, 0, 0]", True), ("[-1, 0, 0]", "[1, 0, 0]", False)):
+                sides = f"at: [0, 0, 0], from: {first}, to: {second}"
+                root, _ = self.drawn(CIRCLE.replace("view: top", f"view: {view}") + "drawing: { annotations: ["
+                                     f"{{ type: angle, {sides}, label: a }}, {{ type: angle_dimension, {sides} }}] }}\n")
+                self.assertEqual(sorted(self.texts(root)), ["180°", "a"])
+                arc = self.places(self.of_class(root, "angle")[0])
+                lo, hi = min(y for _, y in arc), max(y for _, y in arc)
+                level = 0.5 * (arc[0][1] + arc[-1][1])
+                self.assertGreater(level - lo if above else hi - level, 5, (view, arc))
+        # Seen end-on it is nothing.
+        root, _ = self.drawn(self.annotated("{ type: angle, at: [0, 0], from: [0, 0, 1], to: [0, 0, -1], label: a }"))
+        self.assertEqual(self.texts(root), [])
+
+    def test_short_dimensions(self):
+        """A text that does not fit between the arrows stands behind one of them, along any direction."""
+        for to, turn in (("[1.2, 1, 0]", 0), ("[1, 1.2, 0]", 90), ("[1.15, 1.15, 0]", 45)):
+            root, _ = self.planned("top", f"{{ type: linear_dimension, from: [1, 1, 0], to: {to}, offset: 3 mm }}")
+            (x, y), turned = self.place_of_text(root)
+            self.assert_near(turned, -turn, 1e-3)
+            lines = [p for group in self.of_class(root, "linear_dimension") for p in self.places(group)]
+            # Farther along the dimension line than all that is drawn of it.
+            way = math.cos(math.radians(turn)), -math.sin(math.radians(turn))
+            self.assertGreater(x * way[0] + y * way[1], max(a * way[0] + b * way[1] for a, b in lines) - 1e-3)
+
+    def test_texts_of_angles_find_room(self):
+        """Without a side they avoid what stands in the middle of the arc; with one they stand where it says."""
+        arc = "{ type: angle, at: [0, 0], from: [1, 0], to: [-1, 0.02], label: a, radius: 10 mm SIDE }"
+        for side, free in (("", True), (", side: above", False)):
+            root, _ = self.drawn(self.annotated(arc.replace("SIDE", side), "{ type: point, at: [0, 0.6] }",
+                                                "{ type: arrow, from: [0, 0], to: [0, 2] }"))
+            (x, y), _ = self.place_of_text(root)
+            middle = min(self.places(self.of_class(root, "arrow")[0]))[0]
+            self.assertEqual(abs(x + 0.7 - middle) > 1, free, (x, y))
+
+    def test_texts_avoid_dimensions(self):
+        """Lines of dimensions are lines too."""
+        root, _ = self.drawn(self.PLAN.replace("VIEW", "isometric").replace(
+            "ANNOTATIONS", "{ type: label, at: [4, 0], text: E }, "
+            "{ type: linear_dimension, from: [0, 0], to: [4, 0], offset: -8 mm }, "
+            "{ type: linear_dimension, from: [4, 0], to: [4, 3], offset: -8 mm }"))
+        (x, y), _ = self.place_of_text(root, "E")
+        for line in (self.places_of(path) for path in root.iter(SVG + "path") if path.get("stroke")):
+            for begin, end in zip(line, line[1:]):
+                for part in range(101):
+                    at = [a + (b - a) * part / 100 for a, b in zip(begin, end)]
+                    self.assertFalse(x < at[0] < x + 2 and y - 2 < at[1] < y, (x, y, line))
 
     # ---------------------------------------------------------------- numbers, graphs, notes
 

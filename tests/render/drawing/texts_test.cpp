@@ -119,6 +119,51 @@ TEST(Labels, AvoidLines) {
   EXPECT_GE(text.at.y - text.ascent, 15);
 }
 
+// Places to choose from: the first that is free.
+TEST(Labels, SpotsInTheirOrder) {
+  const std::vector<LabelSpot> spots = {{{20, 20}, "above", 1}, {{20, 20}, "below", 1}, {{10, 30}, "here", 0}};
+  const std::vector<std::pair<Vec2, Vec2>> lines = {{{0, 17}, {40, 17}}, {{0, 23}, {40, 23}}};
+  for (size_t covered = 0; covered <= lines.size(); ++covered) {
+    std::vector<Label> labels(1);
+    labels[0].text = laid_out("label", "serif", 3), labels[0].spots = spots;
+    LabelObstacles obstacles;
+    obstacles.width = obstacles.height = 40;
+    obstacles.segments = {lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(covered)};
+    place_labels(labels, obstacles);
+    const SheetText& text = labels[0].text;
+    if (covered == 2)
+      EXPECT_EQ(text.at, Vec2(10, 30));
+    else
+      EXPECT_EQ(text.at.y < 20, covered == 0);
+  }
+}
+
+// A text that is turned takes the room in which it stands, not that of one that is level.
+TEST(Labels, KeepApartFromTurnedOnes) {
+  for (const double degrees : {90.0, 40.0, -60.0})
+    for (const double along : {0.2, 0.5, 0.8}) {
+      std::vector<Label> labels(2);
+      labels[0].text = laid_out("a long label", "serif", 3), labels[0].side = "here";
+      labels[0].text.angle = degrees * geometry::kPi / 180;
+      labels[0].text.at = {20, 20};
+      const Vec2 way(std::cos(labels[0].text.angle), -std::sin(labels[0].text.angle));
+      labels[1].text = laid_out("b", "serif", 3);
+      labels[1].at = labels[0].text.at + along * labels[0].text.width * way;
+      LabelObstacles obstacles;
+      obstacles.width = obstacles.height = 60;
+      place_labels(labels, obstacles);
+      const auto &a = labels[0].text, &b = labels[1].text;
+      const Vec2 up(way.y, -way.x);
+      for (int i = 0; i <= 40; ++i)
+        for (int j = 0; j <= 8; ++j) {
+          const Vec2 place = a.at + i / 40.0 * a.width * way + (j / 8.0 * (a.ascent + a.descent) - a.descent) * up;
+          EXPECT_FALSE(place.x > b.at.x && place.x < b.at.x + b.width && place.y > b.at.y - b.ascent &&
+                       place.y < b.at.y + b.descent)
+              << degrees << " " << along;
+        }
+    }
+}
+
 TEST(Drawing, Numbers) {
   EXPECT_EQ(dimension_number(2.5, 2), "2.5");
   EXPECT_EQ(dimension_number(10, 2), "10");
