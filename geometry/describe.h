@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -294,21 +295,16 @@ class Fields {
   void override_by(const Fields& other) {
     for (const auto& [field, value] : other.values_)
       if (other.given(field.substr(0, field.find('.')))) values_[field] = value;
-    for (const auto& [field, words] : other.written_) written_[field] = words;
+    given_.insert(other.given_.begin(), other.given_.end());
   }
 
   // Whether the field was written, and has not its default value.
-  bool given(std::string_view field) const { return written_.find(field) != written_.end(); }
-  // The words that stand there, if it was written as one value (a name, a formula); else empty.
-  std::string written(std::string_view field) const {
-    const auto found = written_.find(field);
-    return found == written_.end() ? std::string() : found->second;
-  }
-  void set_written(std::string field, std::string words) { written_[std::move(field)] = std::move(words); }
+  bool given(std::string_view field) const { return given_.find(field) != given_.end(); }
+  void set_given(std::string field) { given_.insert(std::move(field)); }
 
  private:
   std::map<std::string, std::any, std::less<>> values_;
-  std::map<std::string, std::string, std::less<>> written_;
+  std::set<std::string, std::less<>> given_;
 };
 
 // One type: all that the program knows about it apart from its class.

@@ -141,7 +141,7 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
       continue;
     }
     if (value) {
-      fields.set_written(field.name, value->is_scalar() ? value->text : std::string());
+      fields.set_given(field.name);
       const bool read = read_field(field, *value, counters, fields);
       if (read && field.type.kind == Kind::references)
         fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));

@@ -266,5 +266,32 @@ TEST(Graph, AxesAreScaledIndependently) {
   EXPECT_NEAR(summits.camera->project({0, -1.4, 0}).y, summits.camera->height(), 1e-9);
 }
 
+// What is written out and shows nothing is a mistake; a parameter that goes round comes back.
+TEST(Drawing, WhatShowsNothingIsExplained) {
+  const auto said = [](const std::string& objects, const std::string& annotation) {
+    return build_text(R"(geometry:
+  c: { type: bezier_curve, points: [[0, 0, 0], [1, 1, 0], [2, 0, 0]] }
+  ring: { type: circle, radius: 1 }
+  s: { type: plane, domain: { u: [0, 1], v: [0, 1] } }
+objects: [)" + objects +
+                      "]\n" + (annotation.empty() ? "" : "drawing: { annotations: [" + annotation + "] }\n"))
+        .said;
+  };
+  EXPECT_EQ(said("{ shape: s, lines: { parameter: { at_u: [0, 1] } } }", ""), "");
+  EXPECT_NE(said("{ shape: s, lines: { parameter: { at_u: [5] } } }", "").find("u = 5 lies outside of the shape"),
+            std::string::npos);
+  EXPECT_NE(said("{ shape: c, show: { de_casteljau: { t: 1.5 } } }", "").find("t = 1.5 lies outside of the curve"),
+            std::string::npos);
+  EXPECT_NE(said("{ shape: s, lines: { section: { planes: [] } } }", "").find("at least 1 value"), std::string::npos);
+  const std::string shape = "{ shape: s }";
+  EXPECT_NE(said(shape, "{ type: arrow, from: [1, 2, 3], to: [1, 2, 3] }").find("it has no length"), std::string::npos);
+  EXPECT_NE(said(shape, "{ type: angle, at: [0, 0, 0], from: [1, 0, 0], to: [2, 0, 0] }").find("it is 0"),
+            std::string::npos);
+  EXPECT_NE(said(shape, "{ type: point, at: { of: c, t: 1.5 } }").find("t = 1.5 lies outside of the curve"),
+            std::string::npos);
+  EXPECT_EQ(said(shape, "{ type: point, at: { of: ring, t: 7 } }"), "");
+  EXPECT_EQ(said(shape, "{ type: arrow, from: [0, 0, 0], to: { of: c, t: 0 } }"), "");
+}
+
 }  // namespace
 }  // namespace lekalo::render
