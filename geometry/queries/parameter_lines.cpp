@@ -27,7 +27,7 @@ std::vector<double> values_in(const ParameterValues& asked, const Interval& rang
   for (int i = 0; i < asked.count; ++i)
     values.push_back(range.clamp(range.lo + range.width() * i / (periodic ? asked.count : asked.count - 1)));
   for (const double value : asked.values)
-    if (range.contains(value)) values.push_back(value);
+    if (const double at = range.clamp(value); std::abs(at - value) <= kLeastPart * range.width()) values.push_back(at);
   return values;
 }
 
@@ -71,7 +71,9 @@ std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterN
   for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
     const bool u = held == HeldParameter::u;
     const Interval& range = u ? domain.u : domain.v;
-    const ParameterValues& asked = u ? net.u : net.v;
+    ParameterValues asked = u ? net.u : net.v;
+    for (double& value : asked.values)
+      value += shift_into(range, value, u ? surface->periods().u : surface->periods().v);
     for (const double at : values_in(asked, range, asked.count > 1 && is_closed_in(*surface, held))) {
       const bool is_point =
           (at == range.lo && (u ? edges.u_min : edges.v_min)) || (at == range.hi && (u ? edges.u_max : edges.v_max));

@@ -38,6 +38,10 @@ class Annotator {
     const Fields& f = annotation.values;
     const std::string& type = annotation.type;
     if (is_behind_eye(type, f)) return leave_out();
+    if (lack_of_size(type, f)) {
+      work_.left_out.push_back(kind_ + " of no size");
+      return;
+    }
     if (type == "label")
       add_label(f);
     else if (type == "point")

@@ -53,8 +53,15 @@ void StrokeCollector::add_helper(const Helper& helper) {
     const auto form = surface->as_nurbs();
     if (helper.type == "control_net" && form) add_net(*form, surface->periods(), sign, helper);
     if (helper.type == "knots" && form) {
-      const std::set<double> u(form->knots_u.begin(), form->knots_u.end()),
-          v(form->knots_v.begin(), form->knots_v.end());
+      // Of those of a period alone: others come back into it.
+      const auto within = [](const std::vector<double>& knots, const Interval& domain) {
+        std::set<double> values;
+        for (const double knot : knots)
+          if (domain.contains(knot)) values.insert(knot);
+        return values;
+      };
+      const std::set<double> u = within(form->knots_u, surface->domain().u),
+                             v = within(form->knots_v, surface->domain().v);
       for (const NetLine& line : parameter_lines(surface, {{0, {u.begin(), u.end()}}, {0, {v.begin(), v.end()}}}))
         add(line, helper.style, helper.hidden);
     }

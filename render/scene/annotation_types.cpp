@@ -1,5 +1,8 @@
 // Annotations of drawings: labels, marks, arrows, dimensions. Lengths and sides are those of the page; points may be
 // given on it too ({ page: [5 mm, 8 mm] }).
+#include <cmath>
+#include <optional>
+
 #include "geometry/body.h"
 #include "geometry/describe.h"
 #include "geometry/queries/roundness.h"
@@ -221,7 +224,39 @@ TypeDeclaration light_path() {
   });
 }
 
+constexpr double kNothing = 1e-12;  // of the lengths from which a size is computed
+constexpr double kNoAngle = 1e-9;   // radians
+
 }  // namespace
+
+std::optional<FieldError> lack_of_size(const std::string& type, const Fields& f) {
+  const auto meets = [&](const char* one, const char* other) {
+    if (!f.holds<Anchor>(one) || !f.holds<Anchor>(other)) return false;
+    const Anchor &a = f.get<Anchor>(one), &b = f.get<Anchor>(other);
+    return a.on_page == b.on_page && a.point == b.point;
+  };
+  if (type == "arrow" || type == "brace" || type == "linear_dimension") {
+    const std::string what = type == "arrow" ? "an arrow" : type == "brace" ? "a brace" : "a dimension";
+    if (meets("from", "to"))
+      return FieldError("to", what + " ends where it begins: it has no length", "give two different points");
+    if (type != "linear_dimension" || !f.has("along") || f.get<Anchor>("from").on_page || f.get<Anchor>("to").on_page)
+      return std::nullopt;
+    const Vec3 way = f.get<Anchor>("to").point - f.get<Anchor>("from").point;
+    if (std::abs(glm::dot(way, f.vec3("along"))) > kNothing * glm::length(way)) return std::nullopt;
+    return FieldError("along", "the two points lie side by side in this direction: there is nothing to measure",
+                      "leave 'along' out to measure their distance");
+  }
+  if (type != "angle" && type != "angle_dimension") return std::nullopt;
+  for (const char* side : {"from", "to"})
+    if (meets("at", side))
+      return FieldError(side, "this side of the angle has no length: the point is the apex", "give another point");
+  const Anchor &at = f.get<Anchor>("at"), &from = f.get<Anchor>("from"), &to = f.get<Anchor>("to");
+  if (at.on_page != from.on_page || at.on_page != to.on_page) return std::nullopt;
+  const Vec3 x = from.point - at.point, y = to.point - at.point;
+  if (glm::dot(x, y) < 0 || glm::length(glm::cross(x, y)) > kNoAngle * glm::length(x) * glm::length(y))
+    return std::nullopt;
+  return FieldError("to", "both sides of the angle go the same way: it is 0", "give a point in another direction");
+}
 
 std::vector<TypeDeclaration> annotation_types() {
   return {label_annotation(),

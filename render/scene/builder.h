@@ -170,6 +170,16 @@ class Builder {
   bool check_helpers(const Value& object, const Fields& fields);
   bool check_lines(const Value& object, const Fields& fields);
 
+  // --- builder_ranges.cpp: what shows nothing of what it is for.
+  void outside_of_domain(const Value& value, const std::string& name, double x, const char* what,
+                         const geometry::Interval& domain);
+  bool check_parameter(const Value& value, const char* name, double x, const char* what,
+                       const geometry::Interval& domain, double period);
+  bool check_line_values(const Value& given, const char* name, const geometry::ParameterValues& asked,
+                         const std::vector<std::any>& shapes);
+  bool check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes);
+  bool check_size(const TypeDeclaration& type, const Fields& fields, const Value& map);
+
   // --- builder_references.cpp, builder_repeats.cpp: names, families.
   void declare_section(const char* section);
   std::optional<Built> refer(const Value& value, const Counters& counters, std::span<const Category> wanted);

@@ -163,6 +163,16 @@ std::optional<Builder::Located> Builder::locate(const Value& map, const Counters
   if (!first || !second) return std::nullopt;
   place.t = place.u = *first;
   place.v = *second;
+  if (on_curve) {
+    const auto& curve = *place.curve;
+    if (!check_parameter(*map.find("t"), "t", place.t, "curve", curve.domain(), curve.period())) return std::nullopt;
+    return place;
+  }
+  const geometry::Rectangle domain = place.surface->domain();
+  const geometry::Periods periods = place.surface->periods();
+  const bool good_u = check_parameter(*map.find("u"), "u", place.u, "surface", domain.u, periods.u);
+  const bool good_v = check_parameter(*map.find("v"), "v", place.v, "surface", domain.v, periods.v);
+  if (!good_u || !good_v) return std::nullopt;
   return place;
 }
 

@@ -137,6 +137,7 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   good = (type.category != Category::object || check_helpers(map, fields)) && good;
   good = (type.category != Category::object || !good || check_lines(map, fields)) && good;
   if (!good || !check(type, fields, map)) return std::nullopt;
+  if (type.category == Category::annotation && !check_size(type, fields, map)) return std::nullopt;
   auto value = attempt(map, what, [&] { return type.build(fields); });
   if (!value || !is_geometry(type.category)) return value;
   if (type.runs_foreign_code) note_external(*value, map);
@@ -322,6 +323,12 @@ bool Builder::check_helpers(const Value& object, const Fields& fields) {
         }
     }
   }
+  if (good && show->is_map() && fields.has("show"))
+    for (const std::any& any : fields.references("show")) {
+      const auto& helper = std::any_cast<const Helper&>(any);
+      if (const Value* map = show->find(helper.type); map && map->is_map())
+        good = check_helper_values(helper, *map, fields.references("shape")) && good;
+    }
   return good;
 }
 
@@ -349,6 +356,12 @@ bool Builder::check_lines(const Value& object, const Fields& fields) {
     diagnostics_.error(entry.key.place, fmt::format("{} lines '{}'", what, kind), "it has " + listed(had));
     good = false;
   }
+  const Value* parameter = lines->find("parameter");
+  if (!good || !parameter || !fields.has("lines") || !fields.group("lines").has("parameter")) return good;
+  const Fields& values = fields.group("lines").group("parameter");
+  for (const char* name : {"at_u", "at_v"})
+    if (const Value* given = parameter->find(name); given && values.has(name))
+      good = check_line_values(*given, name, values.get<geometry::ParameterValues>(name), shapes) && good;
   return good;
 }
 

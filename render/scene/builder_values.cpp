@@ -249,6 +249,7 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
         if (!one) return std::nullopt;
         all.push_back(*std::move(one));
       }
+      if (!check_count(type, value, all.size())) return std::nullopt;
       return std::any(all);
     }
     case Kind::transform:

@@ -45,7 +45,8 @@ std::vector<Field> lines_fields() {
       {"section",
        group({{"planes",
                groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
-                       {"normal", direction(), "across the plane", true, {}}}),
+                       {"normal", direction(), "across the plane", true, {}}})
+                   .count(1),
                "planes that cut",
                true,
                {}},

@@ -66,6 +66,9 @@ struct Paper {
   Place size_place, margin_place;                // as in Layout
 };
 
+// Why nothing of an annotation can be seen: the field, what is wrong, and a hint; nothing where it has a size.
+std::optional<geometry::FieldError> lack_of_size(const std::string& type, const geometry::Fields& values);
+
 std::vector<geometry::Field> drawing_fields();
 // Throws FieldError.
 DrawingChoices drawing_of(const geometry::Fields& fields);

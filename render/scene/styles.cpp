@@ -39,7 +39,7 @@ TypeDeclaration style_type() {
   TypeDeclaration type =
       declare(Category::style, "style", "How lines, markers and texts look. All lengths are on the page.")
           .example("width: 0.5 mm, color: crimson");
-  return type.optional("width", page_length().non_negative().at_most(50), "of lines")
+  return type.optional("width", page_length().positive().at_most(50), "of lines")
       .optional("color", color().non_negative().or_word({"cycle"}),
                 "of lines, markers and text; cycle: another palette colour for each member of a family")
       .optional("opacity", number().between(0, 1), "1: opaque")
