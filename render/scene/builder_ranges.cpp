@@ -35,7 +35,7 @@ struct LineRange {
   bool contains(double x) const { return is_in(range, x + geometry::shift_into(range, x, period)); }
 };
 
-// For u or v; nothing where it is not known.
+// For u or v; curves and meshes have none.
 std::vector<LineRange> line_ranges(const Entity& entity, bool u) {
   std::vector<LineRange> ranges;
   const auto add = [&](const geometry::Surface& surface) {
@@ -87,10 +87,12 @@ bool Builder::check_line_values(const Value& given, const char* name, const Para
   const bool u = std::string_view(name).ends_with("u");
   std::vector<LineRange> ranges;
   for (const std::any& shape : shapes) {
-    const std::vector<LineRange> some = line_ranges(entity_of(shape), u);
-    if (some.empty()) return true;
+    const Entity entity = entity_of(shape);
+    if (std::holds_alternative<geometry::ShapePtr>(entity)) return true;  // its ranges are not known
+    const std::vector<LineRange> some = line_ranges(entity, u);
     ranges.insert(ranges.end(), some.begin(), some.end());
   }
+  if (ranges.empty()) return true;
   for (size_t k = 0; k < asked.values.size(); ++k) {
     const double x = asked.values[k];
     if (std::any_of(ranges.begin(), ranges.end(), [&](const LineRange& range) { return range.contains(x); })) continue;

@@ -402,6 +402,13 @@ image: { size: [80 mm, auto], margin: 4 mm }
         root, _ = self.drawn(self.annotated("{ type: angle, at: [0, 0], from: [0, 0, 1], to: [0, 0, -1], label: a }"))
         self.assertEqual(self.texts(root), [])
 
+    def test_annotations_of_no_size(self):
+        """Where parameters make one so small, the rest is drawn, and a note says what is not."""
+        scene = self.annotated("{ type: arrow, from: [0, 0], to: [h, 0] }") + "parameters: { h: 0 }\n"
+        root, errors = self.drawn(scene)
+        self.assertIn("arrow of no size", errors)
+        self.assertTrue(self.of_class(root, "curve"))
+
     def test_short_dimensions(self):
         """A text that does not fit between the arrows stands behind one of them, along any direction."""
         for to, turn in (("[1.2, 1, 0]", 0), ("[1, 1.2, 0]", 90), ("[1.15, 1.15, 0]", 45)):

@@ -128,6 +128,31 @@ TEST(Annotations, RadiiAreOfRoundThings) {
             "6:39 this is not round: it has no radius\n");
 }
 
+// What is written out with no size is a mistake; what gets there by names and formulas is left out of the drawing.
+TEST(Annotations, OfNoSize) {
+  for (const char* type : {"arrow", "brace"})
+    EXPECT_EQ(
+        about(std::string("{ type: ") + type + ", to: [1, 0], from: [1, 0] }"),
+        std::string("6:26 ") + (type[0] == 'a' ? "an arrow" : "a brace") + " ends where it begins: it has no length\n");
+  EXPECT_EQ(about("{ type: linear_dimension, from: [1, 0], to: [1, 0] }"),
+            "6:51 a dimension ends where it begins: it has no length\n");
+  EXPECT_EQ(about("{ type: linear_dimension, from: [1, 0], to: [2, 0], along: y }"),
+            "6:66 the two points lie side by side in this direction: there is nothing to measure\n");
+  for (const char* type : {"angle", "angle_dimension"}) {
+    const std::string begin = std::string("{ type: ") + type + ", at: [1, 0], ";
+    const auto place = [&](size_t more) { return "6:" + std::to_string(7 + begin.size() + more); };
+    EXPECT_EQ(about(begin + "from: [1, 0], to: [2, 0] }"),
+              place(6) + " this side of the angle has no length: the point is the apex\n");
+    EXPECT_EQ(about(begin + "from: [2, 0], to: [1, 0] }"),
+              place(18) + " this side of the angle has no length: the point is the apex\n");
+    EXPECT_EQ(about(begin + "from: [2, 0], to: [7, 0] }"),
+              place(18) + " both sides of the angle go the same way: it is 0\n");
+    EXPECT_EQ(about(begin + "from: [2, 0], to: [-7, 0] }"), "");
+  }
+  EXPECT_EQ(about("{ type: arrow, from: [0, 0], to: { of: l, t: 0 } }"), "");
+  EXPECT_EQ(about("{ repeat: { k: 0..2 }, type: arrow, from: [0, 0], to: [k, 0] }"), "");
+}
+
 TEST(Annotations, Errors) {
   EXPECT_EQ(about("{ type: labl, at: [0, 0], text: a }"), "6:15 unknown type 'labl' (did you mean 'label'?)\n");
   EXPECT_EQ(about("{ at: [0, 0], text: a }"), "6:7 missing 'type' of an annotation\n");
@@ -148,6 +173,8 @@ TEST(Annotations, Errors) {
             "6:55 an arrow has either 'to' or 'along' and 'length'\n");
   EXPECT_EQ(about("{ type: arrow, from: [0, 0], along: x }"), "6:43 'along' needs 'length'\n");
   EXPECT_EQ(about("{ type: arrow, from: [0, 0], to: [1, 0], length: 2 }"), "6:56 'length' goes with 'along'\n");
+  EXPECT_EQ(about("{ type: angle_dimension, at: { page: [0 mm, 0 mm] }, from: [1, 0], to: [0, 1] }"),
+            "6:36 a dimension measures the model, not the page\n");
   EXPECT_EQ(about("{ type: linear_dimension, from: { page: [0 mm, 0 mm] }, to: [1, 0] }"),
             "6:39 a dimension measures the model, not the page\n");
   EXPECT_EQ(about("{ type: linear_dimension, from: [0, 0], to: [1, 0], offset: 5 }"),

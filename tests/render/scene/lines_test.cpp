@@ -41,6 +41,27 @@ TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
             "4:67 the head must be wider than the shaft\n\n");
 }
 
+// Helpers at parameters that the curve or surface has not, and levels beyond its degree.
+TEST(LinesOfScenes, HelpersOutsideOfTheDomain) {
+  const auto said = [](const std::string& shape, const std::string& show) {
+    const BuiltText text = build_text(
+        "lights: {}\ngeometry:\n  c: { type: circle, radius: 1 }\n"
+        "  r: { type: bezier_curve, points: [[0, 0], [1, 2], [2, 0]] }\n"
+        "  s: { type: bezier_surface, points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]] }\n"
+        "objects:\n  - shape: " +
+        shape + "\n    show: " + show + "\n");
+    return text.said + text.hints;
+  };
+  EXPECT_EQ(said("r", "{ de_casteljau: { t: 1.5 } }"), "9:32 t = 1.5 lies outside of the curve\nt goes from 0 to 1\n");
+  EXPECT_EQ(said("r", "{ de_casteljau: { t: 0.5, levels: 1..9 } }"),
+            "9:45 there is no level 3: the curve is of degree 2\nlevels go from 1 to 2\n");
+  EXPECT_EQ(said("r", "{ de_casteljau: { t: 0.5, levels: 1..2 } }"), "");
+  EXPECT_EQ(said("r", "{ frames: { at: [0, 4] } }"), "9:31 t = 4 lies outside of the curve\nt goes from 0 to 1\n");
+  EXPECT_EQ(said("c", "{ frames: { at: [0, 400 deg] } }"), "");
+  EXPECT_EQ(said("s", "{ normals: { at_u: [0, 1], at_v: [0.5, -2] } }"),
+            "9:50 v = -2 lies outside of the shape\nv goes from 0 to 1\n");
+}
+
 LineWork work_of(const std::string& objects) {
   const BuiltText text = build_text(R"(
 geometry:
@@ -74,6 +95,7 @@ TEST(LinesOfScenes, ObjectsGiveTheLinesThatTheyAskFor) {
   EXPECT_EQ(work_of("  - { shape: ball, lines: { boundary: thick } }\n").strokes.size(), 0u);
   EXPECT_EQ(work_of("  - { shape: s, lines: { boundary: thick } }\n").strokes.size(), 4u);
   EXPECT_EQ(work_of("  - { shape: ring, lines: { parameter: { at_u: 6, at_v: [0, 1] } } }\n").strokes.size(), 8u);
+  EXPECT_EQ(work_of("  - { shape: ring, lines: { parameter: { at_v: [0, 450 deg] } } }\n").strokes.size(), 2u);
   // The poles are no lines.
   EXPECT_EQ(work_of("  - { shape: ball, lines: { parameter: { at_v: 5 } } }\n").strokes.size(), 3u);
   const LineWork group = work_of(

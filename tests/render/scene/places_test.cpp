@@ -102,6 +102,19 @@ TEST(Places, Errors) {
   EXPECT_EQ(said("{ of: c, t: 0, vector: tangent }"), "11:66 a place has no 'vector'\n");
 }
 
+// What goes round comes back, what has no end has places everywhere; other parameters have a range.
+TEST(Places, OutsideOfTheDomain) {
+  expect_near(point("{ of: c, t: 450 deg }"), {0, 2, 0});
+  expect_near(point("{ of: s, u: 360 deg, v: 90 deg }"), {0, 0, 2});
+  expect_near(point("{ of: b, t: 1 + 1e-12 }"), {5, -1, 0}, 1e-10);
+  expect_near(point("{ of: { type: plane, origin: [0, 0] }, u: 70, v: -80 }"), {70, -80, 0});
+  EXPECT_EQ(said("{ of: b, t: 1.5 }"), "11:55 t = 1.5 lies outside of the curve\n");
+  EXPECT_EQ(said("{ of: l, t: -0.1 }"), "11:55 t = -0.1 lies outside of the curve\n");
+  EXPECT_EQ(said("{ of: s, u: 0, v: 91 deg }"), "11:61 v = 91 deg lies outside of the surface\n");
+  EXPECT_EQ(said("{ of: patch, u: 0.5, v: 2 }"), "11:67 v = 2 lies outside of the surface\n");
+  EXPECT_EQ(said_of_direction("{ of: b, t: 2, vector: tangent }"), "11:53 t = 2 lies outside of the curve\n");
+}
+
 TEST(Places, ErrorsOfDirections) {
   EXPECT_EQ(said_of_direction("{ of: c, t: 0, vector: tangnet }"),
             "11:64 'tangnet' is no vector of a curve (did you mean 'tangent'?)\n");

@@ -61,7 +61,7 @@ TEST(Styles, Errors) {
   EXPECT_EQ(style("{ widht: 1 mm }"), "4:8 unknown field 'widht' of a style (did you mean 'width'?)\n");
   EXPECT_EQ(style("{ type: style }"), "4:8 unknown field 'type' of a style\n");
   EXPECT_EQ(style("{ width: 0.5 }"), "4:15 the length '0.5' on the page has no unit\n");
-  EXPECT_EQ(style("{ width: -1 mm }"), "4:15 expected a length between 0 and 50 mm, found -1 mm\n");
+  EXPECT_EQ(style("{ width: -1 mm }"), "4:15 expected a length greater than 0 and at most 50 mm, found -1 mm\n");
   EXPECT_EQ(style("{ opacity: 1.5 }"), "4:17 expected a value between 0 and 1, found 1.5\n");
   EXPECT_EQ(style("{ opacity: 0/0 }"), "4:17 the formula has no finite value (not a number)\n");
   EXPECT_EQ(style("{ marker: bal }"), "4:16 unknown word 'bal' (did you mean 'ball'?)\n");
@@ -126,6 +126,13 @@ TEST(Lines, Errors) {
   EXPECT_EQ(lines("{ parameter: { at_u: 0 } }"), "6:33 expected a count between 1 and 10000, found 0\n");
   EXPECT_EQ(lines("{ parameter: { at_u: 2.5 } }"), "6:33 expected a whole number, found 2.5\n");
   EXPECT_EQ(lines("{ parameter: { at_u: [0, 0/0] } }"), "6:37 the formula has no finite value (not a number)\n");
+  // The sphere's u goes round, its v from pole to pole.
+  EXPECT_EQ(lines("{ parameter: { at_u: [0, 540 deg], at_v: [0, 100 deg] } }"),
+            "6:57 v = 100 deg lies outside of the shapes\n");
+  EXPECT_EQ(lines("{ parameter: { at_v: 1..2 } }"), "6:33 v = 2 lies outside of the shapes\n");
+  EXPECT_EQ(lines("{ curve: { width: 0 mm } }"),
+            "6:30 expected a length greater than 0 and at most 50 mm, found 0 mm\n");
+  EXPECT_EQ(lines("{ section: { planes: [] } }"), "6:33 expected at least 1 value, found 0\n");
   EXPECT_EQ(lines("{ section: {} }"), "6:23 missing field 'planes' of 'section'\n");
   EXPECT_EQ(lines("thick"), "6:12 expected a map of fields, found a single value\n");
 }
