@@ -143,7 +143,7 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
     if (value) {
       fields.set_given(field.name);
       const bool read = read_field(field, *value, counters, fields);
-      if (read && field.type.kind == Kind::references)
+      if (read && field.type.kind == Kind::references && fields.holds<std::vector<std::any>>(field.name))  // no word
         fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
       good = read && good;
     } else if (!field.default_text.empty()) {
