@@ -38,6 +38,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+void add_once(std::string what, std::vector<std::string>& all) {
+  if (std::find(all.begin(), all.end(), what) == all.end()) all.push_back(std::move(what));
+}
+
 void collect_legend(const std::vector<Object>& objects, std::vector<LegendEntry>& entries) {
   for (const Object& object : objects) {
     if (const auto* group = std::get_if<GroupPtr>(&object.shape))
@@ -104,9 +108,7 @@ class ViewDrawing {
   }
 
   void note_left_out(std::vector<std::string> left_out) {
-    for (std::string& what : left_out)
-      if (std::find(figure_.left_out.begin(), figure_.left_out.end(), what) == figure_.left_out.end())
-        figure_.left_out.push_back(std::move(what));
+    for (std::string& what : left_out) add_once(std::move(what), figure_.left_out);
   }
 
   void add_statistics(const VisibleLines& lines) {
@@ -116,10 +118,7 @@ class ViewDrawing {
     sum.seconds_of_lines += one.seconds_of_lines, sum.seconds_of_crossings += one.seconds_of_crossings;
     sum.seconds_of_rays += one.seconds_of_rays;
     figure_.incomplete += lines.incomplete;
-    for (const std::string& name : lines.incomplete_objects)
-      if (std::find(figure_.incomplete_objects.begin(), figure_.incomplete_objects.end(), name) ==
-          figure_.incomplete_objects.end())
-        figure_.incomplete_objects.push_back(name);
+    for (const std::string& name : lines.incomplete_objects) add_once(name, figure_.incomplete_objects);
   }
 
   // The picture as rendered, pixel by pixel where the view has it.
@@ -328,8 +327,8 @@ class ViewDrawing {
     place_labels(labels, obstacles_);
     for (const Label& label : labels)
       if (std::string cut = over_the_edge(label, {figure_.sheet.width, figure_.sheet.height}, model_->paper.margin);
-          !cut.empty() && std::find(figure_.cut_off.begin(), figure_.cut_off.end(), cut) == figure_.cut_off.end())
-        figure_.cut_off.push_back(std::move(cut));
+          !cut.empty())
+        add_once(std::move(cut), figure_.cut_off);
     SheetGroup all{"labels", "", {}, {}, {}};
     for (const Label& label : labels) all.items.push_back(drawn_label(label));
     if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
