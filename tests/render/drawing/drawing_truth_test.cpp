@@ -28,13 +28,14 @@ namespace lekalo::render {
 namespace {
 
 using namespace geometry;
-// Of rational Bezier patches, by halving (support/line_oracle.h).
-Sheets sheets_of_patches(const SurfaceSet& surfaces) {
+// Of rational Bezier patches, by halving (support/line_oracle.h). `own`: nearer than this before a point a sheet passes
+// through it.
+Sheets sheets_of_patches(const SurfaceSet& surfaces, double own = kOwn) {
   std::vector<oracle::PatchOracle> patches;
   for (const SurfacePtr& surface : surfaces)
     for (const SurfacePiece& piece : surface->pieces())
       patches.emplace_back(piece.points, piece.degree_u, piece.degree_v);
-  return [patches](const Vec3& from, const Vec3& point, double contact) {
+  return [patches, own](const Vec3& from, const Vec3& point, double contact) {
     const double length = glm::length(point - from);
     const Line line{from, (point - from) / length};
     int layers = 0;
@@ -42,7 +43,7 @@ Sheets sheets_of_patches(const SurfaceSet& surfaces) {
       bool undecided = false;
       for (const oracle::Root& root : patch.roots(line, &undecided)) {
         const double before = length - root.t;
-        if (root.t <= 0 || before < (contact > 0 ? contact : kOwn)) continue;
+        if (root.t <= 0 || before < (contact > 0 ? contact : own)) continue;
         if (before < kOwnToo) return -1;
         ++layers;
       }
@@ -355,6 +356,9 @@ SurfaceSet teapot() {
   return std::get<SurfaceSet>(load_scene(file).model->objects.front().shape);
 }
 
+// Its borders begin in corners of other patches and leave them flatly: within kOwn they cannot be told from these.
+constexpr double kOwnOfTeapot = 1e-10;
+
 TEST(DrawingTruth, Teapot) {
   const SurfaceSet patches = teapot();
   Views views(47);
@@ -363,7 +367,7 @@ TEST(DrawingTruth, Teapot) {
     SmallScene scene;
     show(scene, patches, {"boundary", "silhouette"});
     views.look(scene, k % 2);
-    Truth(*scene.world(), sheets_of_patches(patches), views, found, 2);
+    Truth(*scene.world(), sheets_of_patches(patches, kOwnOfTeapot), views, found, 2);
   }
   expect_right(found, "teapot", true);
 }
@@ -390,6 +394,19 @@ TEST(DrawingTruth, BordersThatGoRoundBothPatches) {
                                   {-0.46861062856179164, -0.76549182463477961, -0.44093802877075411},
                                   1},
                   600, 500),
+      // A border begins in a corner of other patches, tangent to them, and goes inside: hidden from there on, though no
+      // farther behind them than 1e-8 for a twentieth of a pixel (it is at x = -2 + 0.3 t^2, y = -0.9 t, they are at
+      // x = -2 + 0.234 y^2 there).
+      make_camera(PerspectiveView{{-7.9012506249502632, 0.6630499635197481, -0.066248264033258425},
+                                  {0, 0, 0},
+                                  {0.013180450839370583, 0.16991162733213933, 0.12857473319112817},
+                                  1},
+                  600, 500),
+      make_camera(PerspectiveView{{-6.1213221197165977, 2.1158066111313802, 3.715907418745243},
+                                  {0, 0, 0},
+                                  {-0.054117921339510877, 0.12801811343022479, -0.16204246550151991},
+                                  1},
+                  600, 500),
   };
   for (const CameraPtr& look : looks) {
     SmallScene scene;
@@ -397,7 +414,7 @@ TEST(DrawingTruth, BordersThatGoRoundBothPatches) {
     scene.model.film.width = 600;
     scene.model.film.height = 500;
     scene.model.camera = look;
-    Truth(*scene.world(), sheets_of_patches(patches), views, found, 2);
+    Truth(*scene.world(), sheets_of_patches(patches, kOwnOfTeapot), views, found, 2);
   }
   expect_right(found, "borders", true);
 }
