@@ -90,6 +90,8 @@ class StrokeCollector {
   // The smooth parts of a surface, or itself, with cutters that keep what lies on each.
   void each_smooth_part(const geometry::SurfacePtr& surface,
                         const std::function<void(const geometry::SurfacePtr&)>& visit);
+  // Of all its bounded surfaces.
+  void each_bounded_part(const Entity& shape, const std::function<void(const geometry::SurfacePtr&)>& visit);
   const std::vector<geometry::SmoothPart>& smooth_parts_of(const geometry::SurfacePtr& surface);
 
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
@@ -156,6 +158,8 @@ class StrokeCollector {
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
   void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  // Of two of which one at most is made of faces.
+  void add_meeting_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
   // Of a mesh, and one that is no solid put together of others and no body.
   void add_meeting_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
                            const HiddenLines& hidden);

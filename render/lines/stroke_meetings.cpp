@@ -69,6 +69,12 @@ bool has_faces(const Entity& shape) {
          std::holds_alternative<BodyPtr>(shape);
 }
 
+void StrokeCollector::each_bounded_part(const Entity& shape, const std::function<void(const SurfacePtr&)>& visit) {
+  each_surface(shape, [&](const SurfacePtr& surface) {
+    if (surface->bounded()) each_smooth_part(surface, visit);
+  });
+}
+
 std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
   std::vector<PlacedShape> found;
   each_placed(model_.objects, [&](const Object& object, const Affine& to_world, int placement) {
@@ -109,13 +115,7 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     each_surface(one->shape, [&](const SurfacePtr& surface) {
       if (!surface->bounded()) leave_out("intersections of unbounded surfaces (" + name_of_object() + ")");
     });
-  const auto each_bounded_part = [&](const Entity& shape, const std::function<void(const SurfacePtr&)>& visit) {
-    each_surface(shape, [&](const SurfacePtr& surface) {
-      if (surface->bounded()) each_smooth_part(surface, visit);
-    });
-  };
-  const bool a_has_faces = has_faces(a.shape), b_has_faces = has_faces(b.shape);
-  if (a_has_faces && b_has_faces) {
+  if (has_faces(a.shape) && has_faces(b.shape)) {
     to_world_ = a.to_world;
     const Affine to_a = a.to_world.inverse() * b.to_world;
     const auto* body = std::get_if<BodyPtr>(&a.shape);
@@ -134,22 +134,30 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
     });
     return;
   }
-  if (!a_has_faces && !b_has_faces) {
+  // The lines run along both, one of which is the object.
+  const bool is_object = a.object == object_number_ && a.placement == placement_;
+  const PlacedShape& met = is_object ? b : a;
+  met_ = met.object, met_placement_ = met.placement;
+  add_meeting_of_solids(a, b, style, hidden);
+  met_ = -2;
+}
+
+void StrokeCollector::add_meeting_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                            const HiddenLines& hidden) {
+  if (!has_faces(a.shape) && !has_faces(b.shape)) {
     for (const bool swapped : {false, true}) {
       const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
       if (!std::holds_alternative<MeshPtr>(one.shape) ||
           !(std::holds_alternative<MeshPtr>(other.shape) || std::holds_alternative<ShapePtr>(other.shape)))
         continue;
-      met_ = b.object, met_placement_ = b.placement;
-      add_meeting_of_mesh(one, other, style, hidden);
-      met_ = -2;
-      return;
+      return add_meeting_of_mesh(one, other, style, hidden);
     }
     if (!add_meeting_of_parts(a, b, style, hidden) && !add_meeting_of_tube(a, b, style, hidden) &&
         !add_meeting_of_tube(b, a, style, hidden))
       leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() + ")");
     return;
   }
+  const bool a_has_faces = has_faces(a.shape);
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
   each_bounded_part(faces.shape, [&](const SurfacePtr& surface) {
     add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
@@ -162,7 +170,6 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
                                           const Style& style, const HiddenLines& hidden) {
   to_world_ = to_world;
   const size_t before = cutters_.size();
-  met_ = solid.object, met_placement_ = solid.placement;
   const auto* plane = dynamic_cast<const Plane*>(face.surface.get());
   const auto* tube = solid_of<Tube>(solid.shape);
   if (has_parts(solid.shape)) {
@@ -183,7 +190,6 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
   cutters_.resize(before);
-  met_ = -2;
 }
 
 void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,

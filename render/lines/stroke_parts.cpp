@@ -164,14 +164,12 @@ StrokeCollector::Meets StrokeCollector::meets_of_formula(const ImplicitSurface& 
 bool StrokeCollector::add_meeting_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style,
                                            const HiddenLines& hidden) {
   if (!has_parts(a.shape) || !has_parts(b.shape)) return false;
-  met_ = b.object, met_placement_ = b.placement;
   const Box3 near = transformed(bounds(b.shape), a.to_world.inverse() * b.to_world);
   each_part(a, near, [&](const Part& part) {
     meets_parts(part.formula ? meets_of_formula(*part.formula, a.to_world, b.to_world, style, hidden)
                              : meets_of_face(part.surface, a.to_world, b.to_world, style, hidden),
                 b);
   });
-  met_ = -2;
   return true;
 }
 

@@ -47,9 +47,7 @@ bool StrokeCollector::add_meeting_of_tube(const PlacedShape& a, const PlacedShap
                                           const HiddenLines& hidden) {
   const auto* tube = solid_of<Tube>(a.shape);
   if (!tube) return false;
-  met_ = b.object, met_placement_ = b.placement;
   const Meets meets = meets_of_tube(*tube, a.to_world, b.to_world, style, hidden);
-  bool known = true;
   if (const auto* other = solid_of<Tube>(b.shape))
     add_on_tube(boundary_of(*tube).meeting(boundary_of(*other), a.to_world.inverse() * b.to_world,
                                            view_from(a.to_world.inverse())),
@@ -57,9 +55,8 @@ bool StrokeCollector::add_meeting_of_tube(const PlacedShape& a, const PlacedShap
   else if (has_parts(b.shape))
     meets_parts(meets, b);
   else
-    known = false;
-  met_ = -2;
-  return known;
+    return false;
+  return true;
 }
 
 }  // namespace lekalo::render

@@ -20,6 +20,7 @@
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
+#include "render/drawing/visible_lines.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -74,6 +75,7 @@ Found meetings(const Entity& shape, const Affine& transform, const Entity& with,
   found.left_out = work.left_out, found.incomplete = work.incomplete;
   for (const Stroke& stroke : work.strokes) {
     if (!stroke.drawn) continue;
+    EXPECT_NE(stroke.met, stroke.object);
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     const Interval t = curve->domain();
     found.length += arc_length(*curve, t.lo, t.hi).value;
@@ -163,6 +165,22 @@ TEST(Meetings, Tubes) {
     EXPECT_NEAR(found.length, expected.length, 1e-5);
     EXPECT_NEAR(turned_round.length, expected.length, 1e-5);
     EXPECT_TRUE(found.left_out.empty());
+  }
+}
+
+// What a line runs along does not count as what it goes through, whichever of the two it is a line of.
+TEST(Meetings, LinesThatRunAlongBoth) {
+  const auto bow =
+      std::make_shared<FormulaCurve>(point_formulas({"2*cos(t)", "2*sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
+  const ShapePtr tube = std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat),
+                 balls = std::make_shared<Balls>(std::vector<Vec3>{{2, 0.5, 0.2}}, std::vector<double>{0.9});
+  for (const bool swapped : {false, true}) {
+    SmallScene scene;
+    meet(scene, swapped ? balls : tube, Affine(), swapped ? tube : balls);
+    show(scene, swapped ? tube : balls, {});
+    Views views(3);
+    views.look(scene, false);
+    EXPECT_LT(visible_lines(*scene.world(), drawing_work(*scene.world())).statistics.rays, 100);
   }
 }
 
