@@ -256,7 +256,7 @@ class ViewDrawing {
     const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
     // Without caps it shows nothing.
     if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole, kPoint)) return drawn;
-    const Overlaps::Pen pen{drawn.pen.half_width, drawn.pen.opacity, drawn.pen.dash.empty(), hidden, stroke.object < 0};
+    const Overlaps::Pen pen{drawn.pen.half_width, drawn.pen.opacity, drawn.pen.dash.empty(), hidden, stroke.object};
     for (Path& path : overlaps_.left_of(whole, pen)) {
       add_obstacles(path);
       // Where it is cut, or has a head, nothing goes on.

@@ -11,6 +11,7 @@ namespace {
 constexpr double kSame = 1e-3;      // millimetres between lines that are one
 constexpr double kStraight = 1e-4;  // how far a straight line is from its chord
 constexpr double kShortest = 1e-2;  // of what is left
+constexpr double kCovering = 0.5;   // of what covers a part of a curve: less is a crossing or a touch
 constexpr int kPlaces = 32;         // on each step of a curve
 constexpr int kPlacesOnSide = 7;    // of a path with corners: others may touch it where a construction says so
 constexpr double kBin = 3;          // millimetres
@@ -86,6 +87,16 @@ std::optional<Path> straightened(const Path& path, const std::vector<Vec2>& plac
   return line;
 }
 
+// The places of a curve's chain count from 0; between them, shares of their chords.
+struct Place {
+  size_t chord;
+  double share;
+};
+Place place_at(double x, size_t chords) {
+  const size_t chord = std::min(static_cast<size_t>(x), chords - 1);
+  return {chord, x - static_cast<double>(chord)};
+}
+
 }  // namespace
 
 void Overlaps::add_places(Drawn& drawn) {
@@ -125,14 +136,14 @@ std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
 
 bool Overlaps::covers(const Pen& above, const Pen& below) {
   if (below.hidden && !above.hidden) return true;
-  return above.annotation == below.annotation && above.half_width >= below.half_width &&
+  return (above.object < 0) == (below.object < 0) && above.half_width >= below.half_width &&
          above.opacity >= below.opacity && (above.solid || !below.solid);
 }
 
-bool Overlaps::is_covered(const Vec2& place, const Pen& pen) const {
+bool Overlaps::is_covered(const Vec2& place, const Pen& pen, bool by_likes) const {
   for (const int number : near(place)) {
     const Drawn& one = drawn_[number];
-    if (!covers(one.pen, pen)) continue;
+    if (!covers(one.pen, pen) || (by_likes && one.pen != pen)) continue;
     const double near = kSame + one.bow;
     if (place.x < one.lo.x - near || place.x > one.hi.x + near || place.y < one.lo.y - near ||
         place.y > one.hi.y + near)
@@ -160,6 +171,136 @@ bool Overlaps::comes_near(const Drawn& drawn, size_t number, const Vec2& place) 
   return false;
 }
 
+Vec2 Overlaps::point_at(const Drawn& own, double x) {
+  const Place at = place_at(x, own.chords.size());
+  const Chord& chord = own.chords[at.chord];
+  return point_on(chord.begin, own.path.steps[chord.step], chord.from + (chord.to - chord.from) * at.share);
+}
+
+// Where steps of what may cover a part of the curve end on it, but for its own ends, in order.
+std::vector<double> Overlaps::ends_on(const Drawn& own) const {
+  std::vector<double> ends;
+  const double near = kSame + own.bow, last = static_cast<double>(own.chords.size());
+  const auto add = [&](const Vec2& end) {
+    if (end.x < own.lo.x - near || end.x > own.hi.x + near || end.y < own.lo.y - near || end.y > own.hi.y + near)
+      return;
+    for (size_t k = 0; k < own.chords.size(); ++k) {
+      if (!comes_near(own, k, end)) continue;
+      // The place of the chord that is nearest to it, by its direction there.
+      constexpr int kSteps = 4;
+      double x = static_cast<double>(k) + 0.5;
+      for (int step = 0; step < kSteps; ++step) {
+        const double before = std::max(x - 0.01, 0.0), behind = std::min(x + 0.01, last);
+        const Vec2 way = point_at(own, behind) - point_at(own, before);
+        const double square = glm::dot(way, way);
+        if (square > 0) x += (behind - before) * glm::dot(end - point_at(own, x), way) / square;
+        x = std::clamp(x, static_cast<double>(k), static_cast<double>(k) + 1);
+      }
+      if (x > 0 && x < last) ends.push_back(x);
+    }
+  };
+  for (const int number : this->near(own.places)) {
+    const Drawn& one = drawn_[number];
+    if (one.pen != own.pen) continue;
+    add(one.path.from);
+    for (const PathStep& step : one.path.steps) add(step.to);
+  }
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+// Whether a stretch of the curve is.
+bool Overlaps::is_covered(const Drawn& own, double from, double to, bool by_likes) const {
+  const auto is_covered_at = [&](double x) { return is_covered(point_at(own, x), own.pen, by_likes); };
+  for (const double share : {0.5, 0.1, 0.9})
+    if (!is_covered_at(from + share * (to - from))) return false;
+  // In the middle of its chords too, where no other line's chord can be its own by chance.
+  for (double x = std::ceil(2 * from) / 2; x < to; x += 0.5)
+    if (!is_covered_at(x)) return false;
+  return true;
+}
+
+std::vector<Path> Overlaps::left_of_curve(const Drawn& own) const {
+  const double last = static_cast<double>(own.chords.size());
+  if (is_covered(own, 0, last, false)) return {};
+  std::vector<double> cuts{0};
+  const auto is_far = [&](double x, double other) {
+    return glm::length(point_at(own, x) - point_at(own, other)) > kCovering;
+  };
+  for (const double end : ends_on(own))
+    if (is_far(end, cuts.back()) && is_far(end, last)) cuts.push_back(end);
+  cuts.push_back(last);
+  // Stretches that are not covered.
+  std::vector<std::pair<double, double>> free;
+  for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+    if (cuts.size() > 2 && is_covered(own, cuts[k], cuts[k + 1], true)) continue;
+    if (!free.empty() && free.back().second == cuts[k])
+      free.back().second = cuts[k + 1];
+    else
+      free.emplace_back(cuts[k], cuts[k + 1]);
+  }
+  if (free.size() == 1 && free[0] == std::pair(0.0, last)) return {own.path};
+  std::vector<Path> left;
+  for (const auto& [from, to] : free) {
+    const Place begin = place_at(from, own.chords.size()), end = place_at(to, own.chords.size());
+    const auto share_of_step = [&](const Place& place) {
+      const Chord& chord = own.chords[place.chord];
+      return chord.from + (chord.to - chord.from) * place.share;
+    };
+    Path part;
+    for (int k = own.chords[begin.chord].step; k <= own.chords[end.chord].step; ++k) {
+      const PathStep& step = own.path.steps[k];
+      const Vec2 start = k > 0 ? own.path.steps[k - 1].to : own.path.from;
+      const double lo = k == own.chords[begin.chord].step ? share_of_step(begin) : 0,
+                   hi = k == own.chords[end.chord].step ? share_of_step(end) : 1;
+      if (part.steps.empty()) part.from = point_on(start, step, lo);
+      if (lo < hi) part.steps.push_back(lo > 0 || hi < 1 ? part_of(start, step, lo, hi) : step);
+    }
+    if (!part.steps.empty() && !is_point(part, kShortest)) left.push_back(std::move(part));
+  }
+  // What goes on over the place where a closed one begins is one.
+  if (own.path.closed && left.size() > 1 && left.front().from == own.path.from && left.back().end() == own.path.end()) {
+    left.back().steps.insert(left.back().steps.end(), left.front().steps.begin(), left.front().steps.end());
+    left.erase(left.begin());
+  }
+  return left;
+}
+
+std::vector<Path> Overlaps::left_of_line(const Drawn& own) const {
+  const Vec2 way = own.to - own.from;
+  const double length = glm::length(way);
+  const Vec2 along = way / length;
+  std::vector<std::pair<double, double>> covered;
+  for (const int number : near(own.places)) {
+    const Drawn& one = drawn_[number];
+    if (!one.straight || !covers(one.pen, own.pen) || own.lo.x > one.hi.x + kSame || one.lo.x > own.hi.x + kSame ||
+        own.lo.y > one.hi.y + kSame || one.lo.y > own.hi.y + kSame)
+      continue;
+    const auto off = [&](const Vec2& p) {
+      return std::abs((p.x - own.from.x) * along.y - (p.y - own.from.y) * along.x);
+    };
+    if (off(one.from) > kSame || off(one.to) > kSame) continue;
+    const double a = glm::dot(one.from - own.from, along), b = glm::dot(one.to - own.from, along);
+    covered.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::sort(covered.begin(), covered.end());
+  std::vector<Path> left;
+  double at = 0;
+  const auto keep = [&](double from, double to) {
+    if (to - from < (covered.empty() ? 0 : kShortest)) return;
+    Path part;
+    part.from = own.from + from * along;
+    part.steps.push_back(line_to(to == length ? own.to : own.from + to * along));
+    left.push_back(std::move(part));
+  };
+  for (const auto& [from, to] : covered) {
+    if (from > at) keep(at, std::min(from, length));
+    at = std::max(at, to);
+  }
+  if (at < length) keep(at, length);
+  return left;
+}
+
 std::vector<Path> Overlaps::left_of(const Path& given, const Pen& pen) {
   Drawn own;
   own.path = given;
@@ -170,55 +311,13 @@ std::vector<Path> Overlaps::left_of(const Path& given, const Pen& pen) {
     add_places(own);
   }
   own.pen = pen;
-  const Path path = own.path;
-  const bool straight = path.steps.size() == 1 && path.steps[0].kind == PathStep::Kind::line;
-  own.straight = straight;
+  const Path& path = own.path;
+  own.straight = path.steps.size() == 1 && path.steps[0].kind == PathStep::Kind::line;
   own.lo = own.hi = own.from = own.to = path.from;
+  if (own.straight) own.to = path.steps[0].to;
   for (const Vec2& place : own.places) own.lo = glm::min(own.lo, place), own.hi = glm::max(own.hi, place);
-  std::vector<Path> left;
-  if (!straight) {
-    // In the middle of its places too, where no other line's chord can be its own by chance.
-    bool covered = true;
-    for (size_t k = 0; k < own.chords.size() && covered; ++k) {
-      const Chord& chord = own.chords[k];
-      covered = is_covered(own.places[k], pen) &&
-                is_covered(point_on(chord.begin, path.steps[chord.step], 0.5 * (chord.from + chord.to)), pen);
-    }
-    if (!covered) left.push_back(path);
-  } else {
-    own.to = path.steps[0].to;
-    const Vec2 way = own.to - own.from;
-    const double length = glm::length(way);
-    if (!(length > 0)) return {path};
-    const Vec2 along = way / length;
-    std::vector<std::pair<double, double>> covered;
-    for (const int number : near(own.places)) {
-      const Drawn& one = drawn_[number];
-      if (!one.straight || !covers(one.pen, pen) || own.lo.x > one.hi.x + kSame || one.lo.x > own.hi.x + kSame ||
-          own.lo.y > one.hi.y + kSame || one.lo.y > own.hi.y + kSame)
-        continue;
-      const auto off = [&](const Vec2& p) {
-        return std::abs((p.x - own.from.x) * along.y - (p.y - own.from.y) * along.x);
-      };
-      if (off(one.from) > kSame || off(one.to) > kSame) continue;
-      const double a = glm::dot(one.from - own.from, along), b = glm::dot(one.to - own.from, along);
-      covered.emplace_back(std::min(a, b), std::max(a, b));
-    }
-    std::sort(covered.begin(), covered.end());
-    double at = 0;
-    const auto keep = [&](double from, double to) {
-      if (to - from < (covered.empty() ? 0 : kShortest)) return;
-      Path part;
-      part.from = own.from + from * along;
-      part.steps.push_back(line_to(to == length ? own.to : own.from + to * along));
-      left.push_back(std::move(part));
-    };
-    for (const auto& [from, to] : covered) {
-      if (from > at) keep(at, std::min(from, length));
-      at = std::max(at, to);
-    }
-    if (at < length) keep(at, length);
-  }
+  if (own.straight && own.from == own.to) return {path};
+  std::vector<Path> left = own.straight ? left_of_line(own) : left_of_curve(own);
   if (!left.empty()) {
     const int number = static_cast<int>(drawn_.size());
     each_bin(own.places, kSame + own.bow, [&](int64_t bin) {

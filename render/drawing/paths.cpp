@@ -157,6 +157,25 @@ bool is_point(const Path& path, double size) {
   return true;
 }
 
+PathStep part_of(const Vec2& begin, const PathStep& step, double from, double to) {
+  PathStep part = step;
+  part.to = point_on(begin, step, to);
+  if (step.kind == PathStep::Kind::curve) {
+    // By its polar form (blossom): the handles at (from, from, to) and (from, to, to).
+    const auto polar = [&](double a, double b, double c) {
+      const auto mix = [](const Vec2& p, const Vec2& q, double t) { return (1 - t) * p + t * q; };
+      const Vec2 ends[] = {mix(begin, step.first, a), mix(step.first, step.second, a), mix(step.second, step.to, a)};
+      return mix(mix(ends[0], ends[1], b), mix(ends[1], ends[2], b), c);
+    };
+    part.first = polar(from, from, to), part.second = polar(from, to, to);
+  }
+  if (step.kind == PathStep::Kind::arc) {
+    part.begin = (1 - from) * step.begin + from * step.end;
+    part.end = (1 - to) * step.begin + to * step.end;
+  }
+  return part;
+}
+
 Path reversed(const Path& path) {
   Path result;
   result.closed = path.closed;

@@ -48,6 +48,9 @@ Path fitted_path(const ProjectedCurve& curve, const geometry::Interval& t, const
 // Whether no place of the path is farther from its beginning than `size`: a line that is seen along itself.
 bool is_point(const Path& path, double size);
 
+// The step between two shares of it, `begin` being where it begins.
+PathStep part_of(const Vec2& begin, const PathStep& step, double from, double to);
+
 // The path the other way.
 Path reversed(const Path& path);
 // Every point p at scale p + shift.

@@ -230,6 +230,63 @@ TEST(Overlaps, DrawnOnce) {
   EXPECT_EQ(left_of(straight({0, 50}, {4, 53})).size(), 0u);
 }
 
+// Of curves, what lines of the same object and pen cover between their ends.
+TEST(Overlaps, OfPartsOfCurves) {
+  constexpr double kTurn = geometry::kTwoPi;
+  const PictureEllipse ellipse{{100, 100}, {60, 0}, {0, 40}};
+  const auto arc = [&](double from, double to) {
+    Path path;
+    path.from = ellipse.point(from);
+    path.steps = arcs_to(ellipse, from, to);
+    path.closed = to - from == kTurn;
+    return path;
+  };
+  const auto is_arc = [&](const Path& path, double from, double to) {
+    EXPECT_NEAR(glm::length(path.from - ellipse.point(from)), 0, 2e-3);
+    EXPECT_NEAR(glm::length(path.end() - ellipse.point(to)), 0, 2e-3);
+    double angles = 0;
+    for (const PathStep& step : path.steps) angles += step.end - step.begin;
+    EXPECT_NEAR(angles, to - from, 1e-4);
+  };
+  Overlaps overlaps;
+  is_arc(overlaps.left_of(arc(0, 1), {}).at(0), 0, 1);
+  const auto beyond = overlaps.left_of(arc(0.5, 2), {});
+  ASSERT_EQ(beyond.size(), 1u);
+  is_arc(beyond[0], 1, 2);
+  // Over the place where a closed one begins.
+  const auto rest = overlaps.left_of(arc(5, 5 + kTurn), {});
+  ASSERT_EQ(rest.size(), 1u);
+  is_arc(rest[0], 2, kTurn);
+
+  // The cubic (t, t^3) - for which the middle half of the parameters is another, with the handles of its polar form.
+  const auto cubic = [](double a, double b) {
+    const auto point = [](double r, double s, double t) { return 30.0 * Vec2((r + s + t) / 3, r * s * t); };
+    Path path;
+    path.from = point(a, a, a);
+    path.steps = {curve_to(point(a, a, b), point(a, b, b), point(b, b, b))};
+    return path;
+  };
+  Overlaps others;
+  EXPECT_EQ(others.left_of(cubic(0.25, 0.75), {}).size(), 1u);
+  EXPECT_EQ(others.left_of(cubic(0, 1), {.object = 3}).size(), 1u);
+  const auto ends = others.left_of(cubic(-1, 1), {});
+  ASSERT_EQ(ends.size(), 2u);
+  for (const auto& [path, a, b] : {std::tuple(ends[0], -1.0, 0.25), std::tuple(ends[1], 0.75, 1.0)}) {
+    const Path expected = cubic(a, b);
+    ASSERT_EQ(path.steps.size(), 1u);
+    for (const double s : {0.0, 0.3, 0.5, 1.0})
+      EXPECT_NEAR(glm::length(point_on(path.from, path.steps[0], s) - point_on(expected.from, expected.steps[0], s)), 0,
+                  2e-3);
+  }
+  // A line that touches a curve covers nothing of it.
+  EXPECT_EQ(overlaps.left_of(straight({160, 90}, {160, 110}), {}).size(), 1u);
+  Overlaps touching;
+  EXPECT_EQ(touching.left_of(straight({160, 100}, {160, 110}), {}).size(), 1u);
+  const auto whole = touching.left_of(arc(-1, 1), {});
+  ASSERT_EQ(whole.size(), 1u);
+  is_arc(whole[0], -1, 1);
+}
+
 // What covers another is no thinner, no fainter, and solid if that is; hidden lines are covered by all that are seen.
 TEST(Overlaps, OfLinesOfDifferentPens) {
   const Path path = straight({0, 0}, {10, 0});
@@ -238,9 +295,9 @@ TEST(Overlaps, OfLinesOfDifferentPens) {
     overlaps.left_of(path, above);
     return overlaps.left_of(path, below).empty();
   };
-  const Overlaps::Pen thin{.half_width = 0.1}, thick{.half_width = 0.5}, dashed{.half_width = 0.5, .solid = false},
-      faint{.half_width = 0.5, .opacity = 0.5}, hidden{.half_width = 0.5, .solid = false, .hidden = true},
-      annotation{.half_width = 0.5, .annotation = true};
+  const Overlaps::Pen thin{.half_width = 0.1, .object = 0}, thick{.half_width = 0.5, .object = 1},
+      dashed{.half_width = 0.5, .solid = false, .object = 0}, faint{.half_width = 0.5, .opacity = 0.5, .object = 0},
+      hidden{.half_width = 0.5, .solid = false, .hidden = true, .object = 0}, annotation{.half_width = 0.5};
   EXPECT_TRUE(covers(thick, thin));
   EXPECT_FALSE(covers(thin, thick));
   EXPECT_TRUE(covers(thick, dashed));
