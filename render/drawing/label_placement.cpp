@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/drawing/text_layout.h"
 #include "render/drawing/view.h"
 
 namespace lekalo::render {
@@ -31,48 +32,33 @@ const std::array<Direction, 8> kDirections = {{{"above right", {1, -1}},
                                                {"below", {0, 1}},
                                                {"below left", {-1, 1}}}};
 
-struct Rect {
-  Vec2 lo{0}, hi{0};
-};
-
-Rect box_of(const SheetText& text, const Vec2& at) {
-  return {{at.x - kFree, at.y - text.ascent - kFree}, {at.x + text.width + kFree, at.y + text.descent + kFree}};
-}
+SheetBox with_border(const SheetBox& box) { return {box.lo - kFree, box.hi + kFree}; }
 
 // What the text takes: its box or, where it is turned, the boxes of pieces of it about as long as high.
-std::vector<Rect> boxes_of(const SheetText& text, const Vec2& at) {
-  if (text.angle == 0) return {box_of(text, at)};
-  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+std::vector<SheetBox> boxes_of(const SheetText& text) {
   const double height = text.ascent + text.descent;
-  const int pieces = height > 0 ? std::max(1, static_cast<int>(std::ceil(text.width / height))) : 1;
-  std::vector<Rect> boxes;
-  for (int k = 0; k < pieces; ++k) {
-    Rect box{Vec2(geometry::kInfinity), Vec2(-geometry::kInfinity)};
-    for (const double x : {text.width * k / pieces, text.width * (k + 1) / pieces})
-      for (const double y : {text.ascent, -text.descent}) {
-        const Vec2 corner = at + x * along + y * up;
-        box.lo = glm::min(box.lo, corner - kFree), box.hi = glm::max(box.hi, corner + kFree);
-      }
-    boxes.push_back(box);
-  }
+  const int pieces = text.angle != 0 && height > 0 ? std::max(1, static_cast<int>(std::ceil(text.width / height))) : 1;
+  std::vector<SheetBox> boxes;
+  for (int k = 0; k < pieces; ++k)
+    boxes.push_back(with_border(box_of(text, static_cast<double>(k) / pieces, static_cast<double>(k + 1) / pieces)));
   return boxes;
 }
 
-double overlap(const Rect& a, const Rect& b) {
+double overlap(const SheetBox& a, const SheetBox& b) {
   const double x = std::min(a.hi.x, b.hi.x) - std::max(a.lo.x, b.lo.x),
                y = std::min(a.hi.y, b.hi.y) - std::max(a.lo.y, b.lo.y);
   return x > 0 && y > 0 ? std::min(x, y) + x * y : 0;
 }
 
-double overlap(const std::vector<Rect>& some, const std::vector<Rect>& others) {
+double overlap(const std::vector<SheetBox>& some, const std::vector<SheetBox>& others) {
   double sum = 0;
-  for (const Rect& a : some)
-    for (const Rect& b : others) sum += overlap(a, b);
+  for (const SheetBox& a : some)
+    for (const SheetBox& b : others) sum += overlap(a, b);
   return sum;
 }
 
 // Length of a segment within a rectangle.
-double covered(const Rect& box, const Vec2& from, const Vec2& to) {
+double covered(const SheetBox& box, const Vec2& from, const Vec2& to) {
   double lo = 0, hi = 1;
   const Vec2 way = to - from;
   for (int axis = 0; axis < 2; ++axis) {
@@ -102,10 +88,10 @@ struct Candidate {
   Vec2 at{0};
   double alignment = 0;
   double cost = 0;  // all but that of other texts
-  std::vector<Rect> boxes;
+  std::vector<SheetBox> boxes;
 };
 
-double fixed_cost(const Rect& box, const LabelObstacles& obstacles) {
+double fixed_cost(const SheetBox& box, const LabelObstacles& obstacles) {
   double cost = 0;
   const double outside = std::max({0.0, -box.lo.x, -box.lo.y, box.hi.x - obstacles.width, box.hi.y - obstacles.height});
   if (outside > kFree) cost += kOffPaper * (1 + outside);
@@ -124,9 +110,11 @@ double fixed_cost(const Rect& box, const LabelObstacles& obstacles) {
 
 std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obstacles) {
   std::vector<Candidate> result;
+  SheetText there = label.text;
   const auto add_at = [&](const Vec2& at, double alignment, double liked) {
-    Candidate one{at, alignment, liked, boxes_of(label.text, at)};
-    for (const Rect& box : one.boxes) one.cost += fixed_cost(box, obstacles);
+    there.at = at;
+    Candidate one{at, alignment, liked, boxes_of(there)};
+    for (const SheetBox& box : one.boxes) one.cost += fixed_cost(box, obstacles);
     result.push_back(std::move(one));
   };
   const auto add = [&](const Vec2& point, const Vec2& way, double distance, double liked) {
@@ -196,7 +184,7 @@ void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles) {
 SheetGroup drawn_label(const Label& label) {
   SheetGroup group;
   group.kind = label.kind, group.object = label.object;
-  const Rect box = box_of(label.text, label.text.at);
+  const SheetBox box = with_border(box_of(label.text));
   if (label.leader) {
     // To the nearest point of the text's box.
     const Vec2 near(std::clamp(label.at.x, box.lo.x, box.hi.x), std::clamp(label.at.y, box.lo.y, box.hi.y));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/drawing/text_layout.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -26,14 +28,6 @@ std::string shortened(const std::string& text) {
 }
 
 }  // namespace
-
-SheetBox box_of(const SheetText& text) {
-  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
-  SheetBox box;
-  for (const double x : {0.0, text.width})
-    for (const double y : {text.ascent, -text.descent}) box.include(text.at + x * along + y * up);
-  return box;
-}
 
 std::string over_the_edge(const Label& label, const Vec2& page, double margin) {
   const SheetBox box = box_of(label.text);

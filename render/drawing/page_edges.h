@@ -4,12 +4,8 @@
 #include <string>
 
 #include "render/drawing/label_placement.h"
-#include "render/drawing/panel_layout.h"
 
 namespace lekalo::render {
-
-// Where a text stands on the sheet; of one at an angle the box about it.
-SheetBox box_of(const SheetText& text);
 
 // For a text in its place: by how much it goes over the edges of a page of this size, and what gives it room. Empty for
 // one that is on the page.

@@ -10,7 +10,7 @@
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
-#include "render/drawing/page_edges.h"
+#include "render/drawing/text_layout.h"
 #include "render/scene/diagnostics.h"
 
 namespace lekalo::render {

@@ -8,16 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "render/drawing/sheet.h"
 #include "render/scene/model.h"
 
 namespace lekalo::render {
-
-// A rectangle on the sheet, millimetres.
-struct SheetBox {
-  Vec2 lo{geometry::kInfinity}, hi{-geometry::kInfinity};
-  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  Vec2 size() const { return hi - lo; }
-};
 
 // What the objects, and the points of which annotations speak, take of a picture whose pixels have so many millimetres:
 // it grows with the scene. And what the annotations take with them.
