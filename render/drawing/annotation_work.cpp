@@ -1,5 +1,7 @@
 #include "render/drawing/annotation_work.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "geometry/curves/segment.h"
@@ -20,7 +22,16 @@ double opacity_of(const HiddenLines& hidden) {
 AnnotationWork::AnnotationWork(const View& view, const Annotation& annotation, LineWork& work, PageWork& page)
     : view_(view), annotation_(annotation), work_(work), page_(page), look_(drawn_look(annotation.style)) {}
 
-void AnnotationWork::leave_out(const std::string& why) { work_.left_out.push_back(kind() + " " + why); }
+void AnnotationWork::leave_out(const std::string& why) {
+  std::string name = kind();
+  for (const char* field : {"text", "label"})
+    if (fields().holds<TextTemplate>(field)) name += fmt::format(" '{}'", words(field));
+  work_.left_out.push_back(fmt::format("{} {} ({})", name, why, where(annotation_.place)));
+}
+
+void AnnotationWork::finish() {
+  if (behind_) leave_out(drawn_ ? "as far as it is at points behind the eye" : "at points behind the eye");
+}
 
 Vec2 AnnotationWork::place(const Anchor& anchor) {
   if (!anchor.on_page) page_.anchors.push_back(anchor.point);
@@ -41,6 +52,7 @@ std::string AnnotationWork::words(const char* field) const {
 }
 
 void AnnotationWork::stroke(CurvePtr curve, const HiddenLines& hidden, bool start, bool end) {
+  drawn_ = true;
   Stroke stroke;
   stroke.curve = std::move(curve);
   stroke.kind = kind();
@@ -54,12 +66,15 @@ void AnnotationWork::stroke(CurvePtr curve, const HiddenLines& hidden, bool star
 
 void AnnotationWork::segment(const Vec3& from, const Vec3& to, const HiddenLines& hidden, bool start, bool end) {
   page_.anchors.push_back(from), page_.anchors.push_back(to);
+  if (!is_seen(from) && !is_seen(to)) return leave_out_behind();
   stroke(std::make_shared<Segment>(from, to), hidden, start, end);
 }
 
 void AnnotationWork::text(const Vec3& point, std::string words, const std::string& side, double distance,
                           const HiddenLines& hidden, bool leader) {
   page_.anchors.push_back(point);
+  if (!is_seen(point)) return leave_out_behind();
+  drawn_ = true;
   PointText text;
   text.point = point;
   text.text = std::move(words);
@@ -76,6 +91,8 @@ void AnnotationWork::text(const Vec3& point, std::string words, const std::strin
 void AnnotationWork::mark(Mark mark, const HiddenLines& hidden) {
   if (hidden.way != HiddenLines::Way::drop) mark.hidden_opacity = style().opacity * opacity_of(hidden);
   page_.anchors.push_back(mark.point);
+  if (!is_seen(mark.point)) return leave_out_behind();
+  drawn_ = true;
   work_.marks.push_back(std::move(mark));
 }
 
@@ -88,7 +105,13 @@ Label AnnotationWork::page_label(const std::string& words, const Vec2& at) const
   return label;
 }
 
+void AnnotationWork::add(Label label) {
+  drawn_ = true;
+  page_.labels.push_back(std::move(label));
+}
+
 void AnnotationWork::shape(std::vector<SheetItem> items) {
+  drawn_ = true;
   page_.shapes.emplace_back(SheetGroup{kind(), "", {}, {}, std::move(items)});
 }
 

@@ -20,9 +20,11 @@ class AnnotationWork {
   const LineLook& look() const { return look_; }
   PageWork& page() { return page_; }
 
-  // Notes that the annotation, or a part of it, is not in the drawing.
+  // Notes that the annotation is not in the drawing.
   void leave_out(const std::string& why);
-  void leave_out_behind() { leave_out("at points behind the eye"); }
+  // What of it is at points behind the eye is not drawn; finish() notes it, once.
+  void leave_out_behind() { behind_ = true; }
+  void finish();
   bool is_seen(const Vec3& point) const { return view_.camera.project(point).visible_side; }
 
   // A place on the page that the annotation speaks of.
@@ -45,7 +47,7 @@ class AnnotationWork {
 
   // On the page.
   Label page_label(const std::string& words, const Vec2& at) const;
-  void add(Label label) { page_.labels.push_back(std::move(label)); }
+  void add(Label label);
   void shape(std::vector<SheetItem> items);
   void page_line(const Vec2& from, const Vec2& to, bool start, bool end);
 
@@ -55,6 +57,7 @@ class AnnotationWork {
   LineWork& work_;
   PageWork& page_;
   LineLook look_;
+  bool drawn_ = false, behind_ = false;  // any of it
 };
 
 }  // namespace lekalo::render

@@ -219,6 +219,7 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
       if (!world) world = std::make_unique<const World>(std::make_shared<const Model>(view.model), false);
       add_light_path(work, *world);
     }
+    work.finish();
   }
 }
 

@@ -133,9 +133,12 @@ image: { size: [80 mm, 60 mm], margin: 4 mm }
         self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
 
     def test_behind_the_eye(self):
-        """Nothing is drawn at the mirrored pictures of points behind the eye, and that is said."""
+        """Nothing is drawn at the mirrored pictures of points behind the eye; what is not there is said, once each."""
         root, errors = self.drawn("""lekalo: 1
-geometry: { s: { type: sphere_surface, radius: 1 } }
+geometry: { s: { type: sphere_surface, radius: 1 }, b: { type: bezier_curve, points: [[2, 2, 0], [0, -9, 0]] } }
+objects:
+  - { shape: s }
+  - { shape: b, show: { control_polygon: { label: '$p_%i$' } } }
 camera: { type: perspective, from: [0.3, -4, 1], at: [0, 0, 0] }
 drawing:
   annotations:
@@ -145,12 +148,28 @@ drawing:
     - { type: leader, at: [0, 0, 1], to: [1, -9, 1], text: pole }
     - { type: angle, at: [0, -5, 0], from: [1, -5, 0], to: [0, -5, 1], label: x }
     - { type: point, at: [0, 0, 1], label: N }
+    - { type: point, at: [0, -5, 1], label: P }
+    - { type: label, at: [0, -5, 1], text: '$q_1$' }
+    - { type: arrow, from: [0, -6, 1], to: [0, -9, 1] }
+    - { type: arrow, from: [0, 0, 1], to: [0, -9, 1], label: F }
+    - { type: light_path, from: [0, -6, 0], to: [0, -9, 0], bounces: 0 }
 image: { size: [120 mm, 90 mm] }
 """)
-        self.assertEqual(self.texts(root), ["N"])
-        for kind in ("linear_dimension", "angle_dimension", "brace", "leader", "angle"):
-            self.assertIn(f"{kind} at points behind the eye", errors)
+        self.assertEqual(sorted(self.texts(root)), ["N", "p0"])
+        for kind in ("linear_dimension", "angle_dimension", "brace", "leader", "angle", "light_path"):
             self.assertFalse(self.of_class(root, kind))
+        notes = re.findall("note: not in the drawing: (.*)", errors)
+        self.assertEqual(notes, ["signs of 'b' at points behind the eye", "texts of 'b' at points behind the eye",
+                                 "linear_dimension at points behind the eye (scene.yaml:9)",
+                                 "angle_dimension at points behind the eye (scene.yaml:10)",
+                                 "brace 'L' at points behind the eye (scene.yaml:11)",
+                                 "leader 'pole' at points behind the eye (scene.yaml:12)",
+                                 "angle 'x' at points behind the eye (scene.yaml:13)",
+                                 "point 'P' at points behind the eye (scene.yaml:15)",
+                                 "label '$q_1$' at points behind the eye (scene.yaml:16)",
+                                 "arrow at points behind the eye (scene.yaml:17)",
+                                 "arrow 'F' as far as it is at points behind the eye (scene.yaml:18)",
+                                 "light_path at points behind the eye (scene.yaml:19)"])
 
     # ---------------------------------------------------------------- lines and their elements
 
