@@ -16,12 +16,16 @@ using namespace geometry;
 namespace {
 
 // Millimetres, as ISO 129-1 draws dimensions of a small figure.
-constexpr double kGap = 0.8;          // between a point and the line that leads away from it
-constexpr double kBeyond = 1.5;       // by which these lines pass the dimension line
-constexpr double kTextOff = 0.7;      // between a line and the text upon it
-constexpr double kShelf = 6;          // from a circle to the number of its radius
-constexpr double kLeastForHeads = 3;  // in arrow lengths: shorter dimension lines have their arrows outside
-constexpr double kStraight = 1e-9;    // radians: sides of an angle that are one line
+constexpr double kGap = 0.8;           // between a point and the line that leads away from it
+constexpr double kBeyond = 1.5;        // by which these lines pass the dimension line
+constexpr double kTextOff = 0.7;       // between a line and the text upon it
+constexpr double kShelf = 6;           // from a circle to the number of its radius
+constexpr double kLeastForHeads = 3;   // in arrow lengths: shorter dimension lines have their arrows outside
+constexpr double kTail = 2;            // in arrow lengths: from there lines lead to arrows outside
+constexpr double kBesideText = 0.5;    // between a text upon a line and the line's ends
+constexpr double kNumberBorder = 0.2;  // around a number: it may be so near to the arrow heads of its line
+constexpr double kLean = 0.6;          // of leaders to numbers, for each of their height
+constexpr double kStraight = 1e-9;     // radians: sides of an angle that are one line
 
 // The plane of an angle, x along its first side. The sides of 180 degrees are one line, which lies in many planes: it
 // is the one across the way of sight, seen from its front. None where there is no angle, or such a line is seen
@@ -109,24 +113,60 @@ std::string number_text(const AnnotationWork& work, double value, const std::str
          work.words("suffix");
 }
 
-// Above the line as read from below or from the right.
-void text_along(AnnotationWork& work, const std::string& words, const Vec2& middle, Vec2 way, double length) {
-  if (way.x < -1e-9 || (std::abs(way.x) <= 1e-9 && way.y > 0)) way = -way;
-  const Vec2 up(way.y, -way.x);
-  Label label = work.page_label(words, middle);
-  label.side = "here";
-  label.text.alignment = 0.5;
-  label.text.angle = std::atan2(-way.y, way.x);
-  const auto at = [&](double beside) {
-    return middle + (beside - 0.5 * label.text.width) * way + (kTextOff + label.text.descent) * up;
+// A dimension line as it is read, from below or from the right.
+struct ReadLine {
+  Vec2 middle{0}, way{0}, up{0};
+  double length = 0;
+  double ends = 0;  // by which arrow heads and their lines go on at both ends
+  double out = 1;   // the side along `up` that looks away from what is measured: 1 or -1
+
+  Vec2 at(double along, double upwards) const { return middle + along * way + upwards * up; }
+};
+
+// Where the number of a dimension may stand, the best liked place first: upon the middle of its line, elsewhere upon
+// it, upon its continuation, at the end of a leader. What does not fit between the ends has the last two.
+std::vector<LabelSpot> places_of_number(const SheetText& text, const ReadLine& line) {
+  std::vector<LabelSpot> spots;
+  const auto add = [&](double along, double upwards, std::vector<LabelLine> lines) {
+    spots.push_back({line.at(along - 0.5 * text.width, upwards + kTextOff + text.descent), "here", 0, std::move(lines),
+                     kNumberBorder});
   };
-  label.text.at = at(0);
-  if (label.text.width + 1 > length) {
-    // It does not fit between the arrows: behind one of them.
-    label.side.clear();
-    const double beside = 0.5 * length + 2.5 * work.style().arrow_size + 0.5 * label.text.width;
-    label.spots = {{at(beside), "here", 0}, {at(-beside), "here", 0}};
+  const double half = 0.5 * line.length, free = line.length - text.width - 2 * kBesideText;
+  if (free >= 0)
+    for (const double part : {0.0, 0.5, -0.5, 1.0, -1.0}) add(0.5 * part * free, 0, {});
+  for (const double side : {1.0, -1.0}) {
+    const double begin = half + std::max(1.25 * line.ends, 2 * kBesideText), end = begin + text.width;
+    add(side * (begin + 0.5 * text.width), 0, {{line.at(side * (half + line.ends), 0), line.at(side * end, 0)}});
   }
+  const double height = text.ascent + text.descent + 2 * kTextOff;
+  for (const double level : {0, 1, 2})
+    for (const double away : {line.out, -line.out})
+      for (const double side : {1.0, -1.0}) {
+        // The text stands upon the leader's end: below the line it needs its own height more.
+        const double rise = away * (kBeyond + kTextOff + level * height) - (away < 0 ? height : 0);
+        const double knee = side * kLean * std::abs(rise), end = knee + side * text.width;
+        add(0.5 * (knee + end), rise,
+            {{line.at(0, 0), line.at(knee, rise)}, {line.at(knee, rise), line.at(end, rise)}});
+      }
+  return spots;
+}
+
+// `out`: the unit direction away from what is measured.
+void add_number(AnnotationWork& work, const std::string& words, const Vec2& from, const Vec2& to, const Vec2& out,
+                double ends) {
+  ReadLine line;
+  line.middle = 0.5 * (from + to);
+  line.length = glm::length(to - from);
+  line.ends = ends;
+  line.way = Vec2(-out.y, out.x);
+  if (line.way.x < -1e-9 || (std::abs(line.way.x) <= 1e-9 && line.way.y > 0)) line.way = -line.way;
+  line.up = Vec2(line.way.y, -line.way.x);
+  line.out = glm::dot(line.up, out) < 0 ? -1 : 1;
+  Label label = work.page_label(words, line.middle);
+  label.text.alignment = 0.5;
+  label.text.angle = std::atan2(-line.way.y, line.way.x);
+  label.pen = work.look();
+  label.spots = places_of_number(label.text, line);
   work.add(std::move(label));
 }
 
@@ -185,16 +225,17 @@ void add_linear_dimension(AnnotationWork& work) {
   const Vec2 from = p + (level - hp) * out, to = q + (level - hq) * out;
   extension_line(work, p, from);
   extension_line(work, q, to);
-  const double length = glm::length(to - from), head = work.style().arrow_size;
-  if (length >= kLeastForHeads * head) {
+  const double head = work.style().arrow_size, tail = kTail * head;
+  const bool fits = glm::length(to - from) >= kLeastForHeads * head;
+  if (fits) {
     const auto [start, end] = work.heads();
     work.page_line(from, to, start, end);
   } else {
     work.page_line(from, to, false, false);
-    work.page_line(from - 2 * head * way, from, false, true);
-    work.page_line(to + 2 * head * way, to, false, true);
+    work.page_line(from - tail * way, from, false, true);
+    work.page_line(to + tail * way, to, false, true);
   }
-  text_along(work, number_text(work, value, "", ""), 0.5 * (from + to), way, length);
+  add_number(work, number_text(work, value, "", ""), from, to, offset >= 0 ? out : -out, fits ? 0 : tail);
 }
 
 void add_round_dimension(AnnotationWork& work, bool diameter) {
@@ -230,7 +271,7 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
     work.page_line(near, end, false, false);
   } else {
     work.page_line(end, near, false, true);
-    if (diameter) work.page_line(far - 2 * head * out, far, false, true);
+    if (diameter) work.page_line(far - kTail * head * out, far, false, true);
   }
   Label label = work.page_label(number_text(work, diameter ? 2 * radius : radius, diameter ? "⌀" : "R", ""), end);
   label.side = out.x >= -1e-9 ? "right" : "left";
