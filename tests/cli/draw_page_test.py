@@ -429,15 +429,60 @@ image: { size: [80 mm, auto], margin: 4 mm }
         self.assertTrue(self.of_class(root, "curve"))
 
     def test_short_dimensions(self):
-        """A text that does not fit between the arrows stands behind one of them, along any direction."""
+        """A text that does not fit between the arrows stands upon the line's continuation, along any direction."""
         for to, turn in (("[1.2, 1, 0]", 0), ("[1, 1.2, 0]", 90), ("[1.15, 1.15, 0]", 45)):
             root, _ = self.planned("top", f"{{ type: linear_dimension, from: [1, 1, 0], to: {to}, offset: 3 mm }}")
             (x, y), turned = self.place_of_text(root)
             self.assert_near(turned, -turn, 1e-3)
-            lines = [p for group in self.of_class(root, "linear_dimension") for p in self.places(group)]
-            # Farther along the dimension line than all that is drawn of it.
+            paths = [path for group in self.of_class(root, "linear_dimension") for path in group.findall(SVG + "path")]
             way = math.cos(math.radians(turn)), -math.sin(math.radians(turn))
-            self.assertGreater(x * way[0] + y * way[1], max(a * way[0] + b * way[1] for a, b in lines) - 1e-3)
+
+            def farthest(paths):
+                return max(a * way[0] + b * way[1] for path in paths for a, b in self.places_of(path))
+
+            begin = x * way[0] + y * way[1]
+            heads = [path for path in paths if path.get("fill")]
+            self.assertEqual(len(heads), 2)
+            tips = [self.places_of(head)[0] for head in heads]  # the heads lie outside of both
+            self.assert_near(math.dist(*(self.places_of(head)[1] for head in heads)),
+                             math.dist(*tips) + 2 * math.dist(tips[0], self.places_of(heads[0])[1]), 0.2)
+            self.assertGreater(begin, farthest(heads))
+            # The line goes on under the text.
+            self.assertGreater(farthest(paths), begin + 3)
+
+    def boxes_of_texts(self, root):
+        """Of level texts: about 0.5 em for each digit, 0.25 em for a point, 0.65 em high."""
+        boxes = []
+        for group in root.iter(SVG + "g"):
+            if (text := group.find(SVG + "text")) is not None:
+                (x, y), turned = self.place_of_text(group)
+                self.assertEqual(turned, 0)
+                em = float(next(text.iter(SVG + "tspan")).get("font-size"))
+                width = sum(0.25 if c == "." else 0.5 for c in "".join(text.itertext())) * em
+                boxes.append((x, y - 0.65 * em, x + width, y))
+        return boxes
+
+    def test_crowded_dimensions(self):
+        """Numbers of chains and of dimensions on one line stand apart, each over a line of its own, and on the page."""
+        chain = [f"{{ type: linear_dimension, from: [{x}, 0, 0], to: [{x + 0.125}, 0, 0], offset: -8 mm, decimals: 3 }}"
+                 for x in (0, 0.125, 0.25)]
+        above = [f"{{ type: linear_dimension, from: [0, 3, 0], to: [{x}, 3, 0], offset: 8 mm, decimals: 3 }}"
+                 for x in (3.125, 3.25, 3.375)]
+        root, errors = self.drawn(self.PLAN.replace("VIEW", "top").replace("ANNOTATIONS", ", ".join(chain + above)))
+        self.assertNotIn("warning", errors)
+        boxes = self.boxes_of_texts(root)
+        self.assertEqual(len(boxes), 6)
+        width, height = (float(root.get(side).removesuffix("mm")) for side in ("width", "height"))
+        for k, a in enumerate(boxes):
+            self.assertTrue(a[0] >= 0 and a[1] >= 0 and a[2] <= width and a[3] <= height, a)
+            for b in boxes[:k]:
+                self.assertFalse(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3], (a, b))
+        # Under each a level line, 0.7 mm and what letters need below.
+        level = [(p, q) for path in root.iter(SVG + "path") if path.get("stroke")
+                 for p, q in [self.places_of(path)[:2]] if len(self.places_of(path)) == 2 and abs(p[1] - q[1]) < 1e-6]
+        for lo_x, _, hi_x, y in boxes:
+            self.assertTrue(any(min(p[0], q[0]) < lo_x + 0.1 and max(p[0], q[0]) > hi_x - 0.1 and 0.5 < p[1] - y < 2
+                                for p, q in level), (lo_x, y))
 
     def test_texts_of_angles_find_room(self):
         """Without a side they avoid what stands in the middle of the arc; with one they stand where it says."""
