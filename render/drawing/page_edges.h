@@ -1,4 +1,4 @@
-// Texts that the page's edges cut off.
+// Texts that the page's edges cut off, and legends that go beyond their panels.
 #pragma once
 
 #include <string>
@@ -7,8 +7,14 @@
 
 namespace lekalo::render {
 
-// For a text in its place: by how much it goes over the edges of a page of this size, and what gives it room. Empty for
-// one that is on the page.
-std::string over_the_edge(const Label& label, const Vec2& page, double margin);
+// What a text must not go beyond.
+struct PageEdges {
+  const char* name;  // page or panel
+  SheetBox box;
+  double margin;
+};
+
+// For a text in its place: by how much it goes over the edges, and what gives it room. Empty for one that does not.
+std::string over_the_edge(const Label& label, const PageEdges& edges);
 
 }  // namespace lekalo::render

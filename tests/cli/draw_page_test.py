@@ -555,6 +555,59 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
         texts = [text for group in self.of_class(root, "tick") for text in self.texts(group)]
         return texts, errors
 
+    def legend(self, side, count, text="curve %i", panels=""):
+        """A drawing with so many entries; the boxes of their samples and texts by their beginnings."""
+        root, errors = self.drawn("lekalo: 1\ngeometry: { c: { repeat: { i: 1..%d }, type: circle, radius: i } }\n"
+                                  "objects: { shape: c, legend: '%s' }\n"
+                                  "camera: { view: top }\ndrawing: { legend: { side: %s, title: Circles } }\n"
+                                  "image: { size: [80 mm, 60 mm], margin: 4 mm }\n%s" % (count, text, side, panels))
+        samples = [self.places(group) for group in self.of_class(root, "legend")]
+        texts = {words: self.place_of_text(root, words)[0] for words in self.texts(root)} if not panels else {}
+        return errors, [place for places in samples for place in places], texts, root
+
+    def apart(self, numbers):
+        """Those that are more than 1 apart, in order."""
+        kept = []
+        for number in sorted(numbers):
+            if not kept or number > kept[-1] + 1:
+                kept.append(number)
+        return kept
+
+    def test_legends_stay_on_the_page(self):
+        """Entries that are too many for a row or a column stand in several, in order, and leave room for the picture."""
+        for side in ("below", "above", "right", "left", "below right"):
+            for count in (9, 14):
+                errors, samples, texts, root = self.legend(side, count)
+                self.assertNotIn("warning", errors, (side, count))
+                self.assertEqual(set(texts), {"Circles", *(f"curve {i}" for i in range(count))})
+                for x, y in [*samples, *texts.values()]:
+                    self.assertTrue(4 - 1e-6 <= x <= 76 and 4 - 1e-6 <= y <= 56, (side, count, x, y))
+                # Each text is 13 mm long, more or less, and 4 mm high.
+                places = [texts[f"curve {i}"] for i in range(count)]
+                for k, (x, y) in enumerate(places):
+                    self.assertLess(x + 12, 76 + 1)
+                    for a, b in places[:k]:
+                        self.assertTrue(abs(y - b) > 3.5 or abs(x - a) > 12 + 7, (side, k))
+                columns, lines = (self.apart(place[axis] for place in places) for axis in (0, 1))
+                across = side in ("below", "above")
+                for k, (x, y) in enumerate(places):
+                    row, column = divmod(k, len(columns)) if across else divmod(k, len(lines))[::-1]
+                    self.assertLess(abs(x - columns[column]) + abs(y - lines[row]), 1.5, (side, k))
+                self.assertLess(texts["Circles"][1], min(lines))
+        # A few stand in one row, or in one column.
+        _, _, texts, _ = self.legend("below", 3)
+        self.assertEqual(len(self.apart(y for words, (_, y) in texts.items() if words != "Circles")), 1)
+        _, _, texts, _ = self.legend("right", 5)
+        self.assertEqual(len(self.apart(x for words, (x, _) in texts.items() if words != "Circles")), 1)
+
+    def test_legends_that_do_not_fit(self):
+        long = "a curve of which very many words have to be said in this legend %i"
+        for panels, edges in (("", "the page 80.0 mm"),
+                              ("panels: { a: {}, b: {} }\nlayout: { rows: [[a, b]], gap: 4 mm }\n", "the panel 34.0 mm")):
+            errors = self.legend("below", 2, long, panels)[0]
+            self.assertRegex(errors, r"warning: the text 'a curve of which [a-z ]+\.\.\.' does not fit: it is [\d.]+ mm wide, "
+                             + edges + "; a shorter text, a smaller `text_size` or a larger page has room for it")
+
     def test_ticks_at_the_ends(self):
         """What is found of the range is exact: the summits of a sine, which no sample meets, have their ticks."""
         self.assertEqual(self.ticks("{ y: { ticks: [-1, 0, 1] } }")[0], ["−1", "0", "1"])
@@ -593,7 +646,7 @@ outputs: [a.svg, { file: c.svg, panel: c }]
         over = warnings(4, "{ type: label, at: { page: [78 mm, 5 mm] }, text: corner, side: right }")[0]
         self.assertRegex(over, "^the text 'corner' goes [0-9.]+ mm over the page's right edge" + held)
         wide = warnings(4, "{ type: label, at: [0, 0], text: '" + 20 * "wide " + "' }")[0]
-        self.assertRegex(wide, "^the text 'wide .*' is cut off: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
+        self.assertRegex(wide, "^the text 'wide .*' does not fit: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
         graph = """lekalo: 1
 geometry: { N: { repeat: { i: 0..3 }, type: basis_function, degree: 2, knots: [0, 0, 0, 1, 2, 2, 2], index: i } }
 objects: [{ shape: N, legend: '$N_%i$' }]
