@@ -132,6 +132,30 @@ image: { size: [80 mm, 60 mm], margin: 4 mm }
         lo_x, lo_y, hi_x, hi_y = self.box(root)
         self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
 
+    def test_solids_are_framed_by_what_is_left(self):
+        """Of operations on solids the picture holds what they leave, as large as it can be: 52 mm high or 72 mm wide."""
+        balls = [f"{{ type: ball, center: [{x}, 0, 0], radius: 5 }}" for x in (-4, 4)]
+        mast = "{ type: box, corner: [0, 0, 0], size: [0.1, 0.1, 9] }"
+        for solid, width, height in (
+                ("intersection, of: [%s, %s]" % tuple(balls), 2, 6),
+                ("difference, of: { type: union, of: [{ type: box, corner: [0, 0, 0], size: [9, 9, 1] }, %s] }, minus: "
+                 "{ type: box, corner: [5, -1, -1], size: [9, 19, 9] }" % mast, 5, 9),
+                ("intersection, of: [{ type: box, corner: [-4.5, -4.5, -4.5], size: [9, 9, 9] }, "
+                 "{ type: half_space, through: [0, 0, 3], normal: z }, "
+                 "{ type: half_space, through: [2, 0, 0], normal: x }, { type: half_space, through: [-2, 0, 0], normal: -x }]",
+                 4, 7.5)):
+            root, _ = self.drawn(f"""lekalo: 1
+geometry: {{ s: {{ type: {solid} }} }}
+camera: {{ view: front, margin: 0 }}
+image: {{ size: [80 mm, 60 mm], margin: 4 mm }}
+""")
+            lo_x, lo_y, hi_x, hi_y = self.box(root)
+            scale = min(72 / width, 52 / height)
+            self.assert_near(hi_y - lo_y, scale * height, 0.1)
+            # Outlines in between are known by their ends alone.
+            self.assertLess(hi_x - lo_x, scale * width + 0.1)
+            self.assertTrue(lo_x >= 3.8 and lo_y >= 3.8 and hi_x <= 76.2 and hi_y <= 56.2, (solid, self.box(root)))
+
     def test_behind_the_eye(self):
         """Nothing is drawn at the mirrored pictures of points behind the eye; what is not there is said, once each."""
         root, errors = self.drawn("""lekalo: 1
@@ -605,8 +629,8 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
         for panels, edges in (("", "the page 80.0 mm"),
                               ("panels: { a: {}, b: {} }\nlayout: { rows: [[a, b]], gap: 4 mm }\n", "the panel 34.0 mm")):
             errors = self.legend("below", 2, long, panels)[0]
-            self.assertRegex(errors, r"warning: the text 'a curve of which [a-z ]+\.\.\.' does not fit: it is [\d.]+ mm wide, "
-                             + edges + "; a shorter text, a smaller `text_size` or a larger page has room for it")
+            self.assertRegex(errors, r"warning: the text 'a curve of which [a-z ]+\.\.\.' does not fit: it is [\d.]+ mm "
+                             "wide, " + edges + "; a shorter text, a smaller `text_size` or a larger page has room for it")
 
     def test_ticks_at_the_ends(self):
         """What is found of the range is exact: the summits of a sine, which no sample meets, have their ticks."""
