@@ -4,6 +4,9 @@
 #include <cmath>
 #include <mutex>
 
+#include "geometry/queries/position.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
 #include "render/lines/curve_helpers.h"
 #include "render/scene/model.h"
 
@@ -13,8 +16,9 @@ using namespace geometry;
 
 namespace {
 
-constexpr int kSteps = 32;       // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
-constexpr int kNarrowings = 80;  // by golden section: 0.618^80 of a step is below rounding
+constexpr int kSteps = 32;        // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
+constexpr int kStepsOfParts = 8;  // of surfaces that are cut: lines find what is between
+constexpr int kNarrowings = 80;   // by golden section: 0.618^80 of a step is below rounding
 constexpr size_t kMostObjects = 500;  // with grids of their own
 
 void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) {
@@ -24,7 +28,9 @@ void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) 
         map.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z}));
 }
 
-double between(const Interval& range, int i) { return range.lo + (range.hi - range.lo) * i / kSteps; }
+double between(const Interval& range, int i, int steps = kSteps) {
+  return range.lo + (range.hi - range.lo) * i / steps;
+}
 
 void add_curve(const Curve& curve, const Affine& map, std::vector<Vec3>& points) {
   const Interval domain = curve.domain();
@@ -32,14 +38,126 @@ void add_curve(const Curve& curve, const Affine& map, std::vector<Vec3>& points)
 }
 
 // Points of the surface inside `limit`, which keeps the parts of a face's surface beyond the body out.
-void add_surface(const Surface& surface, const Box3& limit, const Affine& map, std::vector<Vec3>& points) {
+void add_surface(const Surface& surface, const Box3& limit, const Affine& map, std::vector<Vec3>& points,
+                 int steps = kSteps) {
   if (!surface.bounded()) return;
   const Rectangle domain = surface.domain();
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; j <= kSteps; ++j) {
-      const Vec3 p = surface.point(between(domain.u, i), between(domain.v, j));
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const Vec3 p = surface.point(between(domain.u, i, steps), between(domain.v, j, steps));
       if (limit.contains(p)) points.push_back(map.point(p));
     }
+}
+
+void add_body(const Body& body, const Affine& map, std::vector<Vec3>& points, int steps = kSteps) {
+  for (const Edge& edge : body.edges)
+    if (edge.curve) add_curve(*edge.curve, map, points);
+  const Box3 limit = bounds(body);
+  for (const Face& face : body.faces) add_surface(*face.surface, limit, map, points, steps);
+}
+
+// Where lines along the axes meet a shape, in a grid over a box that holds it. Between a line that meets it and one
+// beside it that does not, the last that does is found too: so along its rows the grid shows to where the shape goes.
+class MetByLines {
+ public:
+  MetByLines(const Shape& shape, const Box3& box) : shape_(shape), box_(box) {
+    for (axis_ = 0; axis_ < 3; ++axis_) {
+      bool met[kSteps + 1][kSteps + 1];
+      for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; j <= kSteps; ++j) met[i][j] = meets(i, j);
+      for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+          if (met[i][j] != met[i][j + 1]) find_last({i, j}, {i, j + 1}, met[i][j]);
+          if (met[j][i] != met[j + 1][i]) find_last({j, i}, {j + 1, i}, met[j][i]);
+        }
+    }
+  }
+  const std::vector<Vec3>& points() const { return points_; }
+
+ private:
+  static constexpr int kHalvings = 12;
+  static constexpr double kWithin = 1e-6;  // of the box, from its sides: faces that lie in them are met
+
+  double coordinate(int axis, double step) const {
+    const double share = std::clamp(step / kSteps, kWithin, 1 - kWithin);
+    return box_.lo[axis] + share * (box_.hi[axis] - box_.lo[axis]);
+  }
+
+  bool meets(double i, double j) {
+    Line line{Vec3(0), Vec3(0)};
+    line.direction[axis_] = 1;
+    line.origin[(axis_ + 1) % 3] = coordinate((axis_ + 1) % 3, i);
+    line.origin[(axis_ + 2) % 3] = coordinate((axis_ + 2) % 3, j);
+    std::vector<SurfaceHit> hits;
+    shape_.all_hits(line, {-kInfinity, kInfinity}, hits);
+    for (const SurfaceHit& hit : hits) points_.push_back(line.at(hit.t));
+    return !hits.empty();
+  }
+
+  void find_last(Vec2 one, Vec2 other, bool first_meets) {
+    if (!first_meets) std::swap(one, other);
+    for (int k = 0; k < kHalvings; ++k) {
+      const Vec2 middle = 0.5 * (one + other);
+      (meets(middle.x, middle.y) ? one : other) = middle;
+    }
+  }
+
+  const Shape& shape_;
+  const Box3 box_;
+  int axis_ = 0;
+  std::vector<Vec3> points_;
+};
+
+// The same of a box that does not fit the shape: again within what was found, until that hardly shrinks.
+void add_met_by_lines(const Shape& shape, const Affine& map, std::vector<Vec3>& points) {
+  constexpr double kShrinks = 0.9;
+  Box3 box = shape.bounds();
+  if (box.empty() || !box.bounded()) return;
+  for (;;) {
+    const MetByLines met(shape, box);
+    Box3 found;
+    for (const Vec3& p : met.points()) found.include(p);
+    // What no line of the grid meets is within a step of what they meet.
+    const Vec3 step = box.size() / static_cast<double>(kSteps);
+    const Box3 narrow{glm::max(box.lo, found.lo - step), glm::min(box.hi, found.hi + step)};
+    const Vec3 before = box.size(), after = narrow.size();
+    if (found.empty() || !(after.x * after.y * after.z < kShrinks * before.x * before.y * before.z)) {
+      for (const Vec3& p : met.points()) points.push_back(map.point(p));
+      return;
+    }
+    box = narrow;
+  }
+}
+
+// Of a solid that is put together: of a union what all parts show, else what is left of the parts' points, and where
+// they are cut.
+void add_solid(const Shape& shape, const Affine& map, std::vector<Vec3>& points, int steps = kSteps) {
+  if (const auto* moved = dynamic_cast<const TransformedShape*>(&shape))
+    return add_solid(*moved->original(), map * moved->map(), points, steps);
+  if (const auto* body = dynamic_cast<const BodyShape*>(&shape)) return add_body(*body->body(), map, points, steps);
+  const auto* solid = dynamic_cast<const Csg*>(&shape);
+  if (!solid) return add_met_by_lines(shape, map, points);
+  if (solid->operation() == Csg::Operation::unite) {
+    for (const ShapePtr& operand : solid->operands()) add_solid(*operand, map, points, steps);
+    return;
+  }
+  constexpr double kInwards = 1e-6;  // of the way to a part's middle: from a point of its surface into it
+  const size_t parts = solid->operation() == Csg::Operation::subtract ? 1 : solid->operands().size();
+  for (size_t k = 0; k < parts; ++k) {
+    const Shape& part = *solid->operands()[k];
+    if (!part.bounds().bounded()) continue;
+    std::vector<Vec3> own;
+    add_solid(part, Affine(), own, kStepsOfParts);
+    for (const Vec3& p : own)
+      if (solid->bounds().contains(p) && is_inside(glm::mix(p, part.bounds().center(), kInwards), *solid))
+        points.push_back(map.point(p));
+  }
+  add_met_by_lines(*solid, map, points);
+}
+
+bool is_put_together(const Shape& shape) {
+  const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
+  return dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
 }
 
 void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
@@ -52,12 +170,12 @@ void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
   } else if (const auto* set = std::get_if<SurfaceSet>(&entity)) {
     for (const SurfacePtr& one : *set) add_surface(*one, Box3::everything(), map, points);
   } else if (const auto* body = std::get_if<BodyPtr>(&entity)) {
-    for (const Edge& edge : (*body)->edges)
-      if (edge.curve) add_curve(*edge.curve, map, points);
-    const Box3 limit = bounds(**body);
-    for (const Face& face : (*body)->faces) add_surface(*face.surface, limit, map, points);
-  } else if (std::holds_alternative<ShapePtr>(entity)) {
-    add_corners(bounds(entity), map, points);
+    add_body(**body, map, points);
+  } else if (const auto* shape = std::get_if<ShapePtr>(&entity)) {
+    if (bounds(**shape).bounded() && is_put_together(**shape))
+      add_solid(**shape, map, points);
+    else
+      add_corners(bounds(entity), map, points);
   } else if (const auto* mesh = std::get_if<MeshPtr>(&entity)) {
     for (const Vec3& p : (*mesh)->points) points.push_back(map.point(p));
   }

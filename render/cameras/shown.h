@@ -21,7 +21,8 @@ class Shown {
   explicit Shown(const std::vector<Object>& objects);
 
   // Points on the shapes, dense enough to stand for them in the picture: grids on surfaces and faces, points along
-  // edges and curves. A silhouette between them may stand out by half a hundredth of the shape's size. Unbounded shapes
+  // edges and curves; of solids that are put together where lines in a grid meet them. A silhouette between them may
+  // stand out by half a hundredth of the shape's size, a corner that cuts make by three hundredths. Unbounded shapes
   // are left out. Of very many objects only the corners of their boxes are taken. Computed when first asked for: many
   // cameras do not ask.
   const std::vector<geometry::Vec3>& points() const;

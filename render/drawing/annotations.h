@@ -15,7 +15,7 @@ struct PageWork {
   std::vector<Vec2> reach;    // places of lines in space whose size is one on the page
 };
 
-// Adds the annotations of the view's model. What stands on the page at points behind the eye is left out, and named in
+// Adds the annotations of the view's model. What is at points behind the eye is left out, and named in
 // work.left_out.
 void add_annotations(const View& view, LineWork& work, PageWork& page);
 

@@ -325,9 +325,10 @@ class ViewDrawing {
     }
     obstacles_.width = figure_.sheet.width, obstacles_.height = figure_.sheet.height;
     place_labels(labels, obstacles_);
+    const PageEdges page{"page", {Vec2(0), {figure_.sheet.width, figure_.sheet.height}}, model_->paper.margin};
+    const PageEdges own{"panel", view_.room, 0};
     for (const Label& label : labels)
-      if (std::string cut = over_the_edge(label, {figure_.sheet.width, figure_.sheet.height}, model_->paper.margin);
-          !cut.empty())
+      if (std::string cut = over_the_edge(label, label.kind == "legend" && view_.is_panel ? own : page); !cut.empty())
         add_once(std::move(cut), figure_.cut_off);
     SheetGroup all{"labels", "", {}, {}, {}};
     for (const Label& label : labels) all.items.push_back(drawn_label(label));
@@ -358,7 +359,7 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
   if (graph || model.drawing.legend) {
     std::vector<LegendEntry> legend;
     collect_legend(model.objects, legend);
-    const View trial{model, *model.camera, at, per_pixel, {}};
+    const View trial{model, *model.camera, at, per_pixel, {}, {at, at + size}};
     const Insets insets = insets_of(trial, legend);
     corner += Vec2(insets.left, insets.top);
     room -= Vec2(insets.left + insets.right, insets.top + insets.bottom);
@@ -377,8 +378,13 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
     figure.sheet.height = size.y + free;
   }
   const auto shared = std::make_shared<const Model>(std::move(model));
-  const View view{*shared, *shared->camera, corner, per_pixel,
-                  panel ? Vec2(at.x, at.y + size.y) : Vec2(0, figure.sheet.height)};
+  const View view{*shared,
+                  *shared->camera,
+                  corner,
+                  per_pixel,
+                  panel ? Vec2(at.x, at.y + size.y) : Vec2(0, figure.sheet.height),
+                  {at, at + size},
+                  panel};
   ViewDrawing(shared, view, graph || panel, options, figure).draw();
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/drawing/legend.h"
+
 namespace lekalo::render {
 
 using namespace geometry;
@@ -22,7 +24,7 @@ constexpr double kLine = 0.5;       // for the width of lines at the edge of a g
 constexpr double kFromEdge = 0.35;  // of texts from the page's
 constexpr double kNearEnd = 0.02;   // of a range: texts so near to its end need room beyond it
 constexpr double kAtEnd = 1e-6;     // of a range, beyond it: still its end
-constexpr double kSample = 7, kSampleToText = 1.5, kEntry = 1.5, kLegendFree = 3;
+constexpr double kLegendFree = 3, kLegendBorder = 1.5;
 
 // What the picture of a graph shows.
 struct Ranges {
@@ -48,8 +50,7 @@ struct KnotMarks {
 
 class Axes {
  public:
-  Axes(const View& view, const std::vector<LegendEntry>& entries)
-      : view_(view), entries_(entries), ranges_(ranges_of(view.camera)) {
+  Axes(const View& view, const std::vector<LegendEntry>& entries) : view_(view), ranges_(ranges_of(view.camera)) {
     const auto& axes = view.model.drawing.axes;
     if (axes) {
       style_ = axes->style;
@@ -58,16 +59,16 @@ class Axes {
     }
     for (const Annotation& one : view.model.drawing.annotations)
       if (one.type == "knots") add_knots(one);
-    if (view.model.drawing.legend)
-      for (const LegendEntry& entry : entries) texts_.push_back(text_in(view.model.drawing.legend->style, entry.text));
+    if (const auto& legend = view.model.drawing.legend; legend && !entries.empty())
+      legend_.emplace(
+          *legend, entries,
+          is_inside(*legend) ? Vec2(view.width(), view.height()) - 2 * kLegendFree : view.room.size() - 2 * free());
   }
 
   Insets insets() const {
     Insets room = taken();
-    // Without a margin the page's edge would touch the texts.
-    const double free = std::max(0.0, kFromEdge - view_.model.paper.margin);
     for (double* side : {&room.left, &room.right, &room.top, &room.bottom})
-      if (*side > kLine) *side += free;
+      if (*side > kLine) *side += free();
     return room;
   }
 
@@ -75,12 +76,15 @@ class Axes {
     const auto& axes = view_.model.drawing.axes;
     if (axes) draw_axes(*axes);
     draw_knots();
-    if (view_.model.drawing.legend && !entries_.empty()) draw_legend();
+    if (legend_) draw_legend();
     return std::move(work_);
   }
 
  private:
   using Tick = std::pair<double, SheetText>;
+
+  // Without a margin the page's edge would touch the texts.
+  double free() const { return std::max(0.0, kFromEdge - view_.model.paper.margin); }
 
   // Of the room around the graph, by what stands there.
   Insets taken() const {
@@ -302,99 +306,47 @@ class Axes {
 
   // ---------------------------------------------------------------- legend
 
-  double entry_height() const {
-    double height = 0;
-    for (const SheetText& text : texts_) height = std::max(height, text.ascent + text.descent);
-    return height;
-  }
-  Vec2 legend_size() const {
-    double width = 0;
-    for (const SheetText& text : texts_) width = std::max(width, text.width);
-    double height = static_cast<double>(texts_.size()) * (entry_height() + kEntry) - kEntry;
-    if (const auto& title = view_.model.drawing.legend->title) {
-      const SheetText text = text_in(view_.model.drawing.legend->style, title->text());
-      height += text.ascent + text.descent + kEntry;
-      width = std::max(width, text.width - kSample - kSampleToText);
-    }
-    return {kSample + kSampleToText + width, height};
-  }
-  // Above or below the entries stand in a row.
-  bool in_a_row() const {
-    const std::string& side = view_.model.drawing.legend->side;
-    return side == "above" || side == "below";
-  }
-  // In a corner of the graph.
-  bool is_inside() const { return view_.model.drawing.legend->side.find(' ') != std::string::npos; }
-  double row_width() const {
-    double width = -2 * kLegendFree;
-    for (const SheetText& text : texts_) width += kSample + kSampleToText + text.width + 2 * kLegendFree;
-    return width;
-  }
   Insets legend_room() const {
     Insets room;
-    if (!view_.model.drawing.legend || texts_.empty()) return room;
+    if (!legend_) return room;
     const std::string& side = view_.model.drawing.legend->side;
-    const Vec2 size = legend_size();
+    const Vec2 size = legend_->size();
     if (side == "right") room.right = size.x + kLegendFree;
     if (side == "left") room.left = size.x + kLegendFree;
-    if (side == "above") room.top = entry_height() + kLegendFree;
-    if (side == "below") room.bottom = entry_height() + kLegendFree;
+    if (side == "above") room.top = size.y + kLegendFree;
+    if (side == "below") room.bottom = size.y + kLegendFree;
     return room;
   }
 
   void draw_legend() {
     const Legend& legend = *view_.model.drawing.legend;
-    const Vec2 size = legend_size();
+    const Vec2 size = legend_->size(),
+               middle(0.5 * (view_.at.x + right() - size.x), 0.5 * (view_.at.y + bottom() - size.y));
     const Insets room = taken();
     Vec2 at(view_.at.x + kLegendFree, view_.at.y + kLegendFree);
-    if (legend.side == "right") at = {right() + room.right - size.x, 0.5 * (view_.at.y + bottom() - size.y)};
-    if (legend.side == "left") at = {view_.at.x - room.left, 0.5 * (view_.at.y + bottom() - size.y)};
-    if (legend.side.find("right") != std::string::npos && legend.side != "right") at.x = right() - kLegendFree - size.x;
-    if (legend.side.find("below ") != std::string::npos) at.y = bottom() - kLegendFree - size.y;
-    if (in_a_row())
-      at = {0.5 * (view_.at.x + right() - row_width()),
-            legend.side == "above" ? view_.at.y - room.top : bottom() + room.bottom - entry_height()};
-    // Taller than the graph, it still stays in its place on the page.
-    if (legend.side == "right" || legend.side == "left")
-      at.y = std::max(view_.at.y - room.top, std::min(at.y, bottom() + room.bottom - size.y));
+    if (legend.side == "right") at = {right() + room.right - size.x, middle.y};
+    if (legend.side == "left") at = {view_.at.x - room.left, middle.y};
+    if (legend.side == "above") at = {middle.x, view_.at.y - room.top};
+    if (legend.side == "below") at = {middle.x, bottom() + room.bottom - size.y};
+    if (legend.side.ends_with(" right")) at.x = right() - kLegendFree - size.x;
+    if (legend.side.starts_with("below ")) at.y = bottom() - kLegendFree - size.y;
+    // Larger than the graph, it still stays in its place on the page.
+    const Vec2 before(room.left, room.top), after(room.right, room.bottom);
+    at = glm::max(view_.at - before, glm::min(at, Vec2(right(), bottom()) + after - size));
     std::vector<SheetItem> samples;
-    if (is_inside()) {
+    if (is_inside(legend)) {
       // Over the lines of the graph, with a free border.
-      const Vec2 free(kEntry);
-      SheetPath ground = drawn(straight_path({at - free,
-                                              {at.x + size.x + kEntry, at.y - kEntry},
-                                              at + size + free,
-                                              {at.x - kEntry, at.y + size.y + kEntry}},
-                                             true),
-                               {});
-      ground.pen.reset();
+      const Vec2 lo = at - kLegendBorder, hi = at + size + kLegendBorder;
+      SheetPath ground;
+      ground.parts = {straight_path({lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, true)};
       ground.brush = Brush{legend.style.fill ? rgb(*legend.style.fill) : rgb(view_.model.drawing.paper), 1};
-      samples.push_back(std::move(ground));
+      samples.emplace_back(std::move(ground));
     }
-    if (legend.title && !in_a_row()) {
-      const SheetText text = text_in(legend.style, legend.title->text());
-      put(text, {at.x, at.y + text.ascent}, "legend", 0);
-      at.y += text.ascent + text.descent + kEntry;
-    }
-    for (size_t k = 0; k < entries_.size(); ++k) {
-      const SheetText& text = texts_[k];
-      const double middle = at.y + 0.5 * entry_height();
-      if (entries_[k].line)
-        samples.push_back(drawn(straight_path({{at.x, middle}, {at.x + kSample, middle}}), *entries_[k].line));
-      if (entries_[k].mark)
-        for (SheetItem& item : drawn_mark(*entries_[k].mark, {at.x + 0.5 * kSample, middle}, 1, view_))
-          samples.push_back(std::move(item));
-      put(text, {at.x + kSample + kSampleToText, middle + 0.5 * (text.ascent - text.descent)}, "legend", 0);
-      if (in_a_row())
-        at.x += kSample + kSampleToText + text.width + 2 * kLegendFree;
-      else
-        at.y += entry_height() + kEntry;
-    }
+    for (SheetItem& item : legend_->draw(at, view_, work_.labels)) samples.push_back(std::move(item));
     work_.over.push_back(SheetGroup{"legend", "", {}, {}, std::move(samples)});
   }
 
   const View& view_;
-  const std::vector<LegendEntry>& entries_;
   Ranges ranges_;
   Style style_;
   std::vector<Tick> x_ticks_, y_ticks_;
@@ -402,7 +354,7 @@ class Axes {
   Style knot_style_;
   std::string knot_marker_;
   bool stacked_ = true, knot_texts_inside_ = false;
-  std::vector<SheetText> texts_;  // of the legend
+  std::optional<LegendTable> legend_;
   GraphWork work_;
 };
 

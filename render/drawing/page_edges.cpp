@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/drawing/text_layout.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -27,41 +29,33 @@ std::string shortened(const std::string& text) {
 
 }  // namespace
 
-SheetBox box_of(const SheetText& text) {
-  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
-  SheetBox box;
-  for (const double x : {0.0, text.width})
-    for (const double y : {text.ascent, -text.descent}) box.include(text.at + x * along + y * up);
-  return box;
-}
-
-std::string over_the_edge(const Label& label, const Vec2& page, double margin) {
+std::string over_the_edge(const Label& label, const PageEdges& edges) {
   const SheetBox box = box_of(label.text);
   struct Edge {
     const char* name;
     double over, size;  // how far the text reaches beyond it, and that of all the text
   };
-  const Vec2 size = box.size();
-  const Edge edges[] = {{"left", -box.lo.x, size.x},
-                        {"right", box.hi.x - page.x, size.x},
-                        {"upper", -box.lo.y, size.y},
-                        {"lower", box.hi.y - page.y, size.y}};
-  const Edge& worst = *std::max_element(std::begin(edges), std::end(edges),
-                                        [](const Edge& a, const Edge& b) { return a.over < b.over; });
+  const Vec2 size = box.size(), page = edges.box.size();
+  const Edge all[] = {{"left", edges.box.lo.x - box.lo.x, size.x},
+                      {"right", box.hi.x - edges.box.hi.x, size.x},
+                      {"upper", edges.box.lo.y - box.lo.y, size.y},
+                      {"lower", box.hi.y - edges.box.hi.y, size.y}};
+  const Edge& worst =
+      *std::max_element(std::begin(all), std::end(all), [](const Edge& a, const Edge& b) { return a.over < b.over; });
   if (!(worst.over > kSeen)) return {};
   const std::string text = fmt::format("the text '{}'", shortened(label.text.tex));
   for (const int axis : {0, 1})
     if (size[axis] > page[axis])
       return fmt::format(
-          "{} is cut off: it is {:.1f} mm {}, the page {:.1f} mm; a shorter text, a smaller `text_size` or a "
-          "larger page has room for it",
-          text, size[axis], axis == 0 ? "wide" : "high", page[axis]);
+          "{} does not fit: it is {:.1f} mm {}, the {} {:.1f} mm; a shorter text, a smaller `text_size` or a larger "
+          "page has room for it",
+          text, size[axis], axis == 0 ? "wide" : "high", edges.name, page[axis]);
   std::string where =
       worst.over < worst.size
-          ? fmt::format("{} goes {:.1f} mm over the page's {} edge", text, worst.over, worst.name)
-          : fmt::format("{} is not on the page: it stands {:.1f} mm beyond the {} edge of {:.1f} x {:.1f} mm", text,
-                        worst.over - worst.size, worst.name, page.x, page.y);
-  const double enough = kMarginStep * std::ceil((margin + worst.over) / kMarginStep);
+          ? fmt::format("{} goes {:.1f} mm over the {}'s {} edge", text, worst.over, edges.name, worst.name)
+          : fmt::format("{} is not on the {}: it stands {:.1f} mm beyond the {} edge of {:.1f} x {:.1f} mm", text,
+                        edges.name, worst.over - worst.size, worst.name, page.x, page.y);
+  const double enough = kMarginStep * std::ceil((edges.margin + worst.over) / kMarginStep);
   if (label.on_page) return where + "; `page` holds it there, whatever the margin";
   // Names of axes and legends have their place beside the whole graph, which a margin does not change.
   if (label.kind == "axis" || label.kind == "legend" || 2 * enough + kLeastRoom > std::min(page.x, page.y))

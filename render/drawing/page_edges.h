@@ -1,18 +1,20 @@
-// Texts that the page's edges cut off.
+// Texts that the page's edges cut off, and legends that go beyond their panels.
 #pragma once
 
 #include <string>
 
 #include "render/drawing/label_placement.h"
-#include "render/drawing/panel_layout.h"
 
 namespace lekalo::render {
 
-// Where a text stands on the sheet; of one at an angle the box about it.
-SheetBox box_of(const SheetText& text);
+// What a text must not go beyond.
+struct PageEdges {
+  const char* name;  // page or panel
+  SheetBox box;
+  double margin;
+};
 
-// For a text in its place: by how much it goes over the edges of a page of this size, and what gives it room. Empty for
-// one that is on the page.
-std::string over_the_edge(const Label& label, const Vec2& page, double margin);
+// For a text in its place: by how much it goes over the edges, and what gives it room. Empty for one that does not.
+std::string over_the_edge(const Label& label, const PageEdges& edges);
 
 }  // namespace lekalo::render

@@ -7,10 +7,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "render/cameras/shown.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations.h"
-#include "render/drawing/page_edges.h"
+#include "render/drawing/text_layout.h"
 #include "render/scene/diagnostics.h"
 
 namespace lekalo::render {
@@ -75,9 +74,10 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
                  fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name),
                  "a parallel camera, or scale: fit");
   extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
-  extent.shown = shown_box(model, *extent.camera, extent.millimetres);
+  const Shown shown(model.objects);
+  extent.shown = shown_box(model, shown, *extent.camera, extent.millimetres);
   extent.half = 0.5 * extent.shown.size();
-  const SheetBox all = annotated_box(model, *extent.camera, extent.millimetres);
+  const SheetBox all = annotated_box(model, shown, *extent.camera, extent.millimetres);
   extent.before = extent.shown.lo - all.lo + Vec2(kFree);
   extent.after = all.hi - extent.shown.hi + Vec2(kFree);
   return extent;
@@ -114,9 +114,8 @@ SheetBox anchors_box(const Model& model, const Camera& camera, double millimetre
 }
 
 // Empty where no object shows anything: then cameras frame a cube, which is not seen.
-SheetBox objects_box(const Model& model, const Camera& camera, double millimetres) {
+SheetBox objects_box(const Shown& shown, const Camera& camera, double millimetres) {
   SheetBox part;
-  const Shown shown(model.objects);
   if (shown.box.empty()) return part;
   for (const Vec3& point : shown.points()) include(point, camera, millimetres, part);
   return part;
@@ -165,22 +164,23 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
 
 }  // namespace
 
-SheetBox shown_box(const Model& model, const Camera& camera, double millimetres) {
+SheetBox shown_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres) {
   SheetBox part = anchors_box(model, camera, millimetres);
-  include(objects_box(model, camera, millimetres), part);
+  include(objects_box(shown, camera, millimetres), part);
   if (!(part.lo.x < kInfinity))
     part.include(Vec2(0)), part.include(millimetres * Vec2(camera.width(), camera.height()));
   return part;
 }
 
-SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres) {
-  SheetBox all = shown_box(model, camera, millimetres);
+SheetBox annotated_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres) {
+  SheetBox all = shown_box(model, shown, camera, millimetres);
   include(annotations_box(model, camera, millimetres), all);
   return all;
 }
 
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
-  const SheetBox objects = objects_box(model, *model.camera, millimetres), picture{Vec2(0), size};
+  const Shown objects_shown(model.objects);
+  const SheetBox objects = objects_box(objects_shown, *model.camera, millimetres), picture{Vec2(0), size};
   const bool shows_objects = objects.lo.x < kInfinity;
   // A camera may frame some of the objects: then its picture counts, not what lies outside of it.
   const bool frames_all = glm::all(glm::greaterThan(objects.lo, picture.lo - Vec2(kFree))) &&
@@ -195,7 +195,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
   for (int round = 0; round < kRounds; ++round) {
     SheetBox shown = anchors_box(model, *camera, millimetres);
     if (frames_all || !shows_objects)
-      shown = shown_box(model, *camera, millimetres);
+      shown = shown_box(model, objects_shown, *camera, millimetres);
     else
       shown.include(now(picture.lo)), shown.include(now(picture.hi));
     SheetBox all = shown;
@@ -355,7 +355,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const std::string& name : row) {
       if (name.empty()) continue;
       Model model = model_of(page, *panels.at(name));
-      const Vec2 shown = shown_box(model, *model.make_camera(kTrial, kTrial), 1).size();
+      const Vec2 shown = shown_box(model, Shown(model.objects), *model.make_camera(kTrial, kTrial), 1).size();
       Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, kTallest) * width : width);
       const double per_pixel = millimetres_of_pixel(page);
       const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };

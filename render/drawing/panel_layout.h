@@ -8,21 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "render/cameras/shown.h"
+#include "render/drawing/sheet.h"
 #include "render/scene/model.h"
 
 namespace lekalo::render {
 
-// A rectangle on the sheet, millimetres.
-struct SheetBox {
-  Vec2 lo{geometry::kInfinity}, hi{-geometry::kInfinity};
-  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  Vec2 size() const { return hi - lo; }
-};
-
 // What the objects, and the points of which annotations speak, take of a picture whose pixels have so many millimetres:
 // it grows with the scene. And what the annotations take with them.
-SheetBox shown_box(const Model& model, const Camera& camera, double millimetres);
-SheetBox annotated_box(const Model& model, const Camera& camera, double millimetres);
+// `shown`: the model's objects.
+SheetBox shown_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres);
+SheetBox annotated_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres);
 
 // A camera that frames the scene so that its annotations have room too: `size` is that of the picture in millimetres,
 // whose height is made to fit where it is automatic. The model's own camera where they have.

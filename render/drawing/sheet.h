@@ -14,6 +14,13 @@
 
 namespace lekalo::render {
 
+// A rectangle on the sheet, millimetres.
+struct SheetBox {
+  Vec2 lo{geometry::kInfinity}, hi{-geometry::kInfinity};
+  void include(const Vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  Vec2 size() const { return hi - lo; }
+};
+
 struct Brush {
   Spectrum color;
   double opacity = 1;

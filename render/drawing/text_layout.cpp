@@ -325,4 +325,12 @@ SheetText laid_out(std::string_view tex, std::string_view family, double size) {
   return text;
 }
 
+SheetBox box_of(const SheetText& text, double from, double to) {
+  const Vec2 along(std::cos(text.angle), -std::sin(text.angle)), up(-std::sin(text.angle), -std::cos(text.angle));
+  SheetBox box;
+  for (const double x : {text.width * from, text.width * to})
+    for (const double y : {text.ascent, -text.descent}) box.include(text.at + x * along + y * up);
+  return box;
+}
+
 }  // namespace lekalo::render

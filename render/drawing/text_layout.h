@@ -14,4 +14,7 @@ namespace lekalo::render {
 // origin. Throws std::runtime_error if a font is missing.
 SheetText laid_out(std::string_view tex, std::string_view family, double size);
 
+// Where a text stands on the sheet, or the part of it between two shares of its width; at an angle, the box about it.
+SheetBox box_of(const SheetText& text, double from = 0, double to = 1);
+
 }  // namespace lekalo::render

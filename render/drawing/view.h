@@ -13,6 +13,8 @@ struct View {
   Vec2 at{0};              // upper left corner of the picture on the sheet, millimetres
   double millimetres = 1;  // of a pixel
   Vec2 page_at{0};         // lower left corner from which places on the page count
+  SheetBox room{};         // between the page's margins, or the panel's; the picture has it but for axes and legend
+  bool is_panel = false;
 
   Vec2 place(const Vec2& pixels) const { return at + millimetres * pixels; }
   Vec2 place(const Vec3& point) const {

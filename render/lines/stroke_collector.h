@@ -42,6 +42,9 @@ class StrokeCollector {
   void add_object(const Object& object, const geometry::Affine& to_world, int placement);
 
   void leave_out(const std::string& what);
+  // Whether the camera sees a point of the object; where a drawing does not, it notes that the object's `what` are left
+  // out.
+  bool is_seen(const Vec3& point, const char* what);
   // Of the object not all lines are known.
   void is_incomplete();
   // In messages.

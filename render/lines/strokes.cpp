@@ -1,5 +1,7 @@
 #include "render/lines/strokes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -137,6 +139,12 @@ void StrokeCollector::leave_out(const std::string& what) {
     work_.left_out.push_back(what);
 }
 
+bool StrokeCollector::is_seen(const Vec3& point, const char* what) {
+  if (!drawing_ || !model_.camera || model_.camera->project(to_world_.point(point)).visible_side) return true;
+  leave_out(fmt::format("{} of {} at points behind the eye", what, name_of_object()));
+  return false;
+}
+
 void StrokeCollector::is_incomplete() {
   ++work_.incomplete;
   const std::string name = name_of_object();
@@ -216,7 +224,7 @@ void StrokeCollector::polygon(std::vector<Vec3> points, bool closed, const Style
 
 void StrokeCollector::mark(const Vec3& point, const std::string& sign, const Style& style, const HiddenLines& hidden) {
   const auto found = mark_sign(sign);
-  if (!found) return;  // none
+  if (!found || !is_seen(point, "signs")) return;  // none
   Mark mark;
   mark.point = to_world_.point(point);
   mark.sign = *found;
@@ -238,6 +246,7 @@ void StrokeCollector::label(const Vec3& point, std::initializer_list<double> cou
 }
 
 void StrokeCollector::text(const Vec3& point, std::string words, const Helper& helper, bool marked) {
+  if (!is_seen(point, "texts")) return;
   PointText text;
   text.point = to_world_.point(point);
   text.text = std::move(words);

@@ -139,6 +139,7 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   if (!good || !check(type, fields, map)) return std::nullopt;
   if (type.category == Category::annotation && !check_size(type, fields, map)) return std::nullopt;
   auto value = attempt(map, what, [&] { return type.build(fields); });
+  if (value && type.category == Category::annotation) std::any_cast<Annotation&>(*value).place = map.place;
   if (!value || !is_geometry(type.category)) return value;
   if (type.runs_foreign_code) note_external(*value, map);
   if (type.category == Category::surface && fields.has("reversed") && fields.boolean("reversed")) reverse(*value);
@@ -156,8 +157,7 @@ void Builder::note_external(const std::any& value, const Value& map) {
     report = &dynamic_cast<const geometry::ExternalCurve&>(**curve).report();
   else
     report = &dynamic_cast<const geometry::ExternalSurface&>(*std::any_cast<const SurfacePtr&>(value)).report();
-  external_notes_.push_back({fmt::format("{}:{}", map.place.file ? map.place.file->name : "", map.place.line),
-                             report->text(), report->doubts});
+  external_notes_.push_back({where(map.place), report->text(), report->doubts});
 }
 
 std::optional<Built> Builder::placed(Built built, const Affine& transform, const Value& place) {

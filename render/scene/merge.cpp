@@ -30,8 +30,6 @@ struct Rule {
   const Value* overriding_parameters;  // parameters that make a conflict of siblings harmless; may be null
 };
 
-std::string where(const Place& place) { return fmt::format("{}:{}", place.file ? place.file->name : "", place.line); }
-
 void given_twice(const Entry& first, const Entry& second, const std::string& section, Diagnostics& diagnostics) {
   diagnostics.error(
       second.key.place,

@@ -16,6 +16,7 @@ struct Annotation {
   std::string type;
   Style style;
   geometry::Fields values;
+  Place place;
 };
 
 // One axis of a graph.

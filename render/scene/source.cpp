@@ -1,11 +1,15 @@
 // Source texts: line index and the way from byte offsets to lines and columns.
 #include "render/scene/source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "render/scene/characters.h"
 
 namespace lekalo::render {
+
+std::string where(const Place& place) { return fmt::format("{}:{}", place.file ? place.file->name : "", place.line); }
 
 std::string_view SourceFile::line(int number) const {
   if (number < 1 || number > line_count()) return {};

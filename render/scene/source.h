@@ -21,6 +21,9 @@ struct Place {
   int length = 1;  ///< in code points, at least 1; may reach beyond the line, the display cuts it
 };
 
+/// File and line, for messages that show no text: "ring.yaml:5".
+std::string where(const Place& place);
+
 /// One text that scene values come from. The same file included twice is two SourceFiles: they differ in `scope`.
 struct SourceFile {
   std::string name;            ///< as messages show it

@@ -132,10 +132,37 @@ image: { size: [80 mm, 60 mm], margin: 4 mm }
         lo_x, lo_y, hi_x, hi_y = self.box(root)
         self.assertTrue(lo_x >= 4 and lo_y >= 4 and hi_x <= 76 and hi_y <= 56, (lo_x, lo_y, hi_x, hi_y))
 
+    def test_solids_are_framed_by_what_is_left(self):
+        """Of operations on solids the picture holds what they leave, as large as it can be: 52 mm high or 72 mm wide."""
+        balls = [f"{{ type: ball, center: [{x}, 0, 0], radius: 5 }}" for x in (-4, 4)]
+        mast = "{ type: box, corner: [0, 0, 0], size: [0.1, 0.1, 9] }"
+        for solid, width, height in (
+                ("intersection, of: [%s, %s]" % tuple(balls), 2, 6),
+                ("difference, of: { type: union, of: [{ type: box, corner: [0, 0, 0], size: [9, 9, 1] }, %s] }, minus: "
+                 "{ type: box, corner: [5, -1, -1], size: [9, 19, 9] }" % mast, 5, 9),
+                ("intersection, of: [{ type: box, corner: [-4.5, -4.5, -4.5], size: [9, 9, 9] }, "
+                 "{ type: half_space, through: [0, 0, 3], normal: z }, "
+                 "{ type: half_space, through: [2, 0, 0], normal: x }, { type: half_space, through: [-2, 0, 0], normal: -x }]",
+                 4, 7.5)):
+            root, _ = self.drawn(f"""lekalo: 1
+geometry: {{ s: {{ type: {solid} }} }}
+camera: {{ view: front, margin: 0 }}
+image: {{ size: [80 mm, 60 mm], margin: 4 mm }}
+""")
+            lo_x, lo_y, hi_x, hi_y = self.box(root)
+            scale = min(72 / width, 52 / height)
+            self.assert_near(hi_y - lo_y, scale * height, 0.1)
+            # Outlines in between are known by their ends alone.
+            self.assertLess(hi_x - lo_x, scale * width + 0.1)
+            self.assertTrue(lo_x >= 3.8 and lo_y >= 3.8 and hi_x <= 76.2 and hi_y <= 56.2, (solid, self.box(root)))
+
     def test_behind_the_eye(self):
-        """Nothing is drawn at the mirrored pictures of points behind the eye, and that is said."""
+        """Nothing is drawn at the mirrored pictures of points behind the eye; what is not there is said, once each."""
         root, errors = self.drawn("""lekalo: 1
-geometry: { s: { type: sphere_surface, radius: 1 } }
+geometry: { s: { type: sphere_surface, radius: 1 }, b: { type: bezier_curve, points: [[2, 2, 0], [0, -9, 0]] } }
+objects:
+  - { shape: s }
+  - { shape: b, show: { control_polygon: { label: '$p_%i$' } } }
 camera: { type: perspective, from: [0.3, -4, 1], at: [0, 0, 0] }
 drawing:
   annotations:
@@ -145,12 +172,28 @@ drawing:
     - { type: leader, at: [0, 0, 1], to: [1, -9, 1], text: pole }
     - { type: angle, at: [0, -5, 0], from: [1, -5, 0], to: [0, -5, 1], label: x }
     - { type: point, at: [0, 0, 1], label: N }
+    - { type: point, at: [0, -5, 1], label: P }
+    - { type: label, at: [0, -5, 1], text: '$q_1$' }
+    - { type: arrow, from: [0, -6, 1], to: [0, -9, 1] }
+    - { type: arrow, from: [0, 0, 1], to: [0, -9, 1], label: F }
+    - { type: light_path, from: [0, -6, 0], to: [0, -9, 0], bounces: 0 }
 image: { size: [120 mm, 90 mm] }
 """)
-        self.assertEqual(self.texts(root), ["N"])
-        for kind in ("linear_dimension", "angle_dimension", "brace", "leader", "angle"):
-            self.assertIn(f"{kind} at points behind the eye", errors)
+        self.assertEqual(sorted(self.texts(root)), ["N", "p0"])
+        for kind in ("linear_dimension", "angle_dimension", "brace", "leader", "angle", "light_path"):
             self.assertFalse(self.of_class(root, kind))
+        notes = re.findall("note: not in the drawing: (.*)", errors)
+        self.assertEqual(notes, ["signs of 'b' at points behind the eye", "texts of 'b' at points behind the eye",
+                                 "linear_dimension at points behind the eye (scene.yaml:9)",
+                                 "angle_dimension at points behind the eye (scene.yaml:10)",
+                                 "brace 'L' at points behind the eye (scene.yaml:11)",
+                                 "leader 'pole' at points behind the eye (scene.yaml:12)",
+                                 "angle 'x' at points behind the eye (scene.yaml:13)",
+                                 "point 'P' at points behind the eye (scene.yaml:15)",
+                                 "label '$q_1$' at points behind the eye (scene.yaml:16)",
+                                 "arrow at points behind the eye (scene.yaml:17)",
+                                 "arrow 'F' as far as it is at points behind the eye (scene.yaml:18)",
+                                 "light_path at points behind the eye (scene.yaml:19)"])
 
     # ---------------------------------------------------------------- lines and their elements
 
@@ -410,15 +453,60 @@ image: { size: [80 mm, auto], margin: 4 mm }
         self.assertTrue(self.of_class(root, "curve"))
 
     def test_short_dimensions(self):
-        """A text that does not fit between the arrows stands behind one of them, along any direction."""
+        """A text that does not fit between the arrows stands upon the line's continuation, along any direction."""
         for to, turn in (("[1.2, 1, 0]", 0), ("[1, 1.2, 0]", 90), ("[1.15, 1.15, 0]", 45)):
             root, _ = self.planned("top", f"{{ type: linear_dimension, from: [1, 1, 0], to: {to}, offset: 3 mm }}")
             (x, y), turned = self.place_of_text(root)
             self.assert_near(turned, -turn, 1e-3)
-            lines = [p for group in self.of_class(root, "linear_dimension") for p in self.places(group)]
-            # Farther along the dimension line than all that is drawn of it.
+            paths = [path for group in self.of_class(root, "linear_dimension") for path in group.findall(SVG + "path")]
             way = math.cos(math.radians(turn)), -math.sin(math.radians(turn))
-            self.assertGreater(x * way[0] + y * way[1], max(a * way[0] + b * way[1] for a, b in lines) - 1e-3)
+
+            def farthest(paths):
+                return max(a * way[0] + b * way[1] for path in paths for a, b in self.places_of(path))
+
+            begin = x * way[0] + y * way[1]
+            heads = [path for path in paths if path.get("fill")]
+            self.assertEqual(len(heads), 2)
+            tips = [self.places_of(head)[0] for head in heads]  # the heads lie outside of both
+            self.assert_near(math.dist(*(self.places_of(head)[1] for head in heads)),
+                             math.dist(*tips) + 2 * math.dist(tips[0], self.places_of(heads[0])[1]), 0.2)
+            self.assertGreater(begin, farthest(heads))
+            # The line goes on under the text.
+            self.assertGreater(farthest(paths), begin + 3)
+
+    def boxes_of_texts(self, root):
+        """Of level texts: about 0.5 em for each digit, 0.25 em for a point, 0.65 em high."""
+        boxes = []
+        for group in root.iter(SVG + "g"):
+            if (text := group.find(SVG + "text")) is not None:
+                (x, y), turned = self.place_of_text(group)
+                self.assertEqual(turned, 0)
+                em = float(next(text.iter(SVG + "tspan")).get("font-size"))
+                width = sum(0.25 if c == "." else 0.5 for c in "".join(text.itertext())) * em
+                boxes.append((x, y - 0.65 * em, x + width, y))
+        return boxes
+
+    def test_crowded_dimensions(self):
+        """Numbers of chains and of dimensions on one line stand apart, each over a line of its own, and on the page."""
+        chain = [f"{{ type: linear_dimension, from: [{x}, 0, 0], to: [{x + 0.125}, 0, 0], offset: -8 mm, decimals: 3 }}"
+                 for x in (0, 0.125, 0.25)]
+        above = [f"{{ type: linear_dimension, from: [0, 3, 0], to: [{x}, 3, 0], offset: 8 mm, decimals: 3 }}"
+                 for x in (3.125, 3.25, 3.375)]
+        root, errors = self.drawn(self.PLAN.replace("VIEW", "top").replace("ANNOTATIONS", ", ".join(chain + above)))
+        self.assertNotIn("warning", errors)
+        boxes = self.boxes_of_texts(root)
+        self.assertEqual(len(boxes), 6)
+        width, height = (float(root.get(side).removesuffix("mm")) for side in ("width", "height"))
+        for k, a in enumerate(boxes):
+            self.assertTrue(a[0] >= 0 and a[1] >= 0 and a[2] <= width and a[3] <= height, a)
+            for b in boxes[:k]:
+                self.assertFalse(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3], (a, b))
+        # Under each a level line, 0.7 mm and what letters need below.
+        level = [(p, q) for path in root.iter(SVG + "path") if path.get("stroke")
+                 for p, q in [self.places_of(path)[:2]] if len(self.places_of(path)) == 2 and abs(p[1] - q[1]) < 1e-6]
+        for lo_x, _, hi_x, y in boxes:
+            self.assertTrue(any(min(p[0], q[0]) < lo_x + 0.1 and max(p[0], q[0]) > hi_x - 0.1 and 0.5 < p[1] - y < 2
+                                for p, q in level), (lo_x, y))
 
     def test_texts_of_angles_find_room(self):
         """Without a side they avoid what stands in the middle of the arc; with one they stand where it says."""
@@ -491,6 +579,59 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
         texts = [text for group in self.of_class(root, "tick") for text in self.texts(group)]
         return texts, errors
 
+    def legend(self, side, count, text="curve %i", panels=""):
+        """A drawing with so many entries; the boxes of their samples and texts by their beginnings."""
+        root, errors = self.drawn("lekalo: 1\ngeometry: { c: { repeat: { i: 1..%d }, type: circle, radius: i } }\n"
+                                  "objects: { shape: c, legend: '%s' }\n"
+                                  "camera: { view: top }\ndrawing: { legend: { side: %s, title: Circles } }\n"
+                                  "image: { size: [80 mm, 60 mm], margin: 4 mm }\n%s" % (count, text, side, panels))
+        samples = [self.places(group) for group in self.of_class(root, "legend")]
+        texts = {words: self.place_of_text(root, words)[0] for words in self.texts(root)} if not panels else {}
+        return errors, [place for places in samples for place in places], texts, root
+
+    def apart(self, numbers):
+        """Those that are more than 1 apart, in order."""
+        kept = []
+        for number in sorted(numbers):
+            if not kept or number > kept[-1] + 1:
+                kept.append(number)
+        return kept
+
+    def test_legends_stay_on_the_page(self):
+        """Entries that are too many for a row or a column stand in several, in order, and leave room for the picture."""
+        for side in ("below", "above", "right", "left", "below right"):
+            for count in (9, 14):
+                errors, samples, texts, root = self.legend(side, count)
+                self.assertNotIn("warning", errors, (side, count))
+                self.assertEqual(set(texts), {"Circles", *(f"curve {i}" for i in range(count))})
+                for x, y in [*samples, *texts.values()]:
+                    self.assertTrue(4 - 1e-6 <= x <= 76 and 4 - 1e-6 <= y <= 56, (side, count, x, y))
+                # Each text is 13 mm long, more or less, and 4 mm high.
+                places = [texts[f"curve {i}"] for i in range(count)]
+                for k, (x, y) in enumerate(places):
+                    self.assertLess(x + 12, 76 + 1)
+                    for a, b in places[:k]:
+                        self.assertTrue(abs(y - b) > 3.5 or abs(x - a) > 12 + 7, (side, k))
+                columns, lines = (self.apart(place[axis] for place in places) for axis in (0, 1))
+                across = side in ("below", "above")
+                for k, (x, y) in enumerate(places):
+                    row, column = divmod(k, len(columns)) if across else divmod(k, len(lines))[::-1]
+                    self.assertLess(abs(x - columns[column]) + abs(y - lines[row]), 1.5, (side, k))
+                self.assertLess(texts["Circles"][1], min(lines))
+        # A few stand in one row, or in one column.
+        _, _, texts, _ = self.legend("below", 3)
+        self.assertEqual(len(self.apart(y for words, (_, y) in texts.items() if words != "Circles")), 1)
+        _, _, texts, _ = self.legend("right", 5)
+        self.assertEqual(len(self.apart(x for words, (x, _) in texts.items() if words != "Circles")), 1)
+
+    def test_legends_that_do_not_fit(self):
+        long = "a curve of which very many words have to be said in this legend %i"
+        for panels, edges in (("", "the page 80.0 mm"),
+                              ("panels: { a: {}, b: {} }\nlayout: { rows: [[a, b]], gap: 4 mm }\n", "the panel 34.0 mm")):
+            errors = self.legend("below", 2, long, panels)[0]
+            self.assertRegex(errors, r"warning: the text 'a curve of which [a-z ]+\.\.\.' does not fit: it is [\d.]+ mm "
+                             "wide, " + edges + "; a shorter text, a smaller `text_size` or a larger page has room for it")
+
     def test_ticks_at_the_ends(self):
         """What is found of the range is exact: the summits of a sine, which no sample meets, have their ticks."""
         self.assertEqual(self.ticks("{ y: { ticks: [-1, 0, 1] } }")[0], ["−1", "0", "1"])
@@ -529,7 +670,7 @@ outputs: [a.svg, { file: c.svg, panel: c }]
         over = warnings(4, "{ type: label, at: { page: [78 mm, 5 mm] }, text: corner, side: right }")[0]
         self.assertRegex(over, "^the text 'corner' goes [0-9.]+ mm over the page's right edge" + held)
         wide = warnings(4, "{ type: label, at: [0, 0], text: '" + 20 * "wide " + "' }")[0]
-        self.assertRegex(wide, "^the text 'wide .*' is cut off: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
+        self.assertRegex(wide, "^the text 'wide .*' does not fit: it is [0-9.]+ mm wide, the page 80.0 mm; a shorter text")
         graph = """lekalo: 1
 geometry: { N: { repeat: { i: 0..3 }, type: basis_function, degree: 2, knots: [0, 0, 0, 1, 2, 2, 2], index: i } }
 objects: [{ shape: N, legend: '$N_%i$' }]

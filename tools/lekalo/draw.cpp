@@ -126,8 +126,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       found = std::prev(all.end());
       progress.end();
       const render::Figure& figure = found->figure;
-      if (!settings.quiet && !figure.left_out.empty())
-        fmt::print(stderr, "note: not in the drawing: {}\n", fmt::join(figure.left_out, ", "));
+      if (!settings.quiet)
+        for (const std::string& what : figure.left_out) fmt::print(stderr, "note: not in the drawing: {}\n", what);
       for (const std::string& cut : figure.cut_off) fmt::print(stderr, "warning: {}\n", cut);
       if (figure.incomplete > 0)
         fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide ({})\n",
