@@ -32,6 +32,30 @@ Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 // Where the normal jumps by more, contours that depend on it do not go on.
 constexpr double kJump = 1e-7;
 
+// Near a pole functions of the tangents are divided by what vanishes there (geometry/queries/contour_equations.h): by one
+// thing in each parameter, so that a piece between two poles is cut. Not in the middle: surfaces are symmetric, and
+// contours would run along the cut.
+constexpr double kCutBetweenPoles = 0.4871;
+
+std::vector<SurfacePiece> between_poles(const Surface& surface) {
+  std::vector<SurfacePiece> pieces = surface.pieces();
+  const DegenerateEdges poles = surface.degenerate_edges();
+  const Rectangle all = surface.domain();
+  const auto cut = [&](Interval Rectangle::*side) {
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      const Interval whole = pieces[k].domain.*side;
+      if (whole != all.*side) continue;
+      const double at = whole.lo + kCutBetweenPoles * whole.width();
+      pieces.push_back(pieces[k]);
+      pieces[k].domain.*side = {whole.lo, at};
+      pieces.back().domain.*side = {at, whole.hi};
+    }
+  };
+  if (poles.u_min && poles.u_max) cut(&Rectangle::u);
+  if (poles.v_min && poles.v_max) cut(&Rectangle::v);
+  return pieces;
+}
+
 // The pieces between creases, those of each part together; and what of the surface closes within a part.
 struct SmoothParts {
   std::map<std::array<size_t, 2>, std::vector<SurfacePiece>> parts;
@@ -53,7 +77,7 @@ SmoothParts smooth_parts(const Surface& surface) {
   const auto before = [](const std::vector<double>& at, double lo) {
     return static_cast<size_t>(std::upper_bound(at.begin(), at.end(), lo) - at.begin());
   };
-  for (SurfacePiece& piece : surface.pieces())
+  for (SurfacePiece& piece : between_poles(surface))
     result.parts[{before(cuts[0], piece.domain.u.lo), before(cuts[1], piece.domain.v.lo)}].push_back(std::move(piece));
   return result;
 }
