@@ -32,8 +32,8 @@ Triple<double> triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 // Where the normal jumps by more, contours that depend on it do not go on.
 constexpr double kJump = 1e-7;
 
-// Near a pole functions of the tangents are divided by what vanishes there (geometry/queries/contour_equations.h): by one
-// thing in each parameter, so that a piece between two poles is cut. Not in the middle: surfaces are symmetric, and
+// Near a pole functions of the tangents are divided by what vanishes there (geometry/queries/contour_equations.h): by
+// one thing in each parameter, so that a piece between two poles is cut. Not in the middle: surfaces are symmetric, and
 // contours would run along the cut.
 constexpr double kCutBetweenPoles = 0.4871;
 
