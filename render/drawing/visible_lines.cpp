@@ -167,14 +167,23 @@ class Drawing {
       const std::vector<int>& twins = twins_[line];
       return std::find(twins.begin(), twins.end(), outline_of_[other]) != twins.end();
     };
+    const auto add_crossing = [&](int of, int outline, const PictureCrossing& crossing, double t) {
+      if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(t)) return;
+      const double near = CoveringLayers::kTouch * world_.radius();
+      if (outline == of || depth_at(outline, crossing.t_other) < depth_at(of, crossing.t) + near) events.push_back(t);
+    };
     crossings.with(*curves_[line], is_twin, [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
-      const int outline = outline_of_[other];
-      if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(crossing.t)) return;
-      const double near = CoveringLayers::kTouch * world_.radius();
-      if (outline == line || depth_at(outline, crossing.t_other) < depth_at(line, crossing.t) + near)
-        events.push_back(crossing.t);
+      add_crossing(line, outline_of_[other], crossing, crossing.t);
     });
+    // A twin's with itself are the line's too.
+    for (const int twin : twins_[line])
+      if (strokes_[twin].outlines)
+        crossings.with(
+            *curves_[twin], [&](int other) { return outline_of_[other] != twin; },
+            [&](int, const PictureCrossing& crossing) {
+              if (const auto t = same_place(line, twin, crossing.t)) add_crossing(twin, twin, crossing, *t);
+            });
     return events;
   }
 
@@ -213,25 +222,27 @@ class Drawing {
     return *own_outlines_[line];
   }
 
+  // The place of a twin at t, on the line itself.
+  std::optional<double> same_place(int line, int twin, double t) const {
+    const Stroke &stroke = strokes_[line], &other = strokes_[twin];
+    const Vec3 point = (stroke.to_world.inverse() * other.to_world).point(other.curve->point(t));
+    const auto meets = [&](double at) {
+      return glm::length(stroke.curve->point(at) - point) < kNear * world_.radius();
+    };
+    // Most have the same parameter, or run the other way.
+    const Interval from = other.curve->domain(), to = stroke.curve->domain();
+    const double along = to.width() * (t - from.lo) / from.width();
+    for (const double at : {to.clamp(to.lo + along), to.clamp(to.hi - along)})
+      if (meets(at)) return at;
+    const double at = nearest(*stroke.curve, point);
+    return meets(at) ? std::optional(at) : std::nullopt;
+  }
+
   // Where it goes round surfaces that join its own along it.
   void add_outlines_of_twins(int line, std::vector<double>& events) {
-    const Stroke& stroke = strokes_[line];
-    for (const int twin : twins_[line]) {
-      const Stroke& other = strokes_[twin];
-      const Affine map = stroke.to_world.inverse() * other.to_world;
-      for (const double turn : own_outlines_of(twin)) {
-        const Vec3 point = map.point(other.curve->point(turn));
-        const auto meets = [&](double t) {
-          return glm::length(stroke.curve->point(t) - point) < kNear * world_.radius();
-        };
-        // Most have the same parameter, or run the other way.
-        const Interval from = other.curve->domain(), to = stroke.curve->domain();
-        const double along = to.width() * (turn - from.lo) / from.width();
-        double t = meets(to.clamp(to.lo + along)) ? to.clamp(to.lo + along) : to.clamp(to.hi - along);
-        if (!meets(t)) t = nearest(*stroke.curve, point);
-        if (meets(t)) events.push_back(t);
-      }
-    }
+    for (const int twin : twins_[line])
+      for (const double turn : own_outlines_of(twin))
+        if (const auto t = same_place(line, twin, turn)) events.push_back(*t);
   }
 
   // Where it meets the lines in which a surface on which it lies goes through itself.

@@ -314,6 +314,41 @@ TEST(DrawingTruth, Saddles) {
   expect_right(found, "saddle", true);
 }
 
+// The picture of a border turns back within a third of a pixel and crosses itself there; a parameter line runs along
+// it.
+TEST(DrawingTruth, ParameterLineAlongABorderThatCrossesItself) {
+  Views views(41);
+  Found found;
+  SmallScene scene;
+  Grid<Vec3> net{4,
+                 4,
+                 {{-1.6589285356373071, -1.6457253639416174, 0.57582357546722995},
+                  {-1.7027181940974576, -0.24870666857087226, -1.0551306815721824},
+                  {-1.5786541464464161, 0.48882805168822224, -0.64048852956151903},
+                  {-1.7948879513651992, 1.5461084006902204, 0.73184986694783138},
+                  {-0.64826928535226258, -1.6790149401260273, -0.69335505388366359},
+                  {-0.4728611338405308, -0.78956406957263736, 1.2815017226622354},
+                  {-0.43781584761993797, 0.78320519319708604, 1.4034384736006482},
+                  {-0.25432127206778116, 1.6375164566195983, -1.1588961631817256},
+                  {0.43359365456615467, -1.7658198171444655, -0.81934099378674607},
+                  {0.35186288835679391, -0.2563709166633486, 0.50466402317217041},
+                  {0.78054932376677266, 0.52604537005052121, 1.0390500098128399},
+                  {0.53666055023025439, 1.5004761934054613, -0.87697347749439591},
+                  {1.6406767933813751, -1.5130872232880335, 0.82974620759265627},
+                  {1.2948489346251837, -0.49422913909938704, -0.79583334523390148},
+                  {1.7747342109983022, 0.75219442620819188, -0.64779042291505418},
+                  {1.3253326983605545, 1.2486561616228182, 0.64144977974442607}}};
+  const SurfaceSet sheet{std::make_shared<NurbsSurface>(bezier_surface(net))};
+  show(scene, sheet, {"boundary", "silhouette", "parameter"}, 4);
+  scene.model.film.width = 600;
+  scene.model.film.height = 500;
+  const Vec3 from(-0.45412173569972791, -12.711111028054633, -1.0767748210944461),
+      lower(-0.45614273787320864, -12.71237905228244, -1.060953706570732);
+  scene.model.camera = make_camera(ParallelView{from, {0, 0, 0}, from - lower, 8}, 600, 500);
+  Truth(*scene.world(), sheets_of_patches(sheet), views, found, 40);
+  expect_right(found, "border", true);
+}
+
 // Two sheets that pierce one another.
 TEST(DrawingTruth, CrossingSheets) {
   Views views(43);
