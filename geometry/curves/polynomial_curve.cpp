@@ -22,10 +22,13 @@ CurveJet PolynomialCurve::evaluate(double t, int order) const {
 
 CurveEnclosure PolynomialCurve::enclose(const Interval& t, int order) const {
   CurveEnclosure result;
-  for (const Part& part : parts_) {
-    const Interval common = intersect(part.t, t);
+  // From the part where t begins, or from the one before, if t is the joint of the two.
+  const Part *part = &part_at(parts_, t.lo), *const end = parts_.data() + parts_.size();
+  if (part != parts_.data() && part->t.lo == t.lo) --part;
+  for (; part != end && part->t.lo <= t.hi; ++part) {
+    const Interval common = intersect(part->t, t);
     if (common.empty() || (common.width() == 0 && t.width() > 0)) continue;
-    part.include_ranges(order, common, result.d.data());
+    part->include_ranges(order, common, result.d.data());
   }
   return result;
 }
