@@ -18,7 +18,6 @@ using geometry::PictureSize;
 
 namespace {
 
-constexpr double kMostPixels = 1e8;  // of a picture
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of drawings without a size on paper
 constexpr double kLeastFree = 2;       // millimetres between the margins of a page whose side is automatic
@@ -136,11 +135,11 @@ void Builder::build_camera(Model& model) {
     }
     const double width = std::max(1.0, std::round(size.width * scale)),
                  height = std::max(1.0, std::round(size.height * scale));
-    if (width * height > kMostPixels) {
+    if (width * height > Film::kMostPixels) {
       const Value* place = given ? given->find("size") : nullptr;
       diagnostics_.error(place ? place->place : scene_.root.place,
                          fmt::format("a picture of {:.0f} x {:.0f} pixels is too large", width, height),
-                         fmt::format("at most {:.0f} million pixels", kMostPixels / 1e6));
+                         fmt::format("at most {:.0f} million pixels", Film::kMostPixels / 1e6));
       return false;
     }
     model.film.width = static_cast<int>(width);

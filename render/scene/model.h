@@ -63,6 +63,8 @@ struct Group {
 };
 
 struct Film {
+  static constexpr int kMostSide = 65536;  // pixels
+  static constexpr double kMostPixels = 1e8;
   int width = 960;
   int height = 720;
   int samples = 16;

@@ -47,8 +47,12 @@ std::shared_ptr<render::Model> with_overrides(const render::Model& scene, const 
 std::pair<int, int> parse_size(const std::string& text) {
   int used = 0, width = 0, height = 0;
   if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 || used != static_cast<int>(text.size()) ||
-      width < 1 || height < 1 || width > 65536 || height > 65536 || 1.0 * width * height > 1e8)
+      width < 1 || height < 1)
     throw UsageError(fmt::format("--size takes WIDTHxHEIGHT in pixels, found '{}'", text));
+  using render::Film;
+  if (width > Film::kMostSide || height > Film::kMostSide || 1.0 * width * height > Film::kMostPixels)
+    throw UsageError(fmt::format("--size {} is too large: a side has at most {} pixels, a picture {:.0f} million", text,
+                                 Film::kMostSide, Film::kMostPixels / 1e6));
   return {width, height};
 }
 
