@@ -81,6 +81,11 @@ void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, 
   std::reverse(nodes.begin(), nodes.end());
   if (begins_singular) at_begin = lead_on(nodes);
   std::reverse(nodes.begin(), nodes.end());
+  // Part of a branch between places beside a node that are not decided: the branch was led on over them.
+  if (at_begin && at_end && nodes.front() == nodes.back() &&
+      std::all_of(nodes.begin(), nodes.end(),
+                  [&](const Vec3& p) { return glm::length(p - nodes.front()) < kNearSingular * size_; }))
+    return;
   std::vector<Interval> pieces;
   double length = 0;
   for (size_t k = 0; k + 1 < nodes.size(); ++k) {
