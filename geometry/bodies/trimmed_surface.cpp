@@ -36,7 +36,7 @@ struct Loop2 {
 class Trimming {
  public:
   Trimming(const SurfacePtr& surface, const std::vector<Curve2Ptr>& curves, bool outside)
-      : surface_(surface), curves_(curves) {
+      : surface_(surface), curves_(curves), given_(curves.size()) {
     for (const Curve2Ptr& curve : curves_) size_ = std::max(size_, bounds(*curve).diameter());
     for (size_t k = 0; k < curves_.size(); ++k) check_place(k);
     chain();
@@ -50,7 +50,9 @@ class Trimming {
   Body body() const;
 
  private:
-  std::string name(size_t curve) const { return fmt::format("curve {}", curve); }
+  std::string name(size_t curve) const {
+    return curve < given_ ? fmt::format("curve {}", curve) : "the surface's border";
+  }
   Vec2 begin(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().lo)); }
   Vec2 end(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().hi)); }
   bool coincide(const Vec2& a, const Vec2& b) const { return glm::length(a - b) <= kClosedCurve * size_; }
@@ -267,26 +269,62 @@ class Trimming {
         throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
   }
 
-  // Loops may touch: of the points of one that do not lie on the other's border most decide.
+  static double distance(const Vec2& p, const std::vector<Vec2>& polygon) {
+    double least = kInfinity;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 a = polygon[i], side = polygon[(i + 1) % polygon.size()] - a;
+      const double square = glm::dot(side, side);
+      const double share = square > 0 ? std::clamp(glm::dot(p - a, side) / square, 0.0, 1.0) : 0;
+      least = std::min(least, glm::length(p - a - share * side));
+    }
+    return least;
+  }
+
+  // Loops may touch, also along sides: of the corners and middles of sides of one that do not lie on the other's border
+  // most decide. Those on different sides of it, farther from it than chords are from arcs, tell of loops that cross
+  // where their sides run along each other; loops without any are the same.
   bool lies_in(const Loop2& inner, const Loop2& outer) const {
-    if (std::abs(inner.area) >= std::abs(outer.area) || !outer.box.contains(inner.box.center())) return false;
-    size_t inside = 0;
-    for (const Vec2& p : inner.polygon) inside += is_in(p, outer.polygon) ? 1 : 0;
-    return 2 * inside > inner.polygon.size();
+    const double diameter = inner.box.diameter(), on_border = 1e-9 * diameter, clear = 1e-2 * diameter;
+    size_t inside = 0, outside = 0;
+    bool clearly_inside = false, clearly_outside = false;
+    for (size_t i = 0; i < inner.polygon.size(); ++i) {
+      const Vec2 &a = inner.polygon[i], &b = inner.polygon[(i + 1) % inner.polygon.size()];
+      for (const Vec2& p : {a, 0.5 * (a + b)}) {
+        const double off = distance(p, outer.polygon);
+        if (off <= on_border) continue;
+        const bool in = is_in(p, outer.polygon);
+        ++(in ? inside : outside);
+        if (off > clear) (in ? clearly_inside : clearly_outside) = true;
+      }
+    }
+    const auto names = [&] {
+      const int a = inner.uses[0].edge, b = outer.uses[0].edge;
+      return fmt::format("the loops that begin with {} and {}", name(std::min(a, b)), name(std::max(a, b)));
+    };
+    if (inside + outside == 0) throw TrimError(names() + " are the same", "a loop is given once");
+    if (clearly_inside && clearly_outside)
+      throw TrimError(names() + " cross where their sides run along each other",
+                      "loops lie inside or beside each other");
+    return inside > outside;
   }
 
   void nest() {
     for (size_t k = 0; k < loops_.size(); ++k)
       for (size_t j = 0; j < loops_.size(); ++j) {
-        if (j == k || !lies_in(loops_[k], loops_[j])) continue;
+        const Loop2 &inner = loops_[k], &outer = loops_[j];
+        if (j == k || Box3{glm::max(inner.box.lo, outer.box.lo), glm::min(inner.box.hi, outer.box.hi)}.empty())
+          continue;
+        const double of_inner = std::abs(inner.area), of_outer = std::abs(outer.area);
+        if (of_inner > of_outer || (of_inner == of_outer && k < j) || !lies_in(inner, outer)) continue;
         ++loops_[k].depth;
         int& around = loops_[k].around;
-        if (around < 0 || std::abs(loops_[j].area) < std::abs(loops_[around].area)) around = static_cast<int>(j);
+        if (around < 0 || of_outer < std::abs(loops_[around].area)) around = static_cast<int>(j);
       }
   }
 
   SurfacePtr surface_;
   std::vector<Curve2Ptr> curves_;
+  size_t given_;  // of them; then those of the surface's own border
   double size_ = 0;
   std::vector<Loop2> loops_;
 };

@@ -309,6 +309,38 @@ std::string error_of(const SurfacePtr& surface, const std::vector<CurvePtr>& cur
   return "none";
 }
 
+CurvePtr rectangle(double u0, double v0, double u1, double v1) {
+  return polygon({{u0, v0, 0}, {u1, v0, 0}, {u1, v1, 0}, {u0, v1, 0}});
+}
+
+// Cut out of a square along each of its sides, in corners, from side to side, and out of a loop.
+TEST(TrimmedSurface, HolesOnBorders) {
+  const auto plane = std::make_shared<Plane>(Frame{}, Rectangle{{-1, 1}, {-1, 1}});
+  const std::vector<std::pair<std::vector<CurvePtr>, double>> cases = {
+      {{rectangle(0.5, -0.5, 1, 0.5)}, 3.5},
+      {{rectangle(-1, -0.5, -0.5, 0.5)}, 3.5},
+      {{rectangle(-0.5, 0.5, 0.5, 1)}, 3.5},
+      {{rectangle(-0.5, -1, 0.5, -0.5)}, 3.5},
+      {{rectangle(0, 0, 1, 1), rectangle(-1, -1, 0, 0)}, 2},
+      {{rectangle(-1, -0.2, 1, 0.2)}, 3.2},
+      {{rectangle(-0.2, -1, 0.2, 1)}, 3.2},
+  };
+  for (const auto& [holes, area] : cases) {
+    const Body sheet = trimmed_surface(plane, holes, true);
+    EXPECT_NEAR(measure(sheet).area.value, area, 1e-12);
+    std::vector<CurvePtr> all{rectangle(-1, -1, 1, 1)};
+    all.insert(all.end(), holes.begin(), holes.end());
+    EXPECT_NEAR(measure(trimmed_surface(plane, all)).area.value, area, 1e-12);
+    // The grid's places are on no border.
+    const LineIntersector lines(sheet);
+    size_t kept = 0;
+    for (int i = 0; i < 40; ++i)
+      for (int j = 0; j < 40; ++j)
+        kept += lines.all_hits({{-0.975 + 0.05 * i, -0.975 + 0.05 * j, 1}, {0, 0, -1}}).size();
+    EXPECT_NEAR(0.05 * 0.05 * static_cast<double>(kept), area, 1e-9);
+  }
+}
+
 TEST(TrimmedSurface, ErrorsSayWhichLoopAndWhere) {
   const auto plane = std::make_shared<Plane>(Frame{}, Rectangle{{-2, 2}, {-2, 2}});
   const auto segment = [](const Vec3& a, const Vec3& b) { return std::make_shared<Segment>(a, b); };
@@ -322,6 +354,12 @@ TEST(TrimmedSurface, ErrorsSayWhichLoopAndWhere) {
             "the loops that begin with curve 0 and curve 1 cross ne");
   EXPECT_EQ(error_of(plane, {polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}})}),
             "the loop that begins with curve 0 crosses itself near (0.5, 0.5)");
+  EXPECT_EQ(error_of(plane, {circle_at(0, 0, 1), circle_at(0, 0, 1)}),
+            "the loops that begin with curve 0 and curve 1 are the same");
+  EXPECT_EQ(error_of(plane, {rectangle(-2, -2, 2, 2)}, true),
+            "the loops that begin with curve 0 and the surface's border are the same");
+  EXPECT_EQ(error_of(plane, {rectangle(0, 0, 1, 1), rectangle(0.5, 0, 2, 1)}),
+            "the loops that begin with curve 0 and curve 1 cross where their sides run along each other");
   EXPECT_EQ(error_of(plane, {std::make_shared<Circle>(Frame{{0, 0, 1}}, 1)}),
             "curve 0 does not lie in the parameter plane");
   EXPECT_EQ(error_of(std::make_shared<Plane>(Frame{}), {circle_at(0, 0, 1)}, true),
