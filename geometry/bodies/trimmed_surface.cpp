@@ -282,7 +282,8 @@ class Trimming {
 
   // Loops may touch, also along sides: of the corners and middles of sides of one that do not lie on the other's border
   // most decide. Those on different sides of it, farther from it than chords are from arcs, tell of loops that cross
-  // where their sides run along each other; loops without any are the same.
+  // where they touch, in a corner or along sides: check_crossings() has found all others. Loops without any are the
+  // same.
   bool lies_in(const Loop2& inner, const Loop2& outer) const {
     const double diameter = inner.box.diameter(), on_border = 1e-9 * diameter, clear = 1e-2 * diameter;
     size_t inside = 0, outside = 0;
@@ -303,8 +304,7 @@ class Trimming {
     };
     if (inside + outside == 0) throw TrimError(names() + " are the same", "a loop is given once");
     if (clearly_inside && clearly_outside)
-      throw TrimError(names() + " cross where their sides run along each other",
-                      "loops lie inside or beside each other");
+      throw TrimError(names() + " cross where they touch", "loops lie inside or beside each other");
     return inside > outside;
   }
 

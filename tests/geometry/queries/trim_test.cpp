@@ -359,7 +359,10 @@ TEST(TrimmedSurface, ErrorsSayWhichLoopAndWhere) {
   EXPECT_EQ(error_of(plane, {rectangle(-2, -2, 2, 2)}, true),
             "the loops that begin with curve 0 and the surface's border are the same");
   EXPECT_EQ(error_of(plane, {rectangle(0, 0, 1, 1), rectangle(0.5, 0, 2, 1)}),
-            "the loops that begin with curve 0 and curve 1 cross where their sides run along each other");
+            "the loops that begin with curve 0 and curve 1 cross where they touch");
+  // Through a corner of the other one and through the middle of a side of it.
+  EXPECT_EQ(error_of(plane, {rectangle(-1, -1, 1, 1), polygon({{1, 1, 0}, {0.5, 0, 0}, {1, -0.5, 0}, {1.5, 0, 0}})}),
+            "the loops that begin with curve 0 and curve 1 cross where they touch");
   EXPECT_EQ(error_of(plane, {std::make_shared<Circle>(Frame{{0, 0, 1}}, 1)}),
             "curve 0 does not lie in the parameter plane");
   EXPECT_EQ(error_of(std::make_shared<Plane>(Frame{}), {circle_at(0, 0, 1)}, true),
