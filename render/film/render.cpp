@@ -276,7 +276,8 @@ class TileTracer {
         const RaySample& own = centers[index(x, y)];
         const Shown& own_shown = shown[index(x, y)];
         if (is_finite(own) && film_.crop().contains(x, y)) store(x, y, own);
-        bool even = is_finite(own);
+        const bool parted = !lines_.empty() && lines_.may_part(x, y);
+        bool even = is_finite(own) && !parted;
         // In a penumbra a single ray to the light tells little: a few pixels around one that knows count as well.
         for (int ny = std::max(y - kPenumbra, around.y0); even && ny <= std::min(y + kPenumbra, around.y1 - 1); ++ny)
           for (int nx = std::max(x - kPenumbra, around.x0); even && nx <= std::min(x + kPenumbra, around.x1 - 1); ++nx)

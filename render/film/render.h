@@ -41,7 +41,8 @@ struct RenderResult {
 // With Film::contrast > 0 samples go where they are needed (Whitted 1980): each pixel takes one at its centre. Where
 // that differs from a neighbour's by more than the contrast, as displayed (gamma 2, alpha as it is), the pixel takes a
 // few of its stratified samples in place of it, and all of them if these differ; it also takes all where the neighbour
-// met another object or face, and within two pixels of a centre that lies in a penumbra or a soft light's highlight.
+// met another object or face, where the edge of a line or mark may run through it, and within two pixels of a centre
+// that lies in a penumbra or a soft light's highlight.
 // The layer `samples` tells.
 //
 // The film keeps the layers that Film::layers asks for. Filtered layers: R G B A (background included, alpha 0 there),

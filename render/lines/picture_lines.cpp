@@ -10,6 +10,7 @@ using namespace geometry;
 namespace {
 
 constexpr int kBin = 16;  // pixels
+constexpr double kPixelRadius = 0.70711;
 // A curve this near a surface lies on it, in pixels across the surface: nobody sees the difference.
 constexpr double kTouch = 1.0 / 64;
 // A surface climbs no more than this times what its slopes at two places tell.
@@ -255,18 +256,46 @@ void PictureLines::add_mark(const PlacedMark& placed, const Vec2& q, const RaySa
   layers.push_back(layer);
 }
 
-void PictureLines::draw(const Vec2& q, RaySample& sample) const {
+std::span<const PictureLines::Item> PictureLines::items_near(const Vec2& q) const {
   const int column = std::clamp(static_cast<int>(q.x) / kBin, 0, columns_ - 1),
             row = std::clamp(static_cast<int>(q.y) / kBin, 0, rows_ - 1);
   const size_t bin = static_cast<size_t>(row) * columns_ + column;
-  if (first_[bin] == first_[bin + 1]) return;
+  return {items_.data() + first_[bin], items_.data() + first_[bin + 1]};
+}
+
+bool PictureLines::may_part(int x, int y) const {
+  const Vec2 q(x + 0.5, y + 0.5);
+  for (const Item& item : items_near(q)) {
+    if (item.stroke < 0) {
+      const PlacedMark& mark = marks_[-1 - item.stroke];
+      if (glm::distance(q, Vec2(mark.at.x, mark.at.y)) <= std::sqrt(2.0) * mark.reach + kPixelRadius) return true;
+      continue;
+    }
+    const auto& [stroke, curve, reach] = strokes_[item.stroke];
+    const ProjectedCurve::Cell& cell = curve.cells()[item.cell];
+    const Vec2 chord = cell.end - cell.begin, from_begin = q - cell.begin;
+    const double length2 = glm::dot(chord, chord);
+    const double along = length2 > 0 ? std::clamp(glm::dot(from_begin, chord) / length2, 0.0, 1.0) : 0.0;
+    if (glm::length(from_begin - along * chord) > reach + cell.bulge + kPixelRadius) continue;
+    // A wide line may cover all of the pixel.
+    const auto near = curve.nearest(item.cell, q);
+    const bool covered = near && near->end == 0 && stroke.look.dash.empty() && !stroke.hidden &&
+                         near->distance + kPixelRadius <= stroke.look.half_width;
+    if (!covered) return true;
+  }
+  return false;
+}
+
+void PictureLines::draw(const Vec2& q, RaySample& sample) const {
+  const std::span<const Item> items = items_near(q);
+  if (items.empty()) return;
   thread_local std::vector<Layer> layers;
   layers.clear();
-  for (uint32_t i = first_[bin]; i < first_[bin + 1]; ++i)
-    if (items_[i].stroke >= 0)
-      add_stroke(items_[i], q, sample, layers);
+  for (const Item& item : items)
+    if (item.stroke >= 0)
+      add_stroke(item, q, sample, layers);
     else
-      add_mark(marks_[-1 - items_[i].stroke], q, sample, layers);
+      add_mark(marks_[-1 - item.stroke], q, sample, layers);
   if (layers.empty()) return;
 
   // From the front to the back; those that meet, by their order.

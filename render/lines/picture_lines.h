@@ -15,6 +15,7 @@
 // lines. Behind clear bodies they are hidden too.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/integrators/integrator.h"
@@ -32,6 +33,8 @@ class PictureLines {
   // Puts what lines show at the picture point q over what the sample brings from its ray through it. Where that is a
   // line, the sample's point is a place on the curve, u its parameter; it has no material but a color().
   void draw(const Vec2& q, RaySample& sample) const;
+  // Whether the edge of a line or mark may run through a pixel, so that its centre does not tell what all of it shows.
+  bool may_part(int x, int y) const;
   // Of the line or mark that the point belongs to, if it does to one.
   std::optional<Vec3> color(const SurfacePoint& point) const;
 
@@ -70,6 +73,7 @@ class PictureLines {
   };
 
   void sort_into_bins();
+  std::span<const Item> items_near(const Vec2& q) const;
   // Of C at the picture's place `at`, from q at this distance in pixels.
   Sight sight(const Vec3& point, const PicturePoint& at, double distance, const RaySample& sample) const;
   bool is_cut_away(int object, const Vec3& point) const;

@@ -476,6 +476,33 @@ TEST(PictureLines, ParameterLinesOfSolids) {
               picture(ShapePtr(std::make_shared<Tube>(axis, RadiusLaw(0.6), Caps::none)), {4, {}}, {6, {}}));
 }
 
+// With adaptive sampling a line is the same picture as with all samples everywhere, however thin and wherever it lies:
+// no centre of a pixel need be in it.
+TEST(PictureLines, ThinLinesAmongThePixelsOfAdaptivePictures) {
+  for (const double width : {0.2, 0.6, 1.0, 9.0})
+    for (const double offset : {0.0, 0.25, 0.5})
+      for (const double slope : {0.0, 0.1, 1e3}) {
+        const Vec3 middle(offset, 0, offset), along = glm::normalize(Vec3(1, 0, slope));
+        const auto picture = [&](double contrast) {
+          LineScene scene(64, 64, 16);
+          scene.plain_view();
+          scene.model.film.contrast = contrast;
+          scene.draw(std::make_shared<Segment>(middle - 20.0 * along, middle + 20.0 * along), "curve",
+                     LineScene::style(width));
+          return scene.picture();
+        };
+        const Image adaptive = picture(0.03), even = picture(0);
+        double all = 0, off = 0;
+        for (int y = 0; y < 64; ++y)
+          for (int x = 0; x < 64; ++x) {
+            all += ink(adaptive, x, y);
+            off = std::max(off, std::abs(ink(adaptive, x, y) - ink(even, x, y)));
+          }
+        EXPECT_LT(off, 1e-6) << width << " " << offset << " " << slope;
+        EXPECT_NEAR(all, 40 * width, 0.05 * 40 * width + 2) << width << " " << offset << " " << slope;
+      }
+}
+
 // Lines of which a clip plane leaves nothing have a number still.
 TEST(PictureLines, ClippedAway) {
   LineScene scene(60, 60, 1);
