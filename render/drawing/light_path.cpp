@@ -1,7 +1,7 @@
 #include "render/drawing/light_path.h"
 
+#include "render/integrators/boundary.h"
 #include "render/integrators/classic_model.h"
-#include "render/integrators/media.h"
 
 namespace lekalo::render {
 
@@ -9,40 +9,34 @@ std::vector<Vec3> light_path(const World& world, const LightPath& path) {
   std::vector<Vec3> corners{path.from};
   const float nm = static_cast<float>(path.wavelength);
   const Wavelengths wavelengths{{nm, nm, nm, nm}};
-  Media media;
   Ray ray;
   ray.origin = path.from, ray.direction = path.direction;
+  Media media = media_at_origin(world, ray, wavelengths);
   Hit hit;
   for (int met = 0; world.nearest(ray, hit); ++met) {
-    const SurfacePoint at = world.surface_point(ray, hit);
-    corners.push_back(at.position);
+    const Boundary at(world, ray, hit, wavelengths, media);
+    corners.push_back(at.point.position);
     if (met >= path.bounces) return corners;
-    const bool front = glm::dot(ray.direction, at.geometric_normal) < 0;
-    const Vec3 normal = front ? at.geometric_normal : -at.geometric_normal;
-    const Material& material = world.material(at, front);
-    const auto medium = world.material(at, true).interior(wavelengths);
-    if (medium && !front && !media.is_inside(at.instance)) media.enter(at.instance, *medium);
-    Media behind = media;
-    if (medium) front ? behind.enter(at.instance, *medium) : behind.leave(at.instance);
-    const ClassicCoefficients c = material.classic(at, wavelengths);
+    const Vec3 normal = at.front ? at.point.geometric_normal : -at.point.geometric_normal;
     Vec3 next = ray.direction;
-    if (medium && (front ? behind : media).filling() == at.instance) {
-      const auto inward = refracted(ray.direction, normal, media.current().index, behind.current().index);
-      if (inward && !path.reflection) {
-        next = *inward;
-        media = behind;
-      } else {
-        next = reflected(ray.direction, normal);
-      }
-    } else if (medium) {
-      media = behind;  // no boundary for light: another substance fills both sides
+    bool reflects = false;
+    if (!at.changes_filling) {
+      media = at.behind;  // no boundary for light: another substance fills both sides
       corners.pop_back();
-    } else if (!c.mirror.is_zero()) {
-      next = reflected(ray.direction, normal);
+    } else if (at.material->transmits()) {
+      const auto inward = refracted(ray.direction, normal, media.current().index, at.behind.current().index);
+      reflects = !inward || path.reflection;
+      if (!reflects) {
+        next = *inward;
+        media = at.behind;
+      }
+    } else if (!at.material->classic(at.point, wavelengths).mirror.is_zero()) {
+      reflects = true;
     } else {
       return corners;
     }
-    world.leave(at, next, ray);
+    if (reflects) next = reflected(ray.direction, normal);
+    world.leave(reflects ? at.near_side() : at.far_side(), next, ray);
     ray.direction = next;
   }
   corners.push_back(corners.back() + path.length * ray.direction);

@@ -12,8 +12,8 @@
 #include <bit>
 
 #include "geometry/describe.h"
+#include "render/integrators/boundary.h"
 #include "render/integrators/classic_model.h"
-#include "render/integrators/media.h"
 #include "render/materials/fresnel.h"
 #include "render/materials/optical_constants.h"
 #include "render/materials/textured_color.h"
@@ -41,18 +41,15 @@ struct Illumination {
   Spectrum unobstructed;  // sum of E / pi cos(theta), where shadows are caught
 };
 
-// A surface point seen by a ray, all normals on the viewer's side.
-struct Seen {
-  Seen(const World& world, const Ray& ray, const Hit& hit, double way)
-      : point(world.surface_point(ray, hit)),
-        front(glm::dot(ray.direction, point.geometric_normal) < 0),
+// What a ray sees, all normals on the viewer's side.
+struct Seen : Boundary {
+  Seen(const World& world, const Ray& ray, const Hit& hit, double way, Media& media)
+      : Boundary(world, ray, hit, kYellow, media),
         length(way + hit.t),
         geometric_normal(front ? point.geometric_normal : -point.geometric_normal),
         smooth_normal(front ? point.normal : -point.normal),
         normal(smooth_normal) {}
 
-  SurfacePoint point;
-  bool front;
   double length;                                 // of the way from the eye
   Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
 };
@@ -90,8 +87,8 @@ class Tracer {
                     double length);
 
  private:
-  Spectrum shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c, const Media& media,
-                 const Media& behind, int depth, const Spectrum& weight);
+  Spectrum shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
+                 const Spectrum& weight);
   Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
   // What clear bodies let through.
   Spectrum passing(const Ray& shadow_ray, const Media& media);
@@ -139,39 +136,31 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
       if (!media.is_air()) through *= transmittance(media.current().absorption, kInfinity);
       return through * world_.model().background;
     }
-    Seen seen(world_, ray, hit, length);
-
-    const int32_t body = seen.point.instance;
-    const Object& object = world_.object(seen.point);
-    std::optional<Medium> medium;
-    if (transmits_) medium = object.material->interior(kYellow);
-    if (medium && !seen.front && !media.is_inside(body)) media.enter(body, *medium);  // the eye is inside the body
+    Seen seen(world_, ray, hit, length, media);
     if (!media.is_air()) through *= transmittance(media.current().absorption, hit.t);
-    Media behind = media;
-    if (medium) seen.front ? behind.enter(body, *medium) : behind.leave(body);
-
-    const Material& material = seen.front || !object.back_material ? *object.material : *object.back_material;
-    ClassicCoefficients c = material.classic(seen.point, kPrimaries);
-    const bool is_boundary = !medium || (seen.front ? behind : media).filling() == body;
-    if (is_boundary && (seen.front || !c.catches_shadows)) {
-      seen.normal = material.shading_normal(seen.point);
+    ClassicCoefficients c = seen.material->classic(seen.point, kPrimaries);
+    // Pieces of the same substance that touch or overlap are one.
+    const bool is_joint = c.fresnel == Fresnel::boundary && !media.is_air() && !seen.behind.is_air() &&
+                          media.current().index == seen.behind.current().index;
+    if (seen.changes_filling && !is_joint && (seen.front || !c.catches_shadows)) {
+      seen.normal = seen.material->shading_normal(seen.point);
       if (!seen.front) seen.normal = -seen.normal;
-      return through * shade(ray, seen, material, c, media, behind, depth, weight * through);
+      return through * shade(ray, seen, c, media, depth, weight * through);
     }
-    media = behind;
+    media = seen.behind;
     length = seen.length;
     if (pass == 0) beyond.ray = first_ray;
-    world_.leave(seen.point, beyond.ray.direction, beyond.ray);
+    world_.leave(seen.far_side(), beyond.ray.direction, beyond.ray);
   }
   return {};
 }
 
-Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& material, ClassicCoefficients& c,
-                       const Media& media, const Media& behind, int depth, const Spectrum& weight) {
+Spectrum Tracer::shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
+                       const Spectrum& weight) {
   if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
   mix(static_cast<uint64_t>(seen.point.instance) << 32 | static_cast<uint32_t>(seen.point.face));
   mix(seen.front);
-  if (whole_) mix(material.cell(seen.point));
+  if (whole_) mix(seen.material->cell(seen.point));
   if (depth == 0) record(seen);
 
   const Illumination light = illuminate(ray, seen, c, media);
@@ -188,7 +177,7 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
 
   Spectrum mirror = c.mirror, transmission = c.transmission;
   if (mirror.is_zero() && transmission.is_zero()) return sum;
-  const double n0 = media.current().index, n1 = behind.current().index;
+  const double n0 = media.current().index, n1 = seen.behind.current().index;
   // A smooth normal may look away from the viewer near the outline of a mesh; then the facet's own is taken.
   const Vec3 m = glm::dot(ray.direction, seen.normal) < 0 ? seen.normal : seen.geometric_normal;
   const double cosine = -glm::dot(ray.direction, m);
@@ -217,13 +206,13 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
     if (!inward) mirror += transmission;
   }
 
-  const auto follow = [&](const Vec3& direction, const Spectrum& share, const Media& inside) {
+  const auto follow = [&](const SurfacePoint& from, const Vec3& direction, const Spectrum& share, const Media& inside) {
     if (depth >= options_.max_depth || (weight * share).largest() <= options_.weight_cutoff) {
       mix(1);
       return Spectrum();
     }
     Ray next;
-    world_.leave(seen.point, direction, next);
+    world_.leave(from, direction, next);
     next.direction = direction;
     next.kind = RayKind::reflection;
     ++sample_.other_rays;
@@ -233,11 +222,11 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, const Material& materia
     Vec3 direction = reflected(ray.direction, m);
     if (glm::dot(direction, seen.geometric_normal) <= 0) direction = reflected(ray.direction, seen.geometric_normal);
     mix(2);
-    sum += follow(direction, mirror, media);
+    sum += follow(seen.near_side(), direction, mirror, media);
   }
   if (inward) {
     mix(3);
-    sum += follow(*inward, transmission, behind);
+    sum += follow(seen.far_side(), *inward, transmission, seen.behind);
   }
   return sum;
 }
@@ -255,7 +244,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     if (has_left) return;
     has_left = true;
     shadow_ray.kind = RayKind::shadow;
-    world_.leave(seen.point, seen.geometric_normal, shadow_ray);
+    world_.leave(seen.near_side(), seen.geometric_normal, shadow_ray);
   };
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
@@ -370,22 +359,15 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
     if (pass > 0) ++sample_.shadow_rays;
     Hit hit;
     if (!world_.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
-    const SurfacePoint point = world_.surface_point(ray, hit);
-    const bool front = glm::dot(ray.direction, point.geometric_normal) < 0;
-    const Material& material = world_.material(point, front);
-    if (!material.transmits()) return {};
-    const std::optional<Medium> medium = world_.material(point, true).interior(kYellow);
-    if (medium && !front && !media.is_inside(point.instance)) media.enter(point.instance, *medium);
+    const Boundary met(world_, ray, hit, kYellow, media);
+    if (!met.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);
-    Media behind = media;
-    if (medium) front ? behind.enter(point.instance, *medium) : behind.leave(point.instance);
-    if (!medium || (front ? behind : media).filling() == point.instance)
-      share *= material.classic(point, kPrimaries).transmission;
+    if (met.changes_filling) share *= met.material->classic(met.point, kPrimaries).transmission;
     if (share.is_zero()) return {};
-    media = behind;
-    mix(static_cast<uint64_t>(point.instance) << 32 | static_cast<uint32_t>(point.face));
+    media = met.behind;
+    mix(static_cast<uint64_t>(met.point.instance) << 32 | static_cast<uint32_t>(met.point.face));
     const Vec3 before = ray.origin;
-    world_.leave(point, ray.direction, ray);
+    world_.leave(met.far_side(), ray.direction, ray);
     ray.t_max -= glm::dot(ray.origin - before, ray.direction);
   }
   return {};
@@ -424,7 +406,7 @@ class ClassicIntegrator final : public Integrator {
   RaySample sample(const World& world, const Ray& ray, const Hit& first, SampleStream& random, bool whole) const {
     RaySample sample;
     Tracer tracer(world, options_, reference_depth(world, ray), random, sample, whole);
-    sample.radiance = tracer.radiance(ray, first, Media(), 0, kWhite, 0);
+    sample.radiance = tracer.radiance(ray, first, media_at_origin(world, ray, kYellow), 0, kWhite, 0);
     return sample;
   }
   double reference_depth(const World& world, const Ray& ray) const {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/surfaces/plane.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy_parts.h"
 
@@ -65,7 +66,7 @@ Hierarchy::~Hierarchy() = default;
 
 void Hierarchy::add(Leaf given) {
   Parts& p = *parts_;
-  Box3 box;
+  Box3& box = given.box;
   if (given.mesh) box = given.mesh->bounds();
   if (given.shape) box = given.shape->bounds();
   for (const auto& target : given.targets)
@@ -259,6 +260,24 @@ Hierarchy::Place Hierarchy::place(int instance) const {
   result.error *= geometry::largest_stretch(record.to_parent);
   if (record.object >= 0) result.object = record.object;
   return result;
+}
+
+Box3 Hierarchy::bounds(int instance) const {
+  const Place at = place(instance);
+  if (at.to_world) return transformed(at.leaf->box, *at.to_world);
+  if (at.leaf->box.bounded() || at.leaf->box.empty()) return at.leaf->box;
+  // A ground under a scene has no more of a box than its height.
+  Box3 box;
+  for (const auto& target : at.leaf->targets) {
+    const auto* plane = dynamic_cast<const geometry::Plane*>(&target->surface());
+    if (!plane) return Box3::everything();
+    const geometry::Frame& frame = plane->frame();
+    Box3 flat = Box3::everything();
+    for (int k = 0; k < 3; ++k)
+      if (frame.x[k] == 0 && frame.y[k] == 0) flat.lo[k] = flat.hi[k] = frame.origin[k];
+    box.include(flat);
+  }
+  return box.empty() ? Box3::everything() : box;
 }
 
 int Hierarchy::leaf_count() const { return parts_->leaf_count; }

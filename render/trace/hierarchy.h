@@ -37,7 +37,8 @@ struct Leaf {
   uint32_t visible_to = kVisibleToAll;
   int object = 0;
   // Set by Hierarchy::add.
-  double size = 0;  // diameter of its box, 1 for unbounded leaves
+  Box3 box;
+  double size = 0;  // diameter of the box, 1 for unbounded leaves
   // By target: its surface if the nearest hits on it come without parameters and its foot tells all that is shown.
   std::vector<const geometry::Surface*> feet;
 };
@@ -68,8 +69,8 @@ class Hierarchy {
   // The same for each of as many rays.
   void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
   bool gains_by_lists() const;  // of rays
-  // In order of t, one for each crossing of each leaf.
-  std::vector<Hit> all_hits(const Ray& ray) const;
+  // In order of t, one for each crossing of each leaf, in place of what `hits` held.
+  void all_hits(const Ray& ray, std::vector<Hit>& hits) const;
 
   // The leaf that a hit belongs to, the map from its space to this hierarchy's, and the number of the object that the
   // outermost instance or leaf was added for.
@@ -85,7 +86,8 @@ class Hierarchy {
   Place place(int instance) const;
 
   int leaf_count() const;
-  Box3 bounds() const;  // of the bounded leaves
+  Box3 bounds() const;              // of the bounded leaves
+  Box3 bounds(int instance) const;  // of one leaf
   Vec3 center() const;
   double radius() const;
   size_t piece_count() const;

@@ -340,8 +340,10 @@ bool Hierarchy::occluded(const Ray& ray, const Obstacles& among) const {
   return query.found;
 }
 
-std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
-  std::vector<Hit> found;
+void Hierarchy::all_hits(const Ray& ray, std::vector<Hit>& result) const {
+  static thread_local std::vector<Hit> found;  // its room is kept
+  found.clear();
+  result.clear();
   Query query(ray);
   begin(query, ray);
   query.all = &found;
@@ -350,7 +352,6 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
     return a.instance != b.instance ? a.instance < b.instance : comes_before(a, b);
   });
   // Neighbours of one leaf report a crossing on their common border twice.
-  std::vector<Hit> result;
   for (size_t first = 0, last; first < found.size(); first = last) {
     for (last = first; last < found.size() && found[last].instance == found[first].instance;) ++last;
     if (last == first + 1) {
@@ -385,7 +386,6 @@ std::vector<Hit> Hierarchy::all_hits(const Ray& ray) const {
     for (const geometry::SurfaceHit& h : hits) result.push_back(found[h.face]);
   }
   std::sort(result.begin(), result.end(), comes_before);
-  return result;
 }
 
 }  // namespace lekalo::render

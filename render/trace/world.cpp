@@ -30,6 +30,14 @@ namespace {
 // Rounding of a hit's position in double, relative to the coordinates that went into it.
 constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
+// Boxes nearer to each other than this part of the scene's size and place may hold surfaces that rays do not tell
+// apart: more than the clearance of rays that leave a mesh.
+constexpr double kContact = 1e-5;
+// Pairs of boxes that are compared: more would be felt; rays look for themselves then.
+constexpr size_t kMostPairs = 10'000'000;
+// Boxes of clear bodies that are asked for every ray of the eye.
+constexpr size_t kMostMedia = 32;
+
 // Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
 // this only keeps shapes of some pixels round and the way from a facet to its surface short enough for one step.
 constexpr double kMeshAngle = 10 * geometry::kPi / 180;
@@ -87,7 +95,6 @@ struct World::Compiled {
   std::vector<Place> places;
   std::vector<const Object*> objects;  // by the number that hits carry
   WorldStatistics statistics;
-  bool transmits = false;
   bool parameters = true;
   std::map<ShareKey, int> uses;
   std::map<ShareKey, std::shared_ptr<Hierarchy>> shared;
@@ -337,13 +344,51 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   c.list_places();
   for (const Object* object : c.objects)
     for (const Material* material : {object->material.get(), object->back_material.get()})
-      c.transmits = c.transmits || (material && material->transmits());
+      transmits_ = transmits_ || (material && material->transmits());
+  if (transmits_) list_contacts();
   c.statistics.pieces = c.top.piece_count();
   c.statistics.triangles = c.top.triangle_count();
   c.statistics.hierarchy_bytes = std::max(device_memory(), embree_before) - embree_before;
   c.statistics.bytes = c.top.memory();
   for (const auto& [key, child] : c.shared) c.statistics.bytes += child->memory();
   c.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Where bodies of some substance are, and where others may touch them.
+void World::list_contacts() {
+  const Hierarchy& top = compiled_->top;
+  const auto count = static_cast<size_t>(top.leaf_count());
+  const auto has_medium = [&](size_t leaf) {
+    const Object& object = *compiled_->objects[top.place(static_cast<int>(leaf)).object];
+    return object.material && object.material->interior(Wavelengths()).has_value();
+  };
+  std::vector<size_t> media;
+  for (size_t i = 0; i < count; ++i)
+    if (has_medium(i)) media.push_back(i);
+  if (media.size() * count > kMostPairs) {
+    media_ = {Box3::everything()};
+    return;
+  }
+  std::vector<Box3> boxes(count);
+  for (size_t i = 0; i < count; ++i) boxes[i] = top.bounds(static_cast<int>(i));
+  contacts_.resize(count);
+  for (const size_t i : media) {
+    media_.push_back(boxes[i]);
+    for (size_t k = 0; k < count; ++k) {
+      if (k == i || boxes[k].empty()) continue;
+      const auto margin = kContact * (top.radius() + glm::length(top.center()));
+      const Box3 box = boxes[k].inflated(margin), common{glm::max(boxes[i].lo, box.lo), glm::min(boxes[i].hi, box.hi)};
+      if (!common.empty()) contacts_[i].include(common.inflated(margin));
+    }
+  }
+  if (media_.size() <= kMostMedia) return;
+  Box3 all;
+  for (const Box3& box : media_) all.include(box);
+  media_ = {all};
+}
+
+bool World::may_be_in_medium(const Vec3& place) const {
+  return std::any_of(media_.begin(), media_.end(), [&](const Box3& box) { return box.contains(place); });
 }
 
 World::~World() = default;
@@ -357,8 +402,12 @@ void World::occluded(std::span<const Ray> rays, const Obstacles& among, std::spa
   compiled_->top.occluded(rays, among, occluded);
 }
 bool World::gains_by_lists() const { return compiled_->top.gains_by_lists(); }
-std::vector<Hit> World::all_hits(const Ray& ray) const { return compiled_->top.all_hits(ray); }
-bool World::has_transmitting_materials() const { return compiled_->transmits; }
+std::vector<Hit> World::all_hits(const Ray& ray) const {
+  std::vector<Hit> hits;
+  all_hits(ray, hits);
+  return hits;
+}
+void World::all_hits(const Ray& ray, std::vector<Hit>& hits) const { compiled_->top.all_hits(ray, hits); }
 WorldStatistics World::statistics() const { return compiled_->statistics; }
 Vec3 World::center() const { return compiled_->top.center(); }
 double World::radius() const { return compiled_->top.radius(); }
@@ -377,7 +426,7 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
   const bool outward = glm::dot(side, point.geometric_normal) >= 0;
   const Vec3 normal = outward ? point.geometric_normal : -point.geometric_normal;
-  ray.origin = (outward ? point.smooth_position : point.position) + 4 * point.error * normal;
+  ray.origin = (outward ? point.smooth_position : point.position) + clearance(point) * normal;
   ray.left_instance = point.instance;
   ray.left_face = point.face;
   ray.left_piece = point.piece;

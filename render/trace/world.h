@@ -59,13 +59,15 @@ class World {
   void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
   // True if lists of rays are found faster than their rays one by one.
   bool gains_by_lists() const;
-  // All hits in order of t, one for each crossing.
+  // All hits in order of t, one for each crossing; the second form puts them in place of what `hits` held.
   std::vector<Hit> all_hits(const Ray& ray) const;
+  void all_hits(const Ray& ray, std::vector<Hit>& hits) const;
 
   // Position, normals and derivatives at a hit; `ray` is the one that found it.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
-  // Lets the ray begin at the point, on the given side of it, clear of the point's error bound.
+  // Lets the ray begin at the point, on the given side of it, clear of the point's error bound: at `clearance`.
   void leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const;
+  static double clearance(const SurfacePoint& point) { return 4 * point.error; }
 
   // The object that a point belongs to, which may stand in a group.
   const Object& object(const SurfacePoint& point) const;
@@ -73,7 +75,13 @@ class World {
   const std::vector<const Object*>& objects() const;
   const Material& material(const SurfacePoint& point, bool front) const;
   // True if some material lets light through, so that what occludes may only tint.
-  bool has_transmitting_materials() const;
+  bool has_transmitting_materials() const { return transmits_; }
+  // False if nothing else can be at the place of a point of a body of some substance; only asked of these.
+  bool may_be_in_contact(const SurfacePoint& point) const {
+    return contacts_.empty() || contacts_[point.instance].contains(point.position);
+  }
+  // False if the place is in no body of some substance.
+  bool may_be_in_medium(const Vec3& place) const;
   const Model& model() const { return *model_; }
   // The lights that are somewhere, and the sum I_a of the ambient ones.
   const std::vector<LightPtr>& lamps() const { return lamps_; }
@@ -84,10 +92,16 @@ class World {
   double radius() const;
 
  private:
+  void list_contacts();
+
   struct Compiled;
   std::shared_ptr<const Model> model_;
   std::vector<LightPtr> lamps_;
   Spectrum ambient_;
+  bool transmits_ = false;
+  std::vector<geometry::Box3>
+      contacts_;                       // by instance: where its box meets others'; none at all where that is not known
+  std::vector<geometry::Box3> media_;  // hold all bodies of some substance
   std::unique_ptr<Compiled> compiled_;
 };
 

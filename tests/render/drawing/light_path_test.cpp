@@ -63,6 +63,26 @@ TEST(LightPath, IsReflectedTotallyAndFollowsTheMirrorRayIfAsked) {
   EXPECT_EQ(light_path(*world, path).size(), 2u);
 }
 
+// Blocks that touch: from one straight into the other, the sines times the indices being the same.
+TEST(LightPath, GoesFromOneBlockIntoTheNext) {
+  SmallScene scene;
+  for (const double z : {0.0, 1.0}) {
+    Frame frame;
+    frame.origin = {-10, -10, z};
+    scene.add(std::make_shared<Body>(box(frame, {20, 20, 1})), glass(z == 0 ? 1.9 : 1.4));
+  }
+  scene.model.camera = make_camera(ParallelView{{0, 0, 9}, {0, 0, 0}, {0, 1, 0}, 4}, 64, 64);
+  LightPath path;
+  path.from = {-1, 0, 3}, path.direction = glm::normalize(Vec3(1, 0, -1));
+  const std::vector<Vec3> corners = light_path(*scene.world(), path);
+  ASSERT_EQ(corners.size(), 5u);
+  const double sine = std::sqrt(0.5);
+  const auto run = [&](double index) { return sine / std::sqrt(index * index - sine * sine); };
+  EXPECT_NEAR(corners[2].x, run(1.4), 1e-7);
+  EXPECT_NEAR(corners[3].x, run(1.4) + run(1.9), 1e-7);
+  EXPECT_LT(glm::length(glm::normalize(corners[4] - corners[3]) - path.direction), 1e-7);
+}
+
 TEST(LightPath, EndsOnWhatIsMatt) {
   const auto world = world_of(ball(Frame(), 1), make_material(ClassicLook()));
   LightPath path;

@@ -1,0 +1,127 @@
+#include "render/integrators/boundary.h"
+
+#include <algorithm>
+
+namespace lekalo::render {
+
+namespace {
+
+// Where a ray meets a boundary at a flatter angle than of this sine, surfaces that lie on one another are looked for no
+// further along it: it would take in what is really behind them.
+constexpr double kFlattest = 1.0 / 64;
+
+struct Crossing {
+  double t;
+  SurfacePoint point;
+  bool front;
+  const Material* material;      // of the side that is met
+  std::optional<Medium> medium;  // of the body whose surface it is
+};
+
+// Length of the ray that is lost between a surface and the place behind it where rays that leave it begin.
+double lost_length(const Ray& ray, const SurfacePoint& point) {
+  return World::clearance(point) / std::max(std::abs(glm::dot(ray.direction, point.geometric_normal)), kFlattest);
+}
+
+}  // namespace
+
+void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths,
+                        Media& media) {
+  // Their room is kept. No ray is traced while they are in use.
+  static thread_local std::vector<Hit> hits;
+  static thread_local std::vector<Crossing> crossings;
+  crossings.clear();
+  crossings.push_back({hit.t, point, front, material, front_material_->interior(wavelengths)});
+  Ray stretch = ray;
+  // Of meshes the nearest hit is not always the first one.
+  stretch.t_min = std::max(ray.t_min, hit.t - lost_length(ray, point));
+  double end = hit.t + lost_length(ray, point);
+  do {  // further, as long as something is found whose own neighbourhood goes on
+    stretch.t_max = end;
+    world.all_hits(stretch, hits);
+    crossings.resize(1);
+    bool has_met_first = false;
+    for (const Hit& h : hits) {
+      if (h.instance == hit.instance && !has_met_first) {
+        has_met_first = true;
+        continue;
+      }
+      Crossing c{h.t, world.surface_point(ray, h), false, nullptr, {}};
+      c.front = glm::dot(ray.direction, c.point.geometric_normal) < 0;
+      c.medium = world.material(c.point, true).interior(wavelengths);
+      c.material = &world.material(c.point, c.front);
+      // Not seen from behind.
+      if (!c.front && c.material->classic(c.point, wavelengths).catches_shadows) continue;
+      end = std::max(end, h.t + lost_length(ray, c.point));
+      crossings.push_back(c);
+    }
+  } while (end > stretch.t_max);
+  if (crossings.size() == 1) return;
+  std::stable_sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+
+  // What lets no light through is all that is seen, and as from within what lies on it.
+  for (const Crossing& c : crossings) {
+    if (c.medium && c.material->transmits()) continue;
+    others_.emplace(crossings.front().point, crossings.back().point);
+    point = c.point;
+    front = c.front;
+    show(world);
+    changes_filling = true;
+    behind = media;
+    return;
+  }
+
+  // A body whose surface is crossed both ways here, at an edge, is left as it was.
+  const auto turns = [&](int32_t instance) {
+    int sum = 0;
+    for (const Crossing& c : crossings)
+      if (c.point.instance == instance) sum += c.front ? 1 : -1;
+    return sum;
+  };
+  for (const Crossing& c : crossings)
+    if (turns(c.point.instance) < 0 && !media.is_inside(c.point.instance)) media.enter(c.point.instance, *c.medium);
+  behind = media;
+  for (const Crossing& c : crossings)
+    if (turns(c.point.instance) < 0) behind.leave(c.point.instance);
+  for (const Crossing& c : crossings)
+    if (turns(c.point.instance) > 0) behind.enter(c.point.instance, *c.medium);
+  const int32_t before = media.filling(), after = behind.filling();
+  changes_filling = before != after;
+
+  // Of two bodies that touch the one of the higher priority shows its surface, of equal ones the earlier; so it is the
+  // same one from both sides.
+  const Crossing* shown = nullptr;
+  for (const Crossing& c : crossings) {
+    const int32_t body = c.point.instance;
+    if (body != (c.front ? after : before) || (c.front ? turns(body) <= 0 : turns(body) >= 0)) continue;
+    if (!shown || c.medium->priority > shown->medium->priority ||
+        (c.medium->priority == shown->medium->priority && body < shown->point.instance))
+      shown = &c;
+  }
+  others_.emplace(crossings.front().point, crossings.back().point);
+  if (!shown) return;
+  point = shown->point;
+  front = shown->front;
+  show(world);
+}
+
+Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths) {
+  Media media;
+  if (!world.may_be_in_medium(ray.origin)) return media;
+  std::vector<Hit> hits;
+  world.all_hits(ray, hits);
+  std::vector<int32_t> met;
+  std::vector<std::pair<int32_t, Medium>> around;  // the innermost first
+  for (const Hit& hit : hits) {
+    if (std::find(met.begin(), met.end(), hit.instance) != met.end()) continue;
+    met.push_back(hit.instance);
+    const SurfacePoint point = world.surface_point(ray, hit);
+    if (glm::dot(ray.direction, point.geometric_normal) < 0) continue;
+    if (const auto medium = world.material(point, true).interior(wavelengths))
+      around.emplace_back(hit.instance, *medium);
+  }
+  for (auto i = around.rbegin(); i != around.rend(); ++i) media.enter(i->first, i->second);
+  return media;
+}
+
+}  // namespace lekalo::render

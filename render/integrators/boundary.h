@@ -1,0 +1,57 @@
+// A place where a ray meets surfaces: one, or several that lie on one another, as water and the glass that holds it do,
+// or a block of glass and the table under it. What lies nearer to a surface than rays that leave it begin
+// (World::leave) would never be met; so it is all taken at once, as one boundary, and the order in which rounding puts
+// it is of no matter (docs/internals/light.md).
+#pragma once
+
+#include "render/integrators/media.h"
+#include "render/trace/world.h"
+
+namespace lekalo::render {
+
+class Boundary {
+ public:
+  // What the ray meets at the hit. `media`: around the ray's origin; a body that is left but was never entered is
+  // added, for the ray has begun inside of it. Indices of refraction are those at the first of the wavelengths.
+  Boundary(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media)
+      : point(world.surface_point(ray, hit)), front(glm::dot(ray.direction, point.geometric_normal) < 0) {
+    show(world);
+    if (!world.has_transmitting_materials()) return;
+    const std::optional<Medium> medium = front_material_->interior(wavelengths);
+    if (medium && !front && !media.is_inside(point.instance)) media.enter(point.instance, *medium);
+    behind = media;
+    if (!medium) return;
+    front ? behind.enter(point.instance, *medium) : behind.leave(point.instance);
+    changes_filling = (front ? behind : media).filling() == point.instance;
+    if (world.may_be_in_contact(point)) take_all(world, ray, hit, wavelengths, media);
+  }
+  Boundary(const Boundary&) = delete;
+  Boundary& operator=(const Boundary&) = delete;
+
+  SurfacePoint point;                  // of the surface that shows
+  bool front;                          // it shows its front
+  const Material* material = nullptr;  // of the side that shows
+  Media behind;                        // around what goes on straight
+  // False for a surface inside of a substance that fills both its sides: none for light.
+  bool changes_filling = true;
+
+  // The points that rays leave to the side from which the boundary was met, and to the other one.
+  const SurfacePoint& near_side() const { return others_ ? others_->first : point; }
+  const SurfacePoint& far_side() const { return others_ ? others_->second : point; }
+
+ private:
+  void show(const World& world) {
+    const Object& object = world.object(point);
+    front_material_ = object.material.get();
+    material = front || !object.back_material ? front_material_ : object.back_material.get();
+  }
+  void take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media);
+
+  const Material* front_material_ = nullptr;
+  std::optional<std::pair<SurfacePoint, SurfacePoint>> others_;  // where there are several: the first and the last
+};
+
+// The media that a ray begins in: of the bodies that it leaves before it enters them, the one left last entered first.
+Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths);
+
+}  // namespace lekalo::render
