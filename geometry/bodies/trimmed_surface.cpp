@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/bodies/construct.h"
@@ -22,9 +23,61 @@ constexpr int kSides = 32;
 
 std::string text_of(const Vec2& p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
 
+// A part of a curve of the parameter plane.
+struct Arc {
+  Arc(const Curve& curve, const Interval& t) : curve(&curve), t(t), a(curve.point(t.lo)), b(curve.point(t.hi)) {
+    // A curve lies no farther from its chord than by max |r''| (t1 - t0)^2 / 8.
+    const Box3 second = curve.enclose(t, 2).d[2];
+    const Vec3 most = glm::max(glm::abs(second.lo), glm::abs(second.hi));
+    bulge = std::hypot(most.x, most.y) * t.width() * t.width() / 8;
+    if (!std::isfinite(bulge)) bulge = curve.enclose(t, 0).d[0].diameter();
+  }
+
+  const Curve* curve;
+  Interval t;
+  Vec2 a, b;     // its ends
+  double bulge;  // it lies this near its chord
+};
+
+double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 side = b - a;
+  const double square = glm::dot(side, side);
+  const double share = square > 0 ? std::clamp(glm::dot(p - a, side) / square, 0.0, 1.0) : 0;
+  return glm::length(p - a - share * side);
+}
+
+// Whether p and q lie on different sides of a line.
+bool parts(const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
+  const double at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
+  return (at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0);
+}
+
+// True if the arcs certainly cross. Those that only touch do not, nor those that part again within `touch`; `depth`
+// halvings of both tell nearly all others. Arcs cross if their chords do, and no end of one comes as near to the chord
+// of the other as that one's arc.
+bool cross(const Arc& s, const Arc& r, double touch, int depth) {
+  const double of_s = distance(s.a, r.a, r.b), of_s_end = distance(s.b, r.a, r.b), of_r = distance(r.a, s.a, s.b),
+               of_r_end = distance(r.b, s.a, s.b);
+  const bool chords_cross = parts(s.a, s.b, r.a, r.b) && parts(r.a, r.b, s.a, s.b);
+  if (!chords_cross && std::min(std::min(of_s, of_s_end), std::min(of_r, of_r_end)) > s.bulge + r.bulge) return false;
+  if (chords_cross && std::min(of_s, of_s_end) > r.bulge + touch && std::min(of_r, of_r_end) > s.bulge + touch)
+    return true;
+  if (depth == 0 || s.bulge + r.bulge == 0) return false;
+  const auto halves = [](const Arc& arc) {
+    const double middle = arc.t.middle();
+    return std::array{Arc(*arc.curve, {arc.t.lo, middle}), Arc(*arc.curve, {middle, arc.t.hi})};
+  };
+  const auto of_r_halves = halves(r);
+  for (const Arc& first : halves(s))
+    for (const Arc& second : of_r_halves)
+      if (cross(first, second, touch, depth - 1)) return true;
+  return false;
+}
+
 struct Loop2 {
   std::vector<Body::Use> uses;  // edges are numbers of curves
   std::vector<Vec2> polygon;    // closed: the last goes on with the first
+  std::vector<Arc> arcs;        // that the sides of the polygon stand for
   Box3 box;                     // of the polygon
   double area = 0;              // positive where it runs counterclockwise
   int depth = 0;                // loops around it
@@ -191,18 +244,19 @@ class Trimming {
 
   void outline(Loop2& loop) const {
     for (const Body::Use& use : loop.uses) {
-      std::vector<Vec2> points;
+      std::vector<Arc> arcs;
       for (const CurvePiece& piece : use.image->pieces()) {
         const int sides = piece.is_rational() && piece.degree() == 1 ? 1 : kSides;
-        for (int i = 0; i < sides; ++i)
-          points.push_back(Vec2(use.image->point(piece.domain.lo + piece.domain.width() * i / sides)));
+        const auto at = [&](int i) {
+          return i == sides ? piece.domain.hi : piece.domain.lo + piece.domain.width() * i / sides;
+        };
+        for (int i = 0; i < sides; ++i) arcs.emplace_back(*use.image, Interval{at(i), at(i + 1)});
       }
-      if (!use.forward) {
-        points.erase(points.begin());
-        points.push_back(Vec2(use.image->point(use.image->domain().hi)));
-        std::reverse(points.begin(), points.end());
+      if (!use.forward) std::reverse(arcs.begin(), arcs.end());
+      for (const Arc& arc : arcs) {
+        loop.polygon.push_back(use.forward ? arc.a : arc.b);
+        loop.arcs.push_back(arc);
       }
-      loop.polygon.insert(loop.polygon.end(), points.begin(), points.end());
     }
     for (const Vec2& p : loop.polygon) loop.box.include(Vec3(p, 0));
     const Vec2 o = loop.polygon[0];
@@ -212,36 +266,30 @@ class Trimming {
     }
   }
 
-  // Sides in the order of u; those that overlap in u are compared.
+  // Arcs in the order of u; those that overlap in u are compared.
   void check_crossings() const {
     struct Side {
-      Vec2 a, b;
-      size_t loop, number;
-      double lo() const { return std::min(a.x, b.x); }
-      double hi() const { return std::max(a.x, b.x); }
+      const Arc* arc;
+      size_t loop;
+      Box3 box;
     };
     std::vector<Side> sides;
-    for (size_t k = 0; k < loops_.size(); ++k) {
-      const std::vector<Vec2>& p = loops_[k].polygon;
-      for (size_t i = 0; i < p.size(); ++i) sides.push_back({p[i], p[(i + 1) % p.size()], k, i});
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.lo() < b.lo(); });
-    // Whether p and q lie on different sides of a line.
-    const auto parts = [](const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
-      const double at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
-      return (at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0);
-    };
+    for (size_t k = 0; k < loops_.size(); ++k)
+      for (const Arc& arc : loops_[k].arcs) {
+        Box3 box;
+        box.include(Vec3(arc.a, 0));
+        box.include(Vec3(arc.b, 0));
+        sides.push_back({&arc, k, box.inflated(arc.bulge)});
+      }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.box.lo.x < b.box.lo.x; });
+    constexpr int kHalvings = 8;  // to arcs of a thousandth of a circle
+    const double touch = kClosedCurve * size_;
     for (size_t i = 0; i < sides.size(); ++i) {
       const Side& s = sides[i];
-      for (size_t j = i + 1; j < sides.size() && sides[j].lo() <= s.hi(); ++j) {
+      for (size_t j = i + 1; j < sides.size() && sides[j].box.lo.x <= s.box.hi.x; ++j) {
         const Side& r = sides[j];
-        if (std::max(r.a.y, r.b.y) < std::min(s.a.y, s.b.y) || std::min(r.a.y, r.b.y) > std::max(s.a.y, s.b.y))
-          continue;
-        if (!parts(s.a, s.b, r.a, r.b) || !parts(r.a, r.b, s.a, s.b)) continue;
-        // Where one curve goes on with the next rounding may make neighbours cross.
-        const size_t apart = s.number > r.number ? s.number - r.number : r.number - s.number;
-        if (s.loop == r.loop && (apart == 1 || apart + 1 == loops_[s.loop].polygon.size())) continue;
-        const std::string place = text_of(0.25 * (s.a + s.b + r.a + r.b));
+        if (r.box.lo.y > s.box.hi.y || r.box.hi.y < s.box.lo.y || !cross(*s.arc, *r.arc, touch, kHalvings)) continue;
+        const std::string place = text_of(0.25 * (s.arc->a + s.arc->b + r.arc->a + r.arc->b));
         const auto loop_name = [&](const Side& side) { return name(loops_[side.loop].uses[0].edge); };
         if (s.loop == r.loop)
           throw TrimError(fmt::format("the loop that begins with {} crosses itself near {}", loop_name(s), place), "");
@@ -269,14 +317,10 @@ class Trimming {
         throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
   }
 
-  static double distance(const Vec2& p, const std::vector<Vec2>& polygon) {
+  static double distance_of(const Vec2& p, const std::vector<Vec2>& polygon) {
     double least = kInfinity;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 a = polygon[i], side = polygon[(i + 1) % polygon.size()] - a;
-      const double square = glm::dot(side, side);
-      const double share = square > 0 ? std::clamp(glm::dot(p - a, side) / square, 0.0, 1.0) : 0;
-      least = std::min(least, glm::length(p - a - share * side));
-    }
+    for (size_t i = 0; i < polygon.size(); ++i)
+      least = std::min(least, distance(p, polygon[i], polygon[(i + 1) % polygon.size()]));
     return least;
   }
 
@@ -291,7 +335,7 @@ class Trimming {
     for (size_t i = 0; i < inner.polygon.size(); ++i) {
       const Vec2 &a = inner.polygon[i], &b = inner.polygon[(i + 1) % inner.polygon.size()];
       for (const Vec2& p : {a, 0.5 * (a + b)}) {
-        const double off = distance(p, outer.polygon);
+        const double off = distance_of(p, outer.polygon);
         if (off <= on_border) continue;
         const bool in = is_in(p, outer.polygon);
         ++(in ? inside : outside);

@@ -250,9 +250,10 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     const int count = light->sample_count();
     const bool jittered = light->is_jittered();
     const bool shadows = options_.shadows != ShadowMode::none && light->casts_shadows();
-    // What a cone of light brings is known; the samples only take away what is hidden. Without a shadow there is no
-    // noise.
+    // What a cone of light brings is known, and each of its samples brings the same share of that: where nothing or
+    // all of it is hidden there is no noise.
     std::optional<ConeLight> cone;
+    Spectrum all_of_cone;
     if (diffuse && jittered && seen.normal == seen.smooth_normal) cone = light->cone(seen.point.position);
     if (cone) {
       const double mean_cosine = cone->mean_cosine(glm::dot(seen.normal, cone->axis));
@@ -260,9 +261,8 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         mix(4);
         continue;
       }
-      const Spectrum all = static_cast<float>(mean_cosine) * kOverPi * cone->irradiance;
-      sum.unobstructed += all;
-      sum.diffuse += all;
+      all_of_cone = static_cast<float>(mean_cosine) * kOverPi * cone->irradiance;
+      sum.unobstructed += all_of_cone;
     }
     Obstacles obstacles;
     if (shadows && count > 1)
@@ -274,22 +274,33 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     const bool asks_first = !tinted_ || media.filling() < 0;
     const bool clear = !shadows || (obstacles.none() && asks_first);
     if (clear && cone && !specular) {
+      sum.diffuse += all_of_cone;
       for (int i = 0; i < count; ++i) mix(6);
       continue;
     }
     // A sample, whose ray shadow_ray becomes; none if it matters to nothing. (Inline: twice called, it would not be.)
     const auto take = [&](int i) __attribute__((always_inline))->std::optional<Taken> {
-      const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
-      const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
-      Taken taken{.cosine = glm::dot(seen.normal, sample.direction)};
-      if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero())
-        return Taken();
+      Taken taken;
+      LightSample sample;
+      if (cone) {
+        sample.direction = cone->direction(seen.normal, i, random_);
+        sample.distance = cone->distance_along(sample.direction);
+        taken.cosine = glm::dot(seen.normal, sample.direction);
+        if (!(taken.cosine > 0)) return Taken();
+        taken.light_per_pi = static_cast<float>(1 / (count * taken.cosine)) * all_of_cone;
+      } else {
+        const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
+        sample = light->sample(seen.point.position, i, r.x, r.y);
+        taken.cosine = glm::dot(seen.normal, sample.direction);
+        if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero())
+          return Taken();
+        taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
+      }
       // R.V with R = 2 (m.L) m - L and V = -d
       const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(sample.direction, ray.direction);
       // Beside diffuse light no float shows what of a highlight is below e^-20, and alone none is as small as e^-104:
       // cos^n <= e^(-n (1 - cos)).
       const bool is_lost = c.exponent * (1 - cos_alpha) > (diffuse ? 20 : 104);
-      taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       if (specular && !is_lost) {
         taken.lobe = phong_lobe(cos_alpha, c.exponent);
         taken.highlight = static_cast<float>(taken.lobe) * (c.specular * taken.light_per_pi).largest();
@@ -313,7 +324,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       // A highlight jitters with the places on the light.
       if (jittered && (!cone || visible != kWhite || taken.highlight > kGrain)) sample_.noisy = true;
       if (whole_) mix(visible.is_zero() ? 5 : 6);
-      sum.diffuse += static_cast<float>(taken.cosine) * ((cone ? visible - kWhite : visible) * taken.light_per_pi);
+      sum.diffuse += static_cast<float>(taken.cosine) * (visible * taken.light_per_pi);
       if (taken.lobe != 0) sum.specular += static_cast<float>(taken.lobe) * (visible * taken.light_per_pi);
     };
     if (count == 1 || clear || !asks_first || !world_.gains_by_lists()) {

@@ -36,7 +36,7 @@ class DistantLamp final : public Light {
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3&) const override {
     if (!is_jittered()) return std::nullopt;
-    return ConeLight{frame_.z, sine_, irradiance_.at(1)};
+    return ConeLight{frame_.z, sine_, irradiance_.at(1), kInfinity, light_.sampling.n};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }

@@ -76,4 +76,41 @@ double ConeLight::mean_cosine(double axis_cosine) const {
   return std::max(0.0, (c >= 0 ? kPi * c * square + g - h : g + h) / solid_angle);
 }
 
+Vec3 ConeLight::direction(const Vec3& normal, int index, SampleStream& random) const {
+  const Vec2 jitter = random.next_pair();
+  SampleStream others = random;  // a copy, so that each sample takes one pair
+  const double height = glm::dot(axis, normal);
+  Vec3 along = axis - height * normal;  // from the normal towards the axis, in the surface's plane
+  const double slant = glm::length(along);
+  along = slant > 1e-9 ? along / slant : frame_about(Vec3(0), normal).x;
+  const Vec3 across = glm::cross(normal, along);
+  const auto at = [&](double x, double y) {
+    return x * along + y * across + std::sqrt(std::max(0.0, 1 - x * x - y * y)) * normal;
+  };
+  Vec2 square = area_sample({parts, false}, index, jitter.x, jitter.y);
+  const double cosine = std::sqrt(1 - sine * sine);
+  if (height >= sine) {
+    const Vec2 disc = concentric_disc(square);
+    return at(cosine * slant + height * sine * disc.x, sine * disc.y);
+  }
+  // Half the angle about the normal under which the part above the horizon is seen, and its least distance from it.
+  const double half =
+      height > 0 ? (sine < slant ? std::asin(sine / slant) : kPi) : std::acos(std::min(1.0, cosine / slant));
+  const double least = height > 0 && sine >= slant ? 0 : slant * cosine - height * sine, inner = least * least;
+  constexpr int kMostTries = 100;  // half of them succeed
+  Vec3 direction = axis;
+  for (int i = 0; i < kMostTries; ++i, square = others.next_pair()) {
+    const double angle = (2 * square.x - 1) * half, radius = std::sqrt(inner + square.y * (1 - inner));
+    direction = at(radius * std::cos(angle), radius * std::sin(angle));
+    if (glm::dot(direction, axis) >= cosine) break;
+  }
+  return direction;
+}
+
+double ConeLight::distance_along(const Vec3& direction) const {
+  if (distance == kInfinity) return kInfinity;
+  const double along = distance * glm::dot(axis, direction), radius = sine * distance;
+  return along - std::sqrt(std::max(0.0, radius * radius - (distance * distance - along * along)));
+}
+
 }  // namespace lekalo::render

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "render/samplers/sampler.h"
 #include "render/spectrum.h"
 
 namespace lekalo::render {
@@ -23,15 +24,28 @@ struct LightSample {
   double weight = 1;    // of this sample among those of the light; sums to 1 over all samples
 };
 
-// The light of a source that fills a round cone of directions evenly, as a matt surface receives it if nothing is in
-// the way: without the noise of samples.
+// The light of a source that fills a round cone of directions evenly, as a matt surface receives it. If nothing is in
+// the way it is known without the noise of samples; and of samples that stand as close as the surface takes their light
+// in each brings the same, so that there is no noise in full shadow either.
 struct ConeLight {
-  Vec3 axis{0, 0, 1};   // unit, towards the middle of the source
-  double sine = 0;      // of half its opening, which is less than pi
-  Spectrum irradiance;  // of LightSample, the same for all directions of the cone
+  Vec3 axis{0, 0, 1};                     // unit, towards the middle of the source
+  double sine = 0;                        // of half its opening, which is less than pi
+  Spectrum irradiance;                    // of LightSample, the same for all directions of the cone
+  double distance = geometry::kInfinity;  // of the middle of the ball that the source is
+  int parts = 1;                          // n of the n x n samples to take
+
   // Mean over the cone of max(0, cosine of the angle from the normal), the angle between axis and normal having the
   // given cosine (Snyder, "Area light sources for real-time graphics", 1996).
   double mean_cosine(double axis_cosine) const;
+  // Direction of sample `index` of n x n, random in its part of the cone, of a density as the cosine of the angle from
+  // the normal. mean_cosine() must not be 0.
+  //
+  // Cosine times solid angle is area of the projection to the surface's plane (Nusselt). That of a cone above the
+  // horizon is an ellipse. Of one that the horizon cuts it lies between two circles and two radii about the normal,
+  // and places among these that are not in it are drawn anew.
+  Vec3 direction(const Vec3& normal, int index, SampleStream& random) const;
+  // To the source, from the point that sees it, along one of its directions.
+  double distance_along(const Vec3& direction) const;
 };
 
 class Light {

@@ -38,7 +38,8 @@ class SphereLamp final : public Light {
     const Vec3 to_center = light_.center - point;
     const double distance = glm::length(to_center);
     if (distance <= light_.radius || !is_jittered()) return std::nullopt;
-    return ConeLight{to_center / distance, light_.radius / distance, irradiance_.at(distance)};
+    return ConeLight{to_center / distance, light_.radius / distance, irradiance_.at(distance), distance,
+                     light_.sampling.n};
   }
   Box3 places() const override {
     return {light_.center - Vec3(light_.radius * (1 + 1e-12)), light_.center + Vec3(light_.radius * (1 + 1e-12))};

@@ -211,6 +211,35 @@ TEST(ClassicIntegrator, SphericalLightHasUmbraAndPenumbra) {
   EXPECT_NEAR(visible(1.6819265754924004 + 1e-3), 1, 1e-6);
 }
 
+// Neither in full shadow nor in full light is there any noise, whether the light stands high or the horizon cuts it.
+TEST(ClassicIntegrator, SoftLightsAreWithoutNoiseButInPenumbras) {
+  for (const double slant : {10.0, 60.0, 85.0, 95.0})
+    for (const bool hidden : {false, true}) {
+      SmallScene scene;
+      ClassicLook look;
+      look.ambient = look.specular = 0.0;
+      look.diffuse = 1.0;
+      scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(look));
+      if (hidden)
+        scene.add(sphere({0, 0, 0}, 4), make_material(look));
+      else
+        scene.add(sphere({0, 0, -9}, 4), make_material(look));  // something that may stand in the way
+      const DistantLight sun{-in_xz(slant), 30 * kDegree, {.n = 1}};
+      scene.light(sun);
+      const auto world = scene.world();
+      const double mean = make_light(sun)->cone(Vec3(0))->mean_cosine(std::cos(slant * kDegree));
+      for (uint32_t i = 0; i < 100; ++i) {
+        Ray ray;
+        ray.origin = {0.01 * i, 0.3, 1}, ray.direction = {0, 0, -1};
+        SampleStream random(i, 0, 0, 1, 0);
+        Hit first;
+        ASSERT_TRUE(world->nearest(ray, first));
+        const double light = world->model().integrator->trace(*world, ray, first, random).radiance[0];
+        EXPECT_NEAR(light, hidden ? 0 : mean, hidden ? 0 : kFloat) << slant;
+      }
+    }
+}
+
 TEST(ClassicIntegrator, PenumbraOfAnEdgeIsAsWideAsTheLightSeenThroughIt) {
   // Light of size 0.2 at height 6, edge of a half-plane at height 1, receiver at 0: width 0.2 * 1 / 5 = 0.04.
   SmallScene scene;

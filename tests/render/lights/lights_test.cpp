@@ -146,6 +146,40 @@ TEST(Lights, ConeAboveAndBelowTheHorizonBringsTheMeanOfItsSamples) {
     }
 }
 
+// Directions are as close as the cosine: means over them are those of samples that fill the cone evenly, weighted with
+// the cosine. Cones above the horizon, cut by it, and about the normal.
+TEST(Lights, DirectionsOfAConeAreAsCloseAsTheirCosines) {
+  SampleStream random(1, 2, 0, 1, 3);
+  for (const double half : {0.1, 0.6, 1.3})
+    for (const double slant : {0.0, 0.05, 0.5, 1.0, 1.4, 1.57, 1.65, 2.1, 2.8}) {
+      if (slant - half >= 0.5 * kPi - 1e-3) continue;  // below the horizon
+      const Vec3 axis(0.6 * std::sin(slant), 0.8 * std::sin(slant), std::cos(slant)), normal(0, 0, 1);
+      const LightPtr light = make_light(DistantLight{-axis, 2 * half, {.n = 24}});
+      const ConeLight cone = *light->cone(Vec3(0));
+      Vec3 sum(0), squares(0), weighted(0), weighted_squares(0);
+      double weights = 0;
+      const int rounds = 40, count = light->sample_count();
+      for (int k = 0; k < rounds; ++k)
+        for (int i = 0; i < count; ++i) {
+          const Vec3 d = cone.direction(normal, i, random);
+          ASSERT_NEAR(glm::length(d), 1, 1e-12);
+          ASSERT_GE(d.z, 0);
+          ASSERT_GE(glm::dot(d, axis), std::cos(half) - 1e-12);
+          sum += d, squares += d * d;
+          const Vec2 jitter = random.next_pair();
+          const Vec3 even = light->sample(Vec3(0), i, jitter.x, jitter.y).direction;
+          const double weight = std::max(0.0, even.z);
+          weights += weight;
+          weighted += weight * even, weighted_squares += weight * even * even;
+        }
+      const double all = rounds * count;
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(sum[k] / all, weighted[k] / weights, 3e-3) << half << " " << slant << " " << k;
+        EXPECT_NEAR(squares[k] / all, weighted_squares[k] / weights, 3e-3) << half << " " << slant << " " << k;
+      }
+    }
+}
+
 TEST(Lights, AmbientLightIsTakenOnce) {
   const LightPtr ambient = make_light(AmbientLight{{1, 0.5, 0.25}, 2});
   EXPECT_EQ(ambient->sample_count(), 0);
