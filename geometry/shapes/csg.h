@@ -23,12 +23,17 @@ class Csg final : public Shape {
  public:
   enum class Operation { unite, intersect, subtract };
 
+  // A tree of more leaves takes too much memory; one name used twice in each of twenty operations has a million.
+  static constexpr int kMostLeaves = 100'000;
+
   // The operands, at least one, must be closed; subtract takes all others from the first. Throws std::invalid_argument
-  // for an open operand, and where nothing can be left since the operands' boxes do not meet.
+  // for an open operand, for more than kMostLeaves, and where nothing can be left since the operands' boxes do not meet.
   Csg(Operation operation, const std::vector<ShapePtr>& operands);
 
   Operation operation() const { return nodes_[0].operation; }
   const std::vector<ShapePtr>& operands() const { return operands_; }
+  // Of the whole tree: operands that are no operations themselves.
+  int leaf_count() const { return static_cast<int>(leaves_.size()); }
 
   Box3 bounds() const override { return nodes_[0].box; }
   // The parameters of hits on leaves with closed forms are zero; point() finds them.
@@ -66,7 +71,6 @@ class Csg final : public Shape {
   struct Search;
 
   ShapePoint point_of(const SurfaceHit& hit, const Vec3& near, bool parameters) const;
-  int leaf_count() const { return static_cast<int>(leaves_.size()); }
   int append(const ShapePtr& operand, int parent, bool taken_away, bool turned);
   void finish(Node& node);
   // Adds the crossings of all leaves and convex nodes that may matter where t is in the range, and returns where in it

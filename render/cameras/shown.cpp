@@ -19,7 +19,7 @@ namespace {
 constexpr int kSteps = 32;        // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
 constexpr int kStepsOfParts = 8;  // of surfaces that are cut: lines find what is between
 constexpr int kNarrowings = 80;   // by golden section: 0.618^80 of a step is below rounding
-constexpr size_t kMostObjects = 500;  // with grids of their own
+constexpr size_t kMostObjects = 500;  // and parts of a solid, with grids of their own
 
 void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) {
   if (box.empty() || !box.bounded()) return;
@@ -129,33 +129,56 @@ void add_met_by_lines(const Shape& shape, const Affine& map, std::vector<Vec3>& 
   }
 }
 
-// Of a solid that is put together: of a union what all parts show, else what is left of the parts' points, and where
-// they are cut.
-void add_solid(const Shape& shape, const Affine& map, std::vector<Vec3>& points, int steps = kSteps) {
+// A point of a solid's part, and the middle of that part.
+struct PartPoint {
+  Vec3 point, middle;
+};
+
+// Of all parts of a solid but those that it takes away. Of a part no more than its box if `steps` is 0.
+void add_parts(const Shape& shape, const Affine& map, std::vector<PartPoint>& points, int steps) {
+  if (const auto* moved = dynamic_cast<const TransformedShape*>(&shape))
+    return add_parts(*moved->original(), map * moved->map(), points, steps);
+  if (const auto* solid = dynamic_cast<const Csg*>(&shape)) {
+    const size_t parts = solid->operation() == Csg::Operation::subtract ? 1 : solid->operands().size();
+    for (size_t k = 0; k < parts; ++k) add_parts(*solid->operands()[k], map, points, steps);
+    return;
+  }
+  if (!shape.bounds().bounded()) return;
+  std::vector<Vec3> own;
+  if (steps == 0)
+    add_corners(shape.bounds(), map, own);
+  else if (const auto* body = dynamic_cast<const BodyShape*>(&shape))
+    add_body(*body->body(), map, own, steps);
+  else
+    add_met_by_lines(shape, map, own);
+  const Vec3 middle = map.point(shape.bounds().center());
+  for (const Vec3& p : own) points.push_back({p, middle});
+}
+
+// Of a solid that is put together: of a union what all operands show, else what is left of its parts' points, and where
+// it is cut.
+void add_solid(const Shape& shape, const Affine& map, std::vector<Vec3>& points, int steps) {
   if (const auto* moved = dynamic_cast<const TransformedShape*>(&shape))
     return add_solid(*moved->original(), map * moved->map(), points, steps);
-  if (const auto* body = dynamic_cast<const BodyShape*>(&shape)) return add_body(*body->body(), map, points, steps);
   const auto* solid = dynamic_cast<const Csg*>(&shape);
-  if (!solid) return add_met_by_lines(shape, map, points);
-  if (solid->operation() == Csg::Operation::unite) {
+  if (solid && solid->operation() == Csg::Operation::unite) {
     for (const ShapePtr& operand : solid->operands()) add_solid(*operand, map, points, steps);
     return;
   }
-  constexpr double kInwards = 1e-6;  // of the way to a part's middle: from a point of its surface into it
-  const size_t parts = solid->operation() == Csg::Operation::subtract ? 1 : solid->operands().size();
-  for (size_t k = 0; k < parts; ++k) {
-    const Shape& part = *solid->operands()[k];
-    if (!part.bounds().bounded()) continue;
-    std::vector<Vec3> own;
-    add_solid(part, Affine(), own, kStepsOfParts);
-    for (const Vec3& p : own)
-      if (solid->bounds().contains(p) && is_inside(glm::mix(p, part.bounds().center(), kInwards), *solid))
-        points.push_back(map.point(p));
+  std::vector<PartPoint> parts;
+  add_parts(shape, Affine(), parts, solid ? std::min(steps, kStepsOfParts) : steps);
+  if (!solid) {
+    for (const PartPoint& part : parts) points.push_back(map.point(part.point));
+    return;
   }
+  constexpr double kInwards = 1e-6;  // of the way to a part's middle: from a point of its surface into it
+  for (const auto& [p, middle] : parts)
+    if (solid->bounds().contains(p) && is_inside(glm::mix(p, middle, kInwards), *solid)) points.push_back(map.point(p));
   add_met_by_lines(*solid, map, points);
 }
 
-bool is_put_together(const Shape& shape) {
+// The solid that is put together, if the shape is one.
+const Csg* put_together(const Shape& shape) {
   const auto* moved = dynamic_cast<const TransformedShape*>(&shape);
   return dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
 }
@@ -172,8 +195,8 @@ void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
   } else if (const auto* body = std::get_if<BodyPtr>(&entity)) {
     add_body(**body, map, points);
   } else if (const auto* shape = std::get_if<ShapePtr>(&entity)) {
-    if (bounds(**shape).bounded() && is_put_together(**shape))
-      add_solid(**shape, map, points);
+    if (const Csg* solid = put_together(**shape); solid && bounds(**shape).bounded())
+      add_solid(**shape, map, points, solid->leaf_count() <= static_cast<int>(kMostObjects) ? kSteps : 0);
     else
       add_corners(bounds(entity), map, points);
   } else if (const auto* mesh = std::get_if<MeshPtr>(&entity)) {

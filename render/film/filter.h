@@ -7,6 +7,9 @@
 
 namespace lekalo::render {
 
+// Of the radius, in pixels.
+inline constexpr double kLeastFilterRadius = 0.5, kMostFilterRadius = 16;
+
 class Filter {
  public:
   virtual ~Filter() = default;
@@ -24,8 +27,8 @@ class Filter {
 
 // box: 1 within the radius (0.5). gaussian: e^(-d^2/(2 s^2)) less its value at the radius (1.5), s = radius/3.
 // mitchell: the cubic of Mitchell and Netravali (1988) with B = C = 1/3, stretched to the radius (2).
-// radius 0 stands for the radius in parentheses. Throws std::invalid_argument for another name or a radius outside
-// [0.5, 16].
+// radius 0 stands for the radius in parentheses. Throws std::invalid_argument for another name or a radius outside of
+// the range above.
 std::unique_ptr<const Filter> make_filter(const std::string& name, double radius);
 
 }  // namespace lekalo::render

@@ -21,7 +21,9 @@ using geometry::SurfacePtr;
 
 namespace {
 
-constexpr int kDeepestNesting = 64;  // inline maps and references
+// Inline maps and references. Each takes kilobytes of the stack, and of solids made of solids each has all leaves below
+// it.
+constexpr int kDeepestNesting = 256;
 
 bool contains(std::span<const Category> categories, Category category) {
   return std::find(categories.begin(), categories.end(), category) != categories.end();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/cameras/cameras.h"
+#include "render/film/filter.h"
 #include "render/scene/builder.h"
 #include "render/scene/panels.h"
 #include "render/scene/scalars.h"
@@ -160,6 +161,13 @@ void Builder::build_film(const Fields& image, Model& model) {
   if (image.has("layers")) film.layers = image.get<std::vector<std::string>>("layers");
   film.seed = static_cast<uint32_t>(image.integer("seed"));
   model.background = rgb(image.vec3("background"));
+  const Value* given = section("image");
+  if (film.filter_radius > 0 && film.filter_radius < kLeastFilterRadius)
+    diagnostics_.error(given->find("filter_radius")->place,
+                       fmt::format("the filter reaches less than {} pixels: it would miss samples", kLeastFilterRadius),
+                       fmt::format("from {} to {}, or 0 for the filter's own", kLeastFilterRadius, kMostFilterRadius));
+  if (!model.background.is_finite())
+    diagnostics_.error(given->find("background")->place, "too bright: pictures hold numbers up to 3.4e38");
   if (image.has("margin")) model.paper.margin = image.number("margin");
 }
 

@@ -341,6 +341,31 @@ TEST(TrimmedSurface, HolesOnBorders) {
   }
 }
 
+// Circles that touch from within or from beside, anywhere on them, are no circles that cross; those that reach over by
+// less than chords are off arcs are.
+TEST(TrimmedSurface, LoopsThatTouch) {
+  const auto plane = std::make_shared<Plane>(Frame{}, Rectangle{{-4, 4}, {-4, 4}});
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> even(0, 1);
+  for (int k = 0; k < 25; ++k) {
+    const double angle = 2 * kPi * even(random), radius = 0.2 + 0.7 * even(random);
+    const auto circle_off = [&](double distance, double r) {
+      return circle_at(distance * std::cos(angle), distance * std::sin(angle), r);
+    };
+    const std::vector<CurvePtr> within{circle_at(0, 0, 1), circle_off(1 - radius, radius)},
+        beside{circle_at(0, 0, 1), circle_off(1 + radius, radius)};
+    ASSERT_EQ(error_of(plane, within), "none") << k;
+    EXPECT_NEAR(measure(trimmed_surface(plane, within)).area.value, kPi * (1 - radius * radius), 1e-11) << k;
+    ASSERT_EQ(error_of(plane, beside), "none") << k;
+    EXPECT_NEAR(measure(trimmed_surface(plane, beside)).area.value, kPi * (1 + radius * radius), 1e-11) << k;
+    for (const double over : {1e-4, 1e-5})
+      for (const double distance : {1 - radius + over, 1 + radius - over})
+        EXPECT_EQ(error_of(plane, {circle_at(0, 0, 1), circle_off(distance, radius)}).substr(0, 54),
+                  "the loops that begin with curve 0 and curve 1 cross ne")
+            << k << " " << over;
+  }
+}
+
 TEST(TrimmedSurface, ErrorsSayWhichLoopAndWhere) {
   const auto plane = std::make_shared<Plane>(Frame{}, Rectangle{{-2, 2}, {-2, 2}});
   const auto segment = [](const Vec3& a, const Vec3& b) { return std::make_shared<Segment>(a, b); };

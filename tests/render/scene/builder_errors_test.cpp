@@ -139,6 +139,23 @@ TEST(BuilderErrors, AbsurdSizes) {
             "3:21 more than 1000000 repetitions\n");
 }
 
+// Solids of solids by names: many are good, and those that would take all memory are errors.
+TEST(BuilderErrors, SolidsOfSolids) {
+  const auto chain = [](int count, const char* of) {
+    std::string text = "geometry:\n  n0: { type: box, size: [1, 1, 1] }\n";
+    for (int i = 1; i <= count; ++i)
+      text += "  n" + std::to_string(i) + ": { type: union, of: [n" + std::to_string(i - 1) + ", " +
+              (*of ? of : "n" + std::to_string(i - 1)) + "] }\n";
+    return text;
+  };
+  const char* const ball = "{ type: ball, radius: 0.1 }";
+  EXPECT_EQ(said(chain(200, ball) + "objects: [n200]"), "");
+  EXPECT_NE(said(chain(400, ball)).find("things inside things more than 256 deep"), std::string::npos);
+  const std::string doubled = said(chain(30, ""));
+  EXPECT_EQ(doubled.substr(0, doubled.find('\n')),
+            "20:27 it has more than 100000 parts, those of its operands' operands counted");
+}
+
 TEST(BuilderErrors, MissingFields) {
   EXPECT_EQ(about("{ type: bezier_curve }"), "3:6 missing field 'points' of 'bezier_curve'\n");
   EXPECT_EQ(about("{ radius: 1 }"),
@@ -299,6 +316,13 @@ TEST(BuilderErrors, CameraPictureAndOutputs) {
   EXPECT_EQ(said("outputs: [a.jpg, { file: b.png, exposre: 1 }, c.png]"),
             "2:11 'a.jpg' has an unknown ending\n"
             "2:33 unknown field 'exposre' of an output (did you mean 'exposure'?)\n");
+}
+
+TEST(BuilderErrors, FiltersAndBackgrounds) {
+  EXPECT_EQ(said("image: { filter_radius: 0.1 }"),
+            "2:25 the filter reaches less than 0.5 pixels: it would miss samples\n");
+  EXPECT_EQ(said("image: { background: [1e40, 0, 0] }"), "2:22 too bright: pictures hold numbers up to 3.4e38\n");
+  EXPECT_EQ(said("image: { filter_radius: 0.5, background: [1e30, 0, 0] }"), "");
 }
 
 TEST(BuilderErrors, AllErrorsOfAFileInOneRun) {
