@@ -24,6 +24,8 @@ constexpr double kSamePlace = 1e-13;
 constexpr double kModelError = 2e-15;
 // The longest last step of the search, of the radius: what it leaves is the square of that on s, and of no account.
 constexpr double kLastStep = 1e-6;
+// Longer steps, of the same, are not Newton's.
+constexpr double kNewtonStep = 0.1;
 // Enough for any curve that can be drawn.
 constexpr size_t kMostCells = size_t{1} << 20;
 
@@ -162,8 +164,11 @@ struct Critical {
   // Newton's, or all the way down.
   double step(double to_lo, double to_hi) const { return d > 0 ? -n / d : n > 0 ? to_lo : to_hi; }
   // True if the square of the step is of no account.
-  bool is_close(double step, double radius) const {
-    return d > 0 && root > 0 && std::abs(step) * speed <= kLastStep * std::min(radius, root);
+  bool is_close(double step, double radius) const { return is_within(kLastStep, step, radius); }
+  // True if Newton's iteration converges from here.
+  bool is_near(double step, double radius) const { return is_within(kNewtonStep, step, radius); }
+  bool is_within(double part, double step, double radius) const {
+    return d > 0 && root > 0 && std::abs(step) * speed <= part * std::min(radius, root);
   }
   // The end of the ball's interval, moved by a step of Newton's iteration.
   double s(const Profile& p, double step) const {
@@ -171,10 +176,22 @@ struct Critical {
   }
 };
 
+// The step to the minimum of b - sqrt(g) for the parabola and the straight line that touch g and a; none for a parabola
+// that opens upward.
+double step_to_model(const Profile& p, int sign) {
+  const double k = -0.5 * p.g2;
+  if (!(k > 0)) return 0;
+  const double top = std::max(0.0, p.g + p.g1 * p.g1 / (4 * k));
+  return p.g1 / (2 * k) - sign * p.a1 * std::sqrt(top / (k * (k + p.a1 * p.a1)));
+}
+
 // How far above its value a function can get within `width`, from its slope there and its largest second derivative.
 double farthest_up(double slope, double second, double width) {
   return second < 0 && slope < -second * width ? -0.5 * slope * slope / second : (slope + 0.5 * second * width) * width;
 }
+
+// That of g far from the line, where g is known by its top: beside it a thin tube's R^2 may be nothing.
+double rounding_of_g(double distance) { return 16 * std::numeric_limits<double>::epsilon() * distance * distance; }
 
 // Bounds on them over the parameters within h of there.
 struct Range {
@@ -204,7 +221,8 @@ struct Range {
     g1 = about(p.g1, most_g2 * h);
     // Below the parabola of the largest g'' that touches in the middle, above that of the least.
     const double slope = std::abs(p.g1);
-    g = {p.g - farthest_up(slope, -g2.lo, h), p.g + farthest_up(slope, g2.hi, h)};
+    const double rounding = rounding_of_g(f0 + off0);
+    g = {p.g - farthest_up(slope, -g2.lo, h) - rounding, p.g + farthest_up(slope, g2.hi, h) + rounding};
     root = {std::sqrt(std::max(0.0, g.lo)), std::sqrt(std::max(0.0, g.hi))};
   }
 
@@ -271,15 +289,18 @@ class CellSolver {
   }
 
   // The minimum of b - sqrt(g), b = sign a, over the one stretch in t: the place where N = b' sqrt(g) - g'/2 changes
-  // its sign, which is that of -g' where g < 0. Newton's iteration inside a bracket; false if there is no stretch.
-  // second: the largest g''.
+  // its sign, which is that of -g' where g < 0. Steps inside a bracket: near the place Newton's; else those to the
+  // minimum of a model, for Newton's are far too short where a line nearly runs along the curve. False if there is no
+  // stretch. second: the largest g''.
   bool extreme(int sign, const Interval& t, const Profile& at_middle, double second, SpanEnd& end) const {
-    double lo = t.lo, hi = std::min(t.hi, last_), x = std::clamp(start(sign, t, at_middle), lo, hi);
+    double lo = t.lo, hi = std::min(t.hi, last_), x = std::clamp(t.middle() + step_to_model(at_middle, sign), lo, hi);
     bool lo_tried = false, hi_tried = false;
-    constexpr int kMostSteps = 100;
+    constexpr int kMostSteps = 200, kHalving = 10;  // every tenth step halves the bracket, if all others fail
     for (int step = 0; step < kMostSteps; ++step) {
       const Profile p(line_, ball(x));
-      if (p.g < 0 && p.g + farthest_up(std::abs(p.g1), second, p.g1 > 0 ? hi - x : x - lo) < 0) return false;
+      if (p.g < 0 &&
+          p.g + farthest_up(std::abs(p.g1), second, p.g1 > 0 ? hi - x : x - lo) < -rounding_of_g(glm::length(p.across)))
+        return false;
       const Critical critical(p, sign);
       const bool at_end = (x == lo && !lo_tried && critical.n >= 0) || (x == hi && !hi_tried && critical.n <= 0);
       const bool narrow = lo_tried && hi_tried && !(hi - lo > 4e-16 * (std::abs(lo) + std::abs(hi)));
@@ -294,19 +315,13 @@ class CellSolver {
         lo = x, lo_tried = true;
       else
         hi = x, hi_tried = true;
+      if (p.g2 < 0 && !critical.is_near(next - x, cell_.least_radius)) next = x + step_to_model(p, sign);
+      if (step % kHalving == kHalving - 1) next = 0.5 * lo + 0.5 * hi;
       next = std::clamp(next, lo, hi);
       if ((next == lo && lo_tried) || (next == hi && hi_tried)) next = 0.5 * lo + 0.5 * hi;
       x = next;
     }
     return false;
-  }
-
-  // Where the minimum is for the parabola and the straight line that touch g and a in the middle.
-  static double start(int sign, const Interval& t, const Profile& p) {
-    const double k = -0.5 * p.g2;
-    if (!(k > 0)) return t.middle();
-    const double top = std::max(0.0, p.g + p.g1 * p.g1 / (4 * k));
-    return t.middle() + p.g1 / (2 * k) - sign * p.a1 * std::sqrt(top / (k * (k + p.a1 * p.a1)));
   }
 
   const BallSweep& sweep_;

@@ -248,6 +248,58 @@ std::function<SweptBall(long double)> polynomial_ball(const std::vector<Vec3>& p
   };
 }
 
+// A line that nearly runs along a thin tube meets it far from where it passes the curve: the distance from the curve is
+// the truth.
+TEST(Tube, ThinRingsMeetLinesThatNearlyRunAlongThem) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double radius : {1e-2, 1e-4, 1e-6}) {
+    const Tube tube(std::make_shared<Circle>(Frame{}, 1), RadiusLaw(radius), Caps::round);
+    int missed = 0;
+    double worst = 0;
+    for (int k = 0; k < tests::tier_count(1000000); ++k) {
+      const double angle = kTwoPi * unit(random), away = std::pow(10, -2 * unit(random));
+      const Vec3 out(std::cos(angle), std::sin(angle), 0), along(-out.y, out.x, 0);
+      const Vec3 direction = glm::normalize(along + away * checks::random_direction(random));
+      const Line line{out + 0.9 * radius * checks::random_direction(random), direction};
+      std::vector<SurfaceHit> hits;
+      tube.all_hits(line, Interval::entire(), hits);
+      missed += hits.size() < 2 || hits.size() % 2 != 0;
+      for (const SurfaceHit& hit : hits) {
+        const Vec3 p = line.at(hit.t);
+        worst = std::max(worst, std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - radius));
+      }
+    }
+    EXPECT_EQ(missed, 0) << radius;
+    EXPECT_LT(worst, 1e-14) << radius;
+  }
+}
+
+// Beside the squares of distances along a thin tube the square of its radius is nothing but rounding: whether a line
+// meets it is decided by the distance between two straight lines.
+TEST(Tube, ThinRodsAreNotMissed) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const Vec3 axis = Vec3(1, 2, 2) / 3.0;
+  for (const double radius : {1e-5, 1e-7, 1e-8}) {
+    const Tube rod(segment(Vec3(0), Vec3(1, 2, 2)), RadiusLaw(radius), Caps::round);
+    int wrong = 0, met = 0;
+    for (int k = 0; k < tests::tier_count(1000000); ++k) {
+      const Vec3 near = (1.5 + unit(random)) * axis + 1.5 * radius * unit(random) * checks::random_direction(random);
+      const Line line{near, checks::random_direction(random)};
+      const Vec3 across = glm::normalize(glm::cross(line.direction, axis));
+      const double distance = std::abs(glm::dot(line.origin, across)) / radius;
+      if (std::abs(distance - 1) < 1e-3) continue;
+      std::vector<SurfaceHit> hits;
+      rod.all_hits(line, Interval::entire(), hits);
+      wrong += hits.size() != (distance < 1 ? 2 : 0);
+      met += distance < 1;
+    }
+    EXPECT_EQ(wrong, 0) << radius;
+    EXPECT_GT(met, 1000) << radius;
+  }
+}
+
 TEST(Tube, HelicesMeetLinesWhereTheOracleSays) {
   const auto helix = formula({"cos(t)", "sin(t)", "0.12*t"}, {0, 12});
   compare(swept("helix", helix, RadiusLaw(0.2), 0.2,
