@@ -114,6 +114,7 @@ class Body {
 using BodyPtr = std::shared_ptr<const Body>;
 
 Box3 bounds(const Body& body);
+Box3 bounds(const Body& body, int face);
 
 // The body under an affine map; a negative determinant turns faces and loops so that it stays outward-oriented.
 Body transformed(const Body& body, const Affine& map);

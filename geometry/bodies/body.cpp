@@ -132,4 +132,12 @@ Box3 bounds(const Body& body) {
   return box;
 }
 
+Box3 bounds(const Body& body, int face) {
+  Box3 box;
+  include_face(body, body.faces[face], box);
+  for (int loop : body.faces[face].loops)
+    for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.edges[body.coedges[coedge].edge].curve));
+  return box;
+}
+
 }  // namespace lekalo::geometry

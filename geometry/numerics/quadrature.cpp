@@ -136,7 +136,7 @@ class Adaptive {
     const Interval& side = cell.split_u ? cell.u : cell.v;
     const bool splittable = side.width() > 64 * kEpsilon * magnitude(side);
     for (int k = 0; k < count_ && splittable; ++k) {
-      if (cell.error[k] > 101 * kEpsilon * cell.size[k]) {
+      if (cell.error[k] > std::max(101 * kEpsilon * cell.size[k], goal_.noise * cell.size[0])) {
         cell.priority = std::max(cell.priority, cell.error[k] / goal_of(k));
       }
     }
@@ -144,7 +144,8 @@ class Adaptive {
   }
 
   double goal_of(int k) const {
-    return std::max({goal_.absolute, goal_.relative * size_[k], std::numeric_limits<double>::min()});
+    return std::max(
+        {goal_.absolute, goal_.relative * size_[k], goal_.noise * size_[0], std::numeric_limits<double>::min()});
   }
   // Also when an integrand was not finite: nothing can mend that.
   bool done() const {
@@ -174,7 +175,7 @@ class Adaptive {
     result_.converged = true;
     for (int k = 0; k < count_; ++k) {
       result_.value[k] += lost[k];
-      const double goal = std::max(goal_.absolute, goal_.relative * size[k]);
+      const double goal = std::max({goal_.absolute, goal_.relative * size[k], goal_.noise * size[0]});
       if (!std::isfinite(result_.value[k])) result_.value[k] = std::numeric_limits<double>::quiet_NaN();
       if (!(result_.error[k] <= goal)) result_.converged = false;
     }

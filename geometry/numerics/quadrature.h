@@ -23,12 +23,14 @@ struct GaussRule {
 GaussRule gauss_legendre(int n);
 
 // When to stop. Integrand i is done when its estimated error is at most
-// max(absolute, relative * integral of |f_i|); against |f_i|, so that an integral which is zero by symmetry has an end
-// too.
+// max(absolute, relative * integral of |f_i|, noise * integral of |f_0|); against |f_i|, so that an integral which is
+// zero by symmetry has an end too, and against the first integrand for those that are its multiples by something whose
+// rounding is known: what is nothing but that rounding never gets better.
 struct IntegrationGoal {
   double absolute = 0;
   double relative = 1e-11;    // not below about 1e-14, which rounding cannot reach
   int evaluations = 1000000;  // of the integrand, at most (about: a last cell is finished)
+  double noise = 0;
 };
 
 // `error` estimates the absolute error of `value`, integrand by integrand. The estimate compares the 7-point Gauss with

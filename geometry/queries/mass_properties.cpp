@@ -23,11 +23,17 @@ namespace {
 constexpr int kAreaIntegrals = 4;
 constexpr int kAllIntegrals = 14;
 
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
 // The origin and unit of length that integrals are taken in.
 struct Scale {
   Vec3 origin;
   double unit;
-  explicit Scale(const Box3& box) : origin(box.center()), unit(box.diameter() > 0 ? 0.5 * box.diameter() : 1.0) {}
+  double rounding;  // of a coordinate, in the unit: far from the world's origin lengths have fewer figures
+  explicit Scale(const Box3& box)
+      : origin(box.center()),
+        unit(box.diameter() > 0 ? 0.5 * box.diameter() : 1.0),
+        rounding(kEpsilon * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) / unit) {}
   // Of integral k of the list above, in this unit.
   double factor(int k) const {
     const int power = k == 0 ? 2 : k < 5 ? 3 : k < 8 ? 4 : 5;
@@ -35,8 +41,12 @@ struct Scale {
   }
 };
 
+double area_element(const SurfaceJet& jet, const Scale& scale) {
+  return glm::length(glm::cross(jet.du(), jet.dv())) / (scale.unit * scale.unit);
+}
+
 void area_integrands(const SurfaceJet& jet, const Scale& scale, std::span<double> values) {
-  const double element = glm::length(glm::cross(jet.du(), jet.dv())) / (scale.unit * scale.unit);
+  const double element = area_element(jet, scale);
   const Vec3 r = (jet.point() - scale.origin) / scale.unit;
   values[0] = element;
   for (int k = 0; k < 3; ++k) values[1 + k] = element * r[k];
@@ -64,17 +74,30 @@ void set_centroid(const Integral& integral, const Scale& scale, Vec3& centroid, 
   const Vec3 moment(integral.value[1], integral.value[2], integral.value[3]);
   const Vec3 moment_error(integral.error[1], integral.error[2], integral.error[3]);
   centroid = scale.origin + scale.unit / size * moment;
-  error = scale.unit / size * (glm::length(moment_error) + glm::length(moment) / size * integral.error[0]);
+  error = scale.unit *
+          (scale.rounding + (glm::length(moment_error) + glm::length(moment) / size * integral.error[0]) / size);
 }
 
-SurfaceMeasures area_of(const Integral& integral, const Scale& scale) {
+// What the rounding of coordinates may change: an area about as much as its border moves, and all that follow, which
+// are integrals of coordinates over it.
+void add_rounding(Integral& integral, const Scale& scale, double diameter) {
+  const double area = integral.value[0];
+  integral.error[0] += scale.rounding * (2 * diameter / scale.unit + area);
+  for (size_t k = 1; k < integral.error.size(); ++k) integral.error[k] += scale.rounding * area;
+}
+
+SurfaceMeasures area_of(Integral integral, const Scale& scale) {
+  add_rounding(integral, scale, 2 * scale.unit);
   SurfaceMeasures result;
   result.area = {scale.factor(0) * integral.value[0], scale.factor(0) * integral.error[0]};
   set_centroid(integral, scale, result.centroid, result.centroid_error);
   return result;
 }
 
-IntegrationGoal goal(double accuracy) { return {0.1 * accuracy, accuracy, 2000000}; }
+// An integrand that is nothing but rounding seems to err as much as it is large, in either direction.
+IntegrationGoal goal(double accuracy, const Scale& scale) {
+  return {0.1 * accuracy, accuracy, 2000000, 4 * scale.rounding};
+}
 
 // From the integrals about `origin` to the properties about the centroid.
 MassProperties properties_of(const std::array<double, kAllIntegrals>& value,
@@ -87,6 +110,7 @@ MassProperties properties_of(const std::array<double, kAllIntegrals>& value,
   const Vec3 c = Vec3(value[5], value[6], value[7]) / volume;
   result.centroid = origin + c;
   result.centroid_error =
+      kEpsilon * glm::length(origin) +
       (glm::length(Vec3(error[5], error[6], error[7])) + glm::length(c) * error[4]) / std::abs(volume);
   const double xx = value[8] - volume * c.x * c.x, yy = value[9] - volume * c.y * c.y,
                zz = value[10] - volume * c.z * c.z;
@@ -130,7 +154,9 @@ CurveMeasures measure(const Curve& curve) {
     values[0] = speed;
     for (int k = 0; k < 3; ++k) values[1 + k] = speed * (jet.d[0][k] - scale.origin[k]) / scale.unit;
   };
-  const Integral integral = integrate(integrand, 4, smooth_breaks(curve, curve.domain()), goal(kMeasureAccuracy));
+  Integral integral = integrate(integrand, 4, smooth_breaks(curve, curve.domain()), goal(kMeasureAccuracy, scale));
+  integral.error[0] += 2 * scale.rounding;  // at its ends
+  for (int k = 1; k < 4; ++k) integral.error[k] += scale.rounding * integral.value[0];
   CurveMeasures result;
   result.length = {scale.unit * integral.value[0], scale.unit * integral.error[0]};
   result.centroid = scale.origin;
@@ -152,7 +178,8 @@ SurfaceMeasures measure(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("an unbounded surface has no area; give it a domain");
   const Scale scale(bounds(surface));
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
-  return area_of(integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy)), scale);
+  return area_of(integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale)),
+                 scale);
 }
 
 SurfaceMeasures measure_face(const Body& body, int face) {
@@ -161,7 +188,7 @@ SurfaceMeasures measure_face(const Body& body, int face) {
     for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.edges[body.coedges[coedge].edge].curve));
   const Scale scale(box);
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
-  return area_of(integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy)), scale);
+  return area_of(integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale)), scale);
 }
 
 namespace {
@@ -175,7 +202,8 @@ MassProperties measure(const Body& body, double accuracy) {
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { mass_integrands(jet, scale, values); };
   std::array<double, kAllIntegrals> value{}, error{};
   for (size_t face = 0; face < body.faces.size(); ++face) {
-    const Integral integral = integrate_over(body, static_cast<int>(face), integrands, kAllIntegrals, goal(accuracy));
+    Integral integral = integrate_over(body, static_cast<int>(face), integrands, kAllIntegrals, goal(accuracy, scale));
+    add_rounding(integral, scale, bounds(body, static_cast<int>(face)).diameter());
     for (int k = 0; k < kAllIntegrals; ++k) {
       const double sign = k < kAreaIntegrals ? 1 : outward(body.faces[face]);
       value[k] += sign * scale.factor(k) * integral.value[k];
@@ -189,12 +217,13 @@ MassProperties measure(const Body& body, double accuracy) {
 
 double signed_volume(const Body& body, int shell, double accuracy) {
   const Scale scale(bounds(body));
-  const auto integrand = [&](const SurfaceJet& jet, std::span<double> values) {
-    values[0] = volume_element(jet, scale) / 3;
+  const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) {
+    values[0] = area_element(jet, scale);
+    values[1] = volume_element(jet, scale) / 3;
   };
   double volume = 0;
   for (int face : body.shells[shell].faces)
-    volume += outward(body.faces[face]) * integrate_over(body, face, integrand, 1, goal(accuracy)).value[0];
+    volume += outward(body.faces[face]) * integrate_over(body, face, integrands, 2, goal(accuracy, scale)).value[1];
   return scale.factor(4) * volume;
 }
 

@@ -104,6 +104,21 @@ TEST(Quadrature, rectangles_split_where_it_is_needed) {
   EXPECT_LT(integral.evaluations, 225 * 40);  // only u is split
 }
 
+// An integrand that is nothing but the rounding of a factor ends where that is all its error, whatever its own size.
+TEST(Quadrature, known_noise_is_not_refined) {
+  const auto f = [](double x, std::span<double> values) {
+    const double far = 1e6 + 1e-3 * std::sin(12345 * x);
+    values[0] = std::exp(x);
+    values[1] = values[0] * (far - 1e6 - 1e-3 * std::sin(12345 * x));
+  };
+  const IntegrationGoal goal{0, 1e-12, 200000, 1e-9};
+  const Integral found = integrate(f, 2, Interval(0, 1), goal);
+  EXPECT_TRUE(found.converged);
+  EXPECT_LT(found.evaluations, 100);
+  EXPECT_NEAR(found.value[0], std::exp(1.0) - 1, 1e-14);
+  EXPECT_NEAR(found.value[1], 0, found.error[1]);
+}
+
 TEST(Quadrature, says_when_it_fails) {
   const Integral spent =
       integrate([](double x, std::span<double> f) { f[0] = std::sin(1 / x); }, 1, Interval(1e-9, 1), {0, 1e-14, 5000});

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/bodies/trimmed_surface.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/ellipse.h"
+#include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/tessellation/tessellate.h"
 
@@ -117,6 +119,35 @@ TEST(MassProperties, TorusOfTheBook) {
   expect_near(origin[0], {1073.3194786184677, -118.4352528130723, -177.6528792196085}, 1000);
   expect_near(origin[1], {-118.4352528130723, 895.6665993988593, -355.3057584392169}, 1000);
   expect_near(origin[2], {-177.6528792196085, -355.3057584392169, 873.4599894964082}, 1000);
+}
+
+// Coordinates of a million have ten digits less behind the point: the stated errors grow with them, and bound the true
+// ones. What is nothing but that rounding ends soon.
+TEST(MassProperties, FarFromTheOrigin) {
+  const auto expect_bounded = [](const Measured& found, double exact, double most) {
+    EXPECT_LE(std::abs(found.value - exact), found.error);
+    EXPECT_LE(found.error, most);
+  };
+  for (const double away : {0.0, 1e3, 1e6, 1e9}) {
+    const Vec3 at(away, -0.7 * away, 0.3 * away);
+    const double most = 1e-11 + 1e-14 * away;
+    const MassProperties block = measure(box(frame_from(at, {1, 2, 3}, {1, 0, 0}), {1, 2, 3}));
+    expect_bounded(block.area, 22, 4 * most);
+    expect_bounded(block.volume, 6, 4 * most);
+    const MassProperties round = measure(ball(Frame{at}, 1));
+    expect_bounded(round.area, 4 * kPi, 4 * most);
+    expect_bounded(round.volume, 4 * kPi / 3, 4 * most);
+    EXPECT_LE(glm::length(round.centroid - at), round.centroid_error);
+    const MassProperties cylinder = measure(frustum(frame_from(at, {1, 2, 3}, {1, 0, 0}), 0.7, 0.7, 1.3));
+    expect_bounded(cylinder.volume, kPi * 0.49 * 1.3, 4 * most);
+    // A ring of a plane: two of the three moments are nothing but rounding along some of its lines.
+    const auto plane = std::make_shared<Plane>(frame_from(at, {0.1, 0.2, 1}, {1, 0, 0}), Rectangle{{-2, 2}, {-2, 2}});
+    const auto hole = std::make_shared<Circle>(Frame{}, 0.5), rim = std::make_shared<Circle>(Frame{}, 1);
+    const Body ring = trimmed_surface(plane, {rim, hole});
+    const SurfaceMeasures flat = measure_face(ring, 0);
+    expect_bounded(flat.area, 0.75 * kPi, 4 * most);
+    EXPECT_LE(glm::length(flat.centroid - at), flat.centroid_error);
+  }
 }
 
 TEST(MassProperties, MeshesAreExactPolyhedra) {
