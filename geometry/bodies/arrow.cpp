@@ -92,7 +92,9 @@ TypeDeclaration arrow_body_type() {
           throw FieldError(f.has("head_length")   ? "head_length"
                            : f.has("head_radius") ? "head_radius"
                                                   : "radius",
-                           "the head is longer than the arrow", "make it shorter with 'head_length'");
+                           head_length > length ? "the head is longer than the arrow"
+                                                : "the head is as long as the arrow: nothing is left of the shaft",
+                           "make it shorter with 'head_length'");
         return std::make_shared<Body>(
             arrow_body(frame_about(from, glm::normalize(way)), length, radius, head_length, head_radius));
       });

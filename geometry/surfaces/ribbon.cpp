@@ -136,6 +136,19 @@ class Builder {
       refuse("the curve runs along this direction", t, "choose one across the curve", field);
     return glm::normalize(rest);
   }
+  // Near t too little is left of the fixed direction for the figures of the part across the curve. Newton's iteration
+  // leads to where the least is.
+  [[noreturn]] void refuse_near_along(double t) const {
+    const Vec3& d = direction_.fixed;
+    for (int i = 0; i < 20; ++i) {
+      const Tangent at = tangent(t);
+      const Vec3 off = glm::cross(at.unit, d), change = glm::cross(at.turn, d);
+      if (const double square = glm::dot(change, change); square > 0)
+        t = domain_.clamp(t - glm::dot(off, change) / square);
+    }
+    across(t, d, "across");
+    refuse("the curve runs nearly along this direction", t, "choose one across the curve", "across");
+  }
 
   // The kinds that are known at each place by itself.
   Vec3 direct(double t) const {
@@ -192,6 +205,7 @@ class Builder {
     if (t.width() <= kNarrowest * domain_.width()) {
       if (base_)
         refuse("the surface has a crease or a pole", t.middle(), "a ribbon lies flat on smooth surfaces", "on");
+      if (direction_.kind == RibbonKind::fixed) refuse_near_along(t.middle());
       refuse_straight(t.middle());
     }
     cut({t.lo, t.middle()}, w);

@@ -109,6 +109,9 @@ void check_caps(const Object& object) {
     if (std::holds_alternative<MeshPtr>(object.shape))
       throw FieldError(field, "a cap closes the cut of a body; a mesh from a file knows no inside",
                        "leave out 'cap', or build the shape as a body");
+    if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && (*shape)->is_closed())
+      throw FieldError(field, "a cap closes the cut of a body, and this shape is none",
+                       "leave out 'cap', or cut with an intersection with a half_space: that is closed by itself");
     throw FieldError(field, "a cap closes the cut of a body; this shape has no inside",
                      "leave out 'cap', or show a body in its place");
   }

@@ -174,6 +174,9 @@ TEST(Ribbon, RefusesCurvesWithoutDirections) {
             "across: the curve is straight and has no normal at");
   EXPECT_EQ(field_of(segment, 1, {RibbonKind::fixed, {0, 0, 1}}).substr(0, 46),
             "across: the curve runs along this direction at");
+  // A circle in the plane of the direction runs along it where its tangent, (-sin t, cos t), is (1, 0.3) or against it.
+  EXPECT_EQ(field_of(std::make_shared<Circle>(Frame(), 1), 1, {RibbonKind::fixed, {1, 0.3, 0}}),
+            "across: the curve runs along this direction at t = 1.86225");
   EXPECT_EQ(field_of(std::make_shared<NurbsCurve>(polyline(corners)), 1, {}), "of: the curve has a corner at t = 1");
   EXPECT_EQ(field_of(wave, 1, {RibbonKind::normal}), "across: the curve's normal jumps at t = 0");
   EXPECT_EQ(field_of(wave, 1, {}), "");

@@ -76,6 +76,19 @@ TEST(BuilderErrors, CapsAreForBodies) {
   EXPECT_EQ(shown(sphere, "[{ normal: x }, { normal: y, cap: false }]"), "");
   EXPECT_EQ(shown(sphere, "{ normal: x, cap: true }"),
             "2:80 a cap closes the cut of a body; this shape has no inside\n");
+  // Shapes that have an inside.
+  const std::string drilled =
+      "{ type: difference, of: { type: box, size: [1, 1, 1] }, minus: { type: ball, radius: 1 } }";
+  const std::string bar = "{ type: segment, from: [0, 0, 0], to: [1, 0, 0] }";
+  const auto tube = [&](const std::string& caps) {
+    return "{ type: tube, of: " + bar + ", radius: 0.1, caps: " + caps + " }";
+  };
+  EXPECT_EQ(shown(drilled, "{ normal: x, cap: true }"),
+            "2:132 a cap closes the cut of a body, and this shape is none\n");
+  EXPECT_EQ(shown(tube("flat"), "{ normal: x, cap: true }"),
+            "2:143 a cap closes the cut of a body, and this shape is none\n");
+  EXPECT_EQ(shown(tube("none"), "{ normal: x, cap: true }"),
+            "2:143 a cap closes the cut of a body; this shape has no inside\n");
   EXPECT_EQ(shown(sphere, "[{ normal: x }, { normal: y, cap: true }]"),
             "2:96 a cap closes the cut of a body; this shape has no inside\n");
 }

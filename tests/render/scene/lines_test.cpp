@@ -37,6 +37,9 @@ TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
             "4:30 the arrow has no length: it ends where it begins\n\n");
   EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1], radius: 0.2 }"),
             "4:49 the head is longer than the arrow\nmake it shorter with 'head_length'\n");
+  EXPECT_EQ(
+      said_about("{ type: arrow_body, to: [0, 0, 1], radius: 0.1, head_length: 1 }"),
+      "4:67 the head is as long as the arrow: nothing is left of the shaft\nmake it shorter with 'head_length'\n");
   EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1], radius: 0.2, head_radius: 0.1 }"),
             "4:67 the head must be wider than the shaft\n\n");
 }
