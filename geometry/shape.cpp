@@ -13,9 +13,10 @@ ShapePoint point_on(const Surface& surface, double sign, double u, double v, con
   return {jet.point(), sign * surface.normal(u, v, jet), jet.du(), jet.dv(), u, v};
 }
 
-Box3 TransformedShape::bounds() const {
-  const Box3 box = original_->bounds();
-  return box.bounded() ? geometry::transformed(box, map_) : box;
+std::vector<SurfacePart> TransformedShape::surface_parts() const {
+  std::vector<SurfacePart> parts = original_->surface_parts();
+  for (SurfacePart& part : parts) part.solid = image(part.solid);
+  return parts;
 }
 
 ShapePoint TransformedShape::point(const SurfaceHit& hit, const Vec3& near) const {

@@ -2,7 +2,9 @@
 // tubes, bodies cut by planes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "geometry/queries/line_intersections.h"
@@ -25,11 +27,22 @@ struct ShapePoint {
 ShapePoint point_on(const Surface& surface, double sign, double u, double v, const Vec3& near);
 ShapePoint point_on(const Surface& surface, double sign, double u, double v, const SurfaceJet& jet);
 
+// A part of a shape's surface, cut into pieces of like sizes; and the box of the solid that it belongs to.
+struct SurfacePart {
+  Box3 solid;
+  int64_t pieces = 1;
+  bool thin = false;  // a line between two places of such parts is hardly inside for longer than their pieces are wide
+};
+struct PieceOfSurface {
+  int part = 0;
+  int64_t piece = 0;
+};
+
 // Immutable; safe to use from many threads.
 class Shape {
  public:
   virtual ~Shape() = default;
-  // A box around it; everything() where it is unbounded.
+  // A box around it, unbounded where the shape is.
   virtual Box3 bounds() const = 0;
   // Adds all hits with t in the interval, in order, one for each crossing; t in units of the line's direction. A line
   // that only touches has two hits there or none.
@@ -41,10 +54,19 @@ class Shape {
   // True if it bounds a region of space: every line crosses it in and out by turns, the normals looking out of the
   // region.
   virtual bool is_closed() const = 0;
+  // What would close an open one, for messages.
+  virtual std::string how_to_close() const { return ""; }
   // The method taken for lines; that of a shape of shapes is its own.
   virtual LineMethod method() const { return {}; }
   // True if a line is in that region where t goes to minus infinity; of an unbounded one.
   virtual bool begins_inside(const Line&) const { return false; }
+  // Where to look for its surface, for what is measured by lines: what is small beside the whole is a part, or a piece
+  // of one, of its own.
+  virtual std::vector<SurfacePart> surface_parts() const { return {{bounds()}}; }
+  // A box around a piece, about as large as it is; empty where nothing is left of it.
+  virtual Box3 piece_box(const PieceOfSurface&) const { return bounds(); }
+  // That which a hit is on.
+  virtual PieceOfSurface piece_of(const SurfaceHit&) const { return {}; }
   // point() where nothing asks for the parameters and the derivatives by them: they may be zero.
   virtual ShapePoint bare_point(const SurfaceHit& hit, const Vec3& near) const { return point(hit, near); }
 };
@@ -61,7 +83,7 @@ class TransformedShape final : public Shape {
   const ShapePtr& original() const { return original_; }
   const Affine& map() const { return map_; }
 
-  Box3 bounds() const override;
+  Box3 bounds() const override { return image(original_->bounds()); }
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override {
     original_->all_hits(moved_back(line), t, hits);
   }
@@ -70,10 +92,17 @@ class TransformedShape final : public Shape {
   }
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return original_->is_closed(); }
+  std::string how_to_close() const override { return original_->how_to_close(); }
   LineMethod method() const override { return original_->method(); }
   bool begins_inside(const Line& line) const override { return original_->begins_inside(moved_back(line)); }
+  std::vector<SurfacePart> surface_parts() const override;
+  Box3 piece_box(const PieceOfSurface& piece) const override { return image(original_->piece_box(piece)); }
+  PieceOfSurface piece_of(const SurfaceHit& hit) const override { return original_->piece_of(hit); }
 
  private:
+  Box3 image(const Box3& box) const {
+    return box.empty() ? box : box.bounded() ? geometry::transformed(box, map_) : Box3::everything();
+  }
   Line moved_back(const Line& line) const { return {inverse_.point(line.origin), inverse_.direction(line.direction)}; }
 
   ShapePtr original_;

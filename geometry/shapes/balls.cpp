@@ -20,7 +20,7 @@ Balls::Balls(std::span<const Vec3> centers, std::span<const double> radii) {
     if (!(radius > 0 && radius < kInfinity))
       throw FieldError("radius", fmt::format("the radius must be greater than 0, found {}", radius));
     balls_.push_back({centers[i], radius});
-    boxes.push_back(Box3{centers[i], centers[i]}.inflated(radius));
+    boxes.push_back(box_of(i));
     box_.include(boxes.back());
   }
   tree_ = BoxTree(boxes);
@@ -43,6 +43,12 @@ void Balls::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit
   for (const Span& span : spans)
     for (const SpanEnd* end : {&span.in, &span.out})
       if (const double at = end->s / speed; t.contains(at)) hits.push_back({at, 0, 0, 0, end->piece});
+}
+
+std::vector<SurfacePart> Balls::surface_parts() const {
+  std::vector<SurfacePart> parts;
+  for (size_t i = 0; i < balls_.size(); ++i) parts.push_back({box_of(i)});
+  return parts;
 }
 
 ShapePoint Balls::point(const SurfaceHit& hit, const Vec3& near) const {

@@ -19,6 +19,10 @@ class Balls final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
+  // The balls.
+  std::vector<SurfacePart> surface_parts() const override;
+  Box3 piece_box(const PieceOfSurface& piece) const override { return box_of(piece.part); }
+  PieceOfSurface piece_of(const SurfaceHit& hit) const override { return {hit.piece}; }
   LineMethod method() const override { return {"closed form", balls_.size(), balls_.size() * sizeof(Ball)}; }
 
   struct Ball {
@@ -29,11 +33,12 @@ class Balls final : public Shape {
   // Calls visit(k) for the balls whose boxes meet that of ball i, itself too.
   template <class Visit>
   void near(size_t i, const Visit& visit) const {
-    tree_.around(Box3{balls_[i].center, balls_[i].center}.inflated(balls_[i].radius),
-                 [&](int k) { visit(static_cast<size_t>(k)); });
+    tree_.around(box_of(i), [&](int k) { visit(static_cast<size_t>(k)); });
   }
 
  private:
+  Box3 box_of(size_t i) const { return Box3{balls_[i].center, balls_[i].center}.inflated(balls_[i].radius); }
+
   std::vector<Ball> balls_;
   Box3 box_;
   BoxTree tree_;

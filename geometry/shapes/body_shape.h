@@ -16,6 +16,10 @@ class BodyShape final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
+  // Its faces.
+  std::vector<SurfacePart> surface_parts() const override { return {body_->faces.size(), {box_}}; }
+  Box3 piece_box(const PieceOfSurface& piece) const override { return geometry::bounds(*body_, piece.part); }
+  PieceOfSurface piece_of(const SurfaceHit& hit) const override { return {hit.face}; }
 
  private:
   BodyPtr body_;

@@ -90,6 +90,11 @@ Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands) : operands_
   for (size_t k = nodes_.size(); k-- > 0;) finish(nodes_[k]);
   if (nodes_[0].box.empty()) throw std::invalid_argument("the operands have nothing in common: nothing is left");
   Box3 all;
+  int parts = 0;
+  for (Leaf& leaf : leaves_) {
+    leaf.first_part = parts;
+    parts += static_cast<int>(leaf.shape->surface_parts().size());
+  }
   for (const Leaf& leaf : leaves_)
     if (const Box3 box = leaf.shape->bounds(); box.bounded()) all.include(box);
   if (!all.empty()) size_ = all.diameter();
@@ -137,6 +142,14 @@ void Csg::finish(Node& node) {
   for (size_t k = 1; k < node.operands.size(); ++k) {
     if (node.operation == Operation::unite) node.box.include(box_of(k));
     if (node.operation == Operation::intersect) node.box = common(node.box, box_of(k));
+  }
+  if (node.operation == Operation::intersect && !node.box.bounded()) {
+    std::vector<Frame> planes;
+    for (const int operand : node.operands)
+      if (const int leaf = nodes_[operand].leaf; leaf >= 0)
+        if (const auto* half_space = dynamic_cast<const HalfSpaceShape*>(leaves_[leaf].shape.get()))
+          planes.push_back(half_space->frame());
+    node.box = common(node.box, bounds_of_common(planes));
   }
   node.convex = node.operation == Operation::intersect &&
                 std::all_of(node.operands.begin(), node.operands.end(),
@@ -345,11 +358,10 @@ bool Csg::first_hit(const Line& line, const Interval& t, SurfaceHit& first) cons
 
 ShapePoint Csg::point_of(const SurfaceHit& hit, const Vec3& near, bool parameters) const {
   const Leaf& leaf = leaves_[hit.face % leaf_count()];
-  SurfaceHit of_leaf = hit;
-  of_leaf.face = hit.face / leaf_count();
-  ShapePoint point = leaf.convex  ? leaf.convex->point(of_leaf.face, near, parameters)
-                     : parameters ? leaf.shape->point(of_leaf, near)
-                                  : leaf.shape->bare_point(of_leaf, near);
+  const SurfaceHit own = of_leaf(hit);
+  ShapePoint point = leaf.convex  ? leaf.convex->point(own.face, near, parameters)
+                     : parameters ? leaf.shape->point(own, near)
+                                  : leaf.shape->bare_point(own, near);
   if (leaf.turned) point.normal = -point.normal;
   return point;
 }
@@ -366,6 +378,34 @@ bool Csg::begins_inside(const Line& line) const {
     if (begins) turn(leaf.node, inside.data());
   }
   return inside[0] >= nodes_[0].needed;
+}
+
+Box3 Csg::shown_of(const Box3& box, const Leaf& leaf) const {
+  Box3 shown = box;
+  for (int node = nodes_[leaf.node].parent; node >= 0; node = nodes_[node].parent)
+    shown = common(shown, nodes_[node].box);
+  return shown;
+}
+
+std::vector<SurfacePart> Csg::surface_parts() const {
+  std::vector<SurfacePart> parts;
+  for (const Leaf& leaf : leaves_)
+    for (const SurfacePart& part : leaf.shape->surface_parts())
+      parts.push_back({shown_of(part.solid, leaf), part.pieces});
+  return parts;
+}
+
+Box3 Csg::piece_box(const PieceOfSurface& piece) const {
+  const auto after = std::upper_bound(leaves_.begin(), leaves_.end(), piece.part,
+                                      [](int part, const Leaf& leaf) { return part < leaf.first_part; });
+  const Leaf& leaf = after[-1];
+  return shown_of(leaf.shape->piece_box({piece.part - leaf.first_part, piece.piece}), leaf);
+}
+
+PieceOfSurface Csg::piece_of(const SurfaceHit& hit) const {
+  const Leaf& leaf = leaves_[hit.face % leaf_count()];
+  const PieceOfSurface piece = leaf.shape->piece_of(of_leaf(hit));
+  return {leaf.first_part + piece.part, piece.piece};
 }
 
 namespace {
@@ -389,9 +429,7 @@ ShapePtr operand(const std::any& thing, const std::string& field) {
     }
   }
   const ShapePtr& shape = std::any_cast<const ShapePtr&>(thing);
-  if (!shape->is_closed())
-    throw FieldError(field, "this shape is not closed: it has no inside",
-                     "an implicit surface has one with closed: true");
+  if (!shape->is_closed()) throw FieldError(field, "this shape is not closed: it has no inside", shape->how_to_close());
   return shape;
 }
 

@@ -44,6 +44,10 @@ class Csg final : public Shape {
   bool is_closed() const override { return true; }
   LineMethod method() const override { return {"CSG of leaves", leaves_.size(), leaves_.size() * sizeof(Leaf)}; }
   bool begins_inside(const Line& line) const override;
+  // Those of the leaves, as far as the boxes of what they are operands of let them show.
+  std::vector<SurfacePart> surface_parts() const override;
+  Box3 piece_box(const PieceOfSurface& piece) const override;
+  PieceOfSurface piece_of(const SurfaceHit& hit) const override;
 
  private:
   // Nodes stand behind their parent; the root is the first. A node is inside where at least `needed` of its operands
@@ -65,12 +69,18 @@ class Csg final : public Shape {
     std::optional<ConvexSolid> convex;  // the same in closed form
     bool turned;                        // taken away: its normals look into the result
     int node;
+    int first_part = 0;  // of the whole's
   };
   struct Crossing;
   struct Stretch;
   struct Search;
 
   ShapePoint point_of(const SurfaceHit& hit, const Vec3& near, bool parameters) const;
+  // A hit as the leaf numbers its faces.
+  SurfaceHit of_leaf(SurfaceHit hit) const {
+    hit.face /= leaf_count();
+    return hit;
+  }
   int append(const ShapePtr& operand, int parent, bool taken_away, bool turned);
   void finish(Node& node);
   // Adds the crossings of all leaves and convex nodes that may matter where t is in the range, and returns where in it
@@ -82,6 +92,7 @@ class Csg final : public Shape {
   // Where the line is inside a convex node; false if nowhere.
   bool stretch(const Node& node, const Search& search, Stretch& inside) const;
   void turn(int node, int* inside) const;
+  Box3 shown_of(const Box3& box, const Leaf& leaf) const;
   // Calls visit(hit) for the hits in order until it returns false.
   template <class Visit>
   void walk(const Line& line, const Interval& t, Visit&& visit) const;

@@ -1,6 +1,8 @@
 // All points on one side of a plane: dot(p - through, normal) <= 0. The normal looks out of it.
 #pragma once
 
+#include <span>
+
 #include "geometry/shape.h"
 #include "geometry/surfaces/plane.h"
 
@@ -13,7 +15,7 @@ class HalfSpaceShape final : public Shape {
 
   const Frame& frame() const { return plane_.frame(); }
 
-  Box3 bounds() const override { return Box3::everything(); }
+  Box3 bounds() const override;
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
@@ -22,5 +24,9 @@ class HalfSpaceShape final : public Shape {
  private:
   Plane plane_;
 };
+
+// A box around what half-spaces have in common, which lies where z <= 0 in their frames; everything() where they leave
+// it open.
+Box3 bounds_of_common(std::span<const Frame> half_spaces);
 
 }  // namespace lekalo::geometry

@@ -42,6 +42,7 @@ class ImplicitSurface final : public Shape {
   // The normal is grad F / |grad F| on face 0. There are no parameters: u = v = 0.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return closed_; }
+  std::string how_to_close() const override { return "an implicit surface is closed with closed: true"; }
   LineMethod method() const override {
     if (cells_) return {"implicit cells", static_cast<size_t>(cells_->count()), cells_->memory()};
     return {"polynomial on the line"};

@@ -8,6 +8,12 @@ namespace lekalo::geometry {
 
 namespace {
 
+// Of a cell. However thin a tube: its coordinates have no more figures.
+constexpr double kMostPieces = 1e16;
+
+// Pieces are looked at one by one where their boxes have less than this of the whole's area.
+constexpr double kThin = 0.02;
+
 // Unit vector of the first derivative that is not zero; `backward` seen towards smaller t.
 Vec3 direction_at(const Curve& curve, double t, bool backward) {
   const CurveJet jet = curve.evaluate(t, 3);
@@ -44,6 +50,15 @@ Tube::Tube(CurvePtr curve, RadiusLaw radius, Caps caps)
   }
   tree_ = BoxTree(boxes);
   center_ = box_.center();
+  double area = 0;
+  for (const BallSweep::Cell& cell : sweep_.cells()) {
+    const double length = glm::length(cell.middle.center[1]) * cell.t.width();
+    const double pieces = std::clamp(std::ceil(length / cell.middle.radius[0]), 1.0, kMostPieces);
+    first_piece_.push_back(first_piece_.back() + static_cast<int64_t>(pieces));
+    area += pieces * sqr(length / pieces + 2 * cell.middle.radius[0]);
+  }
+  const Vec3 d = box_.size();
+  is_thin_ = area < kThin * (d.x * d.y + d.y * d.z + d.z * d.x);
   if (caps_ != Caps::round) find_ends();
 
   starts_.reserve(boxes.size());
@@ -140,6 +155,60 @@ bool Tube::is_cut_off(const Vec3& p, double t) const {
 Vec3 Tube::reference(int cell, double t, const Vec3& tangent) const {
   const Start& start = starts_[cell];
   return carried(start.reference, start.tangent, sweep_.curve().point(t) - start.point, tangent);
+}
+
+std::vector<SurfacePart> Tube::surface_parts() const {
+  if (!is_thin_) return {{box_}};
+  std::vector<SurfacePart> parts{{box_, first_piece_.back(), true}};
+  if (caps_ == Caps::flat) parts.resize(3, {box_, 1, true});
+  return parts;
+}
+
+// The box about the middle ball of the piece that no other leaves: |r'' - r''(middle of the cell)| <= wander.
+Box3 Tube::box_of_balls(int cell_number, int64_t piece) const {
+  const BallSweep::Cell& cell = sweep_.cells()[cell_number];
+  const double h = 0.5 * cell.t.width() / static_cast<double>(pieces_in(cell_number));
+  const BallJet ball = sweep_.ball(cell.t.lo + (2 * static_cast<double>(piece) + 1) * h);
+  const double bend = glm::length(cell.middle.center[2]) + cell.wander,
+               widen = std::abs(cell.middle.radius[2]) + cell.radius_wander;
+  const double reach = h * (std::abs(ball.radius[1]) + h * (widen + bend));
+  Box3 box{ball.center[0], ball.center[0]};
+  const Vec3 along = h * glm::abs(ball.center[1]) + Vec3(reach + ball.radius[0]);
+  box = {box.lo - along, box.hi + along};
+  return {glm::max(box.lo, cell.box.lo), glm::min(box.hi, cell.box.hi)};
+}
+
+Box3 Tube::piece_box(const PieceOfSurface& piece) const {
+  if (!is_thin_) return box_;
+  if (piece.part == 0) {
+    const auto after = std::upper_bound(first_piece_.begin(), first_piece_.end(), piece.piece);
+    const int cell = static_cast<int>(after - first_piece_.begin()) - 1;
+    return box_of_balls(cell, piece.piece - first_piece_[cell]);
+  }
+  // The balls that reach behind the plane of the end, up to the first that does not.
+  const int side = piece.part - 1;
+  const End& end = ends_[side];
+  Box3 box{end.point, end.point};
+  for (int k = 0; k < end.end - end.begin; ++k) {
+    const int cell = side == 0 ? k : end.end - 1 - k;
+    const int64_t count = pieces_in(cell);
+    for (int64_t i = 0; i < count; ++i) {
+      const Box3 balls = box_of_balls(cell, side == 0 ? i : count - 1 - i);
+      const Vec3 back = glm::mix(balls.hi, balls.lo, glm::greaterThan(end.inward, Vec3(0)));
+      if (glm::dot(back - end.point, end.inward) > 0) return box;
+      box.include(balls);
+    }
+  }
+  return box;
+}
+
+PieceOfSurface Tube::piece_of(const SurfaceHit& hit) const {
+  if (!is_thin_) return {};
+  if (hit.face != 0) return {hit.face};
+  const Interval& t = sweep_.cells()[hit.piece].t;
+  const int64_t count = pieces_in(hit.piece);
+  const auto piece = static_cast<int64_t>((hit.u - t.lo) / t.width() * static_cast<double>(count));
+  return {0, first_piece_[hit.piece] + std::clamp<int64_t>(piece, 0, count - 1)};
 }
 
 ShapePoint Tube::point(const SurfaceHit& hit, const Vec3& near) const {

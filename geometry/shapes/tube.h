@@ -30,6 +30,12 @@ class Tube final : public Shape {
   // du is zero on ends, and so is dv on flat ones.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return caps_ != Caps::none; }
+  std::string how_to_close() const override { return "a tube is closed with caps: round, or flat"; }
+
+  // Of a thin tube the wall and round ends, cut where the balls' centers are about a radius apart; then the flat ends.
+  std::vector<SurfacePart> surface_parts() const override;
+  Box3 piece_box(const PieceOfSurface& piece) const override;
+  PieceOfSurface piece_of(const SurfaceHit& hit) const override;
 
   const BallSweep& sweep() const { return sweep_; }
   Caps caps() const { return caps_; }  // round for closed curves
@@ -52,6 +58,8 @@ class Tube final : public Shape {
   void find_ends();
   SpanLimit limit(int cell, const Line& line) const;
   Vec3 reference(int cell, double t, const Vec3& tangent) const;
+  int64_t pieces_in(int cell) const { return first_piece_[cell + 1] - first_piece_[cell]; }
+  Box3 box_of_balls(int cell, int64_t piece) const;
 
   BallSweep sweep_;
   Caps caps_;
@@ -61,7 +69,9 @@ class Tube final : public Shape {
     Vec3 tangent;
     Vec3 reference;  // of v = 0
   };
-  std::vector<Start> starts_;  // of each cell, where it begins
+  std::vector<Start> starts_;            // of each cell, where it begins
+  std::vector<int64_t> first_piece_{0};  // of each cell, and the count of all
+  bool is_thin_ = false;                 // the pieces' boxes are much less than the whole's
   Box3 box_;
   Vec3 center_{0};
   BoxTree tree_;
