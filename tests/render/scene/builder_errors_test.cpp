@@ -84,13 +84,23 @@ TEST(BuilderErrors, CapsAreForBodies) {
     return "{ type: tube, of: " + bar + ", radius: 0.1, caps: " + caps + " }";
   };
   EXPECT_EQ(shown(drilled, "{ normal: x, cap: true }"),
-            "2:132 a cap closes the cut of a body, and this shape is none\n");
+            "2:135 a cap closes the cut of a body, and this shape is none\n");
   EXPECT_EQ(shown(tube("flat"), "{ normal: x, cap: true }"),
-            "2:143 a cap closes the cut of a body, and this shape is none\n");
+            "2:139 a cap closes the cut of a body, and this shape is none\n");
   EXPECT_EQ(shown(tube("none"), "{ normal: x, cap: true }"),
-            "2:143 a cap closes the cut of a body; this shape has no inside\n");
+            "2:139 a cap closes the cut of a body; this shape has no inside\n");
   EXPECT_EQ(shown(sphere, "[{ normal: x }, { normal: y, cap: true }]"),
             "2:96 a cap closes the cut of a body; this shape has no inside\n");
+}
+
+TEST(BuilderErrors, OpenOperandsSayWhatWouldCloseThem) {
+  const auto united = [](const std::string& shape) { return "geometry:\n  a: { type: union, of: [" + shape + "] }\n"; };
+  const std::string bar = "{ type: segment, from: [0, 0, 0], to: [1, 0, 0] }";
+  const std::string tube = united("{ type: tube, of: " + bar + ", radius: 0.1, caps: none }");
+  EXPECT_EQ(said(tube), "3:25 this shape is not closed: it has no inside\n");
+  EXPECT_EQ(hints(tube), "a tube is closed with caps: round, or flat\n");
+  EXPECT_EQ(hints(united("{ type: implicit, formula: x^2 + y^2 + z^2 - 1, ball: { radius: 2 } }")),
+            "an implicit surface is closed with closed: true\n");
 }
 
 TEST(BuilderErrors, LoopsThatTrimNothing) {
