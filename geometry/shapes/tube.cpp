@@ -1,5 +1,6 @@
 #include "geometry/shapes/tube.h"
 
+#include <bit>
 #include <cmath>
 
 #include "geometry/describe.h"
@@ -13,6 +14,10 @@ constexpr double kMostPieces = 1e16;
 
 // Pieces are looked at one by one where their boxes have less than this of the whole's area.
 constexpr double kThin = 0.02;
+
+// Cells along a line of which some may be filled by others.
+constexpr size_t kMany = 8;
+constexpr double kRounding = 1e-15;  // of places on lines near the tube, of its size
 
 // Unit vector of the first derivative that is not zero; `backward` seen towards smaller t.
 Vec3 direction_at(const Curve& curve, double t, bool backward) {
@@ -122,7 +127,25 @@ void Tube::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>
   const double speed = glm::length(line.direction);
   const double start = glm::dot(center_ - line.origin, line.direction) / (speed * speed);
   const Line near{line.at(start), line.direction / speed};
-  tree_.along(line, t, [&](int cell) { sweep_.add_spans(cell, near, limit(cell, near), spans); });
+  static thread_local std::vector<int> cells;
+  cells.clear();
+  tree_.along(line, t, [&](int cell) { cells.push_back(cell); });
+  // Most of many cells fill nothing of the line but what those about them do: first every second of every second of
+  // them and so on, then what lies between. A ball around all of a cell's tells it: its box holds the centers' with
+  // their radius to spare.
+  const auto is_filled = [&](const BallSweep::Cell& cell) {
+    const double radius = cell.middle.radius[0];
+    const double around = radius + glm::length(0.5 * cell.box.size() - Vec3(radius)) + kRounding * sweep_.size();
+    const Vec3 e = cell.box.center() - near.origin;
+    const double middle = glm::dot(e, near.direction);
+    const Vec3 across = e - middle * near.direction;
+    const double half = std::sqrt(std::max(0.0, around * around - glm::dot(across, across)));
+    return spans.cover(middle - half, middle + half, 0);
+  };
+  for (size_t step = std::bit_floor(cells.size()); step > 0; step /= 2)
+    for (size_t i = step - 1; i < cells.size(); i += 2 * step)
+      if (const int cell = cells[i]; cells.size() < kMany || !is_filled(sweep_.cells()[cell]))
+        sweep_.add_spans(cell, near, limit(cell, near), spans);
   const auto add = [&](SpanEnd end, bool is_in) {
     if (end.face == 0) sweep_.finish(end, is_in, near);
     const double at = start + end.s / speed;
