@@ -134,7 +134,7 @@ TypeDeclaration isophote_curve_type() {
               "Where the normal of a surface stands at an angle to a direction: equally lit points.");
   type.field("of", reference({Category::surface}), "the surface")
       .field("direction", direction(), "towards the light")
-      .field("angle", angle().between(0, 180), "between the normal and the direction; 90 gives the silhouette")
+      .field("angle", angle().between(0, kPi), "between the normal and the direction; 90 gives the silhouette")
       .example("of: { type: sphere_surface, radius: 2 }, direction: z, angle: 40");
   return choose_branch(type).built_by([](const Fields& f) {
     const auto found = asked([&] { return isophote(f.surface("of"), f.vec3("direction"), f.number("angle")); });

@@ -131,7 +131,7 @@ TypeDeclaration revolution_surface_type() {
                  "beside the axis points inward: use reversed, or let the curve run downward.")
       .field("of", reference({Category::curve}), "the curve; its parameter is u")
       .field("axis", axis(), "the axis of rotation, by the right-hand rule", "z")
-      .field("angle", angle().positive().at_most(360), "how far the curve is turned", "360")
+      .field("angle", angle().positive().at_most(kTwoPi), "how far the curve is turned", "360")
       .field("start", angle(), "angle at which the surface begins; 0 is the curve itself", "0")
       .optional("domain", rectangle(),
                 "part of the surface, in place of angle and start: u a part of the curve's parameters, v in radians")
