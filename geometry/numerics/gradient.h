@@ -24,6 +24,8 @@ struct Gradient : JetOperations<Gradient<S>, S, 4>, ComposedJet<Gradient<S>, S, 
     return r;
   }
 
+  static constexpr int degree(int k) { return k > 0 ? 1 : 0; }
+
   static constexpr Gradient product(const Gradient& a, const Gradient& b) {
     Gradient r(a.c[0] * b.c[0]);
     for (int k = 1; k < 4; ++k) r.c[k] = a.c[0] * b.c[k] + a.c[k] * b.c[0];

@@ -121,11 +121,13 @@ Interval pow(const Interval& x, double exponent) {
     if (exponent < 0) return Interval::entire();
     return hull(-positive({0.0, -x.lo}), positive({0.0, x.hi}));
   }
-  return pow(x, Interval(exponent));
+  if (!(x.hi >= 0)) return Interval::entire();
+  const double p = std::pow(std::max(x.lo, 0.0), exponent), q = std::pow(x.hi, exponent);
+  return {std::max(0.0, libm_down(std::min(p, q))), libm_up(std::max(p, q))};
 }
 
 Interval pow(const Interval& x, const Interval& exponent) {
-  if (exponent.lo == exponent.hi && exponent.lo == std::floor(exponent.lo)) return pow(x, exponent.lo);
+  if (exponent.lo == exponent.hi) return pow(x, exponent.lo);
   if (!(x.hi >= 0)) return Interval::entire();
   // On x >= 0 the power is monotone in each argument, so the extrema stand in the corners.
   const double low = std::max(x.lo, 0.0);

@@ -9,8 +9,10 @@
 // S is double, long double, Interval, or any number class whose functions are found by argument-dependent lookup. Over
 // Interval the coefficients are certified enclosures of f^(k)/k! on the whole argument. The functions abs, min, max,
 // floor, ceil, round and sign act piecewise, by the value. Where the value is singular (sqrt at 0, 0/0) derivatives are
-// infinite or NaN.
+// infinite or NaN; roots and powers of zero have those that exist (|x|^1.5 the first, sqrt(x^4) all).
 #pragma once
+
+#include <limits>
 
 #include "geometry/numerics/jet_operations.h"
 
@@ -75,6 +77,40 @@ struct Jet : JetOperations<Jet<S, N>, S, N + 1> {
     return sum / S(k);
   }
 
+  // The function with the Taylor coefficients `series` about a's value, of a.
+  static constexpr Jet composed(const Jet& series, const Jet& a) {
+    Jet r(series.c[N]);
+    for (int n = N - 1; n >= 0; --n) {
+      Jet next(series.c[n]);
+      for (int k = 1; k <= N - n; ++k)
+        for (int i = 1; i <= k; ++i) next.c[k] += a.c[i] * r.c[k - i];
+      r = next;
+    }
+    return r;
+  }
+  // root(a) = a^p, p > 0, where the value of a is zero and a is not: with a = t^m b it is t^(m p) root(b), on the side
+  // t > 0 as abs. The orders below m p are zero; if m p is no whole number those above are infinite.
+  template <class Root>
+  static Jet root_at_zero(const Jet& a, double p, Root root) {
+    int m = 1;
+    while (a.c[m] == S(0)) ++m;
+    Jet b;
+    for (int k = m; k <= N; ++k) b.c[k - m] = a.c[k];
+    const Jet factor = root(b);
+    const double first = m * p;
+    const bool is_whole = first == std::floor(first);
+    Jet r;
+    for (int k = 0; k <= N; ++k) {
+      if (k < first) continue;
+      const int beyond = k - static_cast<int>(first);
+      if (!is_whole)  // as (m p) (m p - 1) ... (m p - k + 1) / 0
+        r.c[k] = (beyond % 2 == 1 ? factor.c[0] : -factor.c[0]) * S(std::numeric_limits<double>::infinity());
+      else  // as far as a tells
+        r.c[k] = beyond <= N - m ? factor.c[beyond] : S(std::numeric_limits<double>::quiet_NaN());
+    }
+    return r;
+  }
+
   friend Jet atan2(const Jet& y, const Jet& x) {
     using std::atan2;
     const S angle = atan2(y.value(), x.value());
@@ -106,7 +142,8 @@ struct Jet : JetOperations<Jet<S, N>, S, N + 1> {
   friend Jet pow(const Jet& base, A exponent) { return power(base, exponent); }
 
  private:
-  // Small integer exponents by repeated squaring, exact about zero; others by the recurrence of a f' = p f a'.
+  // Small integer exponents by repeated squaring, exact about zero; others by the recurrence of a f' = p f a', and over
+  // intervals, where that would divide by all that a may be, from the derivatives of the power.
   template <class A>
   static Jet power(const Jet& a, const A& exponent) {
     using std::floor;
@@ -123,6 +160,16 @@ struct Jet : JetOperations<Jet<S, N>, S, N + 1> {
     Jet r(S(pow(a.c[0], exponent)));
     if (a.is_constant()) return r;
     const S p(exponent);
+    if constexpr (std::is_same_v<S, Interval>) {
+      S choose(1);
+      for (int k = 1; k <= N; ++k) {
+        choose = choose * (p - S(k - 1)) / S(k);
+        r.c[k] = choose * pow(a.c[0], exponent - k);
+      }
+      return composed(r, a);
+    } else if (a.c[0] == S(0) && exponent > A(0)) {
+      return root_at_zero(a, static_cast<double>(exponent), [&](const Jet& b) { return power(b, exponent); });
+    }
     for (int k = 1; k <= N; ++k) {
       S sum(0);
       for (int i = 1; i <= k; ++i) sum += (p * S(i) - S(k - i)) * a.c[i] * r.c[k - i];
@@ -149,6 +196,9 @@ Jet<S, N> sqrt(const Jet<S, N>& a) {
   using std::sqrt;
   Jet<S, N> r(S(sqrt(a.c[0])));
   if (a.is_constant()) return r;
+  if constexpr (!std::is_same_v<S, Interval>) {
+    if (a.c[0] == S(0)) return Jet<S, N>::root_at_zero(a, 0.5, [](const Jet<S, N>& b) { return sqrt(b); });
+  }
   for (int k = 1; k <= N; ++k) {
     S sum = a.c[k];
     for (int i = 1; i < k; ++i) sum -= r.c[i] * r.c[k - i];
@@ -157,12 +207,22 @@ Jet<S, N> sqrt(const Jet<S, N>& a) {
   return r;
 }
 
-// From 3 a f' = f a'.
+// From 3 a f' = f a'; over intervals as powers of the root.
 template <class S, int N>
 Jet<S, N> cbrt(const Jet<S, N>& a) {
   using std::cbrt;
   Jet<S, N> r(S(cbrt(a.c[0])));
   if (a.is_constant()) return r;
+  if constexpr (std::is_same_v<S, Interval>) {
+    S choose(1);
+    for (int k = 1; k <= N; ++k) {
+      choose = choose * S(4 - 3 * k) / S(3 * k);
+      r.c[k] = choose * pow(r.c[0], 1 - 3 * k);
+    }
+    return Jet<S, N>::composed(r, a);
+  } else if (a.c[0] == S(0)) {
+    return Jet<S, N>::root_at_zero(a, 1.0 / 3, [](const Jet<S, N>& b) { return cbrt(b); });
+  }
   for (int k = 1; k <= N; ++k) {
     S sum(0);
     for (int i = 1; i <= k; ++i) sum += S(4 * i - 3 * k) * a.c[i] * r.c[k - i];

@@ -29,6 +29,11 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>, ComposedJet<J
   static constexpr Jet2 v_variable(const S& value) { return identity(value, 0, 1); }
 
   static constexpr int index(int i, int j) { return (i + j) * (i + j + 1) / 2 + j; }
+  static constexpr int degree(int k) {
+    int n = 0;
+    while (index(0, n) < k) ++n;
+    return n;
+  }
 
   // The partial derivative i times by u and j times by v, i + j <= N.
   constexpr S derivative(int i, int j) const {

@@ -62,6 +62,11 @@ struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6>, Com
   }
 
   static constexpr int index(int i, int j, int k) { return detail::jet3_index(i, j, k); }
+  static constexpr int degree(int k) {
+    int n = 0;
+    while (index(0, 0, n) < k) ++n;
+    return n;
+  }
 
   static constexpr Jet3 product(const Jet3& a, const Jet3& b) {
     Jet3 r;

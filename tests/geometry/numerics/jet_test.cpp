@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <random>
 
+#include "geometry/numerics/gradient.h"
 #include "geometry/numerics/jet3.h"
 #include "geometry/numerics/triple.h"
 #include "geometry/quad.h"
@@ -133,6 +136,70 @@ TEST(Jet, singular_functions_of_constants_are_plain_numbers) {
     EXPECT_EQ(atan2(zero, zero).c[k], 0.0);
   }
   EXPECT_TRUE(std::isinf(sqrt(Jet<double, 3>::variable(0.0)).c[1]));
+}
+
+// By hand: t^1.5 has the derivatives 0, 0, +inf, -inf; sqrt(t^2 (4 + t)) = t sqrt(4 + t) on the side t > 0;
+// cbrt(8 t^3 + t^4) = 2 t + t^2 / 12 + ...
+TEST(Jet, roots_of_zero_have_the_derivatives_that_exist) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto t = Jet<double, 3>::variable(0.0);
+  for (const auto& root : {pow(t, 1.5), pow(abs(t), 1.5), pow(t, Jet<double, 3>(1.5))}) {
+    EXPECT_EQ(root.c[0], 0.0);
+    EXPECT_EQ(root.c[1], 0.0);
+    EXPECT_EQ(root.c[2], infinity);
+    EXPECT_EQ(root.c[3], -infinity);
+  }
+  const auto product = sqrt(t * t * (4 + t));
+  EXPECT_EQ(product.c[0], 0.0);
+  EXPECT_EQ(product.c[1], 2.0);
+  EXPECT_EQ(product.c[2], 0.25);
+  const auto cubic = cbrt(t * t * t * (8 + t));
+  EXPECT_EQ(cubic.c[1], 2.0);
+  EXPECT_TRUE(std::isnan(cubic.c[2]));  // it depends on t^4
+  EXPECT_EQ(sqrt(sqr(sqr(Jet<double, 4>::variable(0.0)))).c[2], 1.0);
+  EXPECT_EQ(pow(sqr(t), 0.75).c[1], 0.0);
+  EXPECT_EQ(pow(t, -0.5).c[0], infinity);
+}
+
+// r^3 = (x^2 + y^2)^1.5 has the second derivatives 3 (2 x^2 + y^2) / r, 3 x y / r, 3 (x^2 + 2 y^2) / r, which are zero
+// at the origin; those of r do not exist there.
+TEST(Jet2, powers_of_zero_have_the_derivatives_that_exist) {
+  using J = Jet2<double, 4>;
+  const auto powers = [](const J& x, const J& y) {
+    return std::array{pow(sqr(x) + sqr(y), 1.5), pow(sqr(x) + sqr(y), 2.5), sqrt(sqr(x) + sqr(y))};
+  };
+  const auto zero = powers(J::u_variable(0.0), J::v_variable(0.0));
+  for (int k = 0; k < J::kCount; ++k) {
+    if (J::degree(k) < 3) EXPECT_EQ(zero[0].c[k], 0.0) << k;
+    EXPECT_EQ(zero[1].c[k], 0.0) << k;
+    if (k > 0) EXPECT_TRUE(std::isnan(zero[2].c[k])) << k;
+  }
+  const double x = 0.3, y = -0.4, r = 0.5;
+  const auto there = powers(J::u_variable(x), J::v_variable(y))[0];
+  EXPECT_NEAR(there.derivative(1, 0), 3 * r * x, 1e-15);
+  EXPECT_NEAR(there.derivative(2, 0), 3 * (2 * x * x + y * y) / r, 1e-15);
+  EXPECT_NEAR(there.derivative(1, 1), 3 * x * y / r, 1e-15);
+  const auto slopes = pow(sqr(Gradient<double>::variable(0.0, 0)) + sqr(Gradient<double>::variable(0.0, 1)), 1.5);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(slopes.c[k], 0.0);
+}
+
+// The first derivative of |x|^1.5, 1.5 sqrt|x|, and those of r^3, 3 r x, over [-h, h]: bounded, and no wider than twice
+// what they are; the derivatives of x^0.3 to an ulp's width of the interval.
+TEST(Jet, over_intervals_powers_that_come_to_zero_have_bounds) {
+  const double h = 0.01;
+  const auto x = Jet2<Interval, 2>::u_variable({-h, h}), y = Jet2<Interval, 2>::v_variable({-h, h});
+  const Interval slope = pow(abs(x), 1.5).c[1], slant = pow(sqr(x) + sqr(y), 1.5).c[1];
+  EXPECT_TRUE(slope.contains(Interval(-1.5 * std::sqrt(h), 1.5 * std::sqrt(h))));
+  EXPECT_LE(slope.width(), 1.0001 * 3 * std::sqrt(h));
+  EXPECT_TRUE(slant.contains(Interval(-3 * std::sqrt(2) * h * h, 3 * std::sqrt(2) * h * h)));
+  EXPECT_LE(slant.width(), 2 * 6 * std::sqrt(2) * h * h);
+  for (const Interval t : {Interval(1e-3, 1), Interval(2, 3)}) {
+    const auto power = pow(Jet<Interval, 2>::variable(t), 0.3), root = cbrt(Jet<Interval, 2>::variable(t));
+    EXPECT_NEAR(power.c[1].lo, 0.3 * std::pow(t.hi, -0.7), 1e-12 * power.c[1].hi);
+    EXPECT_NEAR(power.c[1].hi, 0.3 * std::pow(t.lo, -0.7), 1e-12 * power.c[1].hi);
+    EXPECT_NEAR(root.c[2].lo, -std::pow(t.lo, -5.0 / 3) / 9, -1e-12 * root.c[2].lo);
+    EXPECT_NEAR(root.c[2].hi, -std::pow(t.hi, -5.0 / 3) / 9, -1e-12 * root.c[2].lo);
+  }
 }
 
 TEST(Jet, piecewise_functions_take_the_branch_of_the_value) {
