@@ -1,6 +1,11 @@
 // Adaptive integration: the cell with the largest error is split until the goal is met. Value: Kronrod's 15 points.
 // Error, QUADPACK's: with d = |Kronrod - Gauss| and a = integral of |f - mean f|, it is a min(1, (200 d / a)^(3/2)),
 // since the Kronrod rule is much better than the Gauss rule it is compared with.
+//
+// A node where an integrand is not finite tells nothing about its integral: |x|^(-1/2) has one over [-1, 1]. Its cell
+// is split, which makes the place an end, where no rule has nodes, or leaves it between them; the halves get finer
+// there as their errors ask. A cell too narrow to be split, whose nodes may be rounded onto the place, counts without
+// them. What such a cell misses is of the order of what it holds.
 #include "geometry/numerics/quadrature.h"
 
 #include <algorithm>
@@ -43,6 +48,7 @@ struct Cell {
   std::vector<double> value, error, size;  // by integrand; size is the integral of |f|
   bool split_u = true;
   double priority = 0;
+  std::size_t unknown = 0;  // values that are not finite
 };
 bool operator<(const Cell& a, const Cell& b) { return a.priority < b.priority; }
 
@@ -67,6 +73,15 @@ void apply_rule(Cell& cell, int count, int rows, Evaluate evaluate, std::vector<
     }
   }
   cell.value.resize(count), cell.error.resize(count), cell.size.resize(count);
+  std::array<bool, kPoints> bad_u{}, bad_v{};
+  for (std::size_t n = 0; n < f.size(); ++n)
+    if (!std::isfinite(f[n])) {
+      bad_u[n / count % kPoints] = bad_v[n / count / kPoints] = true;
+      f[n] = 0;
+      ++cell.unknown;
+    }
+  const auto bad_columns = std::count(bad_u.begin(), bad_u.end(), true),
+             bad_rows = std::count(bad_v.begin(), bad_v.end(), true);
   double worst_u = 0, worst_v = 0;
   for (int k = 0; k < count; ++k) {
     const auto sum = [&](auto term) {
@@ -91,14 +106,19 @@ void apply_rule(Cell& cell, int count, int rows, Evaluate evaluate, std::vector<
     cell.error[k] = u_error + v_error;
     if (size > 0) worst_u = std::max(worst_u, u_error / size), worst_v = std::max(worst_v, v_error / size);
   }
-  cell.split_u = worst_u >= worst_v;
+  if (cell.unknown > 0) {
+    cell.split_u = rows == 1 || bad_columns <= bad_rows;  // a column of them is a line across u
+    cell.error = cell.size;
+  } else {
+    cell.split_u = worst_u >= worst_v;
+  }
 }
 
 template <class Evaluate>
 class Adaptive {
  public:
   Adaptive(Evaluate evaluate, int count, int rows, const IntegrationGoal& goal)
-      : evaluate_(evaluate), count_(count), rows_(rows), goal_(goal), error_(count), size_(count) {}
+      : evaluate_(evaluate), count_(count), rows_(rows), goal_(goal), error_(count), size_(count), stuck_(count) {}
 
   Integral run(std::span<const double> u_breaks, std::span<const double> v_breaks) {
     std::vector<Cell> first;
@@ -112,6 +132,7 @@ class Adaptive {
     while (!done() && result_.evaluations < goal_.evaluations && !cells_.empty() && cells_.top().priority > 0) {
       const Cell cell = cells_.top();
       cells_.pop();
+      if (cell.unknown > 0) --unknown_;
       for (int k = 0; k < count_; ++k) error_[k] -= cell.error[k], size_[k] -= cell.size[k];
       const Interval& side = cell.split_u ? cell.u : cell.v;
       const double middle = side.middle();
@@ -124,9 +145,10 @@ class Adaptive {
 
  private:
   Cell measured(const Interval& u, const Interval& v) {
-    Cell cell{u, v, {}, {}, {}, true, 0};
+    Cell cell{u, v, {}, {}, {}};
     apply_rule(cell, count_, rows_, evaluate_, scratch_);
     result_.evaluations += kPoints * rows_;
+    if (cell.unknown > 0) ++unknown_;
     for (int k = 0; k < count_; ++k) error_[k] += cell.error[k], size_[k] += cell.size[k];
     return cell;
   }
@@ -135,9 +157,19 @@ class Adaptive {
   void push(Cell cell) {
     const Interval& side = cell.split_u ? cell.u : cell.v;
     const bool splittable = side.width() > 64 * kEpsilon * magnitude(side);
-    for (int k = 0; k < count_ && splittable; ++k) {
-      if (cell.error[k] > std::max(101 * kEpsilon * cell.size[k], goal_.noise * cell.size[0])) {
+    if (cell.unknown > 0 && splittable) {
+      cell.priority = std::numeric_limits<double>::infinity();
+    } else if (cell.unknown > 0) {
+      if (2 * cell.unknown > scratch_.size()) is_hopeless_ = true;
+      --unknown_;
+    }
+    for (int k = 0; k < count_; ++k) {
+      if (!(cell.error[k] > std::max(101 * kEpsilon * cell.size[k], goal_.noise * cell.size[0]))) continue;
+      if (splittable) {
         cell.priority = std::max(cell.priority, cell.error[k] / goal_of(k));
+      } else {
+        error_[k] += 2 * cell.size[k] - cell.error[k];
+        stuck_[k] += cell.error[k] = 2 * cell.size[k];
       }
     }
     cells_.push(std::move(cell));
@@ -147,13 +179,16 @@ class Adaptive {
     return std::max(
         {goal_.absolute, goal_.relative * size_[k], goal_.noise * size_[0], std::numeric_limits<double>::min()});
   }
-  // Also when an integrand was not finite: nothing can mend that.
+  // Also when an integrand is not finite in many places, or the sums are not: nothing can mend that.
+  bool is_lost() const { return is_hopeless_ || unknown_ > kMostUnknown; }
   bool done() const {
+    if (is_lost() || unknown_ > 0) return is_lost();
     for (int k = 0; k < count_; ++k) {
       if (!std::isfinite(error_[k])) return true;
     }
     for (int k = 0; k < count_; ++k) {
-      if (!(error_[k] <= goal_of(k))) return false;
+      if (!(error_[k] <= std::max(goal_of(k), 1.01 * stuck_[k])))
+        return false;  // what is left can only get little better
     }
     return true;
   }
@@ -176,16 +211,26 @@ class Adaptive {
     for (int k = 0; k < count_; ++k) {
       result_.value[k] += lost[k];
       const double goal = std::max({goal_.absolute, goal_.relative * size[k], goal_.noise * size[0]});
-      if (!std::isfinite(result_.value[k])) result_.value[k] = std::numeric_limits<double>::quiet_NaN();
+      if (is_lost() || unknown_ > 0 || !std::isfinite(result_.value[k])) {
+        result_.value[k] = std::numeric_limits<double>::quiet_NaN();
+        result_.error[k] = std::numeric_limits<double>::infinity();
+        result_.converged = false;
+      }
       if (!(result_.error[k] <= goal)) result_.converged = false;
     }
     return std::move(result_);
   }
 
+  // More such cells at a time are no single places.
+  static constexpr int kMostUnknown = 256;
+
   Evaluate evaluate_;
   int count_, rows_;
+  int unknown_ = 0;  // cells with nodes where an integrand is not finite
+  bool is_hopeless_ = false;
   IntegrationGoal goal_;
   std::vector<double> error_, size_, scratch_;
+  std::vector<double> stuck_;  // errors of cells too narrow to be split
   std::priority_queue<Cell> cells_;
   Integral result_;
 };

@@ -39,7 +39,9 @@ struct IntegrationGoal {
 struct Integral {
   std::vector<double> value, error;
   int evaluations = 0;
-  bool converged = false;  // false: the evaluations ran out, or an integrand was not finite (its value is then NaN)
+  // False: the evaluations ran out, or an integrand is not finite at more than places between which it could be
+  // integrated (all values are then NaN).
+  bool converged = false;
 };
 
 // Writes the values of all integrands at the point; the span has `count` elements.

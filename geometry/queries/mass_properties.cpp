@@ -30,10 +30,12 @@ struct Scale {
   Vec3 origin;
   double unit;
   double rounding;  // of a coordinate, in the unit: far from the world's origin lengths have fewer figures
+  // Bounds may be infinite where the thing is not (sin(x)/x).
   explicit Scale(const Box3& box)
-      : origin(box.center()),
-        unit(box.diameter() > 0 ? 0.5 * box.diameter() : 1.0),
-        rounding(kEpsilon * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) / unit) {}
+      : origin(box.bounded() ? box.center() : Vec3(0)),
+        unit(box.bounded() && box.diameter() > 0 ? 0.5 * box.diameter() : 1.0),
+        rounding(box.bounded() ? kEpsilon * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi))) / unit
+                               : kEpsilon) {}
   // Of integral k of the list above, in this unit.
   double factor(int k) const {
     const int power = k == 0 ? 2 : k < 5 ? 3 : k < 8 ? 4 : 5;
@@ -92,6 +94,20 @@ SurfaceMeasures area_of(Integral integral, const Scale& scale) {
   result.area = {scale.factor(0) * integral.value[0], scale.factor(0) * integral.error[0]};
   set_centroid(integral, scale, result.centroid, result.centroid_error);
   return result;
+}
+
+// An integral that comes no nearer to rest than this is infinite, for all that can be told: beside a place where the
+// derivatives grow without bounds, that of 1/x changes by more with the last digit of x, that of x^(-3/4) by less.
+constexpr double kLeastAccuracy = 1e-3;
+
+// Of a length or an area, integral 0.
+void require_measure(const Integral& integral, const std::string& what) {
+  const bool is_found = std::isfinite(integral.value[0]) &&
+                        (integral.converged || integral.error[0] <= kLeastAccuracy * std::abs(integral.value[0]));
+  if (!is_found)
+    throw std::invalid_argument(what +
+                                " is infinite or cannot be told: somewhere in the domain the derivatives grow "
+                                "without bounds or have no values");
 }
 
 // An integrand that is nothing but rounding seems to err as much as it is large, in either direction.
@@ -155,6 +171,7 @@ CurveMeasures measure(const Curve& curve) {
     for (int k = 0; k < 3; ++k) values[1 + k] = speed * (jet.d[0][k] - scale.origin[k]) / scale.unit;
   };
   Integral integral = integrate(integrand, 4, smooth_breaks(curve, curve.domain()), goal(kMeasureAccuracy, scale));
+  require_measure(integral, "the length");
   integral.error[0] += 2 * scale.rounding;  // at its ends
   for (int k = 1; k < 4; ++k) integral.error[k] += scale.rounding * integral.value[0];
   CurveMeasures result;
@@ -178,8 +195,10 @@ SurfaceMeasures measure(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("an unbounded surface has no area; give it a domain");
   const Scale scale(bounds(surface));
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
-  return area_of(integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale)),
-                 scale);
+  const Integral integral =
+      integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale));
+  require_measure(integral, "the area");
+  return area_of(integral, scale);
 }
 
 SurfaceMeasures measure_face(const Body& body, int face) {
@@ -188,7 +207,9 @@ SurfaceMeasures measure_face(const Body& body, int face) {
     for (int coedge : body.loops[loop].coedges) box.include(bounds(*body.edges[body.coedges[coedge].edge].curve));
   const Scale scale(box);
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
-  return area_of(integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale)), scale);
+  const Integral integral = integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale));
+  require_measure(integral, "the area of face " + std::to_string(face));
+  return area_of(integral, scale);
 }
 
 namespace {
@@ -203,6 +224,7 @@ MassProperties measure(const Body& body, double accuracy) {
   std::array<double, kAllIntegrals> value{}, error{};
   for (size_t face = 0; face < body.faces.size(); ++face) {
     Integral integral = integrate_over(body, static_cast<int>(face), integrands, kAllIntegrals, goal(accuracy, scale));
+    require_measure(integral, "the area of face " + std::to_string(face));
     add_rounding(integral, scale, bounds(body, static_cast<int>(face)).diameter());
     for (int k = 0; k < kAllIntegrals; ++k) {
       const double sign = k < kAreaIntegrals ? 1 : outward(body.faces[face]);

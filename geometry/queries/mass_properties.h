@@ -48,9 +48,9 @@ struct MassProperties {
 // Relative accuracy that the quadrature aims at.
 inline constexpr double kMeasureAccuracy = 1e-12;
 
-// Throws std::invalid_argument for an unbounded curve or surface.
+// These throw std::invalid_argument for what is unbounded, and where the length or area is infinite or cannot be told.
 CurveMeasures measure(const Curve& curve);
-// The length of the part from a to b (negative if b < a).
+// The length of the part from a to b (negative if b < a); no number where it cannot be told.
 Measured arc_length(const Curve& curve, double a, double b);
 SurfaceMeasures measure(const Surface& surface);
 SurfaceMeasures measure_face(const Body& body, int face);

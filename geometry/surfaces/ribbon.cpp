@@ -125,6 +125,7 @@ class Builder {
     const CurveJet at = curve_.evaluate(t, 2);
     const double speed = glm::length(at.d[1]);
     if (!(speed > 0)) refuse("the curve rests", t, "a ribbon needs a tangent everywhere");
+    if (!(speed < kInfinity)) refuse("the derivative has no bounds", t, "a ribbon follows smooth curves only");
     const Vec3 unit = at.d[1] / speed;
     return {unit, (at.d[2] - glm::dot(at.d[2], unit) * unit) / speed, speed};
   }

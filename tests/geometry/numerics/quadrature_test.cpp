@@ -130,5 +130,30 @@ TEST(Quadrature, says_when_it_fails) {
   EXPECT_TRUE(std::isnan(nan.value[0]));
 }
 
+// The integral of |x - a|^p over [-1, 1] is ((1 + a)^(p + 1) + (1 - a)^(p + 1)) / (p + 1): exactly at a = 0, where the
+// places are told apart down to nothing, and elsewhere as far as the rounding of x - a lets it.
+TEST(Quadrature, integrates_over_places_where_the_integrand_is_infinite) {
+  for (const double a : {0.0, 0.3, -0.71})
+    for (const double p : {-0.5, -2.0 / 3, -0.75}) {
+      const Integral integral = integrate([&](double x, std::span<double> f) { f[0] = std::pow(std::abs(x - a), p); },
+                                          1, Interval(-1, 1), {0, 1e-12});
+      const double exact = (std::pow(1 + a, p + 1) + std::pow(1 - a, p + 1)) / (p + 1);
+      EXPECT_NEAR(integral.value[0], exact, integral.error[0]) << a << " " << p;
+      EXPECT_LE(integral.error[0], (a == 0 ? 1e-11 : 1e-3) * exact) << a << " " << p;
+      EXPECT_EQ(integral.converged, a == 0) << a << " " << p;
+      EXPECT_LT(integral.evaluations, 20000);
+    }
+  for (const double a : {0.0, 0.3}) {
+    const Integral none = integrate([&](double x, std::span<double> f) { f[0] = 1 / sqr(x - a); }, 1, Interval(-1, 1));
+    EXPECT_FALSE(none.converged) << a;
+    EXPECT_FALSE(none.error[0] < 0.1 * none.value[0]) << a;
+  }
+  // Over [-1, 1]^2 the integral of |x|^(-1/2) is 8.
+  const Integral wall = integrate([](double x, double, std::span<double> f) { f[0] = 1 / std::sqrt(std::abs(x)); }, 1,
+                                  Interval(-1, 1), Interval(-1, 1), {0, 1e-9});
+  EXPECT_TRUE(wall.converged);
+  EXPECT_NEAR(wall.value[0], 8, wall.error[0]);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry

@@ -9,6 +9,9 @@
 #include "geometry/bodies/trimmed_surface.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/ellipse.h"
+#include "geometry/curves/formula_curve.h"
+#include "geometry/numerics/quadrature.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
 #include "geometry/tessellation/tessellate.h"
@@ -37,6 +40,45 @@ TEST(MassProperties, LengthsOfCurves) {
   expect_near(half.centroid, {0, 2 / kPi, 0}, 1);
   const Measured back = arc_length(Circle(Frame{}, 1), 2, 0.5);
   EXPECT_NEAR(back.value, -1.5, 1e-13);
+}
+
+FormulaCurve graph(const std::string& y, const Interval& domain = {-1, 1}) {
+  return FormulaCurve(point_formulas({"t", y, "0"}, {"t"}, Coordinates::cartesian), domain, false);
+}
+
+// y = |x|^p over [-1, 1], by the substitution x = y^(1/p) where that is smoother. For p = 1/2, with x = y^2, the length
+// is that of two arcs of a parabola, sqrt 5 + asinh(2)/2; for p = 3/2 twice (13^1.5 - 8)/27. The heights of the
+// centroids and the length for p = 1/3 are integrals of smooth functions in 50 digits.
+TEST(MassProperties, CurvesWithInfiniteSlopes) {
+  const CurveMeasures cusp = measure(graph("abs(t)^1.5"));
+  expect_near(cusp.length, 2 * (std::pow(13, 1.5) - 8) / 27);
+  EXPECT_NEAR(cusp.centroid.y, 0.446513, 1e-6);
+  EXPECT_NEAR(cusp.centroid.x, 0, 1e-12);
+  const CurveMeasures root = measure(graph("sqrt(abs(t))"));
+  expect_near(root.length, std::sqrt(5) + 0.5 * std::asinh(2.0));
+  EXPECT_NEAR(root.centroid.y, 0.57363, 1e-5);
+  expect_near(measure(graph("abs(t)^0.5")).length, std::sqrt(5) + 0.5 * std::asinh(2.0));
+  // x = y^3: 2 int_0^1 sqrt(1 + 9 y^4) dy
+  const auto arc = [](double y, std::span<double> f) { f[0] = 2 * std::sqrt(1 + 9 * y * y * y * y); };
+  expect_near(measure(graph("cbrt(t)")).length, integrate(arc, 1, Interval(0, 1), {0, 1e-14}).value[0]);
+  // Away from zero the rounding of the parameter takes some digits, and the error says how many.
+  const Measured moved = measure(graph("sqrt(abs(t - 0.3))", {-0.7, 1.3})).length;
+  EXPECT_NEAR(moved.value, std::sqrt(5) + 0.5 * std::asinh(2.0), moved.error);
+  EXPECT_LE(moved.error, 1e-6);
+  for (const char* infinite : {"1/(t - 0.1)", "log(abs(t - 0.1))", "1/(t - 0.1)^2"})
+    EXPECT_THROW(measure(graph(infinite)), std::invalid_argument) << infinite;
+}
+
+// z = |x|^1.5 has the length of that curve for an area; z = sqrt(x^2 + y^2) sqrt 2 times that of the square.
+TEST(MassProperties, SurfacesWithRootsOfZero) {
+  const auto area = [](const std::string& z) {
+    return measure(FormulaSurface(point_formulas({"u", "v", z}, {"u", "v"}, Coordinates::cartesian), {{-1, 1}, {-1, 1}},
+                                  FormulaSurface::Closed{}))
+        .area;
+  };
+  expect_near(area("abs(u)^1.5"), 4 * (std::pow(13, 1.5) - 8) / 27);
+  expect_near(area("sqrt(u^2 + v^2)"), 4 * std::sqrt(2));
+  expect_near(area("sqrt(abs(u))"), 2 * std::sqrt(5) + std::asinh(2.0));
 }
 
 TEST(MassProperties, AreasOfSurfaces) {
