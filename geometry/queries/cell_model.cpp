@@ -130,12 +130,12 @@ CellModel model_of(const Surface& surface, const Rectangle& box) {
     m.shift_y += glm::dot(d, glm::abs(frame.dual_y));
     m.bend += glm::dot(d, glm::abs(frame.normal));
     variation = glm::length(d);
+    if (!(variation < kInfinity)) variation = kInfinity;  // the mean may be no number
   };
   include(hull.d(1, 0), jet.du(), hu, m.variation_x);
   include(hull.d(0, 1), jet.dv(), hv, m.variation_y);
-  const bool bounded = m.variation_x + m.variation_y < kInfinity;
-  if (!frame.regular || !bounded) m.shift_x = m.shift_y = kInfinity;
-  if (!bounded) m.bend = m.variation_x = m.variation_y = kInfinity;
+  if (!frame.regular || !m.is_bounded()) m.shift_x = m.shift_y = kInfinity;
+  if (!m.is_bounded()) m.bend = kInfinity;
   return m;
 }
 

@@ -21,8 +21,9 @@ struct CellModel {
   double shift_x = 0;
   double shift_y = 0;
   double bend = 0;
-  double variation_x = 0;  // bounds on the lengths of the differences
+  double variation_x = 0;  // bounds on the lengths of the differences; infinite where formulas are singular
   double variation_y = 0;
+  bool is_bounded() const { return variation_x + variation_y < kInfinity; }
   // Bounds on the extent in space along x, and along y, from the centre.
   double reach_x() const { return glm::length(dx) + variation_x; }
   double reach_y() const { return glm::length(dy) + variation_y; }

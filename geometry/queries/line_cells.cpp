@@ -218,20 +218,41 @@ LEKALO_WIDE Verdict decide(const PatchView& patch, const PatchCell& cell, const 
       patch, [&]<int kP, int kQ>() { return iterate(PatchCells<kP, kQ>(patch, cell, line), guess, line, hit); });
 }
 
-// At a pole one derivative, or the cross product, vanishes faster than the cell.
+// At a pole one derivative, or the cross product, vanishes faster than the cell; where a formula has a root of zero one
+// has no bounds.
 bool is_singular(const CellModel& m, double whole_x, double whole_y) {
+  if (!m.is_bounded()) return true;
   const double lx = glm::length(m.dx), ly = glm::length(m.dy);
   return lx <= 1e-6 * whole_x || ly <= 1e-6 * whole_y || glm::length(glm::cross(m.dx, m.dy)) <= 1e-6 * lx * ly;
+}
+
+// Lines along singular points, such as the edge of a cusp, are tangents as well: parallel to a derivative that does not
+// vanish there.
+bool is_along(const Vec3& direction, const CellModel& m, double whole_x, double whole_y) {
+  const auto is_parallel = [&](const Vec3& d, double variation, double whole) {
+    const double length = glm::length(d);
+    return variation < kInfinity && length > 1e-6 * whole &&
+           glm::length(glm::cross(direction, d)) <= 1e-6 * glm::length(direction) * length;
+  };
+  return is_parallel(m.dx, m.variation_x, whole_x) || is_parallel(m.dy, m.variation_y, whole_y);
 }
 
 Vec2 extent(const CellModel& m) { return {m.reach_x(), m.reach_y()}; }
 
 // Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
-// simpler by being made narrower, that is the side towards the pole.
+// simpler by being made narrower, that is the side towards the pole. Without bounds both are made shorter by turns.
 bool halve_across_x(const CellModel& m, double hx, double hy) {
+  if (!m.is_bounded()) return hx >= hy;
   const Vec2 e = extent(m);
-  if (!(e.x + e.y < kInfinity)) return hx >= hy;
   return e.x >= e.y;
+}
+
+// Where the bounds on the derivatives say nothing, from the hull; zero, which no part is smaller than and no line near
+// to, where that is without bounds too.
+Vec2 whole_extent(const Surface& surface, const Rectangle& box, const CellModel& m) {
+  if (m.is_bounded()) return extent(m);
+  const Box3 hull = surface.enclose(box, 0).values[0];
+  return Vec2(hull.bounded() ? 0.25 * hull.diameter() : 0);
 }
 
 struct Search {
@@ -240,8 +261,9 @@ struct Search {
   Vec2 whole;  // extent of the whole piece
   int cells = 0;
 
+  double size() const { return whole.x + whole.y; }
   // The slack at borders as a length.
-  double slack() const { return whole.x + whole.y < kInfinity ? kBorderSlack * (whole.x + whole.y) : 0; }
+  double slack() const { return kBorderSlack * size(); }
 
   // A neighbour in the same piece may have found the same root on the common border.
   void add(const CellHit& hit) {
@@ -249,18 +271,20 @@ struct Search {
       if (std::abs(hits[i].x - hit.x) <= 4 * kBorderSlack && std::abs(hits[i].y - hit.y) <= 4 * kBorderSlack) return;
     hits.add(hit);
   }
-  // The undecided remains of a singular point: cells around it differ in the parameter that does not matter.
-  void add_singular(const CellHit& hit) {
-    const double size = whole.x + whole.y;
-    const double near = size < kInfinity ? 1e-9 * size * std::sqrt(line.inverse_length2) : 0;
+  // The undecided remains of a singular point, if it is on the line: a cell that has no bounds on its derivatives may
+  // be long in space however small it is. Cells around the point differ in the parameter that does not matter.
+  void add_singular(const Vec3& point, double x, double y) {
+    const Vec3 from = point - line.line.origin;
+    if (!(std::hypot(glm::dot(line.n1, from), glm::dot(line.n2, from)) <= kSameHit * size())) return;
+    const double t = glm::dot(from, line.line.direction) * line.inverse_length2;
+    const double near = 1e-9 * size() * std::sqrt(line.inverse_length2);
     for (int i = 0; i < hits.size(); ++i)
-      if (std::abs(hits[i].t - hit.t) <= near) return;
-    hits.add(hit);
+      if (std::abs(hits[i].t - t) <= near) return;
+    hits.add({t, x, y});
   }
   bool is_smallest(const CellModel& m, double hx, double hy) const {
     const Vec2 e = extent(m);
-    const double size = whole.x + whole.y;
-    return (size < kInfinity && e.x + e.y < kSmallestCell * size) || std::max(hx, hy) < kSmallestCell;
+    return e.x + e.y < kSmallestCell * size() || std::max(hx, hy) < kSmallestCell;
   }
 };
 
@@ -275,8 +299,8 @@ bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double
     return true;
   }
   if (!s.is_smallest(m, hx, hy)) return false;
-  if (is_singular(m, s.whole.x * hx, s.whole.y * hy))
-    s.add_singular({glm::dot(m.point - s.line.line.origin, s.line.line.direction) * s.line.inverse_length2, x0, y0});
+  const double wx = s.whole.x * hx, wy = s.whole.y * hy;
+  if (is_singular(m, wx, wy) && !is_along(s.line.line.direction, m, wx, wy)) s.add_singular(m.point, x0, y0);
   return true;
 }
 
@@ -330,13 +354,13 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
     search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
   };
   // Across a line that runs in the surface parts get thin long before they get short.
-  const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell;
+  const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell, has_proxy = !is_thin && m.is_bounded();
   ProxyPatch own;
-  if (!proxy && !is_thin) {
+  if (!proxy && has_proxy) {
     own = proxy_of(surface, part.box);
     proxy = &own;
   }
-  if (!is_thin && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
+  if (has_proxy && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
     BehindProxy behind(part.cells(surface), s.slack(), *proxy);
     CellHits found;
     search_net(proxy->view(), behind, s.line, found);
@@ -388,7 +412,7 @@ void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& l
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
                const LineBasis& line, CellHits& hits) {
-  Search s{line, hits, extent(model)};
+  Search s{line, hits, whole_extent(surface, box, model)};
   search(s, surface, {box}, model, &proxy);
 }
 

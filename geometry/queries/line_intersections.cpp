@@ -95,11 +95,22 @@ class EnclosureTarget final : public LineTarget {
     CellModel model;
     Rectangle box;
     ProxyPatch proxy;
+    double size = 0;
   };
   // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
   // What is halved next depends only on what there is, so that any number of threads makes the same cells.
   void cut(const std::vector<Rectangle>& boxes) {
-    const auto size_of = [](const Cell& cell) { return cell.model.reach_x() + cell.model.reach_y(); };
+    // Where a root of zero has derivatives without bounds the hull has some.
+    const auto size_of = [&](const Cell& cell) {
+      if (cell.model.is_bounded()) return cell.model.reach_x() + cell.model.reach_y();
+      return 0.5 * surface_->enclose(cell.box, 0).values[0].diameter();
+    };
+    const Rectangle domain = surface_->domain();
+    // By the bounds: on a line of singular points in the middle of a cell one of the derivatives there may vanish.
+    const auto is_halved_across_u = [&](const Cell& cell) {
+      if (cell.model.is_bounded()) return cell.model.reach_x() >= cell.model.reach_y();
+      return cell.box.u.width() * domain.v.width() >= cell.box.v.width() * domain.u.width();
+    };
     const auto for_each = [](size_t count, const auto& make) {
       tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const tbb::blocked_range<size_t>& part) {
         for (size_t i = part.begin(); i < part.end(); ++i) make(i);
@@ -108,22 +119,23 @@ class EnclosureTarget final : public LineTarget {
     std::vector<Cell> fresh(boxes.size()), rough;
     for (size_t i = 0; i < boxes.size(); ++i) fresh[i].box = boxes[i];
     for (;;) {
-      for_each(fresh.size(), [&](size_t i) { fresh[i].model = model_of(*surface_, fresh[i].box); });
+      for_each(fresh.size(), [&](size_t i) {
+        fresh[i].model = model_of(*surface_, fresh[i].box);
+        fresh[i].size = size_of(fresh[i]);
+      });
       for (const Cell& cell : fresh) (roughness(cell.model) <= kFlat ? cells_ : rough).push_back(cell);
       const size_t count = cells_.size() + rough.size();
       if (rough.empty() || count >= kMostEnclosedCells) break;
       // The largest, and those not much smaller.
-      std::stable_sort(rough.begin(), rough.end(),
-                       [&](const Cell& a, const Cell& b) { return size_of(a) > size_of(b); });
-      const double least = 0.7 * size_of(rough.front());
+      std::stable_sort(rough.begin(), rough.end(), [](const Cell& a, const Cell& b) { return a.size > b.size; });
+      const double least = 0.7 * rough.front().size;
       fresh.clear();
       size_t halved = 0;
       for (; halved < rough.size() && count + halved < kMostEnclosedCells; ++halved) {
         const Cell& cell = rough[halved];
-        if (size_of(cell) < least) break;
+        if (cell.size < least) break;
         Cell first{{}, cell.box, {}}, second = first;
-        // By the bounds: on a line of singular points in the middle of a cell one of the derivatives there may vanish.
-        if (cell.model.reach_x() >= cell.model.reach_y())
+        if (is_halved_across_u(cell))
           first.box.u.hi = second.box.u.lo = cell.box.u.middle();
         else
           first.box.v.hi = second.box.v.lo = cell.box.v.middle();

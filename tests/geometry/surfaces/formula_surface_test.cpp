@@ -200,6 +200,92 @@ TEST(FormulaSurface, LinesMeetWhitneysUmbrellaWhereItsEquationSays) {
   });
 }
 
+// z = h(x, y) with h convex, over the square: along a line h - z is convex, so that its least place lies between its
+// zeros, of which there are at most two.
+template <class Height>
+std::vector<double> convex_zeros(const Line& line, const Height& h) {
+  using Long = long double;
+  const auto excess = [&](Long t) {
+    const Long x = line.origin.x + t * line.direction.x, y = line.origin.y + t * line.direction.y;
+    return h(x, y) - (line.origin.z + t * line.direction.z);
+  };
+  Long lo = -100, hi = 100;
+  for (int k = 0; k < 2; ++k) {
+    if (line.direction[k] == 0) {
+      if (std::abs(line.origin[k]) > 1) return {};
+      continue;
+    }
+    const Long a = (-1 - (Long)line.origin[k]) / line.direction[k], b = (1 - (Long)line.origin[k]) / line.direction[k];
+    lo = std::max(lo, std::min(a, b)), hi = std::min(hi, std::max(a, b));
+  }
+  if (lo > hi) return {};
+  Long a = lo, b = hi;
+  while (b - a > 1e-17L * (1 + std::abs(a))) {
+    const Long third = (b - a) / 3, p = a + third, q = b - third;
+    if (!(a < p && p < q && q < b)) break;
+    (excess(p) < excess(q) ? b : a) = excess(p) < excess(q) ? q : p;
+  }
+  const Long least = excess(a) < excess(b) ? a : b;
+  if (excess(least) > 0) return {};
+  std::vector<double> result;
+  for (Long outer : {lo, hi}) {
+    if (excess(outer) < 0) continue;
+    Long inner = least;
+    for (int step = 0; step < 200; ++step) {
+      const Long middle = 0.5L * (inner + outer);
+      (excess(middle) > 0 ? outer : inner) = middle;
+    }
+    result.push_back(static_cast<double>(inner));
+  }
+  return result;
+}
+
+// Surfaces whose formulas have roots and powers that come to zero inside of the domain: a cone's tip, points where the
+// derivatives end after the second or fourth, a line of such. Random lines, and lines that pass the singular place at
+// distances down to nothing.
+TEST(FormulaSurface, LinesMeetRootsOfZeroWhereConvexFunctionsSay) {
+  const auto check = [](const std::string& z, auto height) {
+    SCOPED_TRACE(z);
+    const auto target = std::make_shared<FormulaSurface>(surface({"u", "v", z}, {{-1, 1}, {-1, 1}}));
+    const auto truth = [&](const Line& line) { return convex_zeros(line, height); };
+    compare(*target, target, tests::tier_count(20000), truth);
+    const LineIntersector intersector(target);
+    std::mt19937_64 random(8);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < tests::tier_count(20000); ++i) {
+      // Steeper than the surface near the origin.
+      const double turn = kTwoPi * unit(random), lean = 0.4 * unit(random);
+      const double off = i % 8 == 0 ? 0 : std::pow(10.0, -12 * unit(random)), beside = kTwoPi * unit(random);
+      const Vec3 d =
+          i % 16 == 0 ? Vec3(0, 0, -1) : glm::normalize(Vec3(lean * std::cos(turn), lean * std::sin(turn), -1));
+      const Line line{off * Vec3(std::cos(beside), std::sin(beside), 0) - 2.0 * d, d};
+      const std::vector<SurfaceHit> found = intersector.all_hits(line);
+      const std::vector<double> expected = truth(line);
+      ASSERT_EQ(found.size(), expected.size()) << i << " off " << off;
+      for (size_t k = 0; k < found.size(); ++k) {
+        EXPECT_NEAR(found[k].t, expected[k], 1e-9) << i << " off " << off;
+        EXPECT_LE(glm::length(target->point(found[k].u, found[k].v) - line.at(found[k].t)), 1e-9) << i;
+      }
+    }
+  };
+  const auto r = [](long double x, long double y) { return std::sqrt(x * x + y * y); };
+  check("sqrt(u^2 + v^2)", r);
+  check("(u^2 + v^2)^1.5", [&](long double x, long double y) { return std::pow(r(x, y), 3); });
+  check("(u^2 + v^2)^2.5", [&](long double x, long double y) { return std::pow(r(x, y), 5); });
+  check("abs(u)^1.5", [](long double x, long double) { return std::pow(std::abs(x), 1.5L); });
+}
+
+// Lines that lie in a surface along its singular points, or touch it there: two hits or none.
+TEST(FormulaSurface, LinesAlongSingularPointsAreTangents) {
+  const auto hits = [](const std::array<std::string, 3>& point, const Line& line) {
+    return LineIntersector(std::make_shared<FormulaSurface>(surface(point, {{-1, 1}, {-1, 1}}))).all_hits(line).size();
+  };
+  EXPECT_LE(hits({"u", "v", "abs(u)^1.5"}, {{0, -5, 0}, {0, 1, 0}}), 2u);
+  EXPECT_LE(hits({"u^2", "u^3", "v"}, {{0, 0, -5}, {0, 0, 1}}), 2u);
+  EXPECT_LE(hits({"u*v", "u", "v^2"}, {{0, 0, -5}, {0, 0, 1}}), 2u);
+  EXPECT_LE(hits({"u", "v", "cbrt(u)"}, {{0, -5, 0}, {0, 1, 0}}), 2u);
+}
+
 // Lines in a plane u = c meet (u v, u, v^2 + u) where they meet the parabola there. A cell that is clipped to the plane
 // alone is soon thinner than the rounding of the surface's points.
 TEST(FormulaSurface, LinesAcrossOneParameterMeetItsParabola) {
