@@ -83,14 +83,22 @@ struct SurfaceCells {
     see(line, here.dt, p.dy);
   }
   CellModel model() const { return model_of(*surface, box); }
-  // `slack`: as a length.
-  bool excluded(const LineBasis& line, double slack) const {
+  // How near to the line the hull of the cell comes, and how far from it it reaches, across n1 and n2.
+  struct Distance {
+    double least, most;
+  };
+  Distance distance(const LineBasis& line) const {
     const Box3 hull = surface->enclose(box, 0).values[0];
     const Vec3 r = hull.center() - line.line.origin;
     const Vec3 half = 0.5 * hull.size();
-    const double e = slack + 1e-15 * glm::length(r);
-    return std::abs(glm::dot(line.n1, r)) > glm::dot(glm::abs(line.n1), half) + e ||
-           std::abs(glm::dot(line.n2, r)) > glm::dot(glm::abs(line.n2), half) + e;
+    const double rounding = 1e-15 * glm::length(r);
+    Distance d{0, 0};
+    for (const Vec3& n : {line.n1, line.n2}) {
+      const double middle = std::abs(glm::dot(n, r)), reach = glm::dot(glm::abs(n), half) + rounding;
+      d.least = std::max(d.least, middle - reach);
+      d.most = std::max(d.most, middle + reach);
+    }
+    return d;
   }
 };
 
@@ -226,25 +234,26 @@ bool is_singular(const CellModel& m, double whole_x, double whole_y) {
   return lx <= 1e-6 * whole_x || ly <= 1e-6 * whole_y || glm::length(glm::cross(m.dx, m.dy)) <= 1e-6 * lx * ly;
 }
 
-// Lines along singular points, such as the edge of a cusp, are tangents as well: parallel to a derivative that does not
-// vanish there.
-bool is_along(const Vec3& direction, const CellModel& m, double whole_x, double whole_y) {
+// The parameter along which a line runs: parallel to its derivative, which does not vanish.
+enum class Along { neither, x, y };
+Along parameter_along(const Vec3& direction, const CellModel& m, double whole_x, double whole_y) {
   const auto is_parallel = [&](const Vec3& d, double variation, double whole) {
     const double length = glm::length(d);
     return variation < kInfinity && length > 1e-6 * whole &&
            glm::length(glm::cross(direction, d)) <= 1e-6 * glm::length(direction) * length;
   };
-  return is_parallel(m.dx, m.variation_x, whole_x) || is_parallel(m.dy, m.variation_y, whole_y);
+  if (is_parallel(m.dx, m.variation_x, whole_x)) return Along::x;
+  return is_parallel(m.dy, m.variation_y, whole_y) ? Along::y : Along::neither;
 }
 
 Vec2 extent(const CellModel& m) { return {m.reach_x(), m.reach_y()}; }
 
 // Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
-// simpler by being made narrower, that is the side towards the pole. Without bounds both are made shorter by turns.
-bool halve_across_x(const CellModel& m, double hx, double hy) {
-  if (!m.is_bounded()) return hx >= hy;
-  const Vec2 e = extent(m);
-  return e.x >= e.y;
+// simpler by being made narrower, that is the side towards the pole. Along a parameter of the line itself only what
+// leaves the line counts. Without bounds both are made shorter by turns.
+bool halve_across_x(const CellModel& m, Along along, double hx, double hy) {
+  if (!m.is_bounded() && along == Along::neither) return hx >= hy;
+  return (along == Along::x ? m.variation_x : m.reach_x()) >= (along == Along::y ? m.variation_y : m.reach_y());
 }
 
 // Where the bounds on the derivatives say nothing, from the hull; zero, which no part is smaller than and no line near
@@ -259,6 +268,7 @@ struct Search {
   const LineBasis& line;
   CellHits& hits;
   Vec2 whole;  // extent of the whole piece
+  SurfaceCells whole_cells;
   int cells = 0;
 
   double size() const { return whole.x + whole.y; }
@@ -272,15 +282,37 @@ struct Search {
     hits.add(hit);
   }
   // The undecided remains of a singular point, if it is on the line: a cell that has no bounds on its derivatives may
-  // be long in space however small it is. Cells around the point differ in the parameter that does not matter.
-  void add_singular(const Vec3& point, double x, double y) {
-    const Vec3 from = point - line.line.origin;
-    if (!(std::hypot(glm::dot(line.n1, from), glm::dot(line.n2, from)) <= kSameHit * size())) return;
-    const double t = glm::dot(from, line.line.direction) * line.inverse_length2;
+  // be long in space however small it is. Of its places the nearest to the line counts: mostly the point is a corner.
+  // Cells around the point differ in the parameter that does not matter.
+  void add_singular(const SurfaceCells& cells, double x0, double y0, double hx, double hy) {
+    double least = kInfinity, x = x0, y = y0, t = 0;
+    for (const double px : {0., -1., 1.})
+      for (const double py : {0., -1., 1.}) {
+        const Vec3 from = cells.at(px, py).point - line.line.origin;
+        const double off = std::hypot(glm::dot(line.n1, from), glm::dot(line.n2, from));
+        if (!(off < least)) continue;
+        least = off, x = x0 + hx * px, y = y0 + hy * py;
+        t = glm::dot(from, line.line.direction) * line.inverse_length2;
+      }
+    if (!(least <= kSameHit * size()) || runs_along(x, y)) return;
     const double near = 1e-9 * size() * std::sqrt(line.inverse_length2);
     for (int i = 0; i < hits.size(); ++i)
       if (std::abs(hits[i].t - t) <= near) return;
     hits.add({t, x, y});
+  }
+  // Whether a line through a place of the piece runs on along a parameter there: then all of it are such places.
+  bool runs_along(double x, double y) const {
+    const auto from_origin = [&](double px, double py) { return whole_cells.at(px, py).point - line.line.origin; };
+    const Vec3 here = from_origin(x, y);
+    const auto is_on_line = [&](const Vec3& there) {
+      const double off = std::hypot(glm::dot(line.n1, there), glm::dot(line.n2, there));
+      return off <= kSameHit * size() && glm::length(there - here) > 1e-6 * size();
+    };
+    return is_on_line(from_origin(x > 0 ? x - 0.5 : x + 0.5, y)) ||
+           is_on_line(from_origin(x, y > 0 ? y - 0.5 : y + 0.5));
+  }
+  Along along(const CellModel& m, double hx, double hy) const {
+    return parameter_along(line.line.direction, m, whole.x * hx, whole.y * hy);
   }
   bool is_smallest(const CellModel& m, double hx, double hy) const {
     const Vec2 e = extent(m);
@@ -299,8 +331,7 @@ bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double
     return true;
   }
   if (!s.is_smallest(m, hx, hy)) return false;
-  const double wx = s.whole.x * hx, wy = s.whole.y * hy;
-  if (is_singular(m, wx, wy) && !is_along(s.line.line.direction, m, wx, wy)) s.add_singular(m.point, x0, y0);
+  if (is_singular(m, s.whole.x * hx, s.whole.y * hy)) s.add_singular(cells, x0, y0, hx, hy);
   return true;
 }
 
@@ -349,12 +380,16 @@ constexpr double kWorthwhileProxy = 0.05;
 
 void search(Search& s, const Surface& surface, const Part& part, const CellModel& m, const ProxyPatch* proxy) {
   if (is_settled(s, part.cells(surface), m, part.x0, part.y0, part.hx, part.hy)) return;
+  const Along along = s.along(m, part.hx, part.hy);
   const auto go_on = [&](const Part& smaller) {
-    if (smaller.cells(surface).excluded(s.line, s.slack())) return;
+    const SurfaceCells::Distance d = smaller.cells(surface).distance(s.line);
+    // Along a line that runs in the surface, be it by its singular points, every place is a root: a tangent.
+    if (d.least > s.slack() || (along != Along::neither && d.most <= s.slack())) return;
     search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
   };
   // Across a line that runs in the surface parts get thin long before they get short.
   const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell, has_proxy = !is_thin && m.is_bounded();
+  if (is_thin && along != Along::neither) return;
   ProxyPatch own;
   if (!proxy && has_proxy) {
     own = proxy_of(surface, part.box);
@@ -373,8 +408,8 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
       return;
     }
   }
-  const bool along_x = is_thin ? part.hx >= part.hy : halve_across_x(m, part.hx, part.hy);
-  for (const double side : {-0.5, 0.5}) go_on(along_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
+  const bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along, part.hx, part.hy);
+  for (const double side : {-0.5, 0.5}) go_on(across_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 
 }  // namespace
@@ -412,7 +447,7 @@ void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& l
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
                const LineBasis& line, CellHits& hits) {
-  Search s{line, hits, whole_extent(surface, box, model)};
+  Search s{line, hits, whole_extent(surface, box, model), {&surface, box}};
   search(s, surface, {box}, model, &proxy);
 }
 

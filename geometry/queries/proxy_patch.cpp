@@ -42,6 +42,9 @@ Box3 scaled(const Box3& box, double factor) { return {factor * box.lo, factor * 
 
 ProxyPatch proxy_of(const Surface& surface, const Rectangle& box) {
   ProxyPatch result;
+  const int order = surface.enclosure_order() >= 4 ? 4 : 2;
+  const SurfaceEnclosure hull = surface.enclose(box, order);
+  if (!hull.d(2, 0).bounded() || !hull.d(1, 1).bounded() || !hull.d(0, 2).bounded()) return result;
   const double hu = 0.5 * box.u.width(), hv = 0.5 * box.v.width();
   double at_corner = 0, along_x = 0, along_y = 0, twisted = 0, size = 0;
   const auto point = [&](int i, int j) -> Vec4& { return result.points[4 * i + j]; };
@@ -63,8 +66,6 @@ ProxyPatch proxy_of(const Surface& surface, const Rectangle& box) {
       twisted = std::max(twisted, hu * hv * farthest(here.d(1, 1), {jet.duv(), jet.duv()}));
       size = std::max(size, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
     }
-  const int order = surface.enclosure_order() >= 4 ? 4 : 2;
-  const SurfaceEnclosure hull = surface.enclose(box, order);
   // The hull of the patch's derivatives i times by x and j times by y against the surface's.
   const auto bound = [&](int i, int j) {
     Box3 all;
