@@ -147,6 +147,7 @@ class NetSearch {
     // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that clipping and
     // halving take; the same averages of the terms' sizes bound that. Where weights differ much they are far smaller
     // here than elsewhere in the patch.
+    least_weight_ = least_weight;
     if (most_weight > kUneven * least_weight) {
       clip(room_ + n());
       rounding_ = 0;
@@ -415,6 +416,28 @@ class NetSearch {
     return glm::dot(point - line_.line.origin, line_.line.direction) * line_.inverse_length2;
   }
 
+  Vec2 across(const Vec3& point) const {
+    const Vec3 from = point - line_.line.origin;
+    return {glm::dot(line_.n1, from), glm::dot(line_.n2, from)};
+  }
+  // Where weights differ much the coefficients are known too badly to tell a plain root, which the surface's own points
+  // do: Newton's iteration on these, kept in the cell that was asked.
+  bool settles_on_surface(double& x, double& y) const {
+    constexpr int kMostSteps = 10;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const PatchPoint at = surface_at(x, y);
+      const Vec2 f = across(at.point), a(glm::dot(line_.n1, at.ds), glm::dot(line_.n2, at.ds)),
+                 b(glm::dot(line_.n1, at.dt), glm::dot(line_.n2, at.dt));
+      const double determinant = a.x * b.y - a.y * b.x;
+      if (!(std::abs(determinant) > 1e-6 * glm::length(a) * glm::length(b))) return false;
+      const double sx = (b.x * f.y - b.y * f.x) / determinant, sy = (a.y * f.x - a.x * f.y) / determinant;
+      x += sx, y += sy;
+      if (!(std::abs(x) <= 1 + kBorderSlack && std::abs(y) <= 1 + kBorderSlack)) return false;
+      if (std::max(std::abs(sx), std::abs(sy)) <= 0.1 * kBorderSlack) return true;
+    }
+    return false;
+  }
+
   // Cells with a common border may both find a root on it.
   void add(double x, double y, double near) {
     near = std::max(near, 4 * kBorderSlack);
@@ -432,13 +455,22 @@ class NetSearch {
       add_if_singular(cell.x, cell.y);
   }
   void add_if_singular(double x, double y) {
+    // Bounds on the extent mean little where weights differ much.
+    Box3 hull;
+    for (int k = 0; k < n(); ++k) hull.include(Vec3(patch_.points[k]) / patch_.points[k].w);
+    const double size = std::min(whole_.x + whole_.y, hull.diameter());
+    if (allowance_ > kBorderSlack * size * least_weight_ && settles_on_surface(x, y)) {
+      add(x, y, 0);
+      return;
+    }
     const PatchPoint at = surface_at(x, y);
     const double lx = glm::length(at.ds), ly = glm::length(at.dt);
-    if (!(lx <= 1e-6 * whole_.x || ly <= 1e-6 * whole_.y || glm::length(glm::cross(at.ds, at.dt)) <= 1e-6 * lx * ly))
+    if (!(lx <= 1e-6 * std::min(whole_.x, size) || ly <= 1e-6 * std::min(whole_.y, size) ||
+          glm::length(glm::cross(at.ds, at.dt)) <= 1e-6 * lx * ly))
       return;
+    if (!(glm::length(across(at.point)) <= kSameHit * size)) return;
     const double t = along(at.point);
-    const double size = whole_.x + whole_.y;
-    const double near = size < kInfinity ? 1e-9 * size * std::sqrt(line_.inverse_length2) : 0;
+    const double near = 1e-9 * size * std::sqrt(line_.inverse_length2);
     for (int i = 0; i < hits_.size(); ++i)
       if (std::abs(hits_[i].t - t) <= near) return;
     hits_.add({t, x, y});
@@ -583,6 +615,7 @@ class NetSearch {
   double allowance_ = 0;  // with the distance of the surface that the patch stands for
   double excludes_ = 0;   // and the slack at its border
   int cells_ = 0;
+  double least_weight_ = 1;
 };
 
 LEKALO_WIDE void search_bicubic(const PatchView& patch, const CellPlace& place, const Vec2& reach, NearSurface* near,
