@@ -268,7 +268,8 @@ struct Search {
   const LineBasis& line;
   CellHits& hits;
   Vec2 whole;  // extent of the whole piece
-  SurfaceCells whole_cells;
+  const Surface& surface;
+  const Rectangle& box;
   int cells = 0;
 
   double size() const { return whole.x + whole.y; }
@@ -302,7 +303,8 @@ struct Search {
   }
   // Whether a line through a place of the piece runs on along a parameter there: then all of it are such places.
   bool runs_along(double x, double y) const {
-    const auto from_origin = [&](double px, double py) { return whole_cells.at(px, py).point - line.line.origin; };
+    const SurfaceCells piece{&surface, box};
+    const auto from_origin = [&](double px, double py) { return piece.at(px, py).point - line.line.origin; };
     const Vec3 here = from_origin(x, y);
     const auto is_on_line = [&](const Vec3& there) {
       const double off = std::hypot(glm::dot(line.n1, there), glm::dot(line.n2, there));
@@ -380,16 +382,16 @@ constexpr double kWorthwhileProxy = 0.05;
 
 void search(Search& s, const Surface& surface, const Part& part, const CellModel& m, const ProxyPatch* proxy) {
   if (is_settled(s, part.cells(surface), m, part.x0, part.y0, part.hx, part.hy)) return;
-  const Along along = s.along(m, part.hx, part.hy);
+  const auto along = [&] { return s.along(m, part.hx, part.hy); };
   const auto go_on = [&](const Part& smaller) {
     const SurfaceCells::Distance d = smaller.cells(surface).distance(s.line);
     // Along a line that runs in the surface, be it by its singular points, every place is a root: a tangent.
-    if (d.least > s.slack() || (along != Along::neither && d.most <= s.slack())) return;
+    if (d.least > s.slack() || (d.most <= s.slack() && along() != Along::neither)) return;
     search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
   };
   // Across a line that runs in the surface parts get thin long before they get short.
   const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell, has_proxy = !is_thin && m.is_bounded();
-  if (is_thin && along != Along::neither) return;
+  if (is_thin && along() != Along::neither) return;
   ProxyPatch own;
   if (!proxy && has_proxy) {
     own = proxy_of(surface, part.box);
@@ -408,7 +410,7 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
       return;
     }
   }
-  const bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along, part.hx, part.hy);
+  const bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along(), part.hx, part.hy);
   for (const double side : {-0.5, 0.5}) go_on(across_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 
@@ -447,7 +449,7 @@ void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& l
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
                const LineBasis& line, CellHits& hits) {
-  Search s{line, hits, whole_extent(surface, box, model), {&surface, box}};
+  Search s{line, hits, whole_extent(surface, box, model), surface, box};
   search(s, surface, {box}, model, &proxy);
 }
 

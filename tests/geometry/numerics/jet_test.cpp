@@ -170,9 +170,13 @@ TEST(Jet2, powers_of_zero_have_the_derivatives_that_exist) {
   };
   const auto zero = powers(J::u_variable(0.0), J::v_variable(0.0));
   for (int k = 0; k < J::kCount; ++k) {
-    if (J::degree(k) < 3) EXPECT_EQ(zero[0].c[k], 0.0) << k;
+    if (J::degree(k) < 3) {
+      EXPECT_EQ(zero[0].c[k], 0.0) << k;
+    }
     EXPECT_EQ(zero[1].c[k], 0.0) << k;
-    if (k > 0) EXPECT_TRUE(std::isnan(zero[2].c[k])) << k;
+    if (k > 0) {
+      EXPECT_TRUE(std::isnan(zero[2].c[k])) << k;
+    }
   }
   const double x = 0.3, y = -0.4, r = 0.5;
   const auto there = powers(J::u_variable(x), J::v_variable(y))[0];

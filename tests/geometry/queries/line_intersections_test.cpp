@@ -131,6 +131,39 @@ TEST(LineIntersections, RandomRationalBiquintic) {
   expect_complete(std::make_shared<NurbsSurface>(form), "rational_biquintic", 20000, 2);
 }
 
+// An octant of the unit sphere as a biquadratic patch, its parameters moved by u -> c u / (1 + (c - 1) u) until the
+// weights' ratio is 1e12. Lines aimed at points of the octant hit there, and all hits lie on the line and the sphere.
+// Those that graze the sphere are left out: a few of them are lost.
+TEST(LineIntersections, WeightsOfLargeRatio) {
+  const double c = 1000, root = std::sqrt(0.5);
+  const Vec3 points[3][3] = {
+      {{1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{1, 1, 0}, {1, 1, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}}};
+  const double weights[3] = {1, root * c, c * c};
+  NurbsSurfaceForm form;
+  form.degree_u = form.degree_v = 2;
+  form.knots_u = form.knots_v = {0, 0, 0, 1, 1, 1};
+  form.maps_u = form.maps_v = {ParameterMap{}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) form.points.push_back(Vec4(points[i][j], 1) * (weights[i] * weights[j]));
+  const auto octant = std::make_shared<NurbsSurface>(form);
+  const LineIntersector intersector(octant);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < tests::tier_count(1000000); ++i) {
+    const Vec3 aim = glm::normalize(Vec3(unit(random), unit(random), unit(random)) + 1e-3);
+    const Vec3 d = glm::normalize(Vec3(unit(random), unit(random), unit(random)) - 0.5);
+    if (std::abs(glm::dot(d, aim)) < 0.01) continue;
+    const Line line{aim - 2.0 * d, d};
+    bool is_found = false;
+    for (const SurfaceHit& hit : intersector.all_hits(line)) {
+      EXPECT_LE(glm::length(octant->point(hit.u, hit.v) - line.at(hit.t)), 1e-9) << i;
+      EXPECT_NEAR(glm::length(line.at(hit.t)), 1, 1e-9) << i;
+      is_found = is_found || std::abs(hit.t - 2) <= 1e-7;
+    }
+    EXPECT_TRUE(is_found) << i;
+  }
+}
+
 TEST(LineIntersections, TeapotPatches) {
   std::ifstream file(LEKALO_SOURCE_DIR "/scenes/data/newell_teapot.txt");
   std::stringstream text;
