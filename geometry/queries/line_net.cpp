@@ -423,7 +423,7 @@ class NetSearch {
   // Where weights differ much the coefficients are known too badly to tell a plain root, which the surface's own points
   // do: Newton's iteration on these, kept in the cell that was asked.
   bool settles_on_surface(double& x, double& y) const {
-    constexpr int kMostSteps = 10;
+    constexpr int kMostSteps = 30;
     for (int step = 0; step < kMostSteps; ++step) {
       const PatchPoint at = surface_at(x, y);
       const Vec2 f = across(at.point), a(glm::dot(line_.n1, at.ds), glm::dot(line_.n2, at.ds)),
@@ -433,7 +433,8 @@ class NetSearch {
       const double sx = (b.x * f.y - b.y * f.x) / determinant, sy = (a.y * f.x - a.x * f.y) / determinant;
       x += sx, y += sy;
       if (!(std::abs(x) <= 1 + kBorderSlack && std::abs(y) <= 1 + kBorderSlack)) return false;
-      if (std::max(std::abs(sx), std::abs(sy)) <= 0.1 * kBorderSlack) return true;
+      // With the whole patch for a cell its points' own rounding moves the root by some 1e-11.
+      if (std::max(std::abs(sx), std::abs(sy)) <= kSameHit) return true;
     }
     return false;
   }
@@ -460,7 +461,7 @@ class NetSearch {
     for (int k = 0; k < n(); ++k) hull.include(Vec3(patch_.points[k]) / patch_.points[k].w);
     const double size = std::min(whole_.x + whole_.y, hull.diameter());
     if (allowance_ > kBorderSlack * size * least_weight_ && settles_on_surface(x, y)) {
-      add(x, y, 0);
+      add(x, y, 10 * kSameHit);
       return;
     }
     const PatchPoint at = surface_at(x, y);
