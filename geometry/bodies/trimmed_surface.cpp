@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "geometry/bodies/construct.h"
+#include "geometry/bodies/seam_path.h"
+#include "geometry/curves/polyline.h"
 #include "geometry/curves/surface_curve.h"
 #include "geometry/describe.h"
 #include "geometry/tessellation/predicates.h"
@@ -110,8 +112,8 @@ class Trimming {
   Vec2 end(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().hi)); }
   bool coincide(const Vec2& a, const Vec2& b) const { return glm::length(a - b) <= kClosedCurve * size_; }
 
-  // The border of the domain as one more loop. Where the surface is closed it is cut open beside the loops, and these
-  // are moved by whole periods to lie between.
+  // The border of the domain as one more loop. Where the surface is closed it is cut open between the loops, and these
+  // are moved by whole periods to lie between the seam and its copy.
   void add_border() {
     if (!surface_->bounded())
       throw TrimError("the surface is unbounded: it has no border for its outside to end at",
@@ -122,26 +124,68 @@ class Trimming {
       return period > 0 && range.width() >= period * (1 - kDomainSlack);
     };
     const bool closed_u = is_closed(d.u, periods.u), closed_v = is_closed(d.v, periods.v);
-    if (closed_u) cut_open(0, periods.u, d.u);
-    if (closed_v) cut_open(1, periods.v, d.v);
-    const Vec2 corners[] = {{d.u.lo, d.v.lo}, {d.u.hi, d.v.lo}, {d.u.hi, d.v.hi}, {d.u.lo, d.v.hi}};
+    const bool straight_u = !closed_u || cut_straight(0, periods.u, d.u),
+               straight_v = !closed_v || cut_straight(1, periods.v, d.v);
+    // Below, to the right, above and to the left, each from the lower to the higher parameter.
+    const Vec2 a(d.u.lo, d.v.lo), b(d.u.hi, d.v.lo), c(d.u.hi, d.v.hi), e(d.u.lo, d.v.hi);
+    std::array<std::vector<Vec2>, 4> sides{{{a, b}, {b, c}, {e, c}, {a, e}}};
+    if (!straight_u && straight_v) {
+      const std::vector<Vec2> seam = cut_along_path(0, {periods.u, d.v, closed_v});
+      const Vec2 turn(periods.u, 0);
+      sides = {{{seam.front(), seam.front() + turn}, moved(seam, turn), {seam.back(), seam.back() + turn}, seam}};
+    } else if (!straight_v) {
+      if (!straight_u) throw no_gap();
+      const std::vector<Vec2> seam = cut_along_path(1, {periods.v, d.u, closed_u});
+      const Vec2 turn(0, periods.v);
+      sides = {{seam, {seam.back(), seam.back() + turn}, moved(seam, turn), {seam.front(), seam.front() + turn}}};
+    }
     Loop2& border = loops_.emplace_back();
     border.closed_u = closed_u, border.closed_v = closed_v;
     for (int k = 0; k < 4; ++k) {
       // A seam has one direction for both of its sides.
       const bool backward = (k == 2 && closed_v) || (k == 3 && closed_u);
-      const Vec2 &from = corners[k], &to = corners[(k + 1) % 4];
-      curves_.push_back(backward ? image_line({0, 1}, to, from) : image_line({0, 1}, from, to));
+      if (k >= 2 && !backward) std::reverse(sides[k].begin(), sides[k].end());
+      curves_.push_back(chain_of_lines(sides[k]));
       border.uses.push_back({static_cast<int>(curves_.size()) - 1, !backward, curves_.back()});
     }
   }
 
-  void cut_open(int axis, double period, Interval& range) {
+  static TrimError no_gap() {
+    return {"the loops leave no gap where the closed surface could be cut open for its outside",
+            "keep the inside, with a loop for the outer border"};
+  }
+
+  static std::vector<Vec2> moved(std::vector<Vec2> points, const Vec2& by) {
+    for (Vec2& p : points) p += by;
+    return points;
+  }
+
+  static Curve2Ptr chain_of_lines(const std::vector<Vec2>& points) {
+    if (points.size() == 2) return image_line({0, 1}, points[0], points[1]);
+    std::vector<Vec3> in_space;
+    for (const Vec2& p : points) in_space.emplace_back(p, 0);
+    return std::make_shared<NurbsCurve>(polyline(in_space));
+  }
+
+  void move(Loop2& loop, int axis, double by) {
+    if (by == 0) return;
+    Vec3 offset(0);
+    offset[axis] = by;
+    for (Body::Use& use : loop.uses)
+      curves_[use.edge] = use.image = transformed(use.image, Affine::translation(offset));
+  }
+
+  // Straight beside all loops, if there is such a line.
+  bool cut_straight(int axis, double period, Interval& range) {
+    const auto box_of = [](const Loop2& loop) {
+      Box3 box;
+      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
+      return box;
+    };
     // From the start of the range on, what the loops cover.
     std::vector<Interval> covered;
     for (const Loop2& loop : loops_) {
-      Box3 box;
-      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
+      const Box3 box = box_of(loop);
       const double lo = box.lo[axis] - period * std::floor((box.lo[axis] - range.lo) / period);
       covered.push_back({lo, lo + box.hi[axis] - box.lo[axis]});
     }
@@ -157,20 +201,36 @@ class Trimming {
         }
         end = std::max(end, one.hi);
       }
-      if (!(widest > 0))
-        throw TrimError("the loops leave no gap where the closed surface could be cut open for its outside",
-                        "keep the inside, with a loop for the outer border");
+      if (!(widest > 0)) return false;
     }
     range = {at, at + period};
+    // The boxes are a little wide.
+    for (Loop2& loop : loops_) move(loop, axis, -period * std::floor((box_of(loop).lo[axis] - at) / period + 1e-9));
+    return true;
+  }
+
+  // Along a chain of lines between the loops. The band has the axis that is cut for its x.
+  std::vector<Vec2> cut_along_path(int axis, const ClosedBand& band) {
+    const auto across = [&](const Vec2& p) { return axis == 0 ? p : Vec2(p.y, p.x); };
+    std::vector<std::vector<LoopSide>> loops;
     for (Loop2& loop : loops_) {
-      Box3 box;
-      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
-      Vec3 by(0);
-      // The boxes are a little wide.
-      by[axis] = -period * std::floor((box.lo[axis] - at) / period + 1e-9);
-      if (by[axis] == 0) continue;
-      for (Body::Use& use : loop.uses) curves_[use.edge] = use.image = transformed(use.image, Affine::translation(by));
+      outline(loop);
+      auto& sides = loops.emplace_back();
+      for (size_t i = 0; i < loop.polygon.size(); ++i)
+        sides.push_back(
+            {across(loop.polygon[i]), across(loop.polygon[(i + 1) % loop.polygon.size()]), loop.arcs[i].bulge});
     }
+    std::vector<Vec2> seam = seam_path(loops, band);
+    if (seam.empty()) throw no_gap();
+    for (size_t k = 0; k < loops.size(); ++k) {
+      // The steepest side stands for the loop: its middle is at no end of the seam.
+      const LoopSide& side = *std::max_element(loops[k].begin(), loops[k].end(), [](const auto& s, const auto& r) {
+        return std::abs(s.b.y - s.a.y) < std::abs(r.b.y - r.a.y);
+      });
+      move(loops_[k], axis, -band.period * periods_from_seam(0.5 * (side.a + side.b), seam, band.period));
+    }
+    for (Vec2& p : seam) p = across(p);
+    return seam;
   }
 
   void check_place(size_t k) const {
@@ -243,6 +303,8 @@ class Trimming {
   }
 
   void outline(Loop2& loop) const {
+    loop.polygon.clear(), loop.arcs.clear();
+    loop.box = {}, loop.area = 0;
     for (const Body::Use& use : loop.uses) {
       std::vector<Arc> arcs;
       for (const CurvePiece& piece : use.image->pieces()) {
@@ -317,10 +379,14 @@ class Trimming {
         throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
   }
 
-  static double distance_of(const Vec2& p, const std::vector<Vec2>& polygon) {
-    double least = kInfinity;
-    for (size_t i = 0; i < polygon.size(); ++i)
-      least = std::min(least, distance(p, polygon[i], polygon[(i + 1) % polygon.size()]));
+  // As far as it matters: at most `most`.
+  static double distance_of(const Vec2& p, const std::vector<Vec2>& polygon, double most) {
+    double least = most;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if (std::max(std::min(a.y, b.y) - p.y, p.y - std::max(a.y, b.y)) < least)
+        least = std::min(least, distance(p, a, b));
+    }
     return least;
   }
 
@@ -335,7 +401,7 @@ class Trimming {
     for (size_t i = 0; i < inner.polygon.size(); ++i) {
       const Vec2 &a = inner.polygon[i], &b = inner.polygon[(i + 1) % inner.polygon.size()];
       for (const Vec2& p : {a, 0.5 * (a + b)}) {
-        const double off = distance_of(p, outer.polygon);
+        const double off = distance_of(p, outer.polygon, 2 * clear);
         if (off <= on_border) continue;
         const bool in = is_in(p, outer.polygon);
         ++(in ? inside : outside);

@@ -1,0 +1,226 @@
+// Outsides of loops on closed surfaces that no straight line could cut open: areas in closed form, rays against a
+// cylinder solved here, and holes counted in meshes (Euler's number).
+#include "geometry/bodies/trimmed_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <set>
+
+#include "geometry/curves/circle.h"
+#include "geometry/curves/polyline.h"
+#include "geometry/curves/segment.h"
+#include "geometry/queries/line_intersections.h"
+#include "geometry/queries/mass_properties.h"
+#include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/revolution.h"
+#include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/torus.h"
+#include "geometry/tessellation/tessellate.h"
+#include "support/tier.h"
+
+namespace lekalo::geometry {
+namespace {
+
+struct Hole {
+  double u, v, radius;
+};
+
+// Rows of holes, every other row moved by half a pitch.
+std::vector<Hole> staggered(int rows, int in_row, double first, double step, double radius) {
+  std::vector<Hole> holes;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < in_row; ++i) holes.push_back({(i + 0.5 * (j % 2)) * kTwoPi / in_row, first + j * step, radius});
+  return holes;
+}
+
+std::vector<CurvePtr> circles(const std::vector<Hole>& holes) {
+  std::vector<CurvePtr> loops;
+  for (const Hole& h : holes) loops.push_back(std::make_shared<Circle>(Frame{{h.u, h.v, 0}}, h.radius));
+  return loops;
+}
+
+CurvePtr polygon(const std::vector<Vec2>& points) {
+  std::vector<Vec3> in_space;
+  for (const Vec2& p : points) in_space.emplace_back(p, 0);
+  return std::make_shared<NurbsCurve>(polyline(in_space, true));
+}
+
+// One face with as many holes, cut open along so many seams.
+void check_topology(const Body& sheet, size_t holes, int seams) {
+  ASSERT_TRUE(sheet.is_valid()) << sheet.violations().front().condition;
+  ASSERT_EQ(sheet.faces.size(), 1u);
+  EXPECT_EQ(sheet.faces[0].loops.size(), holes + 1);
+  EXPECT_EQ(std::count_if(sheet.edges.begin(), sheet.edges.end(),
+                          [](const Edge& edge) { return edge.kind == EdgeKind::seam && edge.coedges.size() == 2; }),
+            seams);
+}
+
+// Corners - sides + triangles.
+int euler_number(const Mesh& mesh) {
+  std::set<int> corners;
+  std::set<std::pair<int, int>> sides;
+  for (const Mesh::Triangle& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      corners.insert(triangle.point[k]);
+      sides.insert(std::minmax(static_cast<int>(triangle.point[k]), static_cast<int>(triangle.point[(k + 1) % 3])));
+    }
+  return static_cast<int>(corners.size()) - static_cast<int>(sides.size()) + static_cast<int>(mesh.triangles.size());
+}
+
+TEST(TrimmedSurface, StaggeredHolesOfACylinder) {
+  // At radius 1 angle and height measure lengths.
+  const auto tube = std::make_shared<CylinderSurface>(Frame{}, 1, 1, Rectangle{{0, kTwoPi}, {0, 3}});
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> even(-1, 1);
+  for (const auto& holes :
+       {staggered(2, 6, 1, 0.6, 0.3), staggered(9, 12, 0.3, 0.3, 0.17), staggered(5, 3, 0.5, 0.5, 0.45)}) {
+    const Body sheet = trimmed_surface(tube, circles(holes), true);
+    check_topology(sheet, holes.size(), 1);
+    const double radius = holes[0].radius,
+                 area = 3 * kTwoPi - static_cast<double>(holes.size()) * kPi * radius * radius;
+    EXPECT_NEAR(measure(sheet).area.value, area, 1e-10);
+    TessellationTolerance tolerance;
+    tolerance.sag = 1e-3;
+    const Mesh mesh = tessellate(sheet, tolerance);
+    EXPECT_EQ(euler_number(mesh), -static_cast<int>(holes.size()));
+    EXPECT_NEAR(measure(mesh).area.value, area, 0.01 * area);
+    const LineIntersector lines(sheet);
+    int wrong = 0, kept = 0;
+    for (int k = 0; k < tests::tier_count(100000); ++k) {
+      const Vec3 a(2 * even(random), 2 * even(random), 1.5 + 2 * even(random)),
+          b(even(random), even(random), 1.5 + 1.5 * even(random)), along = b - a;
+      const double square = along.x * along.x + along.y * along.y, half = a.x * along.x + a.y * along.y,
+                   root = half * half - square * (a.x * a.x + a.y * a.y - 1);
+      if (!(root > 1e-9)) continue;
+      size_t expected = 0;
+      bool close = false;
+      for (const double sign : {-1.0, 1.0}) {
+        const double t = (-half + sign * std::sqrt(root)) / square;
+        const Vec3 p = a + t * along;
+        bool keeps = p.z > 0 && p.z < 3;
+        close = close || std::abs(p.z) < 1e-9 || std::abs(p.z - 3) < 1e-9;
+        for (const Hole& h : holes) {
+          const double off = std::hypot(std::remainder(std::atan2(p.y, p.x) - h.u, kTwoPi), p.z - h.v) - h.radius;
+          keeps = keeps && off > 0;
+          close = close || std::abs(off) < 1e-9;
+        }
+        expected += keeps ? 1 : 0;
+      }
+      if (close) continue;
+      const size_t found = lines.all_hits({a, along}).size();
+      wrong += found != expected ? 1 : 0;
+      kept += static_cast<int>(found);
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(kept, 100);
+  }
+}
+
+// Rays aimed at the seam itself: each meets the sheet there once.
+TEST(TrimmedSurface, NothingIsLostAlongASeam) {
+  const auto tube = std::make_shared<CylinderSurface>(Frame{}, 1, 1, Rectangle{{0, kTwoPi}, {0, 3}});
+  const Body sheet = trimmed_surface(tube, circles(staggered(9, 12, 0.3, 0.3, 0.17)), true);
+  const auto seam = std::find_if(sheet.edges.begin(), sheet.edges.end(),
+                                 [](const Edge& edge) { return edge.kind == EdgeKind::seam; });
+  ASSERT_NE(seam, sheet.edges.end());
+  const LineIntersector lines(sheet);
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> even(0, 1);
+  const Interval t = seam->curve->domain();
+  for (int k = 0; k < tests::tier_count(100000); ++k) {
+    const Vec3 p = seam->curve->point(t.lo + t.width() * (0.001 + 0.998 * even(random)));
+    const Vec3 out(p.x, p.y, even(random) - 0.5);
+    EXPECT_EQ(lines.all_hits({p + out, -1.5 * out}, {0, 1}).size(), 1u);
+  }
+}
+
+// Closed forms by integrals over discs: that of cos(v) is 2 pi r J1(r) times cos(v) in the middle.
+TEST(TrimmedSurface, StaggeredHolesOfOtherSurfaces) {
+  const auto sum = [](const std::vector<Hole>& holes, auto&& term) {
+    double result = 0;
+    for (const Hole& h : holes) result += term(h);
+    return result;
+  };
+  const auto of_cosine = [](const Hole& h) {
+    return kTwoPi * h.radius * std::cyl_bessel_j(1, h.radius) * std::cos(h.v);
+  };
+  const auto holes = staggered(4, 8, -0.75, 0.5, 0.27);
+  const Body ball = trimmed_surface(std::make_shared<SphereSurface>(Frame{}, 2), circles(holes), true);
+  check_topology(ball, holes.size(), 1);
+  EXPECT_NEAR(measure(ball).area.value, 4 * (2 * kTwoPi - sum(holes, of_cosine)), 1e-10);
+  TessellationTolerance tolerance;
+  EXPECT_EQ(euler_number(tessellate(ball, tolerance)), 2 - static_cast<int>(holes.size()));
+
+  const auto of_torus = [&](const Hole& h) { return 0.5 * (2 * kPi * h.radius * h.radius + 0.5 * of_cosine(h)); };
+  const auto torus = std::make_shared<TorusSurface>(Frame{}, 2, 0.5);
+  // A straight line parts the rows here, there none but along them.
+  auto turned = staggered(4, 8, 0, kPi / 2, 0.3);
+  for (Hole& h : turned) std::swap(h.u, h.v);
+  for (const auto& of_either : {staggered(4, 8, 0, kPi / 2, 0.3), turned}) {
+    const Body ring = trimmed_surface(torus, circles(of_either), true);
+    check_topology(ring, of_either.size(), 2);
+    EXPECT_NEAR(measure(ring).area.value, 4 * kPi * kPi - sum(of_either, of_torus), 1e-10);
+    EXPECT_EQ(euler_number(tessellate(ring, tolerance)), -static_cast<int>(of_either.size()));
+  }
+
+  // Closed in v alone: a cylinder by its height, in thirds of it, and its angle.
+  const auto lathe = std::make_shared<RevolutionSurface>(std::make_shared<Segment>(Vec3(1, 0, 0), Vec3(1, 0, 3)),
+                                                         Axis{Vec3(0), Vec3(0, 0, 1)});
+  auto upright = staggered(2, 12, 0.25, 0.5, 0.2);
+  for (Hole& h : upright) std::swap(h.u, h.v);
+  const Body sheet = trimmed_surface(lathe, circles(upright), true);
+  check_topology(sheet, upright.size(), 1);
+  EXPECT_NEAR(measure(sheet).area.value, 3 * (kTwoPi - 24 * kPi * 0.04), 1e-10);
+}
+
+// Loops between which no way keeps climbing, long slots that overlap all round, and islands in holes.
+TEST(TrimmedSurface, LoopsThatLeaveNarrowWays) {
+  const auto tube = std::make_shared<CylinderSurface>(Frame{}, 1, 1, Rectangle{{0, kTwoPi}, {0, 3}});
+  // Hooks with slanting roofs, each over the next one's: an arm hangs down from the roof beyond a spike on the next.
+  const auto under = [](double x) { return 1.5 + 0.75 / 1.4 * x; };
+  const std::vector<Vec2> hook{
+      {0, 0.5},    {0.05, 0.5},         {0.05, under(0.05)},        {1.3, under(1.3)}, {1.3, 1.8},
+      {1.35, 1.8}, {1.35, under(1.35)}, {1.4, under(1.4)},          {1.4, 2.3},        {0.2, under(0.2) + 0.05},
+      {0.2, 1.85}, {0.15, 1.85},        {0.15, under(0.15) + 0.05}, {0, 1.55}};
+  double area = 0;
+  for (size_t k = 0; k < hook.size(); ++k) {
+    const Vec2 &a = hook[k], &b = hook[(k + 1) % hook.size()];
+    area += 0.5 * (a.x * b.y - a.y * b.x);
+  }
+  std::vector<CurvePtr> hooks;
+  for (int k = 0; k < 6; ++k) {
+    std::vector<Vec2> points = hook;
+    for (Vec2& p : points) p.x += k * kPi / 3;
+    hooks.push_back(polygon(points));
+  }
+  const Body hooked = trimmed_surface(tube, hooks, true);
+  check_topology(hooked, hooks.size(), 1);
+  EXPECT_NEAR(measure(hooked).area.value, 3 * kTwoPi - 6 * area, 1e-10);
+  EXPECT_EQ(euler_number(tessellate(hooked, {})), -6);
+  // Slots that climb while they run four fifths round.
+  std::vector<CurvePtr> slots;
+  for (int k = 0; k < 8; ++k) {
+    const double u = k * kPi / 4;
+    slots.push_back(polygon({{u, 0.5}, {u + 0.2, 0.5}, {u + 5, 2.5}, {u + 4.8, 2.5}}));
+  }
+  const Body slotted = trimmed_surface(tube, slots, true);
+  check_topology(slotted, slots.size(), 1);
+  EXPECT_NEAR(measure(slotted).area.value, 3 * kTwoPi - 8 * 0.2 * 2, 1e-10);
+  // An island in each hole is kept as a face of its own, with its hole.
+  const auto holes = staggered(3, 4, 0.7, 0.8, 0.5);
+  auto islands = holes;
+  for (Hole& h : islands) h.radius = 0.2, h.u -= kTwoPi;
+  auto all = circles(holes);
+  for (const CurvePtr& island : circles(islands)) all.push_back(island);
+  const Body dotted = trimmed_surface(tube, all, true);
+  EXPECT_TRUE(dotted.is_valid());
+  EXPECT_EQ(dotted.faces.size(), 1 + islands.size());
+  EXPECT_NEAR(measure(dotted).area.value, 3 * kTwoPi - 12 * kPi * (0.25 - 0.04), 1e-10);
+}
+
+}  // namespace
+}  // namespace lekalo::geometry
