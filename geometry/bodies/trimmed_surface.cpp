@@ -270,6 +270,19 @@ class Trimming {
     for (const CurvePiece& piece : curve.pieces()) check(check, piece.domain, kDeepest);
   }
 
+  // Once round a closed surface a curve ends where it began, but not in the parameter plane.
+  void check_turns(size_t first, const Vec2& from, const Vec2& to) const {
+    const auto without_turns = [](double x, double period) { return period > 0 ? std::remainder(x, period) : x; };
+    const Periods periods = surface_->periods();
+    const Vec2 off(without_turns(to.x - from.x, periods.u), without_turns(to.y - from.y, periods.v));
+    if (coincide(off, Vec2(0)))
+      throw TrimError(fmt::format("the loop that begins with {} goes all round the closed surface, from {} to {}: it "
+                                  "encloses nothing in the parameter plane",
+                                  name(first), text_of(from), text_of(to)),
+                      "give the surface a domain that ends there, or let the loop go on to the border of the domain, "
+                      "along that and back");
+  }
+
   void chain() {
     for (size_t k = 0; k < curves_.size();) {
       Loop2& loop = loops_.emplace_back();
@@ -278,10 +291,12 @@ class Trimming {
       Vec2 start = begin(k), at = end(k);
       ++k;
       while (!coincide(start, at)) {
-        if (k == curves_.size())
+        if (k == curves_.size()) {
+          check_turns(first, start, at);
           throw TrimError(fmt::format("the loop that begins with {} is open: it ends at {} and began at {}",
                                       name(first), text_of(at), text_of(start)),
                           "close it, or let the next curve begin where it ends");
+        }
         bool forward = coincide(begin(k), at);
         const bool backward = coincide(end(k), at);
         if (!forward && !backward && k == first + 1) {
@@ -291,10 +306,12 @@ class Trimming {
           forward = coincide(begin(k), at);
           if (!forward && !coincide(end(k), at)) std::swap(start, at);
         }
-        if (!forward && !coincide(end(k), at))
+        if (!forward && !coincide(end(k), at)) {
+          check_turns(first, start, at);
           throw TrimError(fmt::format("the loop that begins with {} is open: {} does not go on at {}", name(first),
                                       name(k), text_of(at)),
                           "close it, or let the next curve begin where it ends");
+        }
         loop.uses.push_back({static_cast<int>(k), forward, curves_[k]});
         at = forward ? end(k) : begin(k);
         ++k;
