@@ -149,6 +149,11 @@ ViewOf checked(ViewOf view) {
 }  // namespace
 
 Measured contour_length(const Contour& contour, const Interval& t) {
+  if (const Interval all = contour.curve->domain(); contour.closed && t.hi > all.hi) {
+    const Measured first = contour_length(contour, {t.lo, all.hi}),
+                   rest = contour_length(contour, {all.lo, t.hi - all.width()});
+    return {first.value + rest.value, first.error + rest.error};
+  }
   if (!is_searched(*contour.curve)) return arc_length(*contour.curve, t.lo, t.hi);
   static const GaussRule coarse = gauss_legendre(6), fine = gauss_legendre(9);
   Measured sum;

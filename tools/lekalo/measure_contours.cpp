@@ -108,12 +108,8 @@ ordered_json rows(const geometry::BodyContours& found, const geometry::Body& bod
     ordered_json parts = ordered_json::array();
     for (const geometry::BodyContourPart& part : branch.parts) {
       const geometry::Interval all = part.contour.curve->domain();
-      const geometry::Measured first = contour_length(part.contour, part.t);
-      length += first.value, length_error += first.error;
-      if (part.t.hi > all.hi) {
-        const geometry::Measured rest = contour_length(part.contour, {all.lo, part.t.hi - all.width()});
-        length += rest.value, length_error += rest.error;
-      }
+      const geometry::Measured of_it = contour_length(part.contour, part.t);
+      length += of_it.value, length_error += of_it.error;
       error = std::max(error, part.contour.error);
       ordered_json of_part{{"face", body.faces[part.face].origin.text()}};
       if (other) of_part["face_other"] = other->faces[part.other_face].origin.text();

@@ -13,6 +13,7 @@
 #include "geometry/curves/circle.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
+#include "geometry/queries/body_contours.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/cone.h"
@@ -175,6 +176,30 @@ TEST(TrimmedSurface, StaggeredHolesOfOtherSurfaces) {
   const Body sheet = trimmed_surface(lathe, circles(upright), true);
   check_topology(sheet, upright.size(), 1);
   EXPECT_NEAR(measure(sheet).area.value, 3 * (kTwoPi - 24 * kPi * 0.04), 1e-10);
+}
+
+// What a plane through a row of holes cuts of the tube: the arcs between them, one across the seam, one across the end
+// of the circle that the plane cuts of the whole cylinder.
+TEST(TrimmedSurface, SectionsPassOverSeams) {
+  const auto tube = std::make_shared<CylinderSurface>(Frame{}, 1, 1, Rectangle{{0, kTwoPi}, {0, 3}});
+  for (const double turn : {0.0, kPi / 12, 1.0}) {
+    auto holes = staggered(9, 12, 0.3, 0.3, 0.17);
+    for (Hole& h : holes) h.u += turn;
+    const Body sheet = trimmed_surface(tube, circles(holes), true);
+    for (const int row : {0, 3, 4, 8}) {
+      const BodyContours found = plane_section(sheet, {0, 0, 0.3 + 0.3 * row}, {0, 0, 1});
+      ASSERT_EQ(found.branches.size(), 12u);
+      for (const BodyContour& branch : found.branches) {
+        double length = 0;
+        for (const BodyContourPart& part : branch.parts) length += contour_length(part.contour, part.t).value;
+        EXPECT_FALSE(branch.closed);
+        EXPECT_NEAR(length, kTwoPi / 12 - 0.34, 1e-11);
+      }
+    }
+    const BodyContours between = plane_section(sheet, {0, 0, 0.06}, {0, 0, 1});
+    ASSERT_EQ(between.branches.size(), 1u);
+    EXPECT_TRUE(between.branches[0].closed);
+  }
 }
 
 // Loops between which no way keeps climbing, long slots that overlap all round, and islands in holes.

@@ -14,11 +14,7 @@ namespace {
 
 double length_of(const BodyContour& branch) {
   double sum = 0;
-  for (const BodyContourPart& part : branch.parts) {
-    const Interval all = part.contour.curve->domain();
-    sum += contour_length(part.contour, part.t).value;
-    if (part.t.hi > all.hi) sum += contour_length(part.contour, {all.lo, part.t.hi - all.width()}).value;
-  }
+  for (const BodyContourPart& part : branch.parts) sum += contour_length(part.contour, part.t).value;
   return sum;
 }
 
