@@ -19,6 +19,11 @@ Vec3 place(HeldParameter held, double at, double t) {
   return held == HeldParameter::u ? Vec3(at, t, 0) : Vec3(t, at, 0);
 }
 
+// What of a region's range is seen once: beside a slanted seam regions are wider than a period.
+Interval one_period(const Interval& range, double period) {
+  return {range.lo, period > 0 ? std::min(range.hi, range.lo + period) : range.hi};
+}
+
 }  // namespace
 
 std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic) {
@@ -94,8 +99,8 @@ std::vector<NetLine> parameter_lines(const Body& body, const ParameterNet& net) 
     for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
       const bool u = held == HeldParameter::u;
       ParameterValues asked = u ? net.u : net.v;
-      const Interval range = u ? face.region->u_range() : face.region->v_range();
       const double period = u ? face.surface->periods().u : face.surface->periods().v;
+      const Interval range = one_period(u ? face.region->u_range() : face.region->v_range(), period);
       for (double& value : asked.values) value += shift_into(range, value, period);
       for (const double at : values_in(asked, range, false)) each_line_of_face(face, held, at, add);
     }
@@ -148,19 +153,31 @@ void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
   const Rectangle domain = face.surface->domain();
   const Periods periods = face.surface->periods();
   const Interval &range = u ? domain.u : domain.v, &whole = u ? domain.v : domain.u;
-  const Interval along = u ? face.region->v_range() : face.region->u_range();
-  const double period = u ? periods.v : periods.u;
-  const Segment line(place(held, at, along.lo), place(held, at, along.hi));
+  const double period = u ? periods.v : periods.u, held_period = u ? periods.u : periods.v;
+  // The line is drawn along one period, and cut there by whatever cuts any of its copies.
+  const Interval reach = u ? face.region->v_range() : face.region->u_range(),
+                 room = u ? face.region->u_range() : face.region->v_range();
+  const Interval along = one_period(reach, period);
+  std::vector<double> copies{at};
+  const auto is_in_room = [&](double x) { return x < room.hi - kLeastPart * room.width(); };
+  if (held_period > 0)
+    for (double x = at + shift_into(room, at, held_period) + held_period; is_in_room(x); x += held_period)
+      copies.push_back(x);
   std::vector<double> cuts{along.lo, along.hi};
-  for (const Curve2Ptr& border : face.borders)
-    for (const CurveMeeting& meeting : intersect(line, *border).points)
-      cuts.push_back(along.lo + meeting.s * along.width());
+  for (const double copy : copies) {
+    const Segment line(place(held, copy, reach.lo), place(held, copy, reach.hi));
+    for (const Curve2Ptr& border : face.borders)
+      for (const CurveMeeting& meeting : intersect(line, *border).points) {
+        const double cut = reach.lo + meeting.s * reach.width();
+        cuts.push_back(cut > along.hi ? cut - period * std::ceil((cut - along.hi) / period) : cut);
+      }
+  }
   // Loops may go over the seam, where the surface's own lines end.
   if (period > 0)
     for (double seam = whole.lo + period * std::ceil((along.lo - whole.lo) / period); seam < along.hi; seam += period)
       cuts.push_back(seam);
   std::sort(cuts.begin(), cuts.end());
-  const double own_at = range.clamp(at + shift_into(range, at, u ? periods.u : periods.v));
+  const double own_at = range.clamp(at + shift_into(range, at, held_period));
   for (size_t k = 0; k + 1 < cuts.size(); ++k) {
     const Interval t{cuts[k], cuts[k + 1]};
     const Vec3 middle = place(held, at, t.middle());

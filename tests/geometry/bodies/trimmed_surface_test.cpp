@@ -16,6 +16,7 @@
 #include "geometry/queries/body_contours.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/queries/mass_properties.h"
+#include "geometry/queries/parameter_lines.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/sphere.h"
@@ -199,6 +200,28 @@ TEST(TrimmedSurface, SectionsPassOverSeams) {
     const BodyContours between = plane_section(sheet, {0, 0, 0.06}, {0, 0, 1});
     ASSERT_EQ(between.branches.size(), 1u);
     EXPECT_TRUE(between.branches[0].closed);
+  }
+}
+
+// Parameter lines are whole but for the chords of the holes, wherever the seam goes.
+TEST(TrimmedSurface, ParameterLinesEndAtHoles) {
+  const auto tube = std::make_shared<CylinderSurface>(Frame{}, 1, 1, Rectangle{{0, kTwoPi}, {0, 3}});
+  const auto holes = staggered(9, 12, 0.3, 0.3, 0.17);
+  const Body sheet = trimmed_surface(tube, circles(holes), true);
+  const auto chord = [](const Hole& h, double off) {
+    return 2 * std::sqrt(std::max(0.0, h.radius * h.radius - off * off));
+  };
+  for (int k = 0; k < 63; ++k) {
+    const double u = 0.1 * k + 0.05, v = 2.9 * k / 63 + 0.013;
+    double along_u = kTwoPi, along_v = 3;
+    for (const Hole& h : holes) {
+      along_u -= chord(h, v - h.v);
+      along_v -= chord(h, std::remainder(u - h.u, kTwoPi));
+    }
+    for (const NetLine& line : parameter_lines(sheet, {{0, {u}}, {0, {v}}}))
+      (line.held == HeldParameter::u ? along_v : along_u) -= line.along.width();
+    EXPECT_NEAR(along_u, 0, 1e-9) << v;
+    EXPECT_NEAR(along_v, 0, 1e-9) << u;
   }
 }
 
