@@ -1,8 +1,8 @@
 // A way from side to side of a band that is closed in the other direction, between loops that stand in it: where a
 // cylinder of parameters with holes can be cut open.
 //
-// The band is cut into rows; a row's gaps are the rectangles that no loop certainly enters, gaps of neighbouring rows
-// are joined where they overlap. The way through fewest windings (Dijkstra 1959) is stretched in the corridor of its
+// The band is cut into rows; a row's gaps are the rectangles that certainly no loop enters, gaps of neighbouring rows
+// are joined where they overlap. The shortest way through them (Dijkstra 1959) is stretched in the corridor of its
 // rectangles, which holds it clear of all loops and of itself. Rows are made finer until there is a way.
 #pragma once
 
