@@ -27,7 +27,8 @@ class Csg final : public Shape {
   static constexpr int kMostLeaves = 100'000;
 
   // The operands, at least one, must be closed; subtract takes all others from the first. Throws std::invalid_argument
-  // for an open operand, for more than kMostLeaves, and where nothing can be left since the operands' boxes do not meet.
+  // for an open operand, for more than kMostLeaves, and where nothing can be left since the operands' boxes do not
+  // meet.
   Csg(Operation operation, const std::vector<ShapePtr>& operands);
 
   Operation operation() const { return nodes_[0].operation; }

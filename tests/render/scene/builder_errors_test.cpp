@@ -149,7 +149,8 @@ TEST(BuilderErrors, ValuesOutOfRange) {
   EXPECT_EQ(about("{ type: circle, radius: 1, arc: [0, 400] }"), "3:38 the arc is longer than one turn\n");
   EXPECT_EQ(about("{ type: revolution_surface, of: { type: segment, from: [1, 0, 0], to: [1, 0, 1] }, angle: 361 }"),
             "3:95 expected a value greater than 0 and at most 360 degrees, found 361\n");
-  EXPECT_EQ(about("{ type: revolution_surface, of: { type: segment, from: [1, 0, 0], to: [1, 0, 1] }, angle: 360 }"), "");
+  EXPECT_EQ(about("{ type: revolution_surface, of: { type: segment, from: [1, 0, 0], to: [1, 0, 1] }, angle: 360 }"),
+            "");
   EXPECT_EQ(about("{ type: circle, radius: 1, arc: [90, 0] }"), "3:38 a range must begin below its end\n");
   EXPECT_EQ(about("{ type: torus_surface, major_radius: -2, minor_radius: 1 }"),
             "3:43 the sheet is empty: major_radius must be greater than -minor_radius\n");
