@@ -253,7 +253,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     // What a cone of light brings is known, and each of its samples brings the same share of that: where nothing or
     // all of it is hidden there is no noise.
     std::optional<ConeLight> cone;
-    Spectrum all_of_cone;
+    Spectrum all_of_cone, share_of_cone;  // the sum of what is seen of its samples
     if (diffuse && jittered && seen.normal == seen.smooth_normal) cone = light->cone(seen.point.position);
     if (cone) {
       const double mean_cosine = cone->mean_cosine(glm::dot(seen.normal, cone->axis));
@@ -324,7 +324,10 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       // A highlight jitters with the places on the light.
       if (jittered && (!cone || visible != kWhite || taken.highlight > kGrain)) sample_.noisy = true;
       if (whole_) mix(visible.is_zero() ? 5 : 6);
-      sum.diffuse += static_cast<float>(taken.cosine) * (visible * taken.light_per_pi);
+      if (cone)
+        share_of_cone += visible;
+      else
+        sum.diffuse += static_cast<float>(taken.cosine) * (visible * taken.light_per_pi);
       if (taken.lobe != 0) sum.specular += static_cast<float>(taken.lobe) * (visible * taken.light_per_pi);
     };
     if (count == 1 || clear || !asks_first || !world_.gains_by_lists()) {
@@ -334,29 +337,34 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         const bool hidden = !clear && !taken->is_dark() && (!asks_first || world_.occluded(shadow_ray, obstacles));
         add(*taken, shadow_ray, hidden);
       }
-      continue;
-    }
-    static thread_local std::vector<Taken> samples;  // their room is kept
-    static thread_local std::vector<Ray> shadow_rays;
-    for (int begin = 0; begin < count; begin += kMostTogether) {
-      samples.clear();
-      shadow_rays.clear();
-      for (int i = begin; i < std::min(begin + kMostTogether, count); ++i)
-        if (const std::optional<Taken> taken = take(i)) {
-          samples.push_back(*taken);
-          if (!taken->is_dark()) shadow_rays.push_back(shadow_ray);
+    } else {
+      static thread_local std::vector<Taken> samples;  // their room is kept
+      static thread_local std::vector<Ray> shadow_rays;
+      for (int begin = 0; begin < count; begin += kMostTogether) {
+        samples.clear();
+        shadow_rays.clear();
+        for (int i = begin; i < std::min(begin + kMostTogether, count); ++i)
+          if (const std::optional<Taken> taken = take(i)) {
+            samples.push_back(*taken);
+            if (!taken->is_dark()) shadow_rays.push_back(shadow_ray);
+          }
+        bool hidden[kMostTogether] = {};
+        world_.occluded(shadow_rays, obstacles, {hidden, shadow_rays.size()});
+        size_t next = 0;
+        for (const Taken& taken : samples) {
+          if (taken.is_dark()) {
+            add(taken, shadow_ray, false);
+            continue;
+          }
+          add(taken, shadow_rays[next], hidden[next]);
+          ++next;
         }
-      bool hidden[kMostTogether] = {};
-      world_.occluded(shadow_rays, obstacles, {hidden, shadow_rays.size()});
-      size_t next = 0;
-      for (const Taken& taken : samples) {
-        if (taken.is_dark()) {
-          add(taken, shadow_ray, false);
-          continue;
-        }
-        add(taken, shadow_rays[next], hidden[next]);
-        ++next;
       }
+    }
+    if (cone) {  // all of it, or nothing, exactly
+      const auto n = static_cast<float>(count);
+      sum.diffuse += Spectrum(share_of_cone[0] / n, share_of_cone[1] / n, share_of_cone[2] / n, share_of_cone[3] / n) *
+                     all_of_cone;
     }
   }
   return sum;
