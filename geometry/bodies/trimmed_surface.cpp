@@ -349,16 +349,17 @@ class Trimming {
   void check_crossings() const {
     struct Side {
       const Arc* arc;
-      size_t loop;
+      size_t loop, number;
       Box3 box;
     };
     std::vector<Side> sides;
     for (size_t k = 0; k < loops_.size(); ++k)
-      for (const Arc& arc : loops_[k].arcs) {
+      for (size_t i = 0; i < loops_[k].arcs.size(); ++i) {
+        const Arc& arc = loops_[k].arcs[i];
         Box3 box;
         box.include(Vec3(arc.a, 0));
         box.include(Vec3(arc.b, 0));
-        sides.push_back({&arc, k, box.inflated(arc.bulge)});
+        sides.push_back({&arc, k, i, box.inflated(arc.bulge)});
       }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.box.lo.x < b.box.lo.x; });
     constexpr int kHalvings = 8;  // to arcs of a thousandth of a circle
@@ -367,7 +368,11 @@ class Trimming {
       const Side& s = sides[i];
       for (size_t j = i + 1; j < sides.size() && sides[j].box.lo.x <= s.box.hi.x; ++j) {
         const Side& r = sides[j];
-        if (r.box.lo.y > s.box.hi.y || r.box.hi.y < s.box.lo.y || !cross(*s.arc, *r.arc, touch, kHalvings)) continue;
+        if (r.box.lo.y > s.box.hi.y || r.box.hi.y < s.box.lo.y) continue;
+        // Neighbours touch where one goes on with the other: no halving would part them.
+        const size_t apart = s.number > r.number ? s.number - r.number : r.number - s.number;
+        if (s.loop == r.loop && (apart == 1 || apart + 1 == loops_[s.loop].arcs.size())) continue;
+        if (!cross(*s.arc, *r.arc, touch, kHalvings)) continue;
         const std::string place = text_of(0.25 * (s.arc->a + s.arc->b + r.arc->a + r.arc->b));
         const auto loop_name = [&](const Side& side) { return name(loops_[side.loop].uses[0].edge); };
         if (s.loop == r.loop)

@@ -117,6 +117,27 @@ class Measurement {
   void group_parts();
   void find_solids();
   void share_lines();
+  // Calls visit(group, piece, box, p, weight) for each line of one shift: the box that it is aimed at, numbers p for
+  // its place and direction, of which it takes so many, and the share of the piece's surface that it stands for.
+  template <class Visit>
+  void each_aim(int numbers, const Visit& visit) {
+    for (Group& group : groups_) {
+      if (group.lines == 0) continue;
+      Lattice lattice(numbers + (group.pieces > 1 ? 1 : 0));  // one more chooses the piece
+      lattice.shift(random_);
+      const double weight = static_cast<double>(group.pieces) / group.lines;
+      for (int k = 0; k < group.lines; ++k) {
+        const CubePoint p = lattice.point(k);
+        int64_t piece;
+        const Box3 box = target(group, p[numbers], piece);
+        if (!box.empty()) visit(group, piece, box, p, weight);
+      }
+    }
+  }
+  void cross(const Line& line) {
+    hits_.clear();
+    shape_.all_hits(line, Interval::entire(), hits_);
+  }
   void add_volumes(int axis);
   void add_areas();
   ShapeMeasures result() const;
@@ -234,67 +255,45 @@ void Measurement::add_volumes(int z) {
   line.direction[z] = 1;
   long double volume = 0;  // thousands of terms: their sum rounds less than they do
   Vec3 moment(0);
-  for (Group& group : groups_) {
-    if (group.lines == 0) continue;
-    Lattice lattice(group.pieces > 1 ? 3 : 2);
-    lattice.shift(random_);
-    const double weight = static_cast<double>(group.pieces) / group.lines;
-    for (int k = 0; k < group.lines; ++k) {
-      const CubePoint p = lattice.point(k);
-      int64_t piece;
-      const Box3 box = target(group, p[2], piece);
-      if (box.empty()) continue;
-      const Vec3 middle = box.center(), half = 0.5 * box.size();
-      line.origin = middle;
-      line.origin[x] += half[x] * (2 * p[0] - 1);
-      line.origin[y] += half[y] * (2 * p[1] - 1);
-      const double share = weight * 4 * half[x] * half[y];
-      hits_.clear();
-      shape_.all_hits(line, Interval::entire(), hits_);
-      for (size_t i = 0; i + 1 < hits_.size(); i += 2) {
-        const double from = origin_of(hits_[i], hits_[i + 1], line, z);
-        for (const size_t end : {i, i + 1}) {
-          Vec3 place = line.at(hits_[end].t);
-          if (!counts(group, piece, box, hits_[end], place)) continue;
-          group.has_volume = true;
-          const double length = (end == i ? -share : share) * (place[z] - from);
-          place[z] = 0.5 * (place[z] + from);
-          volume += length;
-          moment += length * (place - center);
-        }
+  each_aim(2, [&](Group& group, int64_t piece, const Box3& box, const CubePoint& p, double weight) {
+    const Vec3 middle = box.center(), half = 0.5 * box.size();
+    line.origin = middle;
+    line.origin[x] += half[x] * (2 * p[0] - 1);
+    line.origin[y] += half[y] * (2 * p[1] - 1);
+    const double share = weight * 4 * half[x] * half[y];
+    cross(line);
+    for (size_t i = 0; i + 1 < hits_.size(); i += 2) {
+      const double from = origin_of(hits_[i], hits_[i + 1], line, z);
+      for (const size_t end : {i, i + 1}) {
+        Vec3 place = line.at(hits_[end].t);
+        if (!counts(group, piece, box, hits_[end], place)) continue;
+        group.has_volume = true;
+        const double length = (end == i ? -share : share) * (place[z] - from);
+        place[z] = 0.5 * (place[z] + from);
+        volume += length;
+        moment += length * (place - center);
       }
     }
-  }
+  });
   volume_.add(static_cast<double>(volume));
   moment_.add(moment);
 }
 
 void Measurement::add_areas() {
   double area = 0;
-  for (Group& group : groups_) {
-    if (group.lines == 0) continue;
-    Lattice lattice(group.pieces > 1 ? 5 : 4);
-    lattice.shift(random_);
-    const double weight = static_cast<double>(group.pieces) / group.lines;
-    for (int k = 0; k < group.lines; ++k) {
-      const CubePoint p = lattice.point(k);
-      int64_t piece;
-      const Box3 box = target(group, p[4], piece);
-      if (box.empty()) continue;
-      const double radius = 0.5 * box.diameter() + 2 * slack_, z = 2 * p[0] - 1, across = std::sqrt(1 - z * z);
-      const Frame frame =
-          frame_about(box.center(), Vec3(across * std::cos(kTwoPi * p[1]), across * std::sin(kTwoPi * p[1]), z));
-      const double r = radius * std::sqrt(p[2]);
-      const Line line{frame.point({r * std::cos(kTwoPi * p[3]), r * std::sin(kTwoPi * p[3]), 0}), frame.z};
-      hits_.clear();
-      shape_.all_hits(line, Interval::entire(), hits_);
-      for (const SurfaceHit& hit : hits_) {
-        if (!counts(group, piece, box, hit, line.at(hit.t))) continue;
-        group.has_area = true;
-        area += weight * kTwoPi * radius * radius;
-      }
+  each_aim(4, [&](Group& group, int64_t piece, const Box3& box, const CubePoint& p, double weight) {
+    const double radius = 0.5 * box.diameter() + 2 * slack_, z = 2 * p[0] - 1, across = std::sqrt(1 - z * z);
+    const Frame frame =
+        frame_about(box.center(), Vec3(across * std::cos(kTwoPi * p[1]), across * std::sin(kTwoPi * p[1]), z));
+    const double r = radius * std::sqrt(p[2]);
+    const Line line{frame.point({r * std::cos(kTwoPi * p[3]), r * std::sin(kTwoPi * p[3]), 0}), frame.z};
+    cross(line);
+    for (const SurfaceHit& hit : hits_) {
+      if (!counts(group, piece, box, hit, line.at(hit.t))) continue;
+      group.has_area = true;
+      area += weight * kTwoPi * radius * radius;
     }
-  }
+  });
   area_.add(area);
 }
 

@@ -372,11 +372,11 @@ void World::list_contacts() {
   std::vector<Box3> boxes(count);
   for (size_t i = 0; i < count; ++i) boxes[i] = top.bounds(static_cast<int>(i));
   contacts_.resize(count);
+  const double margin = kContact * (top.radius() + glm::length(top.center()));
   for (const size_t i : media) {
     media_.push_back(boxes[i]);
     for (size_t k = 0; k < count; ++k) {
       if (k == i || boxes[k].empty()) continue;
-      const auto margin = kContact * (top.radius() + glm::length(top.center()));
       const Box3 box = boxes[k].inflated(margin), common{glm::max(boxes[i].lo, box.lo), glm::min(boxes[i].hi, box.hi)};
       if (!common.empty()) contacts_[i].include(common.inflated(margin));
     }
