@@ -148,7 +148,8 @@ class NetSearch {
     // halving take; the same averages of the terms' sizes bound that. Where weights differ much they are far smaller
     // here than elsewhere in the patch.
     least_weight_ = least_weight;
-    if (most_weight > kUneven * least_weight) {
+    unevenness_ = most_weight / least_weight;
+    if (unevenness_ > kUneven) {
       clip(room_ + n());
       rounding_ = 0;
       for (int k = 0; k < n(); ++k) rounding_ = std::max(rounding_, room_[n() + k][0]);
@@ -393,7 +394,12 @@ class NetSearch {
       if (std::abs(nx - x) < settles[0] && std::abs(ny - y) < settles[1]) {
         // What the projection cut off must be rounding, or the slack.
         if (std::abs(ex - nx) <= outside[0] && std::abs(ey - ny) <= outside[1]) {
-          add(cell.x + cell.hx * nx, cell.y + cell.hy * ny, 4 * slack * std::max(cell.hx, cell.hy));
+          const double size = std::max(cell.hx, cell.hy);
+          double root_x = cell.x + cell.hx * nx, root_y = cell.y + cell.hy * ny;
+          // Where weights differ much the surface runs that much faster somewhere.
+          if (!near_ && (slack - kBorderSlack) * size * unevenness_ > kSameHit)
+            settle_on_surface(root_x, root_y, slack * size);
+          add(root_x, root_y, 4 * slack * size);
           return true;
         }
         if (!contracts) return false;
@@ -408,8 +414,8 @@ class NetSearch {
 
   PatchPoint surface_at(double x, double y) const {
     PatchPoint p = evaluate(patch_, 0.5 * (place_.x + place_.hx * x + 1), 0.5 * (place_.y + place_.hy * y + 1));
-    p.ds *= place_.hx;
-    p.dt *= place_.hy;
+    p.ds *= 0.5 * place_.hx;
+    p.dt *= 0.5 * place_.hy;
     return p;
   }
   double along(const Vec3& point) const {
@@ -421,9 +427,11 @@ class NetSearch {
     return {glm::dot(line_.n1, from), glm::dot(line_.n2, from)};
   }
   // Where weights differ much the coefficients are known too badly to tell a plain root, which the surface's own points
-  // do: Newton's iteration on these, kept in the cell that was asked.
-  bool settles_on_surface(double& x, double& y) const {
+  // do: Newton's iteration on these, kept in the cell that was asked but for `outside`. False, and the place as it was,
+  // if it does not settle.
+  bool settle_on_surface(double& root_x, double& root_y, double outside) const {
     constexpr int kMostSteps = 30;
+    double x = root_x, y = root_y;
     for (int step = 0; step < kMostSteps; ++step) {
       const PatchPoint at = surface_at(x, y);
       const Vec2 f = across(at.point), a(glm::dot(line_.n1, at.ds), glm::dot(line_.n2, at.ds)),
@@ -432,9 +440,12 @@ class NetSearch {
       if (!(std::abs(determinant) > 1e-6 * glm::length(a) * glm::length(b))) return false;
       const double sx = (b.x * f.y - b.y * f.x) / determinant, sy = (a.y * f.x - a.x * f.y) / determinant;
       x += sx, y += sy;
-      if (!(std::abs(x) <= 1 + kBorderSlack && std::abs(y) <= 1 + kBorderSlack)) return false;
+      if (!(std::max(std::abs(x), std::abs(y)) <= 1 + kBorderSlack + outside)) return false;
       // With the whole patch for a cell its points' own rounding moves the root by some 1e-11.
-      if (std::max(std::abs(sx), std::abs(sy)) <= kSameHit) return true;
+      if (std::max(std::abs(sx), std::abs(sy)) <= kSameHit) {
+        root_x = x, root_y = y;
+        return true;
+      }
     }
     return false;
   }
@@ -460,7 +471,7 @@ class NetSearch {
     Box3 hull;
     for (int k = 0; k < n(); ++k) hull.include(Vec3(patch_.points[k]) / patch_.points[k].w);
     const double size = std::min(whole_.x + whole_.y, hull.diameter());
-    if (allowance_ > kBorderSlack * size * least_weight_ && settles_on_surface(x, y)) {
+    if (allowance_ > kBorderSlack * size * least_weight_ && settle_on_surface(x, y, 0)) {
       add(x, y, 10 * kSameHit);
       return;
     }
@@ -617,6 +628,7 @@ class NetSearch {
   double excludes_ = 0;   // and the slack at its border
   int cells_ = 0;
   double least_weight_ = 1;
+  double unevenness_ = 1;  // of the weights: the largest by the least
 };
 
 LEKALO_WIDE void search_bicubic(const PatchView& patch, const CellPlace& place, const Vec2& reach, NearSurface* near,
