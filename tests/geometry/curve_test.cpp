@@ -2,7 +2,7 @@
 
 #include "geometry/curves/curve_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::curve_test {
 namespace {
 
 using checks::distance;
@@ -98,4 +98,4 @@ TEST(BezierPieces, SliversAreLeftToTheNeighbour) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::curve_test

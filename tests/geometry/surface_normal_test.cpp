@@ -5,7 +5,7 @@
 #include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/surface_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::surface_normal_test {
 namespace {
 
 using checks::distance;
@@ -169,4 +169,4 @@ TEST(ParametricNormal, NeverFails) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::surface_normal_test

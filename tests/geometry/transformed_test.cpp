@@ -6,7 +6,7 @@
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::transformed_test {
 namespace {
 
 using checks::distance;
@@ -70,4 +70,4 @@ TEST(TransformedSurface, RefusesMapsThatFlatten) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::transformed_test

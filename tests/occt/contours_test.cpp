@@ -16,7 +16,7 @@
 #include "occt/occt_surfaces.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::contours_test {
 namespace {
 
 constexpr double kSame = 1e-6;       // of the size
@@ -189,4 +189,4 @@ TEST_F(OcctContours, AnalyticSurfacesAsSplines) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::contours_test

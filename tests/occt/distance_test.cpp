@@ -24,7 +24,7 @@
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::distance_test {
 namespace {
 
 // Of the distance: what OCCT's search asks for.
@@ -117,4 +117,4 @@ TEST(OcctDistance, OfBodiesIsNoLarger) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::distance_test

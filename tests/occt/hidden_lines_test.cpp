@@ -29,7 +29,7 @@
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::hidden_lines_test {
 namespace {
 
 using namespace geometry;
@@ -241,4 +241,4 @@ TEST(OcctHiddenLines, RandomSolids) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::hidden_lines_test

@@ -23,7 +23,7 @@
 #include "support/line_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::intersections_test {
 namespace {
 
 constexpr double kSame = 1e-6;  // of the size
@@ -120,4 +120,4 @@ TEST_F(OcctIntersections, SweptSurfaces) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::intersections_test

@@ -36,7 +36,7 @@
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::mass_test {
 namespace {
 
 constexpr double kIntegrals = 1e-7;
@@ -211,4 +211,4 @@ TEST_F(OcctMass, Curves) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::mass_test

@@ -16,7 +16,7 @@
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::points_test {
 namespace {
 
 constexpr double kSame = 1e-6;      // of parameters and lengths: all shapes are about as large as the unit cube
@@ -182,4 +182,4 @@ TEST(OcctMeetings, OfCurvesAndSurfaces) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::points_test

@@ -32,7 +32,7 @@
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::values_test {
 namespace {
 
 constexpr double kValues = 1e-10, kCurvatures = 3e-8;
@@ -262,4 +262,4 @@ TEST_F(OcctSurfaces, ExtrusionAndRevolution) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::values_test

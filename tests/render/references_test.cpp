@@ -18,7 +18,7 @@
 #include "render/scene/load.h"
 #include "render/scene/pov_export.h"
 
-namespace lekalo::render {
+namespace lekalo::render::references_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ INSTANTIATE_TEST_SUITE_P(PovRay, Reference, testing::ValuesIn(names()),
                          [](const auto& reference) { return reference.param; });
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::references_test

@@ -10,7 +10,7 @@
 #include "geometry/curves/segment.h"
 #include "geometry/queries/mass_properties.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::primitives_test {
 namespace {
 
 std::string text(const Body& body) {
@@ -203,4 +203,4 @@ TEST(Violations, CubesThatShareAnEdgeOrAVertexAreNotManifold) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::primitives_test

@@ -24,7 +24,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::trimmed_surface_test {
 namespace {
 
 struct Hole {
@@ -271,4 +271,4 @@ TEST(TrimmedSurface, LoopsThatLeaveNarrowWays) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::trimmed_surface_test

@@ -4,7 +4,7 @@
 #include "geometry/curve.h"
 #include "geometry/describe.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::basis_function_test {
 namespace {
 
 CurvePtr function(int degree, const std::vector<double>& knots, int index) {
@@ -54,4 +54,4 @@ TEST(BasisFunction, Errors) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::basis_function_test

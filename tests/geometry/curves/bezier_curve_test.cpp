@@ -4,7 +4,7 @@
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::bezier_curve_test {
 namespace {
 
 using checks::distance;
@@ -163,4 +163,4 @@ TEST(Polyline, ClosedOnesArePeriodic) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::bezier_curve_test

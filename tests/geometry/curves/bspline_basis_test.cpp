@@ -8,7 +8,7 @@
 #include "geometry/curves/spline_axis.h"
 #include "geometry/curves/spline_oracle.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::bspline_basis_test {
 namespace {
 
 const std::vector<double> kNine = {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6};
@@ -109,4 +109,4 @@ TEST(BsplineBasis, IntegralOfAFunctionIsItsSupportOverDegreePlusOne) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::bspline_basis_test

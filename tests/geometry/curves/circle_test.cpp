@@ -2,7 +2,7 @@
 
 #include "geometry/curves/curve_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::circle_test {
 namespace {
 
 using checks::distance;
@@ -50,4 +50,4 @@ TEST(Circle, ArcThroughThreePointsRunsFromTheFirstThroughTheSecondToTheThird) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::circle_test

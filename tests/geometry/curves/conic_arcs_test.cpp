@@ -3,7 +3,7 @@
 #include "geometry/curves/parabola.h"
 #include "geometry/queries/mass_properties.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::conic_arcs_test {
 namespace {
 
 const Frame kSkew = frame_from({0.3, -1.2, 2.5}, {1, 2, 2}, {1, 0.2, -0.4});
@@ -78,4 +78,4 @@ TEST(Parabola, RefusesImpossibleValues) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::conic_arcs_test

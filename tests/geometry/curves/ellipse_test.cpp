@@ -2,7 +2,7 @@
 
 #include "geometry/curves/curve_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::ellipse_test {
 namespace {
 
 using checks::distance;
@@ -64,4 +64,4 @@ TEST(Ellipse, RefusesImpossibleValues) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::ellipse_test

@@ -10,7 +10,7 @@
 #include "geometry/external_stub.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::external_curve_test {
 namespace {
 
 CurvePtr formulas(const std::array<std::string, 3>& point, const Interval& domain) {
@@ -71,4 +71,4 @@ TEST(ExternalCurve, RefusesWhatIsNoCurve) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::external_curve_test

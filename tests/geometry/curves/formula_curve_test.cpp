@@ -2,7 +2,7 @@
 
 #include "geometry/curves/curve_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::formula_curve_test {
 namespace {
 
 using checks::distance;
@@ -71,4 +71,4 @@ TEST(FormulaCurve, QuotientsWhoseBoundsOverAllAreInfinite) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::formula_curve_test

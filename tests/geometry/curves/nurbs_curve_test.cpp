@@ -3,7 +3,7 @@
 #include "geometry/curves/curve_checks.h"
 #include "geometry/curves/spline_oracle.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::nurbs_curve_test {
 namespace {
 
 using checks::distance;
@@ -302,4 +302,4 @@ TEST(NurbsCurve, EnclosuresAreFirstOrderTight) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::nurbs_curve_test

@@ -5,7 +5,7 @@
 #include "geometry/curves/curve_checks.h"
 #include "geometry/curves/nurbs_curve.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::nurbs_operations_test {
 namespace {
 
 using checks::distance;
@@ -178,4 +178,4 @@ TEST(NurbsOperations, BezierKnotsGiveBezierPoints) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::nurbs_operations_test

@@ -17,6 +17,10 @@ namespace lekalo::geometry {
 
 TypeDeclaration projected_curve_type();
 
+}  // namespace lekalo::geometry
+
+namespace lekalo::geometry::projected_curve_test {
+
 namespace {
 
 using checks::distance;
@@ -161,4 +165,4 @@ TEST(ProjectedCurve, SaysWhereItCannotGoOn) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::projected_curve_test

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::spline_axis_test {
 namespace {
 
 using List = std::vector<double>;
@@ -118,4 +118,4 @@ TEST(SplineAxis, ContinuesAlongTangentsOnlyBeyondItsKnots) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::spline_axis_test

@@ -13,6 +13,10 @@ TypeDeclaration nurbs_curve_type();
 TypeDeclaration bezier_surface_type();
 TypeDeclaration nurbs_surface_type();
 
+}  // namespace lekalo::geometry
+
+namespace lekalo::geometry::spline_declarations_test {
+
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::any>>;
@@ -121,4 +125,4 @@ TEST(SurfaceDeclarations, RefuseWrongValuesWhereTheyStand) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::spline_declarations_test

@@ -21,6 +21,10 @@ TypeDeclaration parameter_line_type();
 TypeDeclaration geodesic_curve_type();
 TypeDeclaration curvature_line_type();
 
+}  // namespace lekalo::geometry
+
+namespace lekalo::geometry::surface_curve_test {
+
 namespace {
 
 using checks::distance;
@@ -162,4 +166,4 @@ TEST(LineTypes, BuildTheLinesTheyDescribe) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::surface_curve_test

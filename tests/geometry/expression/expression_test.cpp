@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::expression_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -442,4 +442,4 @@ TEST(Expression, reserved_words) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::expression_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::nearest_name_test {
 namespace {
 
 TEST(NearestName, edit_distance) {
@@ -30,4 +30,4 @@ TEST(NearestName, suggests_only_what_is_near) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::nearest_name_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::collocation_test {
 namespace {
 
 using State = std::array<double, 2>;
@@ -50,4 +50,4 @@ TEST(Collocation, EndsWhereThereIsNoRate) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::collocation_test

@@ -9,7 +9,7 @@
 
 #include "geometry/quad.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::interval_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -227,4 +227,4 @@ TEST(Interval, ranges) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::interval_test

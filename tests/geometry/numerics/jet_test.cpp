@@ -13,7 +13,7 @@
 #include "geometry/numerics/triple.h"
 #include "geometry/quad.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::jet_test {
 namespace {
 
 // A function of one number type for all.
@@ -324,4 +324,4 @@ TEST(Triple, mixes_number_types) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::jet_test

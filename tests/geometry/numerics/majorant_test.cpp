@@ -7,7 +7,7 @@
 
 #include "geometry/vectors.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::majorant_test {
 namespace {
 
 double binomial(int n, int k) { return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k; }
@@ -67,4 +67,4 @@ TEST(Majorant, HasNoBoundAtAPole) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::majorant_test

@@ -9,7 +9,7 @@
 
 #include "geometry/quad.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::polynomial_test {
 namespace {
 
 // Coefficients of leading * (x - r0)(x - r1)..., rounded once.
@@ -316,4 +316,4 @@ TEST(CertifiedRoots, interval_coefficients) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::polynomial_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::quadrature_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -156,4 +156,4 @@ TEST(Quadrature, integrates_over_places_where_the_integrand_is_infinite) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::quadrature_test

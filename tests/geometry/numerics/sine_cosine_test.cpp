@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::sine_cosine_test {
 namespace {
 
 double ulp(long double value) {
@@ -53,4 +53,4 @@ TEST(SineCosine, OfZeroAndOfNoNumber) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::sine_cosine_test

@@ -8,7 +8,7 @@
 #include "geometry/curves/bezier_curve.h"
 #include "geometry/curves/polyline.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::arc_length_test {
 namespace {
 
 TEST(ArcLength, OfAPolyline) {
@@ -42,4 +42,4 @@ TEST(ArcLength, NoneAtAll) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::arc_length_test

@@ -16,7 +16,7 @@
 #include "geometry/queries/parameter_lines.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::ball_outlines_test {
 namespace {
 
 double length_of(const ShapeOutlines& found, const Vec3& origin, const Vec3& normal) {
@@ -232,4 +232,4 @@ TEST(TubeSections, RandomPlanesMeetAllThatLinesInThemMeet) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::ball_outlines_test

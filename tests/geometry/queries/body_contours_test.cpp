@@ -9,7 +9,7 @@
 #include "geometry/bodies/primitives.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::body_contours_test {
 namespace {
 
 double length_of(const BodyContour& branch) {
@@ -116,4 +116,4 @@ TEST(BodyContours, SolidsMeetInLoops) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::body_contours_test

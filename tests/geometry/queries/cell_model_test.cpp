@@ -8,7 +8,7 @@
 
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::cell_model_test {
 namespace {
 
 TEST(HalfFloat, BoundsFromAboveAndBelow) {
@@ -60,4 +60,4 @@ TEST(PatchCell, KeepsItsPlaceExactly) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::cell_model_test

@@ -28,7 +28,7 @@
 #include "geometry/transformed.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::closed_contours_test {
 namespace {
 
 class Dice {
@@ -530,4 +530,4 @@ TEST(ClosedContours, ObliqueExtrusionOfTheTextbook) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::closed_contours_test

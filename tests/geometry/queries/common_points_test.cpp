@@ -9,7 +9,7 @@
 #include "geometry/surfaces/sphere.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::common_points_test {
 namespace {
 
 SurfacePtr sphere(const Vec3& center, double radius) {
@@ -106,4 +106,4 @@ TEST(CommonPoints, RandomSpheres) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::common_points_test

@@ -11,7 +11,7 @@
 #include "geometry/surfaces/sphere.h"
 #include "geometry/surfaces/torus.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::continuity_test {
 namespace {
 
 // Bernstein coefficients of t^k / k! in degree 3.
@@ -166,4 +166,4 @@ TEST(BodyContinuity, OfPrimitives) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::continuity_test

@@ -16,7 +16,7 @@
 #include "support/level_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::contours_test {
 namespace {
 
 using tests::BernsteinSquare;
@@ -628,4 +628,4 @@ TEST(Contours, OfPartsOfClosedSurfaces) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::contours_test

@@ -13,7 +13,7 @@
 #include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/sphere.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::creases_test {
 namespace {
 
 CurvePtr corners(const std::vector<Vec3>& points, bool closed = false) {
@@ -80,4 +80,4 @@ TEST(Creases, SmoothSurfacesHaveNone) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::creases_test

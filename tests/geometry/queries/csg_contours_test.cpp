@@ -18,7 +18,7 @@
 #include "geometry/shapes/implicit_surface.h"
 #include "geometry/shapes/tube.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::csg_contours_test {
 namespace {
 
 using Operation = Csg::Operation;
@@ -297,4 +297,4 @@ TEST(CsgLines, EdgesOfThinWedges) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::csg_contours_test

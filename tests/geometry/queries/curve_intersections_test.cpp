@@ -17,7 +17,7 @@
 #include "support/root_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::curve_intersections_test {
 namespace {
 
 Frame at(const Vec3& origin) {
@@ -263,4 +263,4 @@ TEST(RandomCurves, NoMeetingWithASurfaceIsLost) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::curve_intersections_test

@@ -6,7 +6,7 @@
 #include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/plane.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::deviation_test {
 namespace {
 
 FormulaSurface surface(const std::array<std::string, 3>& point, const Rectangle& domain) {
@@ -72,4 +72,4 @@ TEST(Deviation, WhatIsNotFiniteIsInfinite) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::deviation_test

@@ -19,7 +19,7 @@
 #include "support/distance_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::distance_test {
 namespace {
 
 void expect_certain(const Distance& found, double distance) {
@@ -471,4 +471,4 @@ TEST(RandomDistance, OfSurfacesLosesNoMinimum) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::distance_test

@@ -14,7 +14,7 @@
 #include "geometry/surfaces/formula_surface.h"
 #include "support/curve_places.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::formula_kinks_test {
 namespace {
 
 Expression formula(const std::string& text) {
@@ -189,4 +189,4 @@ TEST(FormulaKinks, SurfacesByParameters) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::formula_kinks_test

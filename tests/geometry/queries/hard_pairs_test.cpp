@@ -16,7 +16,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::hard_pairs_test {
 namespace {
 
 constexpr double kUnknown = -1;
@@ -383,4 +383,4 @@ TEST(HardPairs, TurnedAreRightOrIncomplete) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::hard_pairs_test

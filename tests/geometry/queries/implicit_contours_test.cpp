@@ -15,7 +15,7 @@
 #include "support/curve_places.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::implicit_contours_test {
 namespace {
 
 class Dice {
@@ -551,4 +551,4 @@ TEST(ImplicitContours, RefusesWhatIsNoViewOrPlane) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::implicit_contours_test

@@ -8,7 +8,7 @@
 #include "support/line_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::line_cells_test {
 namespace {
 
 struct RandomPatch {
@@ -174,4 +174,4 @@ TEST(LineCells, KnowWhichDirectionsMeetThemOnce) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::line_cells_test

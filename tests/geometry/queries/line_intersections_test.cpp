@@ -19,7 +19,7 @@
 #include "support/line_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::line_intersections_test {
 namespace {
 
 struct RandomLines {
@@ -360,4 +360,4 @@ TEST(LineIntersections, BoxesHoldTheirPieces) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::line_intersections_test

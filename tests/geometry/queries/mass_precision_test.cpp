@@ -13,7 +13,7 @@
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/revolution.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::mass_precision_test {
 namespace {
 
 using Real = long double;
@@ -148,4 +148,4 @@ TEST(MassPrecision, AreasOfSweptSplines) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::mass_precision_test

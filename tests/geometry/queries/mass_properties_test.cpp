@@ -16,7 +16,7 @@
 #include "geometry/surfaces/sphere.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::mass_properties_test {
 namespace {
 
 constexpr double kExact = 1e-11;
@@ -211,4 +211,4 @@ TEST(MassProperties, MeshesAreExactPolyhedra) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::mass_properties_test

@@ -8,7 +8,7 @@
 #include "geometry/bodies/primitives.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::mesh_contours_test {
 namespace {
 
 struct Count {
@@ -133,4 +133,4 @@ TEST(MeshContours, LinesMeetTrianglesWhereTheyMeetTheBox) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::mesh_contours_test

@@ -16,7 +16,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::passages_test {
 namespace {
 
 constexpr double kTouch = 1e-9;
@@ -135,4 +135,4 @@ TEST(Passages, EndsThatTouchAreNone) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::passages_test

@@ -6,7 +6,7 @@
 #include "geometry/surfaces/formula_surface.h"
 #include "geometry/transformed.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::pole_contours_test {
 namespace {
 
 const Interval kRound{0, kTwoPi}, kLatitudes{-kPi / 2, kPi / 2}, kColatitudes{0, kPi};
@@ -124,4 +124,4 @@ TEST(PoleContours, OutlinesOfALemonRunThroughItsTips) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::pole_contours_test

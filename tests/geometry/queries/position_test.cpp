@@ -18,7 +18,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::position_test {
 namespace {
 
 using Side = SurfacePosition::Side;
@@ -140,4 +140,4 @@ TEST(PositionInShape, OfAHalfSpace) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::position_test

@@ -16,7 +16,7 @@
 #include "support/root_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::projection_test {
 namespace {
 
 TEST(PointOnCurve, AnEllipseSeenFromOutsideHasTwoFeet) {
@@ -325,4 +325,4 @@ TEST(RandomFeet, OfSurfacesByPolynomialsAndByIntervals) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::projection_test

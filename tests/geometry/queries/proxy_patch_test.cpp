@@ -10,7 +10,7 @@
 #include "geometry/surfaces/surface_checks.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::proxy_patch_test {
 namespace {
 
 FormulaSurface surface(const std::array<std::string, 3>& point, const Rectangle& domain) {
@@ -76,4 +76,4 @@ TEST(ProxyPatch, HasTightBounds) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::proxy_patch_test

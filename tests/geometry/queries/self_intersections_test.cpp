@@ -19,7 +19,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::self_intersections_test {
 namespace {
 
 constexpr double kTurn = 2 * kPi;
@@ -402,4 +402,4 @@ TEST(SurfaceWithItself, RandomBentPatchesAgainstTriangles) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::self_intersections_test

@@ -15,7 +15,7 @@
 #include "geometry/shapes/tube.h"
 #include "geometry/shapes/tube_cases.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::shape_measures_test {
 namespace {
 
 using Operation = Csg::Operation;
@@ -191,4 +191,4 @@ TEST(ShapeMeasures, HalfSpacesThatBoundASolid) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::shape_measures_test

@@ -31,7 +31,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::surface_lines_test {
 namespace {
 
 FormulaSurface formula(const std::array<std::string, 3>& point, const Rectangle& domain) {
@@ -550,4 +550,4 @@ TEST(SurfaceLines, EndWhereTheyShouldOnAnyPatch) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::surface_lines_test

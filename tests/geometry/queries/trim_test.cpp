@@ -26,7 +26,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::trim_test {
 namespace {
 
 using Real = long double;
@@ -404,4 +404,4 @@ TEST(TrimmedSurface, ErrorsSayWhichLoopAndWhere) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::trim_test

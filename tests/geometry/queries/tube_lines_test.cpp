@@ -18,7 +18,7 @@
 #include "support/curve_places.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::tube_lines_test {
 namespace {
 
 const ViewOf kView{false, {0.3, 0.5, -1}};
@@ -345,7 +345,7 @@ TEST(TubeLines, EdgesAreCornersOfSections) {
 
 double distance_of(const ShapeOutlines& found, const Vec3& p) {
   double least = kInfinity;
-  for (const ShapeOutline& line : found.lines) least = std::min(least, checks::distance_to(*line.curve, p));
+  for (const ShapeOutline& line : found.lines) least = std::min(least, lekalo::checks::distance_to(*line.curve, p));
   return least;
 }
 
@@ -477,4 +477,4 @@ TEST(TubeParameterLines, AreAllThatIsBare) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::tube_lines_test

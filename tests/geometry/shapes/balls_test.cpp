@@ -11,7 +11,7 @@
 #include "geometry/surfaces/surface_checks.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::balls_test {
 namespace {
 
 TEST(Balls, LinesMeetTheUnionWhereItsSpheresSay) {
@@ -93,4 +93,4 @@ TEST(Balls, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::balls_test

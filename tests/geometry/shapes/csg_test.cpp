@@ -17,7 +17,7 @@
 #include "support/solid_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::csg_test {
 namespace {
 
 using Real = long double;
@@ -352,4 +352,4 @@ TEST(Csg, UnderAMap) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::csg_test

@@ -12,7 +12,7 @@
 #include "support/sign_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::implicit_surface_test {
 namespace {
 
 using checks::random_direction;
@@ -384,4 +384,4 @@ TEST(ImplicitSurface, RefusesWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::implicit_surface_test

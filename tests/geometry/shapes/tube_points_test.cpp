@@ -11,7 +11,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::tube_points_test {
 namespace {
 
 // The points and derivatives at hits of random lines.
@@ -164,4 +164,4 @@ TEST(Tube, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::tube_points_test

@@ -17,7 +17,7 @@
 #include "support/sweep_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::tube_test {
 namespace {
 
 using Truth = std::function<std::vector<double>(const Line&)>;
@@ -431,4 +431,4 @@ TEST(Tube, HoldsTheBallsOfAnyCurveAndNoMore) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::tube_test

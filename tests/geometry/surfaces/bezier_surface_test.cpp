@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/surface_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::bezier_surface_test {
 namespace {
 
 using checks::distance;
@@ -115,4 +115,4 @@ TEST(BezierSurface, RefusesNetsThatAreNoNets) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::bezier_surface_test

@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::cone_test {
 namespace {
 
 using checks::distance;
@@ -105,4 +105,4 @@ TEST(CylinderSurface, GeneratricesAreNoHits) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::cone_test

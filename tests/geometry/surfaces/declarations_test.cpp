@@ -15,6 +15,10 @@ TypeDeclaration hyperboloid_one_sheet_type();
 TypeDeclaration hyperboloid_two_sheets_type();
 TypeDeclaration elliptic_paraboloid_type();
 
+}  // namespace lekalo::geometry
+
+namespace lekalo::geometry::declarations_test {
+
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::any>>;
@@ -110,4 +114,4 @@ TEST(QuadricDeclarations, CutByHeights) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::declarations_test

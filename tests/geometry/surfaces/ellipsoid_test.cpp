@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::ellipsoid_test {
 namespace {
 
 using checks::distance;
@@ -33,4 +33,4 @@ TEST(Ellipsoid, HasTheValuesOfTheTextbook) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::ellipsoid_test

@@ -14,7 +14,7 @@
 #include "geometry/surfaces/torus.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::external_surface_test {
 namespace {
 
 const Rectangle kTurns{{0, kTwoPi}, {0, kTwoPi}};
@@ -204,4 +204,4 @@ TEST(ExternalSurface, RefusesWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::external_surface_test

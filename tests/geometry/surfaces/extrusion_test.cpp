@@ -4,7 +4,7 @@
 #include "geometry/formula.h"
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::extrusion_test {
 namespace {
 
 using checks::distance;
@@ -64,4 +64,4 @@ TEST(ExtrusionSurface, RefusesAZeroVectorAndForeignParameters) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::extrusion_test

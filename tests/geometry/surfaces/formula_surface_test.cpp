@@ -11,7 +11,7 @@
 #include "support/line_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::formula_surface_test {
 namespace {
 
 FormulaSurface surface(const std::array<std::string, 3>& point, const Rectangle& domain,
@@ -361,4 +361,4 @@ TEST(FormulaSurface, LinesMeetClosedSurfacesAnEvenNumberOfTimes) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::formula_surface_test

@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::hyperboloid_test {
 namespace {
 
 using checks::distance;
@@ -77,4 +77,4 @@ TEST(HyperboloidTwoSheets, SheetsAreApart) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::hyperboloid_test

@@ -4,7 +4,7 @@
 #include "geometry/curves/spline_oracle.h"
 #include "geometry/surfaces/surface_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::nurbs_surface_test {
 namespace {
 
 using checks::distance;
@@ -251,4 +251,4 @@ TEST(NurbsSurface, NeighbouringPiecesShareTheirBorders) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::nurbs_surface_test

@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::paraboloid_test {
 namespace {
 
 using checks::distance;
@@ -62,4 +62,4 @@ TEST(HyperbolicParaboloid, HasTheValuesOfTheTextbook) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::paraboloid_test

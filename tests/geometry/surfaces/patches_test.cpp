@@ -6,7 +6,7 @@
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/surface_checks.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::patches_test {
 namespace {
 
 using checks::distance;
@@ -86,4 +86,4 @@ TEST(Patches, ErrorsNameTheLine) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::patches_test

@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::plane_test {
 namespace {
 
 using checks::kSkewFrame;
@@ -41,4 +41,4 @@ TEST(Plane, BorderBelongsToTheRectangleAndAParallelLineDoesNotHit) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::plane_test

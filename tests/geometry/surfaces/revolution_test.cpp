@@ -5,7 +5,7 @@
 #include "geometry/surfaces/analytic_formulas.h"
 #include "geometry/surfaces/torus.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::revolution_test {
 namespace {
 
 using checks::distance;
@@ -110,4 +110,4 @@ TEST(RevolutionSurface, RefusesMoreThanATurn) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::revolution_test

@@ -14,7 +14,7 @@
 #include "geometry/surfaces/surface_checks.h"
 #include "support/tier.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::ribbon_test {
 namespace {
 
 constexpr double kRadius = 2, kPitch = 0.5;  // of a helix: rise for each radian
@@ -187,4 +187,4 @@ TEST(Ribbon, RefusesCurvesWithoutDirections) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::ribbon_test

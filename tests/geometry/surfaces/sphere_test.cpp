@@ -2,7 +2,7 @@
 
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::sphere_test {
 namespace {
 
 using checks::distance;
@@ -77,4 +77,4 @@ TEST(SphereSurface, RefusesImpossibleDomains) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::sphere_test

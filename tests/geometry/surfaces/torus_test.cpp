@@ -3,7 +3,7 @@
 #include "geometry/queries/line_intersections.h"
 #include "geometry/surfaces/analytic_formulas.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::torus_test {
 namespace {
 
 using checks::distance;
@@ -185,4 +185,4 @@ TEST(TorusSurface, RefusesEmptySheetsAndPartsBeyondTheTips) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::torus_test

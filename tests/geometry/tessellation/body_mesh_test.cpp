@@ -21,7 +21,7 @@
 #include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::body_mesh_test {
 namespace {
 
 void check(const Body& body, const TessellationTolerance& tolerance, double least_cosine = 0.5) {
@@ -293,4 +293,4 @@ TEST(BodyMesh, SewnTeapotHasNoCracks) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::body_mesh_test

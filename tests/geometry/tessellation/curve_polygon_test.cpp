@@ -11,7 +11,7 @@
 #include "geometry/curves/segment.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::curve_polygon_test {
 namespace {
 
 double measured_sag(const Curve& curve, const std::vector<double>& ts) {
@@ -82,4 +82,4 @@ TEST(CurvePolygon, AngleAndPlaceDecideToo) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::curve_polygon_test

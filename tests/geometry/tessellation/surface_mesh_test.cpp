@@ -15,7 +15,7 @@
 #include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::surface_mesh_test {
 namespace {
 
 TessellationTolerance sag_only(double sag) { return {sag, kPi, {}}; }
@@ -165,4 +165,4 @@ TEST(SurfaceMesh, RefusesWhatCannotBeDone) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::surface_mesh_test

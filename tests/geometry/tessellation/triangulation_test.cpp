@@ -10,7 +10,7 @@
 
 #include "geometry/tessellation/predicates.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::triangulation_test {
 namespace {
 
 double area(std::span<const Vec2> points, const IndexTriangle& t) {
@@ -203,4 +203,4 @@ TEST(Triangulation, RefinementStaysInsideAndKeepsConstraints) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::triangulation_test

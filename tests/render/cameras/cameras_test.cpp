@@ -8,7 +8,7 @@
 
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::cameras_test {
 namespace {
 
 using geometry::Box3;
@@ -209,4 +209,4 @@ TEST(Framing, CopesWithAPointAndWithNothing) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::cameras_test

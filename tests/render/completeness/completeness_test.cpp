@@ -22,7 +22,7 @@
 #include "render/trace/world.h"
 #include "support/tier.h"
 
-namespace lekalo::render::completeness {
+namespace lekalo::render::completeness::completeness_test {
 namespace {
 
 const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));  // where subjects off the origin lie
@@ -406,4 +406,4 @@ std::string name_of_closed(const testing::TestParamInfo<size_t>& info) {
 INSTANTIATE_TEST_SUITE_P(ClosedShapes, Parity, testing::Range<size_t>(0, all_closed_entries().size()), name_of_closed);
 
 }  // namespace
-}  // namespace lekalo::render::completeness
+}  // namespace lekalo::render::completeness::completeness_test

@@ -21,7 +21,7 @@
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::csg_truth_test {
 namespace {
 
 using namespace geometry;
@@ -211,4 +211,4 @@ TEST(CsgTruth, PipeAlongItsAxis) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::csg_truth_test

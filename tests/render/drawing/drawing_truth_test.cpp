@@ -24,7 +24,7 @@
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::drawing_truth_test {
 namespace {
 
 using namespace geometry;
@@ -455,4 +455,4 @@ TEST(DrawingTruth, BordersThatGoRoundBothPatches) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::drawing_truth_test

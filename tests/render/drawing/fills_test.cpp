@@ -13,7 +13,7 @@
 #include "render/scene/load.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::fills_test {
 namespace {
 
 using namespace geometry;
@@ -308,4 +308,4 @@ TEST(Fills, Hatching) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::fills_test

@@ -5,7 +5,7 @@
 #include "render/drawing/line_truth.h"
 #include "support/bottle_oracle.h"
 
-namespace lekalo::render {
+namespace lekalo::render::klein_bottle_truth_test {
 namespace {
 
 // As the gallery writes it, the figure's middle at the distance a from the axis.
@@ -43,4 +43,4 @@ TEST(DrawingTruth, KleinBottles) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::klein_bottle_truth_test

@@ -8,7 +8,7 @@
 #include "geometry/bodies/primitives.h"
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::light_path_test {
 namespace {
 
 using namespace geometry;
@@ -95,4 +95,4 @@ TEST(LightPath, EndsOnWhatIsMatt) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::light_path_test

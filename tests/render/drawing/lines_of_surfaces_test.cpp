@@ -20,7 +20,7 @@
 #include "render/drawing/visible_lines.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::lines_of_surfaces_test {
 namespace {
 
 using namespace geometry;
@@ -226,4 +226,4 @@ TEST(LinesOfSurfaces, FormulasWithKinks) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::lines_of_surfaces_test

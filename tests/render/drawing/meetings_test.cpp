@@ -23,7 +23,7 @@
 #include "render/drawing/visible_lines.h"
 #include "render/lines/strokes.h"
 
-namespace lekalo::render {
+namespace lekalo::render::meetings_test {
 namespace {
 
 using namespace geometry;
@@ -355,4 +355,4 @@ TEST(Meetings, FormulasWithKinks) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::meetings_test

@@ -19,7 +19,7 @@
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::parameter_lines_test {
 namespace {
 
 using namespace geometry;
@@ -48,7 +48,7 @@ std::optional<bool> is_boundary(const Solid& solid, const Vec3& p, const Vec3& n
 double distance_of(const std::vector<Stroke>& strokes, const Vec3& p) {
   double least = kInfinity;
   for (const Stroke& stroke : strokes)
-    if (stroke.kind == "parameter") least = std::min(least, checks::distance_to(*stroke.curve, p));
+    if (stroke.kind == "parameter") least = std::min(least, lekalo::checks::distance_to(*stroke.curve, p));
   return least;
 }
 
@@ -164,4 +164,4 @@ TEST(ParameterLines, OfSolidsPutTogether) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::parameter_lines_test

@@ -12,7 +12,7 @@
 #include "render/drawing/joined_paths.h"
 #include "render/drawing/random_views.h"
 
-namespace lekalo::render {
+namespace lekalo::render::paths_test {
 namespace {
 
 using namespace geometry;
@@ -194,4 +194,4 @@ TEST(JoinedPaths, CornersOfThree) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::paths_test

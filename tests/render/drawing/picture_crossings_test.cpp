@@ -14,7 +14,7 @@
 #include "render/cameras/cameras.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::picture_crossings_test {
 namespace {
 
 using geometry::Affine;
@@ -192,4 +192,4 @@ TEST(PictureCrossings, OfCirclesSideBySide) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::picture_crossings_test

@@ -13,7 +13,7 @@
 #include "render/trace/world.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::register_scenes_test {
 namespace {
 
 using namespace geometry;
@@ -269,4 +269,4 @@ TEST(Register, OutlinesOfSceneFilesLieOnBorders) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::register_scenes_test

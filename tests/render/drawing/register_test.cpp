@@ -11,7 +11,7 @@
 #include "render/drawing/visible_lines.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::register_test {
 namespace {
 
 using namespace geometry;
@@ -110,4 +110,4 @@ TEST(Register, LinesLieOnBordersOfFaces) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::register_test

@@ -13,7 +13,7 @@
 #include "render/drawing/text_layout.h"
 #include "render/scene/tex.h"
 
-namespace lekalo::render {
+namespace lekalo::render::texts_test {
 namespace {
 
 std::string characters(const SheetText& text) {
@@ -336,4 +336,4 @@ TEST(Sheets, Formats) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::texts_test

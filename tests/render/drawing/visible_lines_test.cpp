@@ -15,7 +15,7 @@
 #include "render/small_scene.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::visible_lines_test {
 namespace {
 
 using namespace geometry;
@@ -229,4 +229,4 @@ TEST(FittedPaths, LieOnThePictures) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::visible_lines_test

@@ -8,7 +8,7 @@
 
 #include "geometry/describe.h"
 
-namespace lekalo::render {
+namespace lekalo::render::process_test {
 namespace {
 
 using geometry::ExternalError;
@@ -124,4 +124,4 @@ TEST(Process, OneThatDoesNotEndIsKilled) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::process_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace lekalo::render {
+namespace lekalo::render::filter_test {
 namespace {
 
 double sum_over_pixels(const Filter& filter, double place) {
@@ -47,4 +47,4 @@ TEST(Filter, UnknownNamesAndRadiiAreRefused) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::filter_test

@@ -10,7 +10,7 @@
 #include "render/image/image_error.h"
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::render_test {
 namespace {
 
 SmallScene ball_on_ground(const std::string& filter = "box") {
@@ -284,4 +284,4 @@ TEST(Render, SaysWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::render_test

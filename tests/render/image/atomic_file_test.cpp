@@ -7,7 +7,7 @@
 #include "render/image/image_error.h"
 #include "render/image/temporary_folder.h"
 
-namespace lekalo::render {
+namespace lekalo::render::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST(AtomicFile, SaysWhyAndWhatToDo) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::atomic_file_test

@@ -11,7 +11,7 @@
 #include "render/image/temporary_folder.h"
 #include "support/planes.h"
 
-namespace lekalo::render {
+namespace lekalo::render::compare_test {
 namespace {
 
 const std::filesystem::path kPairs = std::filesystem::path(LEKALO_SOURCE_DIR) / "tests/data/flip";
@@ -161,4 +161,4 @@ TEST(Compare, MetricsHaveNames) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::compare_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lekalo::render {
+namespace lekalo::render::display_test {
 namespace {
 
 Image grey(const std::vector<float>& values) {
@@ -89,4 +89,4 @@ TEST(Display, AlphaIsDividedOutOrLeftBeforeBlack) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::display_test

@@ -12,7 +12,7 @@
 #include "render/image/image_error.h"
 #include "render/image/temporary_folder.h"
 
-namespace lekalo::render {
+namespace lekalo::render::exr_test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -140,4 +140,4 @@ TEST(Exr, DamagedFilesEndInAMessage) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::exr_test

@@ -8,7 +8,7 @@
 #include "render/image/png.h"
 #include "support/planes.h"
 
-namespace lekalo::render {
+namespace lekalo::render::flip_test {
 namespace {
 
 const std::filesystem::path kPairs = std::filesystem::path(LEKALO_SOURCE_DIR) / "tests/data/flip";
@@ -90,4 +90,4 @@ TEST(Flip, BlackReferencesAreCompared) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::flip_test

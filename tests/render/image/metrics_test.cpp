@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lekalo::render {
+namespace lekalo::render::metrics_test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -100,4 +100,4 @@ TEST(Ssim, IsItsDefinition) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::metrics_test

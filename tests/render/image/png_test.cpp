@@ -9,7 +9,7 @@
 #include "render/image/image_error.h"
 #include "render/image/temporary_folder.h"
 
-namespace lekalo::render {
+namespace lekalo::render::png_test {
 namespace {
 
 DisplayImage ramp(int channels, int bits) {
@@ -121,4 +121,4 @@ TEST(Png, DamagedFilesEndInAMessage) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::png_test

@@ -11,7 +11,7 @@
 #include "render/image/temporary_folder.h"
 #include "support/planes.h"
 
-namespace lekalo::render {
+namespace lekalo::render::read_image_test {
 namespace {
 
 TEST(ReadImage, DecidesByTheFirstBytes) {
@@ -65,4 +65,4 @@ TEST(ReadImage, SaysWhyAFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::read_image_test

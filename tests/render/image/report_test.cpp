@@ -7,7 +7,7 @@
 #include "render/image/colormap.h"
 #include "render/image/temporary_folder.h"
 
-namespace lekalo::render {
+namespace lekalo::render::report_test {
 namespace {
 
 const std::filesystem::path kPairs = std::filesystem::path(LEKALO_SOURCE_DIR) / "tests/data/flip";
@@ -65,4 +65,4 @@ TEST(Colormap, MagmaIsThePublishedTable) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::report_test

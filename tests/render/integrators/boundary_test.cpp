@@ -12,7 +12,7 @@
 #include "geometry/shapes/csg.h"
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::boundary_test {
 namespace {
 
 using namespace geometry;
@@ -194,4 +194,4 @@ TEST(Boundary, ShadowsAreTintedByBothOfTwoThatTouch) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::boundary_test

@@ -5,7 +5,7 @@
 
 #include "render/integrators/media.h"
 
-namespace lekalo::render {
+namespace lekalo::render::classic_model_test {
 namespace {
 
 using geometry::kPi;
@@ -65,4 +65,4 @@ TEST(Media, TheHighestPriorityFillsThePlaceAndOfEqualOnesTheLast) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::classic_model_test

@@ -6,7 +6,7 @@
 
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::classic_test {
 namespace {
 
 using geometry::kPi;
@@ -337,4 +337,4 @@ TEST(ClassicIntegrator, KeyTellsObjectsAndShadowsApart) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::classic_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lekalo::render {
+namespace lekalo::render::lights_test {
 namespace {
 
 using geometry::kPi;
@@ -187,4 +187,4 @@ TEST(Lights, AmbientLightIsTakenOnce) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::lights_test

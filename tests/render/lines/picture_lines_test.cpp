@@ -22,7 +22,7 @@
 #include "render/small_scene.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::picture_lines_test {
 namespace {
 
 using namespace geometry;
@@ -520,4 +520,4 @@ TEST(PictureLines, ClippedAway) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::picture_lines_test

@@ -20,6 +20,10 @@ std::vector<geometry::TypeDeclaration> light_types();
 std::vector<geometry::TypeDeclaration> camera_types();
 std::vector<geometry::TypeDeclaration> integrator_types();
 
+}  // namespace lekalo::render
+
+namespace lekalo::render::declarations_test {
+
 namespace {
 
 using geometry::Category;
@@ -97,4 +101,4 @@ TEST(Declarations, CamerasWaitForThePictureAndTheScene) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::declarations_test

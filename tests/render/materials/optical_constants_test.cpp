@@ -7,7 +7,7 @@
 
 #include "render/materials/fresnel.h"
 
-namespace lekalo::render {
+namespace lekalo::render::optical_constants_test {
 namespace {
 
 TEST(OpticalConstants, DispersionFormulasGiveTheCataloguesIndices) {
@@ -61,4 +61,4 @@ TEST(Fresnel, ConductorAgreesWithClosedForms) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::optical_constants_test

@@ -8,7 +8,7 @@
 #include "render/materials/normal_deviation.h"
 #include "support/planes.h"
 
-namespace lekalo::render {
+namespace lekalo::render::textures_test {
 namespace {
 
 SurfacePoint at(double u, double v) {
@@ -129,4 +129,4 @@ TEST(NormalDeviation, IsUnitRepeatableBoundedAndUnbiased) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::textures_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-namespace lekalo::render {
+namespace lekalo::render::sampler_test {
 namespace {
 
 TEST(StratifiedSampler, OneSampleIsTheCentre) {
@@ -75,4 +75,4 @@ TEST(SampleStream, DimensionsDiffer) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::sampler_test

@@ -4,7 +4,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::builder_errors_test {
 namespace {
 
 std::string said(const std::string& text) { return build_text(text).said; }
@@ -374,4 +374,4 @@ TEST(BuilderErrors, AllErrorsOfAFileInOneRun) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::builder_errors_test

@@ -8,7 +8,7 @@
 #include "render/scene/load.h"
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::builder_test {
 namespace {
 
 using geometry::Curve;
@@ -272,4 +272,4 @@ TEST(Builder, OutputsAndTheirKinds) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::builder_test

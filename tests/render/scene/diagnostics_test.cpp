@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lekalo::render {
+namespace lekalo::render::diagnostics_test {
 namespace {
 
 std::string shown(const std::string& text, int line, int column, int length) {
@@ -90,4 +90,4 @@ TEST(Diagnostics, TravelInAnException) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::diagnostics_test

@@ -4,7 +4,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::drawing_sections_test {
 namespace {
 
 using geometry::Anchor;
@@ -321,4 +321,4 @@ objects: [)" + objects +
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::drawing_sections_test

@@ -4,7 +4,7 @@
 
 #include "render/scene/load.h"
 
-namespace lekalo::render {
+namespace lekalo::render::examples_test {
 namespace {
 
 std::shared_ptr<const Model> load(const char* name) {
@@ -58,4 +58,4 @@ TEST(Examples, Views) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::examples_test

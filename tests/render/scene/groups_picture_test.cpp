@@ -6,7 +6,7 @@
 #include "render/scene/scene_text.h"
 #include "render/trace/world.h"
 
-namespace lekalo::render {
+namespace lekalo::render::groups_picture_test {
 namespace {
 
 Image picture(const std::string& text) {
@@ -64,4 +64,4 @@ TEST(GroupPictures, TwiceIsTheSameAsWrittenOut) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::groups_picture_test

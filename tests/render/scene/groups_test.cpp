@@ -3,7 +3,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::groups_test {
 namespace {
 
 using geometry::Box3;
@@ -165,4 +165,4 @@ TEST(Framing, ConflictsOfCameras) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::groups_test

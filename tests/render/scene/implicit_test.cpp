@@ -8,7 +8,7 @@
 #include "render/trace/world.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::implicit_test {
 namespace {
 
 BuiltText built(const std::string& fields) {
@@ -92,4 +92,4 @@ TEST(Implicit, RaysSeeTheBallThatTheBodyIs) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::implicit_test

@@ -10,7 +10,7 @@
 #include "render/scene/builder.h"
 #include "render/scene/data_path.h"
 
-namespace lekalo::render {
+namespace lekalo::render::include_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -327,4 +327,4 @@ TEST_F(Include, FilesThatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::include_test

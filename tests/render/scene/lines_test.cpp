@@ -4,7 +4,7 @@
 #include "render/lines/strokes.h"
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::lines_test {
 namespace {
 
 std::string said_about(const std::string& map) {
@@ -168,4 +168,4 @@ TEST(LinesOfScenes, LooksAreInPixels) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::lines_test

@@ -5,7 +5,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::manual_test {
 namespace {
 
 // The things that examples name.
@@ -68,4 +68,4 @@ TEST(Manual, RangesOfAnglesAreInDegrees) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::manual_test

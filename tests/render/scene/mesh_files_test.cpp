@@ -13,7 +13,7 @@
 #include "geometry/queries/mass_properties.h"
 #include "geometry/tessellation/tessellate.h"
 
-namespace lekalo::render {
+namespace lekalo::render::mesh_files_test {
 namespace {
 
 using geometry::Mesh;
@@ -207,4 +207,4 @@ TEST(MeshFiles, DamagedBytesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::mesh_files_test

@@ -5,7 +5,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::places_test {
 namespace {
 
 using geometry::kPi;
@@ -128,4 +128,4 @@ TEST(Places, ErrorsOfDirections) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::places_test

@@ -13,7 +13,7 @@
 
 #include "fuzz/reader_check.h"
 
-namespace lekalo::render {
+namespace lekalo::render::reader_corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(ReaderCorpus, LargeTextsTakeBoundedTime) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::reader_corpus_test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace lekalo::render {
+namespace lekalo::render::reader_test {
 namespace {
 
 Value read(const std::string& text) {
@@ -142,4 +142,4 @@ TEST(Reader, HoldsItsLimits) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::reader_test

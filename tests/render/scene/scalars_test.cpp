@@ -6,7 +6,7 @@
 
 #include "render/scene/reader.h"
 
-namespace lekalo::render {
+namespace lekalo::render::scalars_test {
 namespace {
 
 Value plain(const std::string& text) {
@@ -153,4 +153,4 @@ TEST(Scalars, WrongKindsAreNamed) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::scalars_test

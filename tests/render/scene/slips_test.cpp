@@ -6,7 +6,7 @@
 
 #include "render/scene/reader.h"
 
-namespace lekalo::render {
+namespace lekalo::render::slips_test {
 namespace {
 
 // The messages and hints for a text, without source lines, carets and notes.
@@ -250,4 +250,4 @@ TEST(Slips, AliasBombIsRefusedAtItsFirstAnchor) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::slips_test

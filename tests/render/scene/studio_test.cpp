@@ -9,7 +9,7 @@
 #include "render/scene/load.h"
 #include "render/small_scene.h"
 
-namespace lekalo::render {
+namespace lekalo::render::studio_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ TEST(Studio, PaperShowsOnlyShadows) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::studio_test

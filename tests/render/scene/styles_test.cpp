@@ -7,7 +7,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::styles_test {
 namespace {
 
 Model model(const std::string& text) {
@@ -198,4 +198,4 @@ TEST(Legend, NumbersTheMembersOfAFamily) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::styles_test

@@ -8,7 +8,7 @@
 
 #include "render/scene/diagnostics.h"
 
-namespace lekalo::render {
+namespace lekalo::render::suite_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ TEST_F(SuiteFile, ASceneIsNoSuite) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::suite_test

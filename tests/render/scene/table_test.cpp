@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace lekalo::render {
+namespace lekalo::render::table_test {
 namespace {
 
 std::optional<Table> read(const std::string& text, std::string* said = nullptr) {
@@ -78,4 +78,4 @@ TEST(Table, AFileThatCannotBeReadIsReportedWhereItIsNamed) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::table_test

@@ -6,7 +6,7 @@
 
 #include "render/scene/scene_text.h"
 
-namespace lekalo::render {
+namespace lekalo::render::text_template_test {
 namespace {
 
 // The label of an annotation beside a parameter a = 2/3 and a counter n of a repeat over 7, 12.
@@ -75,4 +75,4 @@ TEST(TextTemplate, WhatIsWrongIsSaidAtItsPlace) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::text_template_test

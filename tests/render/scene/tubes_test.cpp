@@ -7,7 +7,7 @@
 #include "render/scene/scene_text.h"
 #include "render/trace/world.h"
 
-namespace lekalo::render {
+namespace lekalo::render::tubes_test {
 namespace {
 
 std::string said_about(const std::string& map) {
@@ -104,4 +104,4 @@ lights: {}
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::tubes_test

@@ -18,7 +18,7 @@
 #include "render/materials/textures.h"
 #include "render/trace/world.h"
 
-namespace lekalo::render {
+namespace lekalo::render::bare_hits_test {
 namespace {
 
 using namespace geometry;
@@ -220,4 +220,4 @@ TEST(BareHits, FeetOfAllTheirPoints) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::bare_hits_test

@@ -14,7 +14,7 @@
 #include "render/trace/world.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::leaving_test {
 namespace {
 
 using namespace geometry;
@@ -152,4 +152,4 @@ TEST_F(Leaving, ObstaclesAreAllThatOccludes) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::leaving_test

@@ -12,7 +12,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/world.h"
 
-namespace lekalo::render {
+namespace lekalo::render::mesh_shading_test {
 namespace {
 
 using namespace geometry;
@@ -148,4 +148,4 @@ TEST(MeshShading, ConesHaveTrueNormalsUpToTheTip) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::mesh_shading_test

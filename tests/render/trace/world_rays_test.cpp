@@ -23,7 +23,7 @@
 #include "support/line_oracle.h"
 #include "support/tier.h"
 
-namespace lekalo::render {
+namespace lekalo::render::world_rays_test {
 namespace {
 
 using namespace geometry;
@@ -411,4 +411,4 @@ TEST_F(MeshRays, FromInsideAlwaysHit) {
 }
 
 }  // namespace
-}  // namespace lekalo::render
+}  // namespace lekalo::render::world_rays_test
