@@ -72,7 +72,9 @@ double chord_excess(const Curve& curve, double a, double b, const TessellationTo
   // Tangents are taken a little inside, where they belong to this chord even if it ends in a corner.
   const double inset = 1e-6 * (b - a);
   const Vec3 start = curve.evaluate(a + inset, 1).d[1], end = curve.evaluate(b - inset, 1).d[1];
-  const double turn = angle_between(start, end) / tolerance.angle;
+  // In a cusp it turns however short the chord is.
+  const bool is_short = glm::length(last.d[0] - first.d[0]) <= sag_limit;
+  const double turn = is_short ? 0 : angle_between(start, end) / tolerance.angle;
 
   const double bound = (b - a) * (b - a) * largest_length(curve.enclose({a, b}, 2).d[2]) / 8;
   if (bound <= sag_limit) return turn;

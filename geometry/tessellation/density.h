@@ -46,23 +46,31 @@ struct LineDensity {
   }
 
   // Makes the density larger where steps of the lines were too long: excess[i] > 1 by so many times the tolerance
-  // between lines[i] and lines[i + 1]. Deviations grow with the square of the step. False when none was too long.
+  // between lines[i] and lines[i + 1]. Deviations grow with the square of the step. Only these steps' own density is
+  // raised: what bends in one place, or is singular there, makes no others shorter. False when none was too long.
   bool raise(const std::vector<double>& lines, const std::vector<double>& excess) {
-    std::vector<double> wanted(value.size(), 0.0);
     bool any = false;
-    size_t first = 0;
+    LineDensity raised{{at.front()}, {}};
+    raised.at.reserve(at.size() + lines.size());
+    raised.value.reserve(at.size() + lines.size());
+    size_t i = 0;  // the interval that goes on from raised.at.back()
+    const auto extend = [&](double to, double least, double factor) {
+      for (; i < value.size() && raised.at.back() < to; i += at[i + 1] <= raised.at.back()) {
+        raised.at.push_back(std::min(to, at[i + 1]));
+        raised.value.push_back(std::max(value[i], least) * factor);
+      }
+    };
     for (size_t k = 0; k + 1 < lines.size(); ++k) {
       if (!(excess[k] > 1)) continue;
       const double from = std::max(lines[k], at.front()), to = std::min(lines[k + 1], at.back());
       if (!(from < to)) continue;
       any = true;
+      extend(from, 0, 1);
       // A part that asked for next to nothing still gets its share of the step.
-      const double factor = std::min(2.0, std::sqrt(excess[k]) * 1.02), least = 0.5 / (lines[k + 1] - lines[k]);
-      while (at[first + 1] <= from) ++first;
-      for (size_t i = first; i < value.size() && at[i] < to; ++i)
-        wanted[i] = std::max(wanted[i], std::max(value[i], least) * factor);
+      extend(to, 0.5 / (lines[k + 1] - lines[k]), std::min(2.0, std::sqrt(excess[k]) * 1.02));
     }
-    for (size_t i = 0; i < value.size(); ++i) value[i] = std::max(value[i], wanted[i]);
+    extend(at.back(), 0, 1);
+    *this = std::move(raised);
     return any;
   }
 };

@@ -266,14 +266,16 @@ class GridCheck {
   }
 
   // Deviation of the middle of a side in the direction of the normals, as a multiple of the sag; a turn of the normal
-  // beyond the angle is entered in `excess`.
+  // beyond the angle is entered in `excess`, but for sides no longer than the sag: across a singular point the normal
+  // turns however short they are.
   double side_excess(size_t a, size_t b, const Vec3& middle, double& excess) const {
     const Vec3 &m = grid_.normals[a], &n = grid_.normals[b];
-    const double turn = glm::dot(m, n);
-    if (turn < cosine_) excess = std::max(excess, sqr(std::acos(std::max(-1.0, turn)) / tolerance_.angle));
+    const double turn = glm::dot(m, n), limit = tolerance_.sag_near(middle);
+    const bool is_short = glm::length(grid_.points[b] - grid_.points[a]) <= limit;
+    if (turn < cosine_ && !is_short) excess = std::max(excess, sqr(std::acos(std::max(-1.0, turn)) / tolerance_.angle));
     const Vec3 offset = middle - 0.5 * (grid_.points[a] + grid_.points[b]);
     const double sag = turn > -0.5 ? std::abs(glm::dot(offset, m + n)) / glm::length(m + n) : glm::length(offset);
-    return sag / tolerance_.sag_near(middle);
+    return sag / limit;
   }
 
   void judge_cell(int i, int j) {
@@ -388,12 +390,15 @@ SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const Tessel
   const int fewest_u = fewest_steps(surface, box, true), fewest_v = fewest_steps(surface, box, false);
   Densities densities = make_densities(surface, box, tolerance, fewest_u, fewest_v);
   SurfaceGrid grid;
-  for (int round = 0; round < 10; ++round) {
+  // Each halves what is too long; more than these never came.
+  constexpr int kMostRounds = 40;
+  for (int round = 0; round < kMostRounds; ++round) {
     const double triangles = 2 * densities.u.total() * densities.v.total();
     if (!(triangles < kMostTriangles))
-      throw std::invalid_argument(
-          fmt::format("the sag is too small: the surface would need about {:.0e} triangles (at most {:.0e})", triangles,
-                      kMostTriangles));
+      throw std::invalid_argument(fmt::format(
+          "a mesh that keeps its sag and angle would need about {:.0e} triangles (at most {:.0e}): give a larger "
+          "sag, or leave the surface exact",
+          triangles, kMostTriangles));
     grid.u = densities.u.lines(fewest_u);
     grid.v = densities.v.lines(fewest_v);
     GridCheck check(surface, tolerance, grid);

@@ -1,5 +1,6 @@
 #include "render/trace/world.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -207,7 +208,7 @@ struct World::Compiled {
   }
 
   void add_leaves(Hierarchy& into, const Object& object, int number, const Affine& to_world) {
-    Leaf leaf = compile(object, number, to_world);
+    Leaf leaf = named(object, [&] { return compile(object, number, to_world); });
     for (const auto& target : leaf.targets)
       count_method({target->method(), static_cast<size_t>(target->piece_count()), target->memory()});
     if (leaf.shape) count_method(leaf.shape->method());
@@ -227,6 +228,16 @@ struct World::Compiled {
     for (const geometry::Face& face : body.faces) {
       leaf.mesh_surfaces.push_back(face.surface);
       leaf.signs.push_back(face.forward ? 1 : -1);
+    }
+  }
+
+  // What cannot be made says of which object.
+  template <class Make>
+  static Leaf named(const Object& object, const Make& make) {
+    try {
+      return make();
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("object '{}': {}", object.name, error.what()));
     }
   }
 

@@ -108,6 +108,18 @@ class Pictures(ProgramTest):
         self.assertFalse((self.folder / "part.exr.partial").exists())
         self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
 
+    def test_what_is_not_traced_yet_ends_at_once(self):
+        """SIGTERM while a mesh of millions of triangles is made, with nothing to be saved."""
+        self.write("slow.yaml", "lekalo: 1\ngeometry: { s: { type: torus_body, major_radius: 2, minor_radius: 1 } }\n"
+                   "objects: [{ shape: s, representation: mesh, mesh: { sag: 2e-6 } }]\n")
+        process = subprocess.Popen([LEKALO, "render", "slow.yaml", "--quiet", "-o", "slow.exr"], cwd=self.folder)
+        self.addCleanup(process.kill)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(5), -signal.SIGTERM)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["scene.yaml", "slow.yaml"])
+
     def test_resume_of_another_scene_is_refused(self):
         self.write("nonsense.partial", "not a partial rendering")
         _, errors = self.render("-o", "a.exr", "--resume", "nonsense.partial", code=FILE_ERROR)

@@ -96,6 +96,10 @@ int main(int argc, char** argv) {
   } catch (const command::UsageError& error) {
     fmt::print(stderr, "lekalo: {}\n", error.what());
     return command::kUsage;
+  } catch (const std::invalid_argument& error) {
+    // What the scene asks of geometry that cannot be done.
+    fmt::print(stderr, "lekalo: {}\n", error.what());
+    return command::kSceneError;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "lekalo: not enough memory\n");
     return command::kFileError;

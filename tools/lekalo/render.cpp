@@ -1,15 +1,16 @@
 // lekalo render and make: a scene's pictures, once, as a sequence, or again whenever the scene changes.
 #include <fmt/format.h>
-#include <signal.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -33,7 +34,19 @@ using render::OutputFile;
 std::atomic<bool> interrupted{false};   // by Ctrl-C
 std::atomic<bool> stop_tracing{false};  // by Ctrl-C, or because a watched file has changed
 
-void interrupt(int) { interrupted = stop_tracing = true; }
+std::atomic<bool> building{false};  // there is no picture yet that could be saved
+
+void interrupt(int signal) {
+  interrupted = stop_tracing = true;
+  if (!building) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+struct Building {
+  Building() { building = true; }
+  ~Building() { building = false; }
+};
 
 struct Options {
   SceneOptions scene;
@@ -149,6 +162,7 @@ render::RenderResult render_watched(Run& run, const render::World& world, const 
 int render_frame(Run& run, const Frame& frame, bool first) {
   const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
+  std::optional<Building> until_traced(std::in_place);
   const render::LoadedScene scene = load(run, frame);
   const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
   if (!options.quiet && first)
@@ -176,6 +190,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const render::World world(model, render::keeps_layer(model->film, "uv"));
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Progress progress(options.quiet);
+  until_traced.reset();
   stop_tracing = interrupted.load();
   render::RenderOptions settings;
   settings.threads = options.engine.threads;

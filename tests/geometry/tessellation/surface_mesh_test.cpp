@@ -8,6 +8,7 @@
 #include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
@@ -134,6 +135,42 @@ TEST(SurfaceMesh, RandomRationalSurfacesKeepTheSag) {
     const Mesh mesh = tessellate(surface, {sag, 0.5, {}});
     EXPECT_EQ(euler_characteristic(mesh), 1);
     EXPECT_LE(measured_sag(mesh, surface), 1.1 * sag);
+  }
+}
+
+// Normals turn about such points however short the sides are; only what is near them becomes denser.
+TEST(SurfaceMesh, SingularPointsAreNoReasonForMillionsOfTriangles) {
+  const auto formula = [](const std::array<std::string, 3>& point) {
+    return FormulaSurface(point_formulas(point, {"u", "v"}, Coordinates::cartesian), {{-1, 1}, {-1, 1}}, {});
+  };
+  const std::array<FormulaSurface, 3> surfaces{formula({"u*v", "u", "v^2"}),         // Whitney's umbrella
+                                               formula({"u^2", "u^3", "v"}),         // a cuspidal edge
+                                               formula({"u", "v^3 - u*v", "v^2"})};  // crosses itself up to a point
+  for (const FormulaSurface& surface : surfaces)
+    for (const double sag : {0.01, 1e-3, 1e-4}) {
+      const Mesh mesh = tessellate(surface, {sag, 0.35, {}});
+      EXPECT_LE(measured_sag(mesh, surface), 1.05 * sag);
+      EXPECT_LE(mesh.triangles.size(), 40 / sag);
+    }
+}
+
+TEST(SurfaceMesh, UnevenWeightsAndEdgesThatArePoints) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int round = 0; round < 6; ++round) {
+    Grid<Vec3> net{4, 4, {}};
+    std::vector<double> weights;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        // Every other one has two neighbouring sides that are one point.
+        const bool is_point = round % 2 && (i == 0 || j == 3);
+        net.values.push_back(is_point ? Vec3(0, 3, 0) : Vec3(i, j, uniform(random)));
+        weights.push_back(std::pow(10, 2 * uniform(random)));
+      }
+    const NurbsSurface surface = bezier_surface(net, weights);
+    const Mesh mesh = tessellate(surface, {0.02, 0.35, {}});
+    EXPECT_LE(measured_sag(mesh, surface), 1.1 * 0.02) << round;
+    EXPECT_LE(mesh.triangles.size(), 200000u) << round;
   }
 }
 
