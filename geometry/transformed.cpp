@@ -59,6 +59,8 @@ TransformedSurface::TransformedSurface(SurfacePtr original, const Affine& map)
     : original_(std::move(original)), map_(map) {
   const double determinant = map.determinant();
   const Mat3& a = map.linear;
+  if (!std::isfinite(determinant))
+    throw std::invalid_argument("the transform is too large: its determinant is beyond what numbers can hold");
   if (!(std::abs(determinant) > 1e-14 * glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2])))
     throw std::invalid_argument("the transform flattens space: its determinant is 0");
   inverse_ = map.inverse();

@@ -75,6 +75,11 @@ void set_centroid(const Integral& integral, const Scale& scale, Vec3& centroid, 
   const double size = integral.value[0];
   const Vec3 moment(integral.value[1], integral.value[2], integral.value[3]);
   const Vec3 moment_error(integral.error[1], integral.error[2], integral.error[3]);
+  if (!(size > 0)) {  // what has no extent: the middle of its box
+    centroid = scale.origin;
+    error = scale.unit;
+    return;
+  }
   centroid = scale.origin + scale.unit / size * moment;
   error = scale.unit *
           (scale.rounding + (glm::length(moment_error) + glm::length(moment) / size * integral.error[0]) / size);
@@ -161,6 +166,23 @@ bool has_free_borders(const Body& body) {
 
 }  // namespace
 
+bool spans_area(const Surface& surface) {
+  // Where a domain has no end, near what end it has or zero.
+  const auto inside = [](const Interval& range, double fraction) {
+    const double lo = range.lo > -kInfinity ? range.lo : std::min(0.0, range.hi) - 1,
+                 hi = range.hi < kInfinity ? range.hi : std::max(0.0, range.lo) + 1;
+    return lo + fraction * (hi - lo);
+  };
+  const Rectangle domain = surface.domain();
+  for (const double x : {0.382, 0.113, 0.647, 0.923, 0.271})
+    for (const double y : {0.618, 0.157, 0.389, 0.877, 0.731}) {
+      const SurfaceJet jet = surface.evaluate(inside(domain.u, x), inside(domain.v, y), 1);
+      const double sides = glm::length(jet.du()) * glm::length(jet.dv());
+      if (!(glm::length(glm::cross(jet.du(), jet.dv())) <= 1e-12 * sides)) return true;
+    }
+  return false;
+}
+
 CurveMeasures measure(const Curve& curve) {
   require_bounded(curve.domain());
   const Scale scale(bounds(curve));
@@ -176,8 +198,7 @@ CurveMeasures measure(const Curve& curve) {
   for (int k = 1; k < 4; ++k) integral.error[k] += scale.rounding * integral.value[0];
   CurveMeasures result;
   result.length = {scale.unit * integral.value[0], scale.unit * integral.error[0]};
-  result.centroid = scale.origin;
-  if (integral.value[0] > 0) set_centroid(integral, scale, result.centroid, result.centroid_error);
+  set_centroid(integral, scale, result.centroid, result.centroid_error);
   return result;
 }
 

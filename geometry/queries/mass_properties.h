@@ -53,6 +53,8 @@ CurveMeasures measure(const Curve& curve);
 // The length of the part from a to b (negative if b < a); no number where it cannot be told.
 Measured arc_length(const Curve& curve, double a, double b);
 SurfaceMeasures measure(const Surface& surface);
+// False where the derivatives are parallel or zero wherever one looks: all points lie on one curve.
+bool spans_area(const Surface& surface);
 SurfaceMeasures measure_face(const Body& body, int face);
 MassProperties measure(const Body& body, double accuracy = kMeasureAccuracy);
 // Exact integrals over the polyhedron, except for rounding.

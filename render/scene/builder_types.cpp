@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "geometry/curves/external_curve.h"
+#include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/external_surface.h"
 #include "geometry/transformed.h"
 #include "render/scene/builder.h"
@@ -143,6 +144,11 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   auto value = attempt(map, what, [&] { return type.build(fields); });
   if (value && type.category == Category::annotation) std::any_cast<Annotation&>(*value).place = map.place;
   if (!value || !is_geometry(type.category)) return value;
+  if (const auto* surface = std::any_cast<SurfacePtr>(&*value); surface && !geometry::spans_area(**surface)) {
+    diagnostics_.error(map.place, what + " has no area: its points lie on one curve",
+                       "its derivatives by u and v are parallel everywhere");
+    return std::nullopt;
+  }
   if (type.runs_foreign_code) note_external(*value, map);
   if (type.category == Category::surface && fields.has("reversed") && fields.boolean("reversed")) reverse(*value);
   if (alike) alike_groups_[&map] = std::any_cast<GroupPtr>(*value);

@@ -309,6 +309,24 @@ TEST(BuilderErrors, Transforms) {
             "3:52 this matrix flattens everything: its determinant is 0\n");
 }
 
+TEST(BuilderErrors, TransformsBeyondNumbers) {
+  EXPECT_EQ(about("{ type: ball, radius: 1, transform: { scale: 1e200 } }"),
+            "3:6 the transform is too large: its determinant is beyond what numbers can hold\n");
+}
+
+TEST(BuilderErrors, SurfacesWithoutArea) {
+  const std::string line = "[[[0, 0, 0], [1, 0, 0]], [[2, 0, 0], [3, 0, 0]]]";
+  EXPECT_EQ(about("{ type: bezier_surface, points: " + line + " }"),
+            "3:6 'bezier_surface' has no area: its points lie on one curve\n");
+  EXPECT_EQ(
+      about("{ type: extrusion_surface, along: [2, 0, 0], of: { type: segment, from: [0, 0, 0], to: [1, 0, 0] } }"),
+      "3:6 'extrusion_surface' has no area: its points lie on one curve\n");
+  EXPECT_EQ(about("{ type: formula_surface, point: [u + v, u + v, 1], domain: { u: [0, 1], v: [0, 1] } }"),
+            "3:6 'formula_surface' has no area: its points lie on one curve\n");
+  // A cone's tip and a patch with an edge that is a point do have one.
+  EXPECT_EQ(about("{ type: bezier_surface, points: [[[0, 0, 0], [0, 0, 0]], [[2, 0, 0], [3, 1, 0]]] }"), "");
+}
+
 TEST(BuilderErrors, FramesPlacesAndNets) {
   EXPECT_EQ(about("{ type: ball, frame: { z: x }, center: [1, 1], radius: 1 }"),
             "3:45 a placement is given by 'frame' or by 'center' and 'normal', not by both\n");
