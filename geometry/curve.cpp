@@ -97,11 +97,28 @@ bool control_point_box(std::span<const Vec4> points, Box3& box) {
   return true;
 }
 
+namespace {
+
+// Parts have bounds where the whole has none that its weights, some of them negative, would show; those of a few parts
+// more are much closer.
+constexpr int kHalvings = 12, kFewest = 4;
+
+Box3 enclosed(const Curve& curve, const Interval& t, int depth) {
+  Box3 box = curve.enclose(t, 0).d[0];
+  const bool is_enough = box.bounded() ? depth == 0 || depth >= kFewest : depth == kHalvings;
+  if (is_enough || !(t.width() < kInfinity)) return box;
+  box = enclosed(curve, {t.lo, t.middle()}, depth + 1);
+  if (box.bounded()) box.include(enclosed(curve, {t.middle(), t.hi}, depth + 1));
+  return box;
+}
+
+}  // namespace
+
 Box3 bounds(const Curve& curve) {
   Box3 box;
   for (const CurvePiece& piece : curve.pieces()) {
     Box3 part;
-    if (!piece.is_rational() || !control_point_box(piece.points, part)) part = curve.enclose(piece.domain, 0).d[0];
+    if (!piece.is_rational() || !control_point_box(piece.points, part)) part = enclosed(curve, piece.domain, 0);
     box.include(part);
   }
   return box;

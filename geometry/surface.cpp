@@ -1,5 +1,6 @@
 #include "geometry/surface.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "geometry/curves/blossom.h"
@@ -40,10 +41,32 @@ Vec3 Surface::normal(double u, double v, const SurfaceJet& jet) const {
   return (normal_sign() / std::sqrt(area2)) * across;
 }
 
+namespace {
+
+// Parts have bounds where the whole has none that its weights, some of them negative, would show; those of a few parts
+// more are much closer.
+constexpr int kHalvings = 16, kFewest = 8;
+
+Box3 enclosed(const Surface& surface, const Rectangle& part, int depth) {
+  Box3 box = surface.enclose(part, 0).values[0];
+  const bool is_enough = box.bounded() ? depth == 0 || depth >= kFewest : depth == kHalvings;
+  if (is_enough || !(std::max(part.u.width(), part.v.width()) < kInfinity)) return box;
+  Rectangle first = part, second = part;
+  if (depth % 2 == 0)
+    first.u.hi = second.u.lo = part.u.middle();
+  else
+    first.v.hi = second.v.lo = part.v.middle();
+  box = enclosed(surface, first, depth + 1);
+  if (box.bounded()) box.include(enclosed(surface, second, depth + 1));
+  return box;
+}
+
+}  // namespace
+
 Box3 bounds(const Surface& surface, const SurfacePiece& piece) {
   Box3 box;
   if (piece.is_rational() && control_point_box(piece.points, box)) return box;
-  return surface.enclose(piece.domain, 0).values[0];
+  return enclosed(surface, piece.domain, 0);
 }
 
 Box3 bounds(const Surface& surface) {

@@ -89,7 +89,7 @@ class PatchTarget::Cutter {
     }
     Cell cell{
         PatchCell(view, m, place), {1, 1, 1}, {}, static_cast<uint32_t>(patch_), kept == TrimRegion::Coverage::inside};
-    if (box.bounded()) {
+    if (box.bounded() && target_.patches_[patch_].is_bounded()) {
       // A thousandth of a step is much more than the rounding.
       const Vec3 steps = 0.5 * kSteps / target_.patches_[patch_].reach;
       const Vec3 lo = 0.5 * kSteps + steps * box.lo - 1e-3, hi = 0.5 * kSteps + steps * box.hi + 1e-3;
@@ -121,18 +121,22 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
     patch.degree_u = piece.degree_u;
     patch.degree_v = piece.degree_v;
     patch.first_point = points_.size();
+    // With weights that are not positive the piece leaves the hull of its control points.
     Box3 box;
-    for (const Vec4& p : piece.points)
-      if (p.w > 0) box.include(Vec3(p) / p.w);
-    if (!box.empty()) patch.center = box.center();
+    for (const Vec4& p : piece.points) box.include(p.w > 0 ? Vec3(p) / p.w : Vec3(kInfinity));
+    if (!box.bounded()) box = bounds(*surface_, piece);
+    if (box.bounded()) patch.center = box.center();
     // Fused: far off the origin the product's rounding would open gaps between pieces.
     const Vec3& c = patch.center;
     for (const Vec4& p : piece.points)
       points_.push_back({std::fma(-p.w, c.x, p.x), std::fma(-p.w, c.y, p.y), std::fma(-p.w, c.z, p.z), p.w});
-    for (size_t k = patch.first_point; k < points_.size(); ++k)
-      if (points_[k].w > 0) patch.reach = glm::max(patch.reach, glm::abs(Vec3(points_[k]) / points_[k].w));
-    // The rounding of cutting, and a width for what is flat.
-    patch.reach += 1e-14 * (patch.reach.x + patch.reach.y + patch.reach.z) + 1e-300;
+    if (box.bounded()) {
+      patch.reach = glm::max(box.hi - patch.center, patch.center - box.lo);
+      for (size_t k = patch.first_point; k < points_.size(); ++k)
+        if (points_[k].w > 0) patch.reach = glm::max(patch.reach, glm::abs(Vec3(points_[k]) / points_[k].w));
+      // The rounding of cutting, and a width for what is flat.
+      patch.reach += 1e-14 * (patch.reach.x + patch.reach.y + patch.reach.z) + 1e-300;
+    }
     patches_.push_back(patch);
     cutter.cut(static_cast<int>(patches_.size()) - 1);
   }
@@ -142,9 +146,11 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
 
 Box3 PatchTarget::piece_bounds(int i) const {
   const Cell& cell = cells_[i];
-  if (cell.lo[0] > cell.hi[0]) return bounds(*surface_);  // weights that are not positive
-  const Vec3 &center = patches_[cell.patch].center, &reach = patches_[cell.patch].reach;
-  const Box3 box{in_space(cell.lo, reach), in_space(cell.hi, reach)};
+  const Patch& patch = patches_[cell.patch];
+  if (!patch.is_bounded()) return Box3::everything();
+  const Vec3 &center = patch.center, &reach = patch.reach;
+  const bool is_known = cell.lo[0] <= cell.hi[0];
+  const Box3 box{is_known ? in_space(cell.lo, reach) : -reach, is_known ? in_space(cell.hi, reach) : reach};
   return Box3{box.lo + center, box.hi + center}.inflated(1e-15 * glm::length(center));
 }
 

@@ -36,13 +36,14 @@ class PatchTarget final : public LineTarget {
     // Coordinates are relative to the piece's own centre: cutting and evaluation then round at the piece's size, not at
     // its distance from the origin.
     Vec3 center{0};
-    Vec3 reach{0};  // no point of the piece is farther from the centre along x, y and z; for weights that are positive
+    Vec3 reach{0};  // no point of the piece is farther from the centre along x, y and z; zero: the piece is unbounded
+    bool is_bounded() const { return reach.x > 0; }
     int degree_u = 0, degree_v = 0;
     size_t first_point = 0;
   };
   struct Cell {
     PatchCell cell;
-    std::array<uint16_t, 3> lo, hi;  // box, in steps of the piece's reach; lo > hi: not known
+    std::array<uint16_t, 3> lo, hi;  // box, in steps of the piece's reach; lo > hi: all of it
     uint32_t patch : 31;
     uint32_t whole : 1;  // all of it lies within the trim
   };

@@ -131,6 +131,50 @@ TEST(LineIntersections, RandomRationalBiquintic) {
   expect_complete(std::make_shared<NurbsSurface>(form), "rational_biquintic", 20000, 2);
 }
 
+// 240 degrees by 240 of a torus as one biquadratic patch: the middle weight of such an arc is cos 120 = -1/2, and the
+// arc runs outside of the hull of its control points. Against the torus's quartic; lines near its borders or tangents,
+// where a shift of 1e-9 changes their number, are left out.
+TEST(LineIntersections, WeightsThatAreNegative) {
+  const double half = kTwoPi / 3, c = std::cos(half), s = std::sin(half);
+  const Vec2 arc[3] = {{c, -s}, {1 / c, 0}, {c, s}};
+  const double weights[3] = {1, c, 1};
+  NurbsSurfaceForm form;
+  form.degree_u = form.degree_v = 2;
+  form.knots_u = form.knots_v = {0, 0, 0, 1, 1, 1};
+  form.maps_u = form.maps_v = {ParameterMap{}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double radius = 3 + arc[j].x;
+      form.points.push_back(Vec4(radius * arc[i].x, radius * arc[i].y, arc[j].y, 1) * (weights[i] * weights[j]));
+    }
+  const auto patch = std::make_shared<NurbsSurface>(form);
+  const auto torus = std::make_shared<TorusSurface>(Frame(), 3, 1, Rectangle{{-half, half}, {-half, half}});
+  EXPECT_LE(glm::length(bounds(*patch).size() - Vec3(6, 8, 2)), 0.5);
+
+  const LineIntersector of_patch(patch), of_torus(torus);
+  RandomLines lines(9, bounds(*torus), 2);
+  int hits = 0, wrong = 0, left_out = 0;
+  const int count = tests::tier_count(1000000);
+  for (int k = 0; k < count; ++k) {
+    const Line line = lines.next();
+    const std::vector<SurfaceHit> found = of_patch.all_hits(line), truth = of_torus.all_hits(line);
+    hits += static_cast<int>(truth.size());
+    bool same = found.size() == truth.size();
+    for (size_t i = 0; same && i < truth.size(); ++i) same = std::abs(found[i].t - truth[i].t) <= 1e-7;
+    if (same) continue;
+    bool at_border = false;
+    for (int copy = 0; copy < 8 && !at_border; ++copy) {
+      const Vec3 shift(copy & 1 ? 1 : -1, copy & 2 ? 1 : -1, copy & 4 ? 1 : -1);
+      at_border = of_torus.all_hits({line.origin + 1e-8 * shift, line.direction}).size() != truth.size();
+    }
+    ++(at_border ? left_out : wrong);
+  }
+  EXPECT_EQ(wrong, 0) << count << " lines, " << hits << " hits";
+  EXPECT_LE(left_out, 1 + count / 10000);
+  EXPECT_GT(hits, count / 4);
+  tests::report_figure("negative_weights_wrong", wrong);
+}
+
 // An octant of the unit sphere as a biquadratic patch, its parameters moved by u -> c u / (1 + (c - 1) u) until the
 // weights' ratio is 1e12. Lines aimed at points of the octant hit there, and all hits lie on the line and the sphere.
 // Those that graze the sphere are left out: a few of them are lost.
