@@ -4,6 +4,7 @@
 
 #include "geometry/curves/blossom.h"
 #include "geometry/curves/knot_spans.h"
+#include "geometry/curves/weights.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -97,44 +98,33 @@ bool control_point_box(std::span<const Vec4> points, Box3& box) {
   return true;
 }
 
-namespace {
-
-// Parts have bounds where the whole has none that its weights, some of them negative, would show; those of a few parts
-// more are much closer.
-constexpr int kHalvings = 12, kFewest = 4;
-
-Box3 enclosed(const Curve& curve, const Interval& t, int depth) {
-  Box3 box = curve.enclose(t, 0).d[0];
-  const bool is_enough = box.bounded() ? depth == 0 || depth >= kFewest : depth == kHalvings;
-  if (is_enough || !(t.width() < kInfinity)) return box;
-  box = enclosed(curve, {t.lo, t.middle()}, depth + 1);
-  if (box.bounded()) box.include(enclosed(curve, {t.middle(), t.hi}, depth + 1));
-  return box;
-}
-
-}  // namespace
-
 Box3 bounds(const Curve& curve) {
   Box3 box;
   for (const CurvePiece& piece : curve.pieces()) {
     Box3 part;
-    if (!piece.is_rational() || !control_point_box(piece.points, part)) part = enclosed(curve, piece.domain, 0);
+    if (!piece.is_rational() || !control_point_box(piece.points, part)) part = curve.enclose(piece.domain, 0).d[0];
     box.include(part);
   }
   return box;
 }
 
+static void add_pieces(const NurbsCurveForm& form, const SpanPart& part, int halvings,
+                       std::vector<CurvePiece>& pieces) {
+  CurvePiece piece;
+  piece.domain = part.natural;
+  piece.map = part.map;
+  piece.points.resize(form.degree + 1);
+  bezier_points(form.degree, form.knots, part.span, form.points.data(), 1, part.rational.lo, part.rational.hi,
+                piece.points.data(), 1);
+  if (halvings == kMostHalvingsForWeights || all_weights_positive(piece.points))
+    pieces.push_back(std::move(piece));
+  else
+    for (const SpanPart& half : halves(part)) add_pieces(form, half, halvings + 1, pieces);
+}
+
 std::vector<CurvePiece> bezier_pieces(const NurbsCurveForm& form, const Interval& domain) {
   std::vector<CurvePiece> pieces;
-  for (const SpanPart& part : span_parts(form.degree, form.knots, form.maps, domain)) {
-    CurvePiece piece;
-    piece.domain = part.natural;
-    piece.map = part.map;
-    piece.points.resize(form.degree + 1);
-    bezier_points(form.degree, form.knots, part.span, form.points.data(), 1, part.rational.lo, part.rational.hi,
-                  piece.points.data(), 1);
-    pieces.push_back(std::move(piece));
-  }
+  for (const SpanPart& part : span_parts(form.degree, form.knots, form.maps, domain)) add_pieces(form, part, 0, pieces);
   return pieces;
 }
 

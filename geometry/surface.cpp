@@ -5,6 +5,7 @@
 
 #include "geometry/curves/blossom.h"
 #include "geometry/curves/knot_spans.h"
+#include "geometry/curves/weights.h"
 
 namespace lekalo::geometry {
 
@@ -41,32 +42,10 @@ Vec3 Surface::normal(double u, double v, const SurfaceJet& jet) const {
   return (normal_sign() / std::sqrt(area2)) * across;
 }
 
-namespace {
-
-// Parts have bounds where the whole has none that its weights, some of them negative, would show; those of a few parts
-// more are much closer.
-constexpr int kHalvings = 16, kFewest = 8;
-
-Box3 enclosed(const Surface& surface, const Rectangle& part, int depth) {
-  Box3 box = surface.enclose(part, 0).values[0];
-  const bool is_enough = box.bounded() ? depth == 0 || depth >= kFewest : depth == kHalvings;
-  if (is_enough || !(std::max(part.u.width(), part.v.width()) < kInfinity)) return box;
-  Rectangle first = part, second = part;
-  if (depth % 2 == 0)
-    first.u.hi = second.u.lo = part.u.middle();
-  else
-    first.v.hi = second.v.lo = part.v.middle();
-  box = enclosed(surface, first, depth + 1);
-  if (box.bounded()) box.include(enclosed(surface, second, depth + 1));
-  return box;
-}
-
-}  // namespace
-
 Box3 bounds(const Surface& surface, const SurfacePiece& piece) {
   Box3 box;
   if (piece.is_rational() && control_point_box(piece.points, box)) return box;
-  return enclosed(surface, piece.domain, 0);
+  return surface.enclose(piece.domain, 0).values[0];
 }
 
 Box3 bounds(const Surface& surface) {
@@ -76,33 +55,60 @@ Box3 bounds(const Surface& surface) {
   return box;
 }
 
-std::vector<SurfacePiece> bezier_pieces(const NurbsSurfaceForm& form, const Rectangle& domain) {
-  const auto parts_u = span_parts(form.degree_u, form.knots_u, form.maps_u, domain.u);
-  const auto parts_v = span_parts(form.degree_v, form.knots_v, form.maps_v, domain.v);
+// The patches of all spans in u by all in v; marks those of spans in which a patch has a weight that is not positive.
+static std::vector<SurfacePiece> bezier_pieces(const NurbsSurfaceForm& form, const std::vector<SpanPart>& parts_u,
+                                               const std::vector<SpanPart>& parts_v, std::vector<char>& uneven_u,
+                                               std::vector<char>& uneven_v) {
   const int p = form.degree_u, q = form.degree_v, count_v = form.count_v();
+  uneven_u.assign(parts_u.size(), 0), uneven_v.assign(parts_v.size(), 0);
   std::vector<SurfacePiece> pieces;
   pieces.reserve(parts_u.size() * parts_v.size());
   std::vector<Vec4> strip(static_cast<size_t>(p + 1) * count_v);  // Bezier in u, still B-spline in v
-  for (const SpanPart& part_u : parts_u) {
-    for (int j = 0; j < count_v; ++j)
-      bezier_points(p, form.knots_u, part_u.span, form.points.data() + j, count_v, part_u.rational.lo,
-                    part_u.rational.hi, strip.data() + j, count_v);
-    for (const SpanPart& part_v : parts_v) {
+  for (size_t i = 0; i < parts_u.size(); ++i) {
+    for (int k = 0; k < count_v; ++k)
+      bezier_points(p, form.knots_u, parts_u[i].span, form.points.data() + k, count_v, parts_u[i].rational.lo,
+                    parts_u[i].rational.hi, strip.data() + k, count_v);
+    for (size_t j = 0; j < parts_v.size(); ++j) {
       SurfacePiece piece;
-      piece.domain = {part_u.natural, part_v.natural};
-      piece.map_u = part_u.map;
-      piece.map_v = part_v.map;
+      piece.domain = {parts_u[i].natural, parts_v[j].natural};
+      piece.map_u = parts_u[i].map;
+      piece.map_v = parts_v[j].map;
       piece.degree_u = p;
       piece.degree_v = q;
       piece.points.resize(static_cast<size_t>(p + 1) * (q + 1));
-      for (int i = 0; i <= p; ++i)
-        bezier_points(q, form.knots_v, part_v.span, strip.data() + static_cast<size_t>(i) * count_v, 1,
-                      part_v.rational.lo, part_v.rational.hi, piece.points.data() + static_cast<size_t>(i) * (q + 1),
-                      1);
+      for (int k = 0; k <= p; ++k)
+        bezier_points(q, form.knots_v, parts_v[j].span, strip.data() + static_cast<size_t>(k) * count_v, 1,
+                      parts_v[j].rational.lo, parts_v[j].rational.hi,
+                      piece.points.data() + static_cast<size_t>(k) * (q + 1), 1);
+      if (!all_weights_positive(piece.points)) uneven_u[i] = uneven_v[j] = 1;
       pieces.push_back(std::move(piece));
     }
   }
   return pieces;
+}
+
+std::vector<SurfacePiece> bezier_pieces(const NurbsSurfaceForm& form, const Rectangle& domain) {
+  std::vector<SpanPart> parts_u = span_parts(form.degree_u, form.knots_u, form.maps_u, domain.u),
+                        parts_v = span_parts(form.degree_v, form.knots_v, form.maps_v, domain.v);
+  const auto halve = [](std::vector<SpanPart>& parts, const std::vector<char>& chosen) {
+    std::vector<SpanPart> finer;
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const auto both = halves(parts[k]);
+      if (chosen[k])
+        finer.insert(finer.end(), both.begin(), both.end());
+      else
+        finer.push_back(parts[k]);
+    }
+    parts = std::move(finer);
+  };
+  std::vector<char> uneven_u, uneven_v;
+  for (int halvings = 0;; halvings += 2) {
+    std::vector<SurfacePiece> pieces = bezier_pieces(form, parts_u, parts_v, uneven_u, uneven_v);
+    const bool any = std::find(uneven_u.begin(), uneven_u.end(), 1) != uneven_u.end();
+    if (!any || halvings >= kMostHalvingsForWeights) return pieces;
+    halve(parts_u, uneven_u);
+    halve(parts_v, uneven_v);
+  }
 }
 
 }  // namespace lekalo::geometry

@@ -42,4 +42,11 @@ std::vector<SpanPart> span_parts(int degree, std::span<const double> knots, std:
   return parts;
 }
 
+std::array<SpanPart, 2> halves(const SpanPart& part) {
+  SpanPart lower = part, upper = part;
+  lower.rational.hi = upper.rational.lo = part.rational.middle();
+  lower.natural.hi = upper.natural.lo = part.map.natural(part.rational.middle());
+  return {lower, upper};
+}
+
 }  // namespace lekalo::geometry

@@ -1,6 +1,7 @@
 // The non-empty spans of a knot vector, cut to a domain.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,5 +24,12 @@ struct SpanPart {
 // Throws std::invalid_argument when the domain does not lie in the knots' (to rounding) or the maps are too few.
 std::vector<SpanPart> span_parts(int degree, std::span<const double> knots, std::span<const ParameterMap> maps,
                                  const Interval& domain);
+
+// Its lower and upper half.
+std::array<SpanPart, 2> halves(const SpanPart& part);
+
+// Halvings after which a Bezier piece with a positive denominator is taken to have positive weights, as all have sooner
+// or later. Pieces are cut so, because the hull of their control points bounds nothing before.
+inline constexpr int kMostHalvingsForWeights = 12;
 
 }  // namespace lekalo::geometry

@@ -22,8 +22,9 @@ MeshFormat mesh_format(const std::filesystem::path& path);
 
 // Polygons become triangles; corners of no width are dropped. Normals and texture coordinates are those of the file,
 // the arrays are empty where it has none (STL facet normals are not read: they say nothing more than the corners).
-// Triangle groups (OBJ g, o) are numbered by Triangle::face. STL corners at the same place become one point. Throws
-// MeshFileError for files that cannot be read, are too long (2 GB), or are not what their format asks for.
+// Triangle groups (OBJ g, o) are numbered by Triangle::face. STL corners, and vertices of PLY files with normals or
+// parameters, at the same place become one point. Throws MeshFileError for files that cannot be read, are too long (2
+// GB), or are not what their format asks for.
 geometry::Mesh read_mesh(const std::filesystem::path& path);
 
 // The same from memory; `name` is the file's name in messages.

@@ -1,12 +1,15 @@
 // What the readers of mesh files share.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -78,6 +81,30 @@ struct MeshCorner {
   int32_t normal = -1;
   int32_t parameter = -1;
   bool operator==(const MeshCorner&) const = default;
+};
+
+// Gives equal coordinates one point.
+class PointTable {
+ public:
+  explicit PointTable(geometry::Mesh& mesh) : mesh_(mesh) {}
+  int32_t index(const geometry::Vec3& p) {
+    // Adding zero makes -0 and 0 one.
+    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};
+    const auto [found, is_new] = places_.try_emplace(key, static_cast<int32_t>(mesh_.points.size()));
+    if (is_new) mesh_.points.push_back(p);
+    return found->second;
+  }
+
+ private:
+  struct Hash {
+    size_t operator()(const std::array<double, 3>& key) const {
+      uint64_t hash = 1469598103934665603u;
+      for (double x : key) hash = (hash ^ std::bit_cast<uint64_t>(x)) * 1099511628211u + (hash >> 29);
+      return hash;
+    }
+  };
+  geometry::Mesh& mesh_;
+  std::unordered_map<std::array<double, 3>, int32_t, Hash> places_;
 };
 
 // Adds a polygon as triangles: its own shape where it is plane and simple, a fan where it is not. Corners that repeat

@@ -1,6 +1,7 @@
 // PLY (Turk 1994): a header that lists elements and their properties, then the values as text or in either byte order.
 // Read are the elements vertex (x y z, nx ny nz, and u v or s t) and face (vertex_indices or vertex_index); others are
-// skipped.
+// skipped. A vertex has one normal and one pair of parameters: where a point has several it stands there several times,
+// and becomes one point again.
 #include <bit>
 #include <cstring>
 #include <map>
@@ -207,8 +208,9 @@ class PlyParser {
   int64_t list_length(const Property& property) {
     const double length = value(property.count_type);
     const size_t left = ascii_ ? lines_.rest().size() + 4096 : binary_.size() / size_of(property.type);
-    if (!(length >= 0) || length != std::floor(length) || (!ascii_ && length > static_cast<double>(left)))
-      fail(fmt::format("a list cannot have {} entries", length));
+    if (!(length >= 0) || length != std::floor(length)) fail(fmt::format("a list cannot have {} entries", length));
+    if (!ascii_ && length > static_cast<double>(left))
+      fail(fmt::format("the file ends within a list of {} entries", length));
     return static_cast<int64_t>(length);
   }
 
@@ -240,6 +242,7 @@ class PlyParser {
     if (!present[0] || !present[1] || !present[2]) fail("the element 'vertex' needs the properties x, y and z");
     has_normals_ = present[3] && present[4] && present[5];
     has_parameters_ = present[6] && present[7];
+    PointTable table(mesh_);
     for (int64_t i = 0; i < element.count; ++i) {
       begin_element();
       std::array<double, 8> values{};
@@ -249,7 +252,13 @@ class PlyParser {
         else
           values[slot_of[k]] = value(element.properties[k].type);
       }
-      mesh_.points.push_back({values[0], values[1], values[2]});
+      const Vec3 point(values[0], values[1], values[2]);
+      if (has_normals_ || has_parameters_) {
+        point_of_.push_back(table.index(point));
+      } else {
+        point_of_.push_back(static_cast<int32_t>(mesh_.points.size()));
+        mesh_.points.push_back(point);
+      }
       if (has_normals_) mesh_.normals.push_back({values[3], values[4], values[5]});
       if (has_parameters_) mesh_.parameters.push_back({values[6], values[7]});
     }
@@ -274,12 +283,13 @@ class PlyParser {
         corners.clear();
         for (int64_t k = 0; k < count; ++k) {
           const double index = value(property.type);
-          if (!(index >= 0) || index != std::floor(index) || index >= static_cast<double>(mesh_.points.size()))
-            fail(fmt::format("there is no vertex {} (the first is 0, {} are defined)", index, mesh_.points.size()));
+          if (!(index >= 0) || index != std::floor(index) || index >= static_cast<double>(point_of_.size()))
+            fail(fmt::format("there is no vertex {} (the first is 0, {} are defined)", index, point_of_.size()));
+          const auto vertex = static_cast<int32_t>(index);
           MeshCorner corner;
-          corner.point = static_cast<int32_t>(index);
-          if (has_normals_) corner.normal = corner.point;
-          if (has_parameters_) corner.parameter = corner.point;
+          corner.point = point_of_[vertex];
+          if (has_normals_) corner.normal = vertex;
+          if (has_parameters_) corner.parameter = vertex;
           corners.push_back(corner);
         }
         if (count < 3) fail("a face needs at least three corners");
@@ -298,6 +308,7 @@ class PlyParser {
   Words words_{{}};
   std::string_view first_word_;
   bool has_normals_ = false, has_parameters_ = false;
+  std::vector<int32_t> point_of_;  // of each vertex
   Mesh mesh_;
 };
 

@@ -1,9 +1,9 @@
 // STL: triangles by their corners' coordinates, as text ("solid ... facet normal ... vertex ...") or binary (80 bytes
-// of header, a 32-bit count, 50 bytes for each triangle, little-endian). Some binary files begin with "solid" too: the
-// length decides.
+// of header, a 32-bit count, 50 bytes for each triangle, little-endian). Some binary files begin with "solid" too:
+// their length tells, or that no "facet" follows.
 #include <bit>
+#include <cctype>
 #include <cstring>
-#include <unordered_map>
 
 #include "render/scene/mesh_parts.h"
 
@@ -15,30 +15,6 @@ using geometry::Vec3;
 namespace {
 
 constexpr size_t kHeader = 84, kRecord = 50;
-
-// Gives equal coordinates one point.
-class PointTable {
- public:
-  explicit PointTable(Mesh& mesh) : mesh_(mesh) {}
-  int32_t index(const Vec3& p) {
-    // Adding zero makes -0 and 0 one.
-    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};
-    const auto [found, is_new] = places_.try_emplace(key, static_cast<int32_t>(mesh_.points.size()));
-    if (is_new) mesh_.points.push_back(p);
-    return found->second;
-  }
-
- private:
-  struct Hash {
-    size_t operator()(const std::array<double, 3>& key) const {
-      uint64_t hash = 1469598103934665603u;
-      for (double x : key) hash = (hash ^ std::bit_cast<uint64_t>(x)) * 1099511628211u + (hash >> 29);
-      return hash;
-    }
-  };
-  Mesh& mesh_;
-  std::unordered_map<std::array<double, 3>, int32_t, Hash> places_;
-};
 
 uint32_t little_endian(const char* bytes) {
   uint32_t value = 0;
@@ -68,6 +44,24 @@ Mesh parse_binary(std::string_view bytes, const std::string& name) {
   return mesh;
 }
 
+std::string lower(std::string_view word) {
+  std::string result(word);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+// "solid", and a facet or the end of an empty solid at the head of some line after it.
+bool is_text(std::string_view bytes) {
+  TextLines lines(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size())));
+  std::string_view line;
+  if (!lines.next(line) || !lower(line.substr(0, 5)).starts_with("solid")) return false;
+  while (lines.next(line)) {
+    const std::string keyword = lower(Words(line).next());
+    if (!keyword.empty()) return keyword.starts_with("facet") || keyword == "endsolid";
+  }
+  return bytes.size() < kHeader;
+}
+
 Mesh parse_text(std::string_view text, const std::string& name) {
   Mesh mesh;
   PointTable table(mesh);
@@ -81,7 +75,7 @@ Mesh parse_text(std::string_view text, const std::string& name) {
   };
   while (lines.next(line)) {
     Words words(line);
-    const std::string_view keyword = words.next();
+    const std::string keyword = lower(words.next());
     if (keyword == "solid") {
       ++solid;
     } else if (keyword == "facet") {
@@ -117,8 +111,7 @@ Mesh parse_stl(std::string_view bytes, const std::string& name) {
   const bool long_enough = bytes.size() >= kHeader;
   if (long_enough && kHeader + kRecord * static_cast<uint64_t>(little_endian(bytes.data() + 80)) == bytes.size())
     return parse_binary(bytes, name);
-  const size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  if (bytes.substr(start).starts_with("solid")) return parse_text(bytes, name);
+  if (is_text(bytes)) return parse_text(bytes, name);
   if (!long_enough)
     throw MeshFileError(fmt::format("{}: neither a text STL (it begins with 'solid') nor a binary one", name));
   throw MeshFileError(fmt::format("{}:byte 80: the file has {} bytes, which is not the length of {} triangles", name,

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -226,6 +227,17 @@ int run(const Options& options) {
 
 }  // namespace
 
+namespace {
+
+bool is_finite(const ordered_json& value) {
+  if (value.is_number_float()) return std::isfinite(value.get<double>());
+  return std::all_of(value.begin(), value.end(), [](const ordered_json& item) {
+    return !(item.is_structured() || item.is_number_float()) || is_finite(item);
+  });
+}
+
+}  // namespace
+
 ordered_json measures(const std::string& name, const render::Entity& entity) {
   ordered_json out;
   out["name"] = name;
@@ -262,6 +274,8 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("'{}': {}", name, error.what()));
   }
+  if (!is_finite(out))
+    throw UsageError(fmt::format("'{}' is too large: its measures are beyond what numbers can hold", name));
   return out;
 }
 

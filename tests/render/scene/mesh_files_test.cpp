@@ -1,6 +1,7 @@
 // Mesh files: what is written is read again, the formats' variants, and one clear message for every broken file.
 #include "render/scene/mesh_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,6 +51,10 @@ TEST(MeshFiles, RoundTripsKeepEveryDigit) {
   }
   const Mesh obj = parse(MeshFormat::obj, mesh_bytes(MeshFormat::obj, mesh));
   EXPECT_TRUE(is_closed(obj));
+  // Points that stand several times in a PLY file for their normals are one again.
+  const Mesh ply = parse(MeshFormat::ply, mesh_bytes(MeshFormat::ply, mesh));
+  EXPECT_TRUE(is_closed(ply));
+  EXPECT_EQ(ply.points.size(), obj.points.size());
   EXPECT_EQ(obj.triangles.back().face, 2);
 }
 
@@ -184,6 +189,22 @@ TEST(MeshFiles, BrokenFilesNameThePlaceAndTheReason) {
   std::string cut = mesh_bytes(MeshFormat::stl, sample());
   cut.pop_back();
   EXPECT_NE(error_of(MeshFormat::stl, cut).find("part:byte 80: the file has"), std::string::npos);
+  // A binary file that begins like a text is none.
+  cut.replace(0, 28, "solid of lekalo, in a binary");
+  EXPECT_NE(error_of(MeshFormat::stl, cut).find("part:byte 80: the file has"), std::string::npos);
+
+  const std::string list =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_EQ(error_of(MeshFormat::ply, list + std::string(12, '\0') + "\4abcd"),
+            fmt::format("part:byte {}: the file ends within a list of 4 entries", list.size() + 13));
+}
+
+TEST(MeshFiles, WordsOfTextStlInAnyCase) {
+  const Mesh mesh = parse(MeshFormat::stl,
+                          "SOLID a\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\n"
+                          "ENDFACET\nENDSOLID a\n");
+  EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
 TEST(MeshFiles, DamagedBytesNeverCrash) {
