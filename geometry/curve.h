@@ -120,8 +120,9 @@ bool control_point_box(std::span<const Vec4> points, Box3& box);
 using Curve2Ptr = CurvePtr;
 
 // Splits the part of a NURBS form over `domain` (inside the form's domain) into its rational Bezier pieces, one for
-// each non-empty span, cut where the domain ends inside a span (knot insertion, Golovanov 2016, 2.11). Neighbours share
-// their end points bit for bit. Clamped or not, any multiplicity; a knot of multiplicity degree + 1 is a break.
+// each non-empty span, cut where the domain ends inside a span (knot insertion, Golovanov 2016, 2.11), and on until all
+// weights of a piece are positive, as they are sooner or later where the denominator is. Neighbours share their end
+// points bit for bit. Clamped or not, any multiplicity; a knot of multiplicity degree + 1 is a break.
 std::vector<CurvePiece> bezier_pieces(const NurbsCurveForm& form, const Interval& domain);
 
 }  // namespace lekalo::geometry

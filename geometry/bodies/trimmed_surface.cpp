@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "geometry/bodies/construct.h"
 #include "geometry/bodies/seam_path.h"
+#include "geometry/bodies/trim_loops.h"
+#include "geometry/curves/curve_part.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/surface_curve.h"
 #include "geometry/describe.h"
-#include "geometry/tessellation/predicates.h"
 #include "geometry/tolerances.h"
 #include "geometry/transformed.h"
 
@@ -19,94 +22,32 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Sides of the polygon that stands for a smooth piece where loops are looked at for crossings and for which lies in
-// which.
-constexpr int kSides = 32;
-
-std::string text_of(const Vec2& p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
-
-// A part of a curve of the parameter plane.
-struct Arc {
-  Arc(const Curve& curve, const Interval& t) : curve(&curve), t(t), a(curve.point(t.lo)), b(curve.point(t.hi)) {
-    // A curve lies no farther from its chord than by max |r''| (t1 - t0)^2 / 8.
-    const Box3 second = curve.enclose(t, 2).d[2];
-    const Vec3 most = glm::max(glm::abs(second.lo), glm::abs(second.hi));
-    bulge = std::hypot(most.x, most.y) * t.width() * t.width() / 8;
-    if (!std::isfinite(bulge)) bulge = curve.enclose(t, 0).d[0].diameter();
-  }
-
-  const Curve* curve;
-  Interval t;
-  Vec2 a, b;     // its ends
-  double bulge;  // it lies this near its chord
-};
-
-double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 side = b - a;
-  const double square = glm::dot(side, side);
-  const double share = square > 0 ? std::clamp(glm::dot(p - a, side) / square, 0.0, 1.0) : 0;
-  return glm::length(p - a - share * side);
-}
-
-// Whether p and q lie on different sides of a line.
-bool parts(const Vec2& a, const Vec2& b, const Vec2& p, const Vec2& q) {
-  const double at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
-  return (at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0);
-}
-
-// True if the arcs certainly cross. Those that only touch do not, nor those that part again within `touch`; `depth`
-// halvings of both tell nearly all others. Arcs cross if their chords do, and no end of one comes as near to the chord
-// of the other as that one's arc.
-bool cross(const Arc& s, const Arc& r, double touch, int depth) {
-  const double of_s = distance(s.a, r.a, r.b), of_s_end = distance(s.b, r.a, r.b), of_r = distance(r.a, s.a, s.b),
-               of_r_end = distance(r.b, s.a, s.b);
-  const bool chords_cross = parts(s.a, s.b, r.a, r.b) && parts(r.a, r.b, s.a, s.b);
-  if (!chords_cross && std::min(std::min(of_s, of_s_end), std::min(of_r, of_r_end)) > s.bulge + r.bulge) return false;
-  if (chords_cross && std::min(of_s, of_s_end) > r.bulge + touch && std::min(of_r, of_r_end) > s.bulge + touch)
-    return true;
-  if (depth == 0 || s.bulge + r.bulge == 0) return false;
-  const auto halves = [](const Arc& arc) {
-    const double middle = arc.t.middle();
-    return std::array{Arc(*arc.curve, {arc.t.lo, middle}), Arc(*arc.curve, {middle, arc.t.hi})};
-  };
-  const auto of_r_halves = halves(r);
-  for (const Arc& first : halves(s))
-    for (const Arc& second : of_r_halves)
-      if (cross(first, second, touch, depth - 1)) return true;
-  return false;
-}
-
-struct Loop2 {
-  std::vector<Body::Use> uses;  // edges are numbers of curves
-  std::vector<Vec2> polygon;    // closed: the last goes on with the first
-  std::vector<Arc> arcs;        // that the sides of the polygon stand for
-  Box3 box;                     // of the polygon
-  double area = 0;              // positive where it runs counterclockwise
-  int depth = 0;                // loops around it
-  int around = -1;              // the innermost of them
-  // Of the border: opposite sides are one seam where the surface is closed.
-  bool closed_u = false, closed_v = false;
-};
-
 class Trimming {
  public:
   Trimming(const SurfacePtr& surface, const std::vector<Curve2Ptr>& curves, bool outside)
-      : surface_(surface), curves_(curves), given_(curves.size()) {
+      : surface_(surface), curves_(curves), given_as_(curves.size()) {
+    std::iota(given_as_.begin(), given_as_.end(), 0);
     for (const Curve2Ptr& curve : curves_) size_ = std::max(size_, bounds(*curve).diameter());
     for (size_t k = 0; k < curves_.size(); ++k) check_place(k);
     chain();
-    if (outside) add_border();
-    for (Loop2& loop : loops_) outline(loop);
-    check_crossings();
-    check_areas();
-    nest();
+    if (!join_rings(outside) && outside) add_border();
+    for (TrimLoop& loop : loops_) outline(loop);
+    const auto name_of = [this](size_t curve) { return name(curve); };
+    check_loops(loops_, size_, name_of);
+    nest(loops_, name_of);
   }
 
   Body body() const;
 
  private:
   std::string name(size_t curve) const {
-    return curve < given_ ? fmt::format("curve {}", curve) : "the surface's border";
+    return given_as_[curve] >= 0 ? fmt::format("curve {}", given_as_[curve]) : "the surface's border";
+  }
+  // One more: a part of a given one, or of the border or a seam.
+  Body::Use add_curve(Curve2Ptr curve, bool forward, int given_as = -1) {
+    curves_.push_back(std::move(curve));
+    given_as_.push_back(given_as);
+    return {static_cast<int>(curves_.size()) - 1, forward, curves_.back()};
   }
   Vec2 begin(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().lo)); }
   Vec2 end(size_t k) const { return Vec2(curves_[k]->point(curves_[k]->domain().hi)); }
@@ -115,15 +56,10 @@ class Trimming {
   // The border of the domain as one more loop. Where the surface is closed it is cut open between the loops, and these
   // are moved by whole periods to lie between the seam and its copy.
   void add_border() {
-    if (!surface_->bounded())
-      throw TrimError("the surface is unbounded: it has no border for its outside to end at",
-                      "keep the inside, or give the surface a domain");
+    if (!surface_->bounded()) throw no_border();
     Rectangle d = surface_->domain();
     const Periods periods = surface_->periods();
-    const auto is_closed = [](const Interval& range, double period) {
-      return period > 0 && range.width() >= period * (1 - kDomainSlack);
-    };
-    const bool closed_u = is_closed(d.u, periods.u), closed_v = is_closed(d.v, periods.v);
+    const bool closed_u = is_closed(0), closed_v = is_closed(1);
     const bool straight_u = !closed_u || cut_straight(0, periods.u, d.u),
                straight_v = !closed_v || cut_straight(1, periods.v, d.v);
     // Below, to the right, above and to the left, each from the lower to the higher parameter.
@@ -139,15 +75,20 @@ class Trimming {
       const Vec2 turn(0, periods.v);
       sides = {{seam, {seam.back(), seam.back() + turn}, moved(seam, turn), {seam.front(), seam.front() + turn}}};
     }
-    Loop2& border = loops_.emplace_back();
-    border.closed_u = closed_u, border.closed_v = closed_v;
+    TrimLoop& border = loops_.emplace_back();
+    if (closed_v) border.seams.push_back({0, 2});
+    if (closed_u) border.seams.push_back({1, 3});
     for (int k = 0; k < 4; ++k) {
       // A seam has one direction for both of its sides.
       const bool backward = (k == 2 && closed_v) || (k == 3 && closed_u);
       if (k >= 2 && !backward) std::reverse(sides[k].begin(), sides[k].end());
-      curves_.push_back(chain_of_lines(sides[k]));
-      border.uses.push_back({static_cast<int>(curves_.size()) - 1, !backward, curves_.back()});
+      border.uses.push_back(add_curve(chain_of_lines(sides[k]), !backward));
     }
+  }
+
+  static TrimError no_border() {
+    return {"the surface is unbounded: it has no border for its outside to end at",
+            "keep the inside, or give the surface a domain"};
   }
 
   static TrimError no_gap() {
@@ -167,7 +108,7 @@ class Trimming {
     return std::make_shared<NurbsCurve>(polyline(in_space));
   }
 
-  void move(Loop2& loop, int axis, double by) {
+  void move(TrimLoop& loop, int axis, double by) {
     if (by == 0) return;
     Vec3 offset(0);
     offset[axis] = by;
@@ -177,43 +118,42 @@ class Trimming {
 
   // Straight beside all loops, if there is such a line.
   bool cut_straight(int axis, double period, Interval& range) {
-    const auto box_of = [](const Loop2& loop) {
-      Box3 box;
-      for (const Body::Use& use : loop.uses) box.include(bounds(*use.image));
-      return box;
-    };
-    // From the start of the range on, what the loops cover.
+    const std::optional<double> at = straight_cut(loops_, axis, period, range.lo);
+    if (!at) return false;
+    range = {*at, *at + period};
+    // The boxes are a little wide.
+    for (TrimLoop& loop : loops_) move(loop, axis, -period * std::floor((box_of(loop).lo[axis] - *at) / period + 1e-9));
+    return true;
+  }
+
+  // A parameter at which no loop lies: the start if nothing lies across it, else the middle of the widest gap.
+  static std::optional<double> straight_cut(const std::vector<TrimLoop>& loops, int axis, double period, double start) {
+    // From the start on, what the loops cover.
     std::vector<Interval> covered;
-    for (const Loop2& loop : loops_) {
+    for (const TrimLoop& loop : loops) {
       const Box3 box = box_of(loop);
-      const double lo = box.lo[axis] - period * std::floor((box.lo[axis] - range.lo) / period);
+      const double lo = box.lo[axis] - period * std::floor((box.lo[axis] - start) / period);
       covered.push_back({lo, lo + box.hi[axis] - box.lo[axis]});
     }
     std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
-    // The start itself if nothing lies across it, else the middle of the widest gap.
-    double end = range.lo, at = range.lo, widest = 0;
+    double end = start, at = start, widest = 0;
     for (const Interval& one : covered) end = std::max(end, one.hi - period);
-    if (end > range.lo) {
-      for (const Interval& one : covered) {
-        if (one.lo - end > widest) {
-          widest = one.lo - end;
-          at = 0.5 * (one.lo + end);
-        }
-        end = std::max(end, one.hi);
+    if (!(end > start)) return start;
+    for (const Interval& one : covered) {
+      if (one.lo - end > widest) {
+        widest = one.lo - end;
+        at = 0.5 * (one.lo + end);
       }
-      if (!(widest > 0)) return false;
+      end = std::max(end, one.hi);
     }
-    range = {at, at + period};
-    // The boxes are a little wide.
-    for (Loop2& loop : loops_) move(loop, axis, -period * std::floor((box_of(loop).lo[axis] - at) / period + 1e-9));
-    return true;
+    return widest > 0 ? std::optional(at) : std::nullopt;
   }
 
   // Along a chain of lines between the loops. The band has the axis that is cut for its x.
   std::vector<Vec2> cut_along_path(int axis, const ClosedBand& band) {
     const auto across = [&](const Vec2& p) { return axis == 0 ? p : Vec2(p.y, p.x); };
     std::vector<std::vector<LoopSide>> loops;
-    for (Loop2& loop : loops_) {
+    for (TrimLoop& loop : loops_) {
       outline(loop);
       auto& sides = loops.emplace_back();
       for (size_t i = 0; i < loop.polygon.size(); ++i)
@@ -231,6 +171,195 @@ class Trimming {
     }
     for (Vec2& p : seam) p = across(p);
     return seam;
+  }
+
+  // --- Rings: two that follow each other across the surface bound a band, which a seam makes a loop.
+
+  bool is_closed(int axis) const {
+    const Periods periods = surface_->periods();
+    const double period = axis == 0 ? periods.u : periods.v;
+    const Rectangle domain = surface_->domain();
+    return period > 0 && (axis == 0 ? domain.u : domain.v).width() >= period * (1 - kDomainSlack);
+  }
+  double period(int axis) const { return axis == 0 ? surface_->periods().u : surface_->periods().v; }
+
+  static void turn_round(std::vector<Body::Use>& uses) {
+    std::reverse(uses.begin(), uses.end());
+    for (Body::Use& use : uses) use.forward = !use.forward;
+  }
+
+  // Whether a chain from one place to another goes once round.
+  bool make_ring(TrimLoop& loop, const Vec2& from, const Vec2& to) const {
+    for (const int axis : {0, 1}) {
+      Vec2 turn(0);
+      turn[axis] = period(axis);
+      if (turn[axis] == 0 || !(coincide(to, from + turn) || coincide(to, from - turn))) continue;
+      loop.winds = axis;
+      if (to[axis] < from[axis]) turn_round(loop.uses);
+      return true;
+    }
+    return false;
+  }
+
+  static Vec2 start_of(const TrimLoop& loop) {
+    const Body::Use& first = loop.uses.front();
+    const Interval t = first.image->domain();
+    return Vec2(first.image->point(first.forward ? t.lo : t.hi));
+  }
+
+  // Of the other parameter, over the ring: rings that do not cross have the order of these.
+  double mean_of(const TrimLoop& ring) const {
+    double sum = 0;
+    for (const Body::Use& use : ring.uses) {
+      const Interval t = use.image->domain();
+      constexpr int kParts = 256;
+      for (int i = 0; i < kParts; ++i) {
+        const Vec2 a(use.image->point(t.lo + t.width() * i / kParts)),
+            b(use.image->point(t.lo + t.width() * (i + 1) / kParts));
+        const double way = b[ring.winds] - a[ring.winds];
+        sum += 0.5 * (use.forward ? way : -way) * (a[1 - ring.winds] + b[1 - ring.winds]);
+      }
+    }
+    return sum / period(ring.winds);
+  }
+
+  // A border of the domain as a ring.
+  TrimLoop ring_at(int axis, double other) {
+    Vec2 a(0);
+    a[axis] = axis == 0 ? surface_->domain().u.lo : surface_->domain().v.lo;
+    a[1 - axis] = other;
+    Vec2 b = a;
+    b[axis] += period(axis);
+    TrimLoop ring;
+    ring.winds = axis;
+    ring.uses.push_back(add_curve(image_line({0, 1}, a, b), true));
+    return ring;
+  }
+
+  // False if there are none.
+  bool join_rings(bool outside) {
+    std::vector<TrimLoop> rings;
+    const auto is_ring = [](const TrimLoop& loop) { return loop.winds >= 0; };
+    std::copy_if(loops_.begin(), loops_.end(), std::back_inserter(rings), is_ring);
+    if (rings.empty()) return false;
+    loops_.erase(std::remove_if(loops_.begin(), loops_.end(), is_ring), loops_.end());
+    const int axis = rings[0].winds;
+    for (const TrimLoop& ring : rings)
+      if (ring.winds != axis)
+        throw TrimError(fmt::format("the loops that begin with {} and {} go round the closed surface both ways",
+                                    name(rings[0].uses[0].edge), name(ring.uses[0].edge)),
+                        "they cross");
+    const auto sort = [&] {
+      std::sort(rings.begin(), rings.end(),
+                [&](const TrimLoop& a, const TrimLoop& b) { return mean_of(a) < mean_of(b); });
+    };
+    if (outside && is_closed(1 - axis)) {
+      sort();
+      move(rings[0], 1 - axis, period(1 - axis));
+    } else if (outside) {
+      const Interval range = axis == 0 ? surface_->domain().v : surface_->domain().u;
+      if (!(range.width() < kInfinity)) throw no_border();
+      for (const double end : {range.lo, range.hi}) {
+        // A ring that runs there leaves nothing beyond.
+        const auto there = std::find_if(rings.begin(), rings.end(), [&](const TrimLoop& ring) {
+          return std::abs(mean_of(ring) - end) <= 1e-9 * range.width();
+        });
+        if (there != rings.end())
+          rings.erase(there);
+        else
+          rings.push_back(ring_at(axis, end));
+      }
+      if (rings.empty()) throw TrimError("the loops leave nothing of the surface", "keep their inside");
+    }
+    sort();
+    if (rings.size() % 2 != 0)
+      throw TrimError(fmt::format("the loop that begins with {} goes all round the closed surface: alone it encloses "
+                                  "nothing",
+                                  name(rings[outside ? 1 : 0].uses[0].edge)),
+                      "two that go round have a band between them: give another one, a segment along the border of the "
+                      "domain if all is meant up to there");
+    for (TrimLoop& loop : loops_) outline(loop);
+    std::vector<TrimLoop> bands;
+    for (size_t k = 0; k < rings.size(); k += 2) bands.push_back(band(rings[k], rings[k + 1]));
+    loops_.insert(loops_.end(), bands.begin(), bands.end());
+    return true;
+  }
+
+  // Makes a ring begin where its parameter is `at`, but for whole periods.
+  void begin_at(TrimLoop& ring, double at) {
+    const int axis = ring.winds;
+    const double whole = period(axis);
+    at += whole * std::ceil((start_of(ring)[axis] - at) / whole - 1e-12);
+    const auto place = [&](const Body::Use& use, double t) { return use.image->point(t)[axis]; };
+    for (size_t k = 0; k < ring.uses.size(); ++k) {
+      const Body::Use use = ring.uses[k];
+      const Interval t = use.image->domain();
+      const double first = place(use, use.forward ? t.lo : t.hi), last = place(use, use.forward ? t.hi : t.lo);
+      if (std::abs(first - at) > 1e-12 * whole && !(first < at && at < last)) continue;
+      std::vector<Body::Use> begun(ring.uses.begin() + static_cast<std::ptrdiff_t>(k), ring.uses.end()),
+          left(ring.uses.begin(), ring.uses.begin() + static_cast<std::ptrdiff_t>(k));
+      if (first < at && at - first > 1e-12 * whole) {
+        double before = use.forward ? t.lo : t.hi, behind = use.forward ? t.hi : t.lo;
+        while (true) {
+          const double middle = 0.5 * (before + behind);
+          if (middle == before || middle == behind) break;
+          (place(use, middle) < at ? before : behind) = middle;
+        }
+        const auto part = [&](double a, double b) {
+          return add_curve(std::make_shared<CurvePart>(use.image, Interval(std::min(a, b), std::max(a, b))),
+                           use.forward, given_as_[static_cast<size_t>(use.edge)]);
+        };
+        begun[0] = part(behind, use.forward ? t.hi : t.lo);
+        left.push_back(part(use.forward ? t.lo : t.hi, behind));
+      }
+      ring.uses = std::move(begun);
+      TrimLoop rest;
+      rest.uses = std::move(left);
+      move(rest, axis, whole);
+      ring.uses.insert(ring.uses.end(), rest.uses.begin(), rest.uses.end());
+      return;
+    }
+  }
+
+  // Cut open across. Loops that lie in it are moved by whole periods to lie between the seam and its copy.
+  TrimLoop band(TrimLoop lower, TrimLoop upper) {
+    const int axis = lower.winds;
+    const double whole = period(axis);
+    const Interval across{box_of(lower).lo[1 - axis], box_of(upper).hi[1 - axis]};
+    std::vector<TrimLoop> near;
+    std::copy_if(loops_.begin(), loops_.end(), std::back_inserter(near), [&](const TrimLoop& loop) {
+      return loop.box.hi[1 - axis] >= across.lo && loop.box.lo[1 - axis] <= across.hi;
+    });
+    const std::optional<double> cut = straight_cut(near, axis, whole, start_of(lower)[axis]);
+    if (!cut)
+      throw TrimError(fmt::format("no straight line leads between the other loops from the one that begins with {} to "
+                                  "the one that begins with {}",
+                                  name(lower.uses[0].edge), name(upper.uses[0].edge)),
+                      "give the surface with less loops between them");
+    begin_at(lower, *cut);
+    begin_at(upper, *cut);
+    const Vec2 p = start_of(lower);
+    move(upper, axis, whole * std::round((p - start_of(upper))[axis] / whole));
+    const Vec2 q = start_of(upper);
+    Vec2 turn(0);
+    turn[axis] = whole;
+    TrimLoop result;
+    result.uses = lower.uses;
+    result.uses.push_back(add_curve(image_line({0, 1}, p + turn, q + turn), true));
+    turn_round(upper.uses);
+    result.uses.insert(result.uses.end(), upper.uses.begin(), upper.uses.end());
+    result.uses.push_back(add_curve(image_line({0, 1}, p, q), false));
+    result.seams.push_back({lower.uses.size(), result.uses.size() - 1});
+    outline(result);
+    for (TrimLoop& loop : loops_) {
+      const double by = -whole * std::floor((loop.box.lo[axis] - p[axis]) / whole + 1e-9);
+      Vec2 at = loop.polygon[0];
+      at[axis] += by;
+      if (by == 0 || !is_in(at, result.polygon)) continue;
+      move(loop, axis, by);
+      outline(loop);
+    }
+    return result;
   }
 
   void check_place(size_t k) const {
@@ -270,48 +399,32 @@ class Trimming {
     for (const CurvePiece& piece : curve.pieces()) check(check, piece.domain, kDeepest);
   }
 
-  // Once round a closed surface a curve ends where it began, but not in the parameter plane.
-  void check_turns(size_t first, const Vec2& from, const Vec2& to) const {
-    const auto without_turns = [](double x, double period) { return period > 0 ? std::remainder(x, period) : x; };
-    const Periods periods = surface_->periods();
-    const Vec2 off(without_turns(to.x - from.x, periods.u), without_turns(to.y - from.y, periods.v));
-    if (coincide(off, Vec2(0)))
-      throw TrimError(fmt::format("the loop that begins with {} goes all round the closed surface, from {} to {}: it "
-                                  "encloses nothing in the parameter plane",
-                                  name(first), text_of(from), text_of(to)),
-                      "give the surface a domain that ends there, or let the loop go on to the border of the domain, "
-                      "along that and back");
-  }
-
   void chain() {
     for (size_t k = 0; k < curves_.size();) {
-      Loop2& loop = loops_.emplace_back();
+      TrimLoop& loop = loops_.emplace_back();
       const size_t first = k;
       loop.uses.push_back({static_cast<int>(k), true, curves_[k]});
       Vec2 start = begin(k), at = end(k);
       ++k;
       while (!coincide(start, at)) {
-        if (k == curves_.size()) {
-          check_turns(first, start, at);
-          throw TrimError(fmt::format("the loop that begins with {} is open: it ends at {} and began at {}",
-                                      name(first), text_of(at), text_of(start)),
-                          "close it, or let the next curve begin where it ends");
-        }
-        bool forward = coincide(begin(k), at);
-        const bool backward = coincide(end(k), at);
-        if (!forward && !backward && k == first + 1) {
-          // The first may have to run backwards.
-          std::swap(start, at);
+        const auto meets = [&](const Vec2& p) {
+          return k < curves_.size() && (coincide(begin(k), p) || coincide(end(k), p));
+        };
+        if (!meets(at) && k == first + 1 && meets(start)) {
+          std::swap(start, at);  // the first runs backwards
           loop.uses[0].forward = false;
-          forward = coincide(begin(k), at);
-          if (!forward && !coincide(end(k), at)) std::swap(start, at);
         }
-        if (!forward && !coincide(end(k), at)) {
-          check_turns(first, start, at);
+        if (!meets(at)) {
+          if (make_ring(loop, start, at)) break;
+          if (k == curves_.size())
+            throw TrimError(fmt::format("the loop that begins with {} is open: it ends at {} and began at {}",
+                                        name(first), text_of(at), text_of(start)),
+                            "close it, or let the next curve begin where it ends");
           throw TrimError(fmt::format("the loop that begins with {} is open: {} does not go on at {}", name(first),
                                       name(k), text_of(at)),
                           "close it, or let the next curve begin where it ends");
         }
+        const bool forward = coincide(begin(k), at);
         loop.uses.push_back({static_cast<int>(k), forward, curves_[k]});
         at = forward ? end(k) : begin(k);
         ++k;
@@ -319,146 +432,11 @@ class Trimming {
     }
   }
 
-  void outline(Loop2& loop) const {
-    loop.polygon.clear(), loop.arcs.clear();
-    loop.box = {}, loop.area = 0;
-    for (const Body::Use& use : loop.uses) {
-      std::vector<Arc> arcs;
-      for (const CurvePiece& piece : use.image->pieces()) {
-        const int sides = piece.is_rational() && piece.degree() == 1 ? 1 : kSides;
-        const auto at = [&](int i) {
-          return i == sides ? piece.domain.hi : piece.domain.lo + piece.domain.width() * i / sides;
-        };
-        for (int i = 0; i < sides; ++i) arcs.emplace_back(*use.image, Interval{at(i), at(i + 1)});
-      }
-      if (!use.forward) std::reverse(arcs.begin(), arcs.end());
-      for (const Arc& arc : arcs) {
-        loop.polygon.push_back(use.forward ? arc.a : arc.b);
-        loop.arcs.push_back(arc);
-      }
-    }
-    for (const Vec2& p : loop.polygon) loop.box.include(Vec3(p, 0));
-    const Vec2 o = loop.polygon[0];
-    for (size_t i = 0; i < loop.polygon.size(); ++i) {
-      const Vec2 a = loop.polygon[i] - o, b = loop.polygon[(i + 1) % loop.polygon.size()] - o;
-      loop.area += 0.5 * (a.x * b.y - a.y * b.x);
-    }
-  }
-
-  // Arcs in the order of u; those that overlap in u are compared.
-  void check_crossings() const {
-    struct Side {
-      const Arc* arc;
-      size_t loop, number;
-      Box3 box;
-    };
-    std::vector<Side> sides;
-    for (size_t k = 0; k < loops_.size(); ++k)
-      for (size_t i = 0; i < loops_[k].arcs.size(); ++i) {
-        const Arc& arc = loops_[k].arcs[i];
-        Box3 box;
-        box.include(Vec3(arc.a, 0));
-        box.include(Vec3(arc.b, 0));
-        sides.push_back({&arc, k, i, box.inflated(arc.bulge)});
-      }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.box.lo.x < b.box.lo.x; });
-    constexpr int kHalvings = 8;  // to arcs of a thousandth of a circle
-    const double touch = kClosedCurve * size_;
-    for (size_t i = 0; i < sides.size(); ++i) {
-      const Side& s = sides[i];
-      for (size_t j = i + 1; j < sides.size() && sides[j].box.lo.x <= s.box.hi.x; ++j) {
-        const Side& r = sides[j];
-        if (r.box.lo.y > s.box.hi.y || r.box.hi.y < s.box.lo.y) continue;
-        // Neighbours touch where one goes on with the other: no halving would part them.
-        const size_t apart = s.number > r.number ? s.number - r.number : r.number - s.number;
-        if (s.loop == r.loop && (apart == 1 || apart + 1 == loops_[s.loop].arcs.size())) continue;
-        if (!cross(*s.arc, *r.arc, touch, kHalvings)) continue;
-        const std::string place = text_of(0.25 * (s.arc->a + s.arc->b + r.arc->a + r.arc->b));
-        const auto loop_name = [&](const Side& side) { return name(loops_[side.loop].uses[0].edge); };
-        if (s.loop == r.loop)
-          throw TrimError(fmt::format("the loop that begins with {} crosses itself near {}", loop_name(s), place), "");
-        const bool in_order = s.loop < r.loop;
-        throw TrimError(fmt::format("the loops that begin with {} and {} cross near {}", loop_name(in_order ? s : r),
-                                    loop_name(in_order ? r : s), place),
-                        "loops lie inside or beside each other");
-      }
-    }
-  }
-
-  static bool is_in(const Vec2& p, const std::vector<Vec2>& polygon) {
-    bool inside = false;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      if ((a.y <= p.y) == (b.y <= p.y)) continue;
-      if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
-    }
-    return inside;
-  }
-
-  void check_areas() const {
-    for (const Loop2& loop : loops_)
-      if (!(std::abs(loop.area) > 1e-14 * size_ * size_))
-        throw TrimError(fmt::format("the loop that begins with {} encloses nothing", name(loop.uses[0].edge)), "");
-  }
-
-  // As far as it matters: at most `most`.
-  static double distance_of(const Vec2& p, const std::vector<Vec2>& polygon, double most) {
-    double least = most;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      if (std::max(std::min(a.y, b.y) - p.y, p.y - std::max(a.y, b.y)) < least)
-        least = std::min(least, distance(p, a, b));
-    }
-    return least;
-  }
-
-  // Loops may touch, also along sides: of the corners and middles of sides of one that do not lie on the other's border
-  // most decide. Those on different sides of it, farther from it than chords are from arcs, tell of loops that cross
-  // where they touch, in a corner or along sides: check_crossings() has found all others. Loops without any are the
-  // same.
-  bool lies_in(const Loop2& inner, const Loop2& outer) const {
-    const double diameter = inner.box.diameter(), on_border = 1e-9 * diameter, clear = 1e-2 * diameter;
-    size_t inside = 0, outside = 0;
-    bool clearly_inside = false, clearly_outside = false;
-    for (size_t i = 0; i < inner.polygon.size(); ++i) {
-      const Vec2 &a = inner.polygon[i], &b = inner.polygon[(i + 1) % inner.polygon.size()];
-      for (const Vec2& p : {a, 0.5 * (a + b)}) {
-        const double off = distance_of(p, outer.polygon, 2 * clear);
-        if (off <= on_border) continue;
-        const bool in = is_in(p, outer.polygon);
-        ++(in ? inside : outside);
-        if (off > clear) (in ? clearly_inside : clearly_outside) = true;
-      }
-    }
-    const auto names = [&] {
-      const int a = inner.uses[0].edge, b = outer.uses[0].edge;
-      return fmt::format("the loops that begin with {} and {}", name(std::min(a, b)), name(std::max(a, b)));
-    };
-    if (inside + outside == 0) throw TrimError(names() + " are the same", "a loop is given once");
-    if (clearly_inside && clearly_outside)
-      throw TrimError(names() + " cross where they touch", "loops lie inside or beside each other");
-    return inside > outside;
-  }
-
-  void nest() {
-    for (size_t k = 0; k < loops_.size(); ++k)
-      for (size_t j = 0; j < loops_.size(); ++j) {
-        const Loop2 &inner = loops_[k], &outer = loops_[j];
-        if (j == k || Box3{glm::max(inner.box.lo, outer.box.lo), glm::min(inner.box.hi, outer.box.hi)}.empty())
-          continue;
-        const double of_inner = std::abs(inner.area), of_outer = std::abs(outer.area);
-        if (of_inner > of_outer || (of_inner == of_outer && k < j) || !lies_in(inner, outer)) continue;
-        ++loops_[k].depth;
-        int& around = loops_[k].around;
-        if (around < 0 || of_outer < std::abs(loops_[around].area)) around = static_cast<int>(j);
-      }
-  }
-
   SurfacePtr surface_;
   std::vector<Curve2Ptr> curves_;
-  size_t given_;  // of them; then those of the surface's own border
+  std::vector<int> given_as_;  // which of the given ones each of them is or is a part of; -1: none
   double size_ = 0;
-  std::vector<Loop2> loops_;
+  std::vector<TrimLoop> loops_;
 };
 
 Body Trimming::body() const {
@@ -466,7 +444,7 @@ Body Trimming::body() const {
   std::vector<int> edge_of(curves_.size());
   const Box3 box = bounds(*surface_);
   const double length = box.bounded() ? box.diameter() : 0;
-  const auto add_edges = [&](const Loop2& loop) {
+  const auto add_edges = [&](const TrimLoop& loop) {
     const auto place = [&](const Body::Use& use) {
       const Interval t = use.image->domain();
       return Vec2(use.image->point(use.forward ? t.lo : t.hi));
@@ -474,17 +452,27 @@ Body Trimming::body() const {
     // Along a pole the surface stays at one point.
     std::vector<char> is_pole;
     std::vector<int> vertices;
-    // Corners of the border that a seam makes one.
-    const auto same_corner = [&](size_t k) -> size_t {
-      constexpr size_t kAcrossU[] = {0, 0, 2, 2}, kAcrossV[] = {0, 1, 1, 0};
-      if (loop.closed_u) k = kAcrossU[k];
-      return loop.closed_v ? kAcrossV[k] : k;
+    // Corners that seams make one, by the first of them: one side of a seam runs back beside the other.
+    const size_t count = loop.uses.size();
+    std::vector<size_t> same_corner(count);
+    std::iota(same_corner.begin(), same_corner.end(), size_t{0});
+    const auto join = [&](size_t a, size_t b) {
+      const size_t kept = std::min(same_corner[a], same_corner[b]), gone = std::max(same_corner[a], same_corner[b]);
+      std::replace(same_corner.begin(), same_corner.end(), gone, kept);
     };
+    std::vector<size_t> seam_of(count, count);  // of the second side its first one
+    std::vector<char> is_seam(count, 0);
+    for (const auto& [i, j] : loop.seams) {
+      join(i, (j + 1) % count);
+      join(i + 1, j);
+      seam_of[j] = i;
+      is_seam[i] = 1;
+    }
     for (const Body::Use& use : loop.uses) {
       const Vec2 p = place(use);
       const Vec3 at = surface_->point(p.x, p.y);
       const bool after_pole = !is_pole.empty() && is_pole.back() != 0;
-      const size_t corner = same_corner(vertices.size());
+      const size_t corner = same_corner[vertices.size()];
       vertices.push_back(corner < vertices.size() ? vertices[corner]
                          : after_pole             ? vertices.back()
                                                   : result.add_vertex(at));
@@ -499,22 +487,21 @@ Body Trimming::body() const {
     if (is_pole.back()) vertices.back() = vertices.front();
     for (size_t i = 0; i < loop.uses.size(); ++i) {
       const Body::Use& use = loop.uses[i];
-      const bool is_seam = i % 2 == 0 ? loop.closed_v : loop.closed_u;
-      if (is_seam && i >= 2) {
-        edge_of[use.edge] = edge_of[loop.uses[i - 2].edge];
+      if (seam_of[i] < count) {
+        edge_of[use.edge] = edge_of[loop.uses[seam_of[i]].edge];
         continue;
       }
       const int from = vertices[i], to = vertices[(i + 1) % vertices.size()];
       const Origin origin{"", "edge", use.edge};
-      edge_of[use.edge] =
-          is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point), from, from,
-                                       origin, EdgeKind::pole)
-                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image), use.forward ? from : to,
-                                       use.forward ? to : from, origin, is_seam ? EdgeKind::seam : EdgeKind::regular);
+      edge_of[use.edge] = is_pole[i] ? result.add_edge(point_curve(use.image->domain(), result.vertices[from].point),
+                                                       from, from, origin, EdgeKind::pole)
+                                     : result.add_edge(std::make_shared<SurfaceCurve>(surface_, use.image),
+                                                       use.forward ? from : to, use.forward ? to : from, origin,
+                                                       is_seam[i] ? EdgeKind::seam : EdgeKind::regular);
     }
   };
-  for (const Loop2& loop : loops_) add_edges(loop);
-  const auto add_loop = [&](int face, const Loop2& loop, bool counterclockwise) {
+  for (const TrimLoop& loop : loops_) add_edges(loop);
+  const auto add_loop = [&](int face, const TrimLoop& loop, bool counterclockwise) {
     std::vector<Body::Use> uses = loop.uses;
     if ((loop.area > 0) != counterclockwise) {
       std::reverse(uses.begin(), uses.end());
@@ -529,7 +516,7 @@ Body Trimming::body() const {
     if (loops_[k].depth % 2 != 0) continue;
     const int face = result.add_face(surface_, true, {"", "face", static_cast<int>(result.faces.size())});
     add_loop(face, loops_[k], upright);
-    for (const Loop2& hole : loops_)
+    for (const TrimLoop& hole : loops_)
       if (hole.around == static_cast<int>(k) && hole.depth % 2 != 0) add_loop(face, hole, !upright);
   }
   result.close_shell(false);
@@ -551,9 +538,11 @@ TypeDeclaration trimmed_surface_type() {
           "}, "
           "{ type: circle, center: [3, 0.5], radius: 0.1 }]")
       .field("of", reference({Category::surface}), "the surface")
-      .field("loops", references({Category::curve}).count(1),
-             "curves of the parameter plane, x being u and y being v: closed ones, and chains of curves of which each "
-             "goes on where the one before ends; in any order and sense")
+      .field(
+          "loops", references({Category::curve}).count(1),
+          "curves of the parameter plane, x being u and y being v: closed ones, and chains of curves of which each "
+          "goes on where the one before ends; in any order and sense. Curves that go all round a closed surface have "
+          "bands between them, the first and the second, the third and the fourth")
       .field("keep", choice({"inside", "outside"}),
              "what to keep: inside the outermost loops, or outside of them up to the surface's own border", "inside")
       .built_by([](const Fields& f) -> BodyPtr {

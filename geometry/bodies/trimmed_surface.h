@@ -21,8 +21,11 @@ class TrimError : public std::invalid_argument {
 // closed curve is one by itself, others go on where the one before ends, whichever way they run. Loops may run either
 // way. With `outside` what lies outside of the outermost loops is kept, up to the border of the surface's domain.
 //
-// Loops lie within the domain; in a periodic direction they may stand anywhere, not wider than the period. Throws
-// TrimError for loops that are open, leave the domain, or cross themselves or each other.
+// Loops lie within the domain; in a periodic direction they may stand anywhere, not wider than the period. Curves that
+// go once round a closed surface are rings: in their order across it, the first and the second bound a band, the third
+// and the fourth, and so on; with `outside` the first ends what begins at the border of the domain. A seam joins two,
+// where no other loop is. Throws TrimError for loops that are open, leave the domain, or cross themselves or each
+// other, and for a ring that is alone.
 Body trimmed_surface(const SurfacePtr& surface, const std::vector<Curve2Ptr>& curves, bool outside = false);
 
 }  // namespace lekalo::geometry

@@ -187,12 +187,6 @@ PictureLines::Sight PictureLines::sight(const Vec3& point, const PicturePoint& a
   return sight;
 }
 
-bool PictureLines::is_cut_away(int object, const Vec3& point) const {
-  for (const ClipPlane& clip : world_.objects()[object]->clips)
-    if (glm::dot(point - clip.through, clip.normal) > 0) return true;
-  return false;
-}
-
 void PictureLines::add_stroke(const Item& item, const Vec2& q, const RaySample& sample,
                               std::vector<Layer>& layers) const {
   const auto& [stroke, curve, reach] = strokes_[item.stroke];
@@ -202,7 +196,6 @@ void PictureLines::add_stroke(const Item& item, const Vec2& q, const RaySample& 
              shown_hidden = stroke.hidden && covers(*stroke.hidden, curve, item.cell, *near, q);
   if (!shown && !shown_hidden) return;
   const Line tangent = curve.tangent(near->t);
-  if (is_cut_away(stroke.object, tangent.origin)) return;
   const PicturePoint at = camera_->project(tangent.origin);
   const Sight seen = sight(tangent.origin, at, near->distance, sample);
   if (!(seen.open ? shown : shown_hidden)) return;
@@ -239,7 +232,7 @@ void PictureLines::add_mark(const PlacedMark& placed, const Vec2& q, const RaySa
   const double distance = glm::length(off);
   if (distance > reach * std::sqrt(2.0)) return;
   const auto color = color_at(mark, off / mark.radius, mark.line.half_width / mark.radius);
-  if (!color || is_cut_away(mark.object, mark.point)) return;
+  if (!color) return;
   const Sight seen = sight(mark.point, at, distance, sample);
   if (!seen.open && !mark.hidden_opacity) return;
   Layer layer;

@@ -76,7 +76,6 @@ class PictureLines {
   std::span<const Item> items_near(const Vec2& q) const;
   // Of C at the picture's place `at`, from q at this distance in pixels.
   Sight sight(const Vec3& point, const PicturePoint& at, double distance, const RaySample& sample) const;
-  bool is_cut_away(int object, const Vec3& point) const;
   void add_stroke(const Item& item, const Vec2& q, const RaySample& sample, std::vector<Layer>& layers) const;
   void add_mark(const PlacedMark& mark, const Vec2& q, const RaySample& sample, std::vector<Layer>& layers) const;
 

@@ -262,6 +262,7 @@ class StrokeCollector {
   const Object* object_ = nullptr;
   int object_number_ = 0, placement_ = 0;
   geometry::Affine to_world_;
+  std::vector<ClipPlane> planes_;  // that cut it, in the world
   std::string kind_;
   bool undrawn_ = false, outlines_ = false, borders_ = false;
   std::vector<Stroke::Host> hosts_;   // of the next stroke

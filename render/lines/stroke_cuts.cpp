@@ -161,7 +161,7 @@ void StrokeCollector::lies_on_cap(const CurvePtr& curve, const SurfacePtr& cap) 
 }
 
 void StrokeCollector::add_cut_edges(std::string_view kind, const Style& style, const HiddenLines& hidden) {
-  const std::vector<ClipPlane>& planes = object_->clips;
+  const std::vector<ClipPlane>& planes = planes_;
   for (const ClipPlane& plane : planes) {
     if (kind != (plane.cap ? "sharp" : "boundary")) continue;
     if (plane.cap) cap_ = cap_of(plane);

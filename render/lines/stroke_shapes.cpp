@@ -199,7 +199,7 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
   each_face([&](const SurfacePtr& surface) {
     if (surface->bounded()) faces_.push_back({transformed(surface, to_world_), object_number_, placement_});
   });
-  for (const ClipPlane& plane : object_->clips)
+  for (const ClipPlane& plane : planes_)
     if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_, placement_});
 }
 

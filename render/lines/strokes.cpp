@@ -121,11 +121,17 @@ void StrokeCollector::add_object(const Object& object, const Affine& to_world, i
   const bool is_point = std::holds_alternative<Vec3>(object.shape),
              is_curve = std::holds_alternative<CurvePtr>(object.shape);
   const bool says = object.look && object.look->lines;
-  cutters_.clear();
-  for (const ClipPlane& plane : object.clips) cutters_.push_back(cutter_of(plane));
+  cutters_.clear(), planes_.clear();
+  // They stand where the object is placed: in the world, or in its group.
+  const Affine placed = same_map(to_world, object.transform) ? Affine() : to_world * object.transform.inverse();
+  for (const ClipPlane& plane : object.clips) {
+    planes_.push_back({placed.point(plane.through), placed.normal(plane.normal), plane.cap});
+    cutters_.push_back(cutter_of(planes_.back()));
+  }
   if (drawing_ || says || is_point || is_curve) add_lines(says ? *object.look->lines : model_.drawing.lines);
   if (work_.fills) add_borders_of_fill(fill_of(model_, object));
-  cutters_.clear();
+  // Helpers stay whole in drawings.
+  if (drawing_) cutters_.clear(), planes_.clear();
   if (object.look)
     for (const Helper& helper : object.look->helpers) {
       kind_ = helper.type;
@@ -227,6 +233,8 @@ void StrokeCollector::mark(const Vec3& point, const std::string& sign, const Sty
   if (!found || !is_seen(point, "signs")) return;  // none
   Mark mark;
   mark.point = to_world_.point(point);
+  for (const ClipPlane& plane : planes_)
+    if (glm::dot(mark.point - plane.through, plane.normal) > 0) return;
   mark.sign = *found;
   mark.radius = std::max(0.5 * least_width_, 0.5 * style.marker_size * pixels_);
   mark.line = look_of(style);

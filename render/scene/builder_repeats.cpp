@@ -27,7 +27,8 @@ std::optional<std::vector<double>> Builder::read_whole_numbers(const Value& valu
   const auto last = parameters_.bind(value, range->last, value.text.find("..") + 2, counters);
   if (!first || !last) return std::nullopt;
   const double a = (*first)(), b = (*last)();
-  if (!(a == std::nearbyint(a) && b == std::nearbyint(b) && std::abs(a) < 1e9 && std::abs(b) < 1e9)) {
+  constexpr double kWhole = 1LL << 53;  // beyond it numbers have gaps
+  if (!(a == std::nearbyint(a) && b == std::nearbyint(b) && std::abs(a) < kWhole && std::abs(b) < kWhole)) {
     diagnostics_.error(value.place, fmt::format("a range of whole numbers, found {:.9g}..{:.9g}", a, b));
     return std::nullopt;
   }

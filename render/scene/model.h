@@ -52,7 +52,7 @@ struct Object {
   double sag_pixels = 0.25;
   bool flat_shading = false;  // mesh facets show their own normals
   uint32_t visible_to = kVisibleToAll;
-  std::vector<ClipPlane> clips;
+  std::vector<ClipPlane> clips;      // where it is placed: in the world, or in its group
   std::shared_ptr<const Look> look;  // in drawings; null: the drawing's lines, no helpers
   std::string legend;                // its entry in the legend of a drawing; empty: none
 };

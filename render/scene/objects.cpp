@@ -188,11 +188,13 @@ TypeDeclaration object_type() {
       .field("shading", choice({"smooth", "flat"}), "normals of the surface, or of the facets of a mesh", "smooth")
       .field("visible_to", words({"camera", "shadow", "reflection"}), "which rays see it",
              "[camera, shadow, reflection]")
-      .optional("clip",
-                groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
-                        {"normal", direction(), "towards what is cut away", true, {}},
-                        {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
-                "planes that cut away what lies beyond them")
+      .optional(
+          "clip",
+          groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
+                  {"normal", direction(), "towards what is cut away", true, {}},
+                  {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
+          "planes that cut away what lies beyond them; they stand where the object is placed, in the world or in its "
+          "group, and its own transform does not move them")
       .optional("transform", transform(), "steps in the order in which they happen")
       .optional("lines", group(lines_fields()),
                 "lines that are seen of it: only those given; without it pictures show curves and points, drawings "

@@ -1,8 +1,10 @@
 #include "render/trace/clipped_body.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "geometry/surfaces/plane.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::render {
 
@@ -24,6 +26,10 @@ ClippedBody::ClippedBody(geometry::BodyPtr body, std::vector<CutPlane> planes, b
 void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const {
   // What the planes leave of the line, and which planes bound it.
   double enter = -geometry::kInfinity, leave = geometry::kInfinity;
+  // Faces nearer to a plane lie in it: along the line, as near as these.
+  const double near =
+      geometry::kSameHit * box_.diameter() + 4 * std::numeric_limits<double>::epsilon() * glm::length(line.origin);
+  double near_enter = 0, near_leave = 0;
   int enter_plane = -1, leave_plane = -1;
   for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
     const HalfSpace& half_space = planes_[k].half_space;
@@ -34,8 +40,8 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
       continue;
     }
     const double at = -height / slope;
-    if (slope < 0 && at > enter) enter = at, enter_plane = k;
-    if (slope > 0 && at < leave) leave = at, leave_plane = k;
+    if (slope < 0 && at > enter) enter = at, enter_plane = k, near_enter = near / -slope;
+    if (slope > 0 && at < leave) leave = at, leave_plane = k, near_leave = near / slope;
   }
   if (!(enter < leave)) return;
   const auto cap_hit = [&](double at, int plane) {
@@ -52,14 +58,17 @@ void ClippedBody::all_hits(const Line& line, const Interval& t, std::vector<Surf
   for (size_t k = 0; k + 1 < crossings.size(); k += 2) {
     const SurfaceHit& in = crossings[k];
     const SurfaceHit& out = crossings[k + 1];
-    if (!(std::max(in.t, enter) < std::min(out.t, leave))) continue;
+    const bool enters_body = in.t >= enter - near_enter, leaves_body = out.t <= leave + near_leave;
+    // A face in a plane from which the body lies beyond leaves nothing.
+    const double least = enters_body ? (leaves_body ? 0 : near_leave) : (leaves_body ? near_enter : 0);
+    if (!((leaves_body ? out.t : leave) - (enters_body ? in.t : enter) > least)) continue;
     const auto add = [&](bool on_body, const SurfaceHit& crossing, double at, int plane) {
       if (on_body ? caps_only_ : !planes_[plane].cap) return;
       const SurfaceHit hit = on_body ? crossing : cap_hit(at, plane);
       if (t.contains(hit.t)) hits.push_back(hit);
     };
-    add(in.t >= enter, in, enter, enter_plane);
-    add(out.t <= leave, out, leave, leave_plane);
+    add(enters_body, in, enter, enter_plane);
+    add(leaves_body, out, leave, leave_plane);
   }
 }
 

@@ -33,7 +33,8 @@ struct Leaf {
   bool flat = false;
   bool parameters = true;  // something shows them
   geometry::ShapePtr shape;
-  std::vector<HalfSpace> clips;
+  std::vector<HalfSpace> clips;  // their normals of length 1
+  bool solid = false;            // a closed body or shape: its normals look out of it
   uint32_t visible_to = kVisibleToAll;
   int object = 0;
   // Set by Hierarchy::add.

@@ -1,11 +1,13 @@
 // Queries: what Embree's boxes propose, or a short list, is decided in double.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
+#include "geometry/tolerances.h"
 #include "render/trace/hierarchy_rays.h"
 
 namespace lekalo::render {
@@ -17,9 +19,19 @@ namespace {
 
 using Query = Hierarchy::Query;
 
-bool keeps(const std::vector<HalfSpace>& clips, const Vec3& point) {
-  for (const HalfSpace& clip : clips)
-    if (glm::dot(point - clip.through, clip.normal) > 0) return false;
+// Whether a leaf's planes leave a hit; `normal()` is the outward normal there. In a plane, but for rounding, the face
+// of a solid is left if the solid lies on the side that is left, and any surface.
+template <class Normal>
+bool keeps(const Leaf& leaf, const Line& line, double t, const Normal& normal) {
+  if (leaf.clips.empty()) return true;
+  const Vec3 point = line.at(t);
+  const double near = geometry::kSameHit * leaf.size +
+                      4 * std::numeric_limits<double>::epsilon() * (glm::length(line.origin) + glm::length(point));
+  for (const HalfSpace& clip : leaf.clips) {
+    const double height = glm::dot(point - clip.through, clip.normal);
+    if (height > near) return false;
+    if (height >= -near && leaf.solid && glm::dot(normal(), clip.normal) < 0) return false;
+  }
   return true;
 }
 
@@ -55,19 +67,22 @@ void test_shape(const GeometryRecord& record, Query& query) {
   hits.clear();
   record.leaf->shape->all_hits(query.line(), {query.t_min, query.t_max}, hits);
   for (const geometry::SurfaceHit& h : hits) {
-    if (!keeps(record.leaf->clips, query.line().at(h.t))) continue;
+    const auto normal = [&] { return record.leaf->shape->bare_point(h, query.line().at(h.t)).normal; };
+    if (!keeps(*record.leaf, query.line(), h.t, normal)) continue;
     accept(h);
     if (!query.all) break;
   }
 }
 
 void test_target(const GeometryRecord& record, int primitive, Query& query) {
-  const std::vector<HalfSpace>& clips = record.leaf->clips;
-  LineHits hits(!query.all && clips.empty(), query.all || (query.nearest && !record.bare));
+  const Leaf& leaf = *record.leaf;
+  const bool is_cut = !leaf.clips.empty();
+  LineHits hits(!query.all && !is_cut, query.all || is_cut || (query.nearest && !record.bare));
   record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
   for (int i = 0; i < hits.size(); ++i) {
     const geometry::LineHit& h = hits[i];
-    if (!clips.empty() && !keeps(clips, query.line().at(h.t))) continue;
+    const auto normal = [&] { return leaf.signs[record.face] * record.target->surface().normal(h.u, h.v); };
+    if (!keeps(leaf, query.line(), h.t, normal)) continue;
     query.accept({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
   }
 }
@@ -228,7 +243,8 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
   const Leaf& leaf = *record.leaf;
   Hit hit;
   const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line(), hit) &&
-                    hit.t >= query.t_min && hit.t <= query.t_max && keeps(leaf.clips, query.line().at(hit.t));
+                    hit.t >= query.t_min && hit.t <= query.t_max &&
+                    keeps(leaf, query.line(), hit.t, [&] { return leaf.mesh->outward(triangle); });
   if (seen && query.all) {
     hit.instance = query.leaf_offset + record.leaf_number;
     query.accept(hit);

@@ -43,4 +43,10 @@ geometry::Box3 PackedMesh::bounds() const {
   return box;
 }
 
+geometry::Vec3 PackedMesh::outward(int triangle) const {
+  const auto& corner = triangles[static_cast<size_t>(triangle)].vertex;
+  const geometry::Vec3& a = vertices[corner[0]].point;
+  return glm::cross(vertices[corner[1]].point - a, vertices[corner[2]].point - a);
+}
+
 }  // namespace lekalo::render

@@ -30,6 +30,8 @@ struct PackedMesh {
 
   explicit PackedMesh(const geometry::Mesh& mesh);
   geometry::Box3 bounds() const;
+  // Across a triangle, to the side from which it runs counterclockwise; not of length 1.
+  geometry::Vec3 outward(int triangle) const;
   size_t memory() const { return vertices.size() * sizeof(PackedVertex) + triangles.size() * sizeof(PackedTriangle); }
 };
 

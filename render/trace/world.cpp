@@ -185,13 +185,21 @@ struct World::Compiled {
   }
 
   // The planes that cut an object, in the space of its leaf.
-  static std::vector<CutPlane> cuts_of(const Object& object, const Affine& to_world) {
-    const Affine to_leaf = to_world.inverse();
+  static std::vector<CutPlane> cuts_of(const Object& object) {
+    const Affine to_leaf = object.transform.inverse();
     std::vector<CutPlane> cuts;
-    // A plane's normal maps with the transpose of the map from the leaf to the world.
-    for (const ClipPlane& clip : object.clips)
-      cuts.push_back({{to_leaf.point(clip.through), glm::transpose(to_world.linear) * clip.normal}, clip.cap});
+    // A plane's normal maps with the transpose of the map from the leaf to where the object is placed.
+    for (const ClipPlane& clip : object.clips) {
+      const Vec3 normal = glm::normalize(glm::transpose(object.transform.linear) * clip.normal);
+      cuts.push_back({{to_leaf.point(clip.through), normal}, clip.cap});
+    }
     return cuts;
+  }
+
+  static bool is_solid(const Entity& entity) {
+    if (const auto* body = std::get_if<BodyPtr>(&entity)) return (*body)->is_closed();
+    const auto* shape = std::get_if<geometry::ShapePtr>(&entity);
+    return shape && (*shape)->is_closed();
   }
 
   static bool has_caps(const Object& object) {
@@ -219,7 +227,7 @@ struct World::Compiled {
     Leaf caps;
     caps.object = number;
     caps.visible_to = object.visible_to;
-    caps.shape = std::make_shared<ClippedBody>(*body, cuts_of(object, to_world), true);
+    caps.shape = std::make_shared<ClippedBody>(*body, cuts_of(object), true);
     into.add(std::move(caps));
   }
 
@@ -246,8 +254,9 @@ struct World::Compiled {
     leaf.object = number;
     leaf.visible_to = object.visible_to;
     leaf.flat = object.flat_shading;
+    leaf.solid = is_solid(object.shape);
     leaf.parameters = parameters || uses_parameters(object);
-    for (const CutPlane& plane : cuts_of(object, to_world)) leaf.clips.push_back(plane.half_space);
+    for (const CutPlane& plane : cuts_of(object)) leaf.clips.push_back(plane.half_space);
     const bool capped = has_caps(object);
     const bool as_mesh = object.representation == Representation::mesh;
     std::visit(
@@ -281,7 +290,7 @@ struct World::Compiled {
               use_mesh_of(*shape, tolerance_of(object, to_world), leaf);
             } else if (capped) {
               leaf.clips.clear();
-              leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object, to_world), false);
+              leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object), false);
             } else {
               leaf.targets = geometry::make_line_targets(*shape, least_cell(bounds(*shape), to_world));
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);

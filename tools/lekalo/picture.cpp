@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <climits>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -61,6 +63,8 @@ void set_crop(const std::string& text, render::Model& model) {
   if (!(c[0] < c[2] && c[1] < c[3]))
     throw UsageError(
         fmt::format("--crop {}: nothing is left; write two corners X0,Y0,X1,Y1 with X0 < X1, Y0 < Y1", text));
+  if (std::any_of(c.begin(), c.end(), [](double x) { return x != std::floor(x); }))
+    throw UsageError(fmt::format("--crop {}: pixels are whole numbers", text));
   auto& f = model.film;
   f.crop = {static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]), static_cast<int>(c[3])};
   if (!(f.crop.x0 >= 0 && f.crop.y0 >= 0 && f.crop.x0 < f.crop.x1 && f.crop.y0 < f.crop.y1 && f.crop.x1 <= f.width &&

@@ -215,8 +215,13 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
   if (!result.complete) {
-    fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command and --resume {}\n",
-               outputs.front().path, settings.partial_file);
+    // One frame goes on as one picture.
+    const std::string alone = frame.setting
+                                  ? fmt::format(", --set {}={} -o {} in place of --frames and -o,", frame.setting->name,
+                                                frame.setting->value, outputs.front().path)
+                                  : "";
+    fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command{} and --resume {}\n",
+               outputs.front().path, alone, settings.partial_file);
     return kInterrupted;
   }
   // What an interrupted run has left, or this one has saved on the way.

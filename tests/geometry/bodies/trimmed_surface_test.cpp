@@ -11,6 +11,7 @@
 #include <set>
 
 #include "geometry/curves/circle.h"
+#include "geometry/curves/formula_curve.h"
 #include "geometry/curves/polyline.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/body_contours.h"
@@ -268,6 +269,103 @@ TEST(TrimmedSurface, LoopsThatLeaveNarrowWays) {
   EXPECT_TRUE(dotted.is_valid());
   EXPECT_EQ(dotted.faces.size(), 1 + islands.size());
   EXPECT_NEAR(measure(dotted).area.value, 3 * kTwoPi - 12 * kPi * (0.25 - 0.04), 1e-10);
+}
+
+CurvePtr formula(const std::string& v, const Interval& t) {
+  return std::make_shared<FormulaCurve>(point_formulas({"t", v, "0"}, {"t"}, Coordinates::cartesian), t);
+}
+CurvePtr segment(const Vec2& a, const Vec2& b) { return std::make_shared<Segment>(Vec3(a, 0), Vec3(b, 0)); }
+
+double area_of(const Body& sheet) { return measure(sheet).area.value; }
+
+// A pipe with an oblique end: loops that go all round have a band between them, wherever they begin, whichever way and
+// in whatever order they run, of one curve or of several; a hole on the seam.
+TEST(TrimmedSurface, RingsBoundABand) {
+  const auto pipe = std::make_shared<CylinderSurface>(Frame{}, 1, 3);
+  const double radius = 0.05, area = 3 * kTwoPi * 0.4 - 3 * kPi * radius * radius;
+  for (const double begin : {0.0, 1.0, -4.0}) {
+    const CurvePtr wave = formula("0.5 + 0.15*sin(t)", {begin, begin + kTwoPi});
+    const std::vector<CurvePtr> lows[] = {{segment({0, 0.1}, {kTwoPi, 0.1})},
+                                          {segment({kTwoPi + 0.4, 0.1}, {0.4, 0.1})},
+                                          {segment({0.2, 0.1}, {2, 0.1}), segment({kTwoPi + 0.2, 0.1}, {2, 0.1})}};
+    for (const std::vector<CurvePtr>& low : lows)
+      for (const bool wave_first : {true, false})
+        for (const double hole : {0.0, begin, 3.0, 20.0}) {
+          std::vector<CurvePtr> curves = low;
+          curves.insert(wave_first ? curves.begin() : curves.end(), wave);
+          curves.push_back(std::make_shared<Circle>(Frame{{hole, 0.25, 0}}, radius));
+          const Body sheet = trimmed_surface(pipe, curves);
+          check_topology(sheet, 1, 1);
+          EXPECT_NEAR(area_of(sheet), area, 1e-10) << begin << " " << hole;
+          const Mesh mesh = tessellate(sheet, {1e-3, kPi, {}});
+          EXPECT_EQ(euler_number(mesh), -1);
+          EXPECT_NEAR(measure(mesh).area.value, area, 0.02);
+        }
+    // What is above and below.
+    const Body rest = trimmed_surface(pipe, {wave, segment({begin, 0.1}, {begin + kTwoPi, 0.1})}, true);
+    EXPECT_TRUE(rest.is_valid());
+    EXPECT_EQ(rest.faces.size(), 2u);
+    EXPECT_NEAR(area_of(rest), 3 * kTwoPi * 0.6, 1e-10);
+  }
+}
+
+// An oblique cap of a sphere, over its pole: 2 pi r h.
+TEST(TrimmedSurface, RingAndPoleBoundACap) {
+  const auto ball = std::make_shared<SphereSurface>(Frame{}, 1);
+  const CurvePtr circle =
+      formula("atan2(cos(0.3), cos(t)*sin(0.3)) - acos(0.5/sqrt(cos(0.3)^2 + (cos(t)*sin(0.3))^2))", {0, kTwoPi});
+  const Body cap = trimmed_surface(ball, {circle, segment({0, kPi / 2}, {kTwoPi, kPi / 2})});
+  ASSERT_TRUE(cap.is_valid()) << cap.violations().front().condition;
+  EXPECT_NEAR(area_of(cap), kPi, 1e-10);
+  EXPECT_EQ(euler_number(tessellate(cap, {1e-3, kPi, {}})), 1);
+  const Body rest = trimmed_surface(ball, {circle, segment({0, kPi / 2}, {kTwoPi, kPi / 2})}, true);
+  EXPECT_NEAR(area_of(rest), 3 * kPi, 1e-10);
+}
+
+// Round a torus either way; the band between two rings, and what lies outside of it.
+TEST(TrimmedSurface, RingsOfATorus) {
+  const double big = 2, small = 0.7, all = kTwoPi * kTwoPi * big * small;
+  const auto torus = std::make_shared<TorusSurface>(Frame{}, big, small);
+  // Along u from v = 2 to 4 + sin(u)/2: the integral over v in closed form, over u by a sum that is exact for it.
+  double along_u = 0;
+  for (int k = 0; k < 64; ++k) {
+    const double u = kTwoPi * k / 64, top = 4 + 0.5 * std::sin(u);
+    along_u += kTwoPi / 64 * small * (big * (top - 2) + small * (std::sin(top) - std::sin(2.0)));
+  }
+  const std::vector<CurvePtr> rings{formula("4 + 0.5*sin(t)", {0, kTwoPi}), segment({0, 2}, {kTwoPi, 2})};
+  EXPECT_NEAR(area_of(trimmed_surface(torus, rings)), along_u, 1e-9);
+  EXPECT_NEAR(area_of(trimmed_surface(torus, rings, true)), all - along_u, 1e-9);
+  // A third of it, across.
+  const std::vector<CurvePtr> across{segment({1, 0}, {1, kTwoPi}),
+                                     segment({1 + kTwoPi / 3, kTwoPi}, {1 + kTwoPi / 3, 0})};
+  EXPECT_NEAR(area_of(trimmed_surface(torus, across)), all / 3, 1e-9);
+  EXPECT_NEAR(area_of(trimmed_surface(torus, across, true)), 2 * all / 3, 1e-9);
+}
+
+TEST(TrimmedSurface, RingsThatBoundNothing) {
+  const auto pipe = std::make_shared<CylinderSurface>(Frame{}, 1, 3);
+  const auto torus = std::make_shared<TorusSurface>(Frame{}, 2, 0.7);
+  const auto error_of = [](const SurfacePtr& surface, const std::vector<CurvePtr>& curves,
+                           bool outside = false) -> std::string {
+    try {
+      trimmed_surface(surface, curves, outside);
+    } catch (const TrimError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const CurvePtr round = segment({0, 0.5}, {kTwoPi, 0.5});
+  EXPECT_EQ(error_of(pipe, {round}),
+            "the loop that begins with curve 0 goes all round the closed surface: alone it encloses nothing");
+  EXPECT_EQ(error_of(pipe, {segment({0, 0}, {kTwoPi, 0}), segment({0, 1}, {kTwoPi, 1})}, true),
+            "the loops leave nothing of the surface");
+  EXPECT_EQ(error_of(torus, {round, segment({0.5, 0}, {0.5, kTwoPi})}),
+            "the loops that begin with curve 0 and curve 1 go round the closed surface both ways");
+  // Rings that cross, where they overlap in the parameter plane and where only copies of them do.
+  for (const double begin : {0.0, 1.5, -1.5})
+    EXPECT_NE(error_of(pipe, {round, formula("0.52 + 0.15*sin(t)", {begin, begin + kTwoPi})}).find("cross"),
+              std::string::npos)
+        << begin;
 }
 
 }  // namespace
