@@ -159,6 +159,12 @@ render::RenderResult render_watched(Run& run, const render::World& world, const 
   return render::render(world, settings);
 }
 
+// No ray of the camera met anything, and there is no background but what is transparent.
+bool is_empty(const render::Image& image) {
+  const render::Channel* alpha = render::find_channel(image, "A");
+  return alpha && std::all_of(alpha->values.begin(), alpha->values.end(), [](float a) { return a == 0; });
+}
+
 int render_frame(Run& run, const Frame& frame, bool first) {
   const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
@@ -211,6 +217,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     write_picture(file, result.image);
     if (!options.quiet) fmt::print(stderr, "{}\n", file.path);
   }
+  if (is_empty(result.image) && result.complete && !options.quiet)
+    fmt::print(stderr, "note: nothing is seen in the picture\n");
   if (result.not_finite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);

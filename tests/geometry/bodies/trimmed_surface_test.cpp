@@ -309,6 +309,33 @@ TEST(TrimmedSurface, RingsBoundABand) {
   }
 }
 
+// Lines meet of the pipe what lies in the band.
+TEST(TrimmedSurface, LinesMeetTheBand) {
+  const auto pipe = std::make_shared<CylinderSurface>(Frame{}, 1, 3);
+  const Body sheet =
+      trimmed_surface(pipe, {formula("0.5 + 0.15*sin(t)", {1, 1 + kTwoPi}), segment({kTwoPi, 0.1}, {0, 0.1})});
+  const LineIntersector of_sheet(sheet), of_pipe(pipe);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int met = 0;
+  for (int i = 0; i < tests::tier_count(200000); ++i) {
+    const Vec3 from(4 * unit(random), 4 * unit(random), 4 * unit(random)),
+        to(unit(random), unit(random), 1.5 + 1.5 * unit(random));
+    const Line line{from, to - from};
+    size_t expected = 0;
+    bool near_border = false;
+    for (const SurfaceHit& hit : of_pipe.all_hits(line)) {
+      const double low = hit.v - 0.1, high = 0.5 + 0.15 * std::sin(hit.u) - hit.v;
+      near_border = near_border || std::min(std::abs(low), std::abs(high)) < 1e-9;
+      expected += low > 0 && high > 0;
+    }
+    if (near_border) continue;
+    EXPECT_EQ(of_sheet.all_hits(line).size(), expected) << i;
+    met += expected > 0;
+  }
+  EXPECT_GT(met, 200);
+}
+
 // An oblique cap of a sphere, over its pole: 2 pi r h.
 TEST(TrimmedSurface, RingAndPoleBoundACap) {
   const auto ball = std::make_shared<SphereSurface>(Frame{}, 1);
