@@ -109,6 +109,11 @@ inline std::vector<Entry> bezier_entries() {
     const Vec4 c = bumpy()(s, t, random);
     return Vec4(Vec3(c), s == 1 && t == 0 ? 1e3 : 1);
   }));
+  // The longer arcs of conics in one direction: out of the hull of the control points with positive weights.
+  entries.push_back(patch("negative_weights", 2, 3, 71, [](double s, double t, Random& random) {
+    const Vec4 c = bumpy()(s, t, random);
+    return Vec4(Vec3(c), s == 0.5 ? -0.4 : 1);
+  }));
   const auto first = [](double s, double) { return s == 0 ? 1 : 0; };
   const auto both = [](double s, double) { return s == 0 ? 1 : s == 1 ? 2 : 0; };
   const auto corner = [](double s, double t) { return s == 0 || t == 0 ? 1 : 0; };
