@@ -244,10 +244,11 @@ class Trimming {
     if (rings.empty()) return false;
     loops_.erase(std::remove_if(loops_.begin(), loops_.end(), is_ring), loops_.end());
     const int axis = rings[0].winds;
+    const std::string first = name(rings[0].uses[0].edge);
     for (const TrimLoop& ring : rings)
       if (ring.winds != axis)
-        throw TrimError(fmt::format("the loops that begin with {} and {} go round the closed surface both ways",
-                                    name(rings[0].uses[0].edge), name(ring.uses[0].edge)),
+        throw TrimError(fmt::format("the loops that begin with {} and {} go round the closed surface both ways", first,
+                                    name(ring.uses[0].edge)),
                         "they cross");
     const auto sort = [&] {
       std::sort(rings.begin(), rings.end(),
@@ -273,11 +274,12 @@ class Trimming {
     }
     sort();
     if (rings.size() % 2 != 0)
-      throw TrimError(fmt::format("the loop that begins with {} goes all round the closed surface: alone it encloses "
-                                  "nothing",
-                                  name(rings[outside ? 1 : 0].uses[0].edge)),
-                      "two that go round have a band between them: give another one, a segment along the border of the "
-                      "domain if all is meant up to there");
+      throw TrimError(
+          fmt::format("the loop that begins with {} goes all round the closed surface: alone it encloses nothing",
+                      first),
+          "two that go round have a band between them: give another one, a segment along the border of the domain if "
+          "all "
+          "is meant up to there");
     for (TrimLoop& loop : loops_) outline(loop);
     std::vector<TrimLoop> bands;
     for (size_t k = 0; k < rings.size(); k += 2) bands.push_back(band(rings[k], rings[k + 1]));
@@ -335,7 +337,7 @@ class Trimming {
       throw TrimError(fmt::format("no straight line leads between the other loops from the one that begins with {} to "
                                   "the one that begins with {}",
                                   name(lower.uses[0].edge), name(upper.uses[0].edge)),
-                      "give the surface with less loops between them");
+                      "take fewer loops between them");
     begin_at(lower, *cut);
     begin_at(upper, *cut);
     const Vec2 p = start_of(lower);

@@ -384,6 +384,8 @@ TEST(TrimmedSurface, RingsThatBoundNothing) {
   const CurvePtr round = segment({0, 0.5}, {kTwoPi, 0.5});
   EXPECT_EQ(error_of(pipe, {round}),
             "the loop that begins with curve 0 goes all round the closed surface: alone it encloses nothing");
+  EXPECT_EQ(error_of(pipe, {segment({0, 0}, {kTwoPi, 0})}, true),
+            "the loop that begins with curve 0 goes all round the closed surface: alone it encloses nothing");
   EXPECT_EQ(error_of(pipe, {segment({0, 0}, {kTwoPi, 0}), segment({0, 1}, {kTwoPi, 1})}, true),
             "the loops leave nothing of the surface");
   EXPECT_EQ(error_of(torus, {round, segment({0.5, 0}, {0.5, kTwoPi})}),
