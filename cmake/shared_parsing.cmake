@@ -1,4 +1,5 @@
-# What several sources need is parsed once for them all; LEKALO_SHARED_PARSING=OFF parses each source alone. `.ci/run includes`, which tools/verify runs, does: shared, a missing #include goes unnoticed.
+# What several sources need is parsed once for them all; LEKALO_SHARED_PARSING=OFF parses each source alone. `.ci/run
+# includes`, which tools/verify runs, does: shared, a missing #include goes unnoticed.
 #
 # Precompiled are headers of other libraries that most sources include. No header of ours is among them: one change of it
 # would compile all anew, and names of sources that do not include it could clash with its own.

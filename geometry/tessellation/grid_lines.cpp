@@ -390,7 +390,7 @@ SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const Tessel
   const int fewest_u = fewest_steps(surface, box, true), fewest_v = fewest_steps(surface, box, false);
   Densities densities = make_densities(surface, box, tolerance, fewest_u, fewest_v);
   SurfaceGrid grid;
-  // Each halves what is too long; more than these never came.
+  // Each makes steps that are too long up to half as long: after so many they are nothing but rounding.
   constexpr int kMostRounds = 40;
   for (int round = 0; round < kMostRounds; ++round) {
     const double triangles = 2 * densities.u.total() * densities.v.total();
