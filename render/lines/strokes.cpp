@@ -289,8 +289,8 @@ void StrokeCollector::add_lines(const Lines& lines) {
 void StrokeCollector::add_kind(std::string_view kind, const Style& style, const Lines& lines) {
   if (kind == "curve") {
     if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(*curve, style, lines.hidden);
-    if (const auto* point = std::get_if<Vec3>(&object_->shape))
-      mark(*point, style.marker == "none" ? "dot" : style.marker, style, lines.hidden);
+    const auto* point = std::get_if<Vec3>(&object_->shape);
+    if (point && style.marker != "none") mark(*point, style.marker, style, lines.hidden);
   } else if (kind == "silhouette") {
     add_silhouettes(view_from(to_world_.inverse()), style, lines.hidden);
     add_mesh_lines(MeshLineKind::silhouette, style, lines.hidden);

@@ -47,7 +47,7 @@ std::vector<Field> lines_fields() {
                groups({{"through", point(), "a point of the plane", false, "[0, 0, 0]"},
                        {"normal", direction(), "across the plane", true, {}}})
                    .count(1),
-               "planes that cut",
+               "planes of the world (also for objects of groups) that cut",
                true,
                {}},
               of_style("thin")}),

@@ -48,7 +48,7 @@ TypeDeclaration style_type() {
       .optional("cap", choice({"butt", "round", "square"}), "ends of lines and dashes")
       .optional("join", choice({"round", "miter", "bevel"}), "corners of lines")
       .optional("marker", choice({"none", "dot", "circle", "ball", "cross", "plus", "square", "triangle", "diamond"}),
-                "sign at points")
+                "sign at points; a dot if no style says another")
       .optional("marker_size", page_length().positive().at_most(50), "diameter of markers")
       .optional("fill", color().non_negative().or_word({"none"}), "inside of markers, and behind texts")
       .optional("font", choice({"serif", "sans", "mono"}), "of texts outside formulas")

@@ -24,10 +24,10 @@ struct Style {
   geometry::Vec3 color{0};  // linear Rec.709
   bool cycles = false;      // the next colour of the palette for each member of a family, instead of `color`
   double opacity = 1;
-  std::vector<double> dash;    // lengths drawn and left out in turn; empty: solid
-  std::string cap = "butt";    // butt, round, square
-  std::string join = "round";  // round, miter, bevel
-  std::string marker = "none";
+  std::vector<double> dash;            // lengths drawn and left out in turn; empty: solid
+  std::string cap = "butt";            // butt, round, square
+  std::string join = "round";          // round, miter, bevel
+  std::string marker = "dot";          // at points: none, dot, circle, ball, cross, plus, square, triangle, diamond
   double marker_size = 1.2;            // its diameter
   std::optional<geometry::Vec3> fill;  // of markers and text boxes; none: markers in the line's colour
   std::string font = "serif";          // serif, sans, mono

@@ -360,6 +360,9 @@ TEST(PictureLines, PointsAreDots) {
   scene.plain_view().draw(Vec3(2, 0, 3), "curve", style);
   const Difference d = compare(scene.picture(), [](const Vec2& q) { return glm::length(q - Vec2(22, 17)) <= 4.5; });
   EXPECT_LT(d.largest, 0.05);
+  style.marker = "none";
+  const Image none = LineScene(40, 40, 1).plain_view().draw(Vec3(2, 0, 3), "curve", style).picture();
+  EXPECT_EQ(compare(none, [](const Vec2&) { return false; }).largest, 0);
 }
 
 TEST(PictureLines, MeetTheExactSurfaceOnItsMesh) {
