@@ -51,7 +51,7 @@ Box3 bounds(const Mesh& mesh) {
   return box;
 }
 
-bool is_closed(const Mesh& mesh) {
+MeshSides sides(const Mesh& mesh) {
   // Per side: how often it runs up (from the smaller index) and down.
   struct Uses {
     int up = 0, down = 0;
@@ -65,8 +65,22 @@ bool is_closed(const Mesh& mesh) {
       ++(a < b ? uses.up : uses.down);
     }
   }
-  return std::all_of(sides.begin(), sides.end(),
-                     [](const auto& side) { return side.second.up == 1 && side.second.down == 1; });
+  MeshSides result;
+  result.count = sides.size();
+  for (const auto& [side, uses] : sides) {
+    if (uses.up + uses.down == 1)
+      ++result.free;
+    else if (uses.up + uses.down > 2)
+      ++result.crowded;
+    else if (uses.up != uses.down)
+      ++result.turned;
+  }
+  return result;
+}
+
+bool is_closed(const Mesh& mesh) {
+  const MeshSides found = sides(mesh);
+  return found.free + found.turned + found.crowded == 0;
 }
 
 void set_flat_normals(Mesh& mesh) {

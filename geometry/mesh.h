@@ -31,6 +31,15 @@ using MeshPtr = std::shared_ptr<const Mesh>;
 // Of the points that triangles use.
 Box3 bounds(const Mesh& mesh);
 
+// How triangles share their sides.
+struct MeshSides {
+  size_t count = 0;
+  size_t free = 0;     // of one triangle
+  size_t turned = 0;   // of two triangles, one of which is turned: both run the same way
+  size_t crowded = 0;  // of more than two
+};
+MeshSides sides(const Mesh& mesh);
+
 // Every side of a triangle is a side of exactly one other triangle, in the opposite direction: no cracks, no free
 // borders, consistent orientation.
 bool is_closed(const Mesh& mesh);

@@ -178,8 +178,7 @@ inline Interval remainder(const Interval& a, const Interval& b) {
 }
 template <class J>
 requires kIsJet<J> J remainder(const J& a, const J& b) {
-  using std::floor;
-  J r = a - b * floor(value(a) / value(b));
+  J r = a - b * floor(a / b);
   r.c[0] = remainder(value(a), value(b));
   return r;
 }

@@ -129,22 +129,23 @@ struct JetOperations {
     using std::max;
     return either(a, b, max(a.c[0], b.c[0]));
   }
-  // Step functions: their derivatives are zero, also at a step.
+  // Step functions: their derivatives are zero, also at a step; over an interval with a step there are no bounds for
+  // how fast they rise.
   friend constexpr J floor(const J& a) {
     using std::floor;
-    return J(S(floor(a.c[0])));
+    return steps(S(floor(a.c[0])));
   }
   friend constexpr J ceil(const J& a) {
     using std::ceil;
-    return J(S(ceil(a.c[0])));
+    return steps(S(ceil(a.c[0])));
   }
   friend constexpr J round(const J& a) {
     using std::round;
-    return J(S(round(a.c[0])));
+    return steps(S(round(a.c[0])));
   }
   friend constexpr J sign(const J& a) {
     using ::lekalo::geometry::sign;  // argument-dependent lookup adds the scalar's own
-    return J(S(sign(a.c[0])));
+    return steps(S(sign(a.c[0])));
   }
 
  private:
@@ -157,6 +158,13 @@ struct JetOperations {
       (void)b;
     }
     r.c[0] = value;
+    return r;
+  }
+  static constexpr J steps(const S& value) {
+    J r(value);
+    if constexpr (std::is_same_v<S, Interval>)
+      if (value.lo != value.hi)
+        for (int k = 1; k < Count; ++k) r.c[k] = Interval::entire();
     return r;
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/lanes.h"
@@ -22,8 +23,9 @@ constexpr double kContraction = 0.25;
 constexpr double kInjective = 0.9;
 
 // Cells that one line may ask of one cell of a surface before the search gives up: only lines that run inside the
-// surface (tangent along a curve) get there. Roots are found with a quarter of that, at cusps and poles too.
-constexpr int kMostCells = 256;
+// surface (tangent along a curve) get there. Roots are found with a quarter of that, at cusps and poles too. Where a
+// formula has a fractional power of zero the doubles near zero have to be gone through, a hundred halvings.
+constexpr int kMostCells = 256, kMostUnboundedCells = 1024;
 
 // A vector's parts along a line's n1, n2 and the line.
 inline void see(const LineBasis& line, double x, double y, double z, Lanes& parts) {
@@ -64,6 +66,24 @@ struct PatchCells {
   }
 };
 
+// Whether the line misses a box without bounds in some directions, but for its rounding.
+bool passes_by(const Line& line, const Box3& box) {
+  double begin = -kInfinity, end = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    const double slack = 1e-14 * (std::abs(line.origin[k]) + std::max(std::abs(box.lo[k]), std::abs(box.hi[k])));
+    if (!(slack < kInfinity)) continue;
+    const double lo = box.lo[k] - slack - line.origin[k], hi = box.hi[k] + slack - line.origin[k];
+    if (line.direction[k] == 0) {
+      if (lo > 0 || hi < 0) return true;
+      continue;
+    }
+    const double a = lo / line.direction[k], b = hi / line.direction[k];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin > end;
+}
+
 // Cells of any surface: rectangles of its parameters. The slacks are those of the whole cell that was asked, in shares
 // of this part of it: however small parts get, lines do not slip through between two cells.
 struct SurfaceCells {
@@ -83,16 +103,18 @@ struct SurfaceCells {
     see(line, here.dt, p.dy);
   }
   CellModel model() const { return model_of(*surface, box); }
-  // How near to the line the hull of the cell comes, and how far from it it reaches, across n1 and n2.
+  // How near to the line the hull of the cell comes, and how far from it it reaches, across n1 and n2; the hull's
+  // diameter.
   struct Distance {
-    double least, most;
+    double least, most, hull;
   };
   Distance distance(const LineBasis& line) const {
     const Box3 hull = surface->enclose(box, 0).values[0];
+    if (!hull.bounded()) return {passes_by(line.line, hull) ? kInfinity : 0, kInfinity, kInfinity};
     const Vec3 r = hull.center() - line.line.origin;
     const Vec3 half = 0.5 * hull.size();
     const double rounding = 1e-15 * glm::length(r);
-    Distance d{0, 0};
+    Distance d{0, 0, hull.diameter()};
     for (const Vec3& n : {line.n1, line.n2}) {
       const double middle = std::abs(glm::dot(n, r)), reach = glm::dot(glm::abs(n), half) + rounding;
       d.least = std::max(d.least, middle - reach);
@@ -250,18 +272,27 @@ Vec2 extent(const CellModel& m) { return {m.reach_x(), m.reach_y()}; }
 
 // Cells are halved across their longer side in space: at a pole, where the sectors of a shrinking cap never become
 // simpler by being made narrower, that is the side towards the pole. Along a parameter of the line itself only what
-// leaves the line counts. Without bounds both are made shorter by turns.
-bool halve_across_x(const CellModel& m, Along along, double hx, double hy) {
-  if (!m.is_bounded() && along == Along::neither) return hx >= hy;
-  return (along == Along::x ? m.variation_x : m.reach_x()) >= (along == Along::y ? m.variation_y : m.reach_y());
+// leaves the line counts. Without bounds both are made shorter by turns; without bounds along one of them it is what of
+// the hull the other one does not explain.
+bool halve_across_x(const CellModel& m, Along along, double hull, double hx, double hy) {
+  const double x = along == Along::x ? m.variation_x : m.reach_x(), y = along == Along::y ? m.variation_y : m.reach_y();
+  const bool x_known = x < kInfinity, y_known = y < kInfinity;
+  if (x_known && y_known) return x >= y;
+  if (x_known == y_known) return hx >= hy;
+  const double explained = std::sqrt(2.0) * (x_known ? x : y);
+  return (0.5 * hull >= explained) == y_known;
 }
 
 // Where the bounds on the derivatives say nothing, from the hull; zero, which no part is smaller than and no line near
 // to, where that is without bounds too.
-Vec2 whole_extent(const Surface& surface, const Rectangle& box, const CellModel& m) {
+Vec2 whole_extent(const CellModel& m, const Box3& hull) {
   if (m.is_bounded()) return extent(m);
-  const Box3 hull = surface.enclose(box, 0).values[0];
   return Vec2(hull.bounded() ? 0.25 * hull.diameter() : 0);
+}
+
+// Whether doubles have hardly anything between the ends.
+bool is_exhausted(const Interval& range) {
+  return range.width() <= 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(range.lo), std::abs(range.hi));
 }
 
 struct Search {
@@ -270,8 +301,12 @@ struct Search {
   Vec2 whole;  // extent of the whole piece
   const Surface& surface;
   const Rectangle& box;
+  // The derivatives of the whole have no bounds: where a fractional power of zero rises, parts far smaller than others
+  // are still long.
+  bool unbounded;
   int cells = 0;
 
+  int most_cells() const { return unbounded ? kMostUnboundedCells : kMostCells; }
   double size() const { return whole.x + whole.y; }
   // The slack at borders as a length.
   double slack() const { return kBorderSlack * size(); }
@@ -316,15 +351,19 @@ struct Search {
   Along along(const CellModel& m, double hx, double hy) const {
     return parameter_along(line.line.direction, m, whole.x * hx, whole.y * hy);
   }
-  bool is_smallest(const CellModel& m, double hx, double hy) const {
+  // `hull`: the part's diameter.
+  bool is_smallest(const CellModel& m, const Rectangle& part, double hull, double hx, double hy) const {
     const Vec2 e = extent(m);
-    return e.x + e.y < kSmallestCell * size() || std::max(hx, hy) < kSmallestCell;
+    if (e.x + e.y < kSmallestCell * size()) return true;
+    if (!unbounded) return std::max(hx, hy) < kSmallestCell;
+    return hull <= kSmallestCell * size() || (is_exhausted(part.u) && is_exhausted(part.v));
   }
 };
 
 // Decides the cell if it can be: without a root, with one, or too small to be halved. False: to be halved.
-bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double x0, double y0, double hx, double hy) {
-  if (++s.cells > kMostCells) return true;
+bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double hull, double x0, double y0, double hx,
+                double hy) {
+  if (++s.cells > s.most_cells()) return true;
   CellHit hit;
   const Verdict verdict = decide(cells, m, s.line, hit);
   if (verdict == Verdict::none) return true;
@@ -332,7 +371,7 @@ bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double
     s.add({hit.t, x0 + hx * hit.x, y0 + hy * hit.y});
     return true;
   }
-  if (!s.is_smallest(m, hx, hy)) return false;
+  if (!s.is_smallest(m, cells.box, hull, hx, hy)) return false;
   if (is_singular(m, s.whole.x * hx, s.whole.y * hy)) s.add_singular(cells, x0, y0, hx, hy);
   return true;
 }
@@ -366,7 +405,14 @@ class BehindProxy final : public NearSurface {
 struct Part {
   Rectangle box;
   double x0 = 0, y0 = 0, hx = 1, hy = 1;
-  SurfaceCells cells(const Surface& surface) const { return {&surface, box, kBorderSlack / hx, kBorderSlack / hy}; }
+  // Where derivatives have no bounds a length of a share of the parameters may be any: the slack is one in space, too.
+  SurfaceCells cells(const Search& s, const CellModel& m) const {
+    const auto slack = [&](double half, const Vec3& derivative) {
+      const double share = kBorderSlack / half;
+      return s.unbounded ? std::min(share, std::max(kBorderSlack, s.slack() / glm::length(derivative))) : share;
+    };
+    return {&s.surface, box, slack(hx, m.dx), slack(hy, m.dy)};
+  }
   Part cell(double x, double y, double wx, double wy) const {
     const auto cut = [](const Interval& range, double at, double half) {
       const double middle = range.middle(), reach = 0.5 * range.width();
@@ -380,25 +426,28 @@ struct Part {
 // Proxies that are farther from the surface than this share of the cell tell too little to be worth their making.
 constexpr double kWorthwhileProxy = 0.05;
 
-void search(Search& s, const Surface& surface, const Part& part, const CellModel& m, const ProxyPatch* proxy) {
-  if (is_settled(s, part.cells(surface), m, part.x0, part.y0, part.hx, part.hy)) return;
+// `hull`: the diameter of a box around the part.
+void search(Search& s, const Part& part, const CellModel& m, const ProxyPatch* proxy, double hull) {
+  const SurfaceCells cells = part.cells(s, m);
+  if (is_settled(s, cells, m, hull, part.x0, part.y0, part.hx, part.hy)) return;
   const auto along = [&] { return s.along(m, part.hx, part.hy); };
   const auto go_on = [&](const Part& smaller) {
-    const SurfaceCells::Distance d = smaller.cells(surface).distance(s.line);
+    const SurfaceCells::Distance d = SurfaceCells{&s.surface, smaller.box}.distance(s.line);
     // Along a line that runs in the surface, be it by its singular points, every place is a root: a tangent.
     if (d.least > s.slack() || (d.most <= s.slack() && along() != Along::neither)) return;
-    search(s, surface, smaller, model_of(surface, smaller.box), nullptr);
+    search(s, smaller, model_of(s.surface, smaller.box), nullptr, d.hull);
   };
   // Across a line that runs in the surface parts get thin long before they get short.
-  const bool is_thin = std::min(part.hx, part.hy) < kSmallestCell, has_proxy = !is_thin && m.is_bounded();
+  const bool is_thin = !s.unbounded && std::min(part.hx, part.hy) < kSmallestCell,
+             has_proxy = !is_thin && m.is_bounded();
   if (is_thin && along() != Along::neither) return;
   ProxyPatch own;
   if (!proxy && has_proxy) {
-    own = proxy_of(surface, part.box);
+    own = proxy_of(s.surface, part.box);
     proxy = &own;
   }
   if (has_proxy && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
-    BehindProxy behind(part.cells(surface), s.slack(), *proxy);
+    BehindProxy behind(cells, s.slack(), *proxy);
     CellHits found;
     search_net(proxy->view(), behind, s.line, found);
     for (int i = 0; i < found.size(); ++i)
@@ -410,7 +459,8 @@ void search(Search& s, const Surface& surface, const Part& part, const CellModel
       return;
     }
   }
-  const bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along(), part.hx, part.hy);
+  bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along(), hull, part.hx, part.hy);
+  if (s.unbounded && is_exhausted(across_x ? part.box.u : part.box.v)) across_x = !across_x;
   for (const double side : {-0.5, 0.5}) go_on(across_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 
@@ -448,9 +498,9 @@ void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& l
 }
 
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
-               const LineBasis& line, CellHits& hits) {
-  Search s{line, hits, whole_extent(surface, box, model), surface, box};
-  search(s, surface, {box}, model, &proxy);
+               const Box3& hull, const LineBasis& line, CellHits& hits) {
+  Search s{line, hits, whole_extent(model, hull), surface, box, !model.is_bounded()};
+  search(s, {box}, model, &proxy, hull.bounded() ? hull.diameter() : kInfinity);
 }
 
 }  // namespace lekalo::geometry

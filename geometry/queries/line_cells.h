@@ -58,9 +58,10 @@ class CellHits {
 // All meetings of the line with a cell of a patch, but for some with a t certainly outside the interval.
 void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t, CellHits& hits);
 
-// The same for a rectangle of any surface. `proxy` is proxy_of(surface, box), kept by the caller.
+// The same for a rectangle of any surface. `proxy` is proxy_of(surface, box), kept by the caller; `hull` holds its
+// points.
 void intersect(const Surface& surface, const Rectangle& box, const CellModel& model, const ProxyPatch& proxy,
-               const LineBasis& line, CellHits& hits);
+               const Box3& hull, const LineBasis& line, CellHits& hits);
 
 // True if no line of that direction meets the cell twice.
 bool meets_once(const CellModel& model, const Vec3& direction);

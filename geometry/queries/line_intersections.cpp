@@ -11,6 +11,7 @@
 #include "geometry/queries/box_tree.h"
 #include "geometry/queries/line_cells.h"
 #include "geometry/queries/patch_target.h"
+#include "geometry/queries/sampled_extent.h"
 #include "geometry/queries/smooth_parts.h"
 #include "geometry/queries/trim.h"
 #include "geometry/tolerances.h"
@@ -21,6 +22,10 @@ namespace {
 
 // Of a surface that only its enclosures tell about: each cell costs several evaluations over intervals.
 constexpr size_t kMostEnclosedCells = 1 << 13;
+// Cells that are smaller in both parameters are searched as they are: only about a singular place any get so small.
+constexpr double kLeastShareOfDomain = 1.0 / 4096;
+// Of a surface of many smooth parts each has so many at least.
+constexpr size_t kLeastShare = 1 << 9;
 
 // A surface with a closed form: one piece.
 class FormulaTarget final : public LineTarget {
@@ -57,25 +62,33 @@ void FormulaTarget::trimmed_hits(const Line& line, const Interval& t, LineHits& 
     if (acceptance_.keeps(all[i], t, line, *surface_)) hits.add(all[i]);
 }
 
+// What of a surface counts: the rectangles of its domain in which there may be something of that, and the share of
+// kMostEnclosedCells that it may have.
+struct Wanted {
+  std::function<bool(const Rectangle&)> has_some;  // none: all
+  size_t most_cells = kMostEnclosedCells;
+};
+
 // Any other surface: rectangles certified by its own enclosures.
 class EnclosureTarget final : public LineTarget {
  public:
-  EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim)
+  EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim,
+                  const Wanted& wanted)
       : surface_(std::move(surface)), acceptance_(std::move(trim)) {
     std::vector<Rectangle> boxes;
     for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
-    cut(boxes);
+    cut(boxes, wanted);
   }
   int piece_count() const override { return static_cast<int>(cells_.size()); }
   std::string_view method() const override { return "enclosed pieces"; }
-  Box3 piece_bounds(int i) const override { return surface_->enclose(cells_[i].box, 0).values[0]; }
+  Box3 piece_bounds(int i) const override { return cells_[i].hull; }
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     const Cell& cell = cells_[i];
     double foot;
     LineBasis basis = line.near(cell.model.point, foot);
     basis.line.origin += cell.model.point;
     CellHits found;
-    intersect(*surface_, cell.box, cell.model, cell.proxy, basis, found);
+    intersect(*surface_, cell.box, cell.model, cell.proxy, cell.hull, basis, found);
     for (int k = 0; k < found.size(); ++k) {
       LineHit hit;
       hit.t = foot + found[k].t;
@@ -95,16 +108,13 @@ class EnclosureTarget final : public LineTarget {
     CellModel model;
     Rectangle box;
     ProxyPatch proxy;
+    Box3 hull;  // of its points
     double size = 0;
   };
   // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
   // What is halved next depends only on what there is, so that any number of threads makes the same cells.
-  void cut(const std::vector<Rectangle>& boxes) {
-    // Where a root of zero has derivatives without bounds the hull has some.
-    const auto size_of = [&](const Cell& cell) {
-      if (cell.model.is_bounded()) return cell.model.reach_x() + cell.model.reach_y();
-      return 0.5 * surface_->enclose(cell.box, 0).values[0].diameter();
-    };
+  void cut(const std::vector<Rectangle>& boxes, const Wanted& wanted) {
+    const SampledExtent sampled(*surface_);
     const Rectangle domain = surface_->domain();
     // By the bounds: on a line of singular points in the middle of a cell one of the derivatives there may vanish.
     const auto is_halved_across_u = [&](const Cell& cell) {
@@ -119,19 +129,23 @@ class EnclosureTarget final : public LineTarget {
     std::vector<Cell> fresh(boxes.size()), rough;
     for (size_t i = 0; i < boxes.size(); ++i) fresh[i].box = boxes[i];
     for (;;) {
+      if (wanted.has_some) std::erase_if(fresh, [&](const Cell& cell) { return !wanted.has_some(cell.box); });
       for_each(fresh.size(), [&](size_t i) {
         fresh[i].model = model_of(*surface_, fresh[i].box);
-        fresh[i].size = size_of(fresh[i]);
+        fresh[i].size = sampled.size(fresh[i].box, fresh[i].model);
       });
-      for (const Cell& cell : fresh) (roughness(cell.model) <= kFlat ? cells_ : rough).push_back(cell);
+      for (const Cell& cell : fresh) {
+        const bool is_done = roughness(cell.model) <= kFlat || sampled.share(cell.box) < kLeastShareOfDomain;
+        (is_done ? cells_ : rough).push_back(cell);
+      }
       const size_t count = cells_.size() + rough.size();
-      if (rough.empty() || count >= kMostEnclosedCells) break;
+      if (rough.empty() || count >= wanted.most_cells) break;
       // The largest, and those not much smaller.
       std::stable_sort(rough.begin(), rough.end(), [](const Cell& a, const Cell& b) { return a.size > b.size; });
       const double least = 0.7 * rough.front().size;
       fresh.clear();
       size_t halved = 0;
-      for (; halved < rough.size() && count + halved < kMostEnclosedCells; ++halved) {
+      for (; halved < rough.size() && count + halved < wanted.most_cells; ++halved) {
         const Cell& cell = rough[halved];
         if (cell.size < least) break;
         Cell first{{}, cell.box, {}}, second = first;
@@ -145,13 +159,27 @@ class EnclosureTarget final : public LineTarget {
       rough.erase(rough.begin(), rough.begin() + static_cast<std::ptrdiff_t>(halved));
     }
     cells_.insert(cells_.end(), rough.begin(), rough.end());
-    for_each(cells_.size(), [&](size_t i) { cells_[i].proxy = proxy_of(*surface_, cells_[i].box); });
+    for_each(cells_.size(), [&](size_t i) {
+      cells_[i].proxy = proxy_of(*surface_, cells_[i].box);
+      cells_[i].hull = sampled.hull(cells_[i].box, cells_[i].model);
+    });
   }
 
   SurfacePtr surface_;
   Acceptance acceptance_;
   std::vector<Cell> cells_;
 };
+
+std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
+                                               double least_area, const Wanted& wanted) {
+  if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
+  std::vector<SurfacePiece> pieces = surface->pieces();
+  const bool rational =
+      std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
+  if (rational)
+    return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), least_area);
+  return std::make_unique<EnclosureTarget>(std::move(surface), pieces, std::move(trim), wanted);
+}
 
 // A surface of formulas with kinks: its smooth parts, with the hits on the right sides. At a crease both parts may have
 // one, as neighbours have at a common border.
@@ -162,8 +190,12 @@ class PartsTarget final : public LineTarget {
       : surface_(std::move(surface)), parts_(std::move(parts)) {
     const Rectangle domain = surface_->domain();
     slack_ = kHitSlack * Vec3(domain.u.width(), domain.v.width(), 0);
+    const size_t share = std::max(kMostEnclosedCells / parts_.size(), kLeastShare);
     for (const SmoothPart& part : parts_) {
-      targets_.push_back(make_line_target(part.surface, trim, least_area));
+      const auto may_hold = [&](const Rectangle& r) {
+        return geometry::may_hold(part.sides, {{r.u.lo, r.v.lo, 0}, {r.u.hi, r.v.hi, 0}});
+      };
+      targets_.push_back(make_smooth_target(part.surface, trim, least_area, {may_hold, share}));
       for (int i = 0; i < targets_.back()->piece_count(); ++i) pieces_.emplace_back(targets_.size() - 1, i);
     }
   }
@@ -209,15 +241,9 @@ class PartsTarget final : public LineTarget {
 
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
                                              double least_area) {
-  if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
   if (std::vector<SmoothPart> parts = smooth_parts(surface); parts.size() > 1)
     return std::make_unique<PartsTarget>(std::move(surface), std::move(parts), trim, least_area);
-  std::vector<SurfacePiece> pieces = surface->pieces();
-  const bool rational =
-      std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
-  if (rational)
-    return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), least_area);
-  return std::make_unique<EnclosureTarget>(std::move(surface), pieces, std::move(trim));
+  return make_smooth_target(std::move(surface), std::move(trim), least_area, {});
 }
 
 std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double least_area) {

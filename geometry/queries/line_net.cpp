@@ -398,7 +398,7 @@ class NetSearch {
           double root_x = cell.x + cell.hx * nx, root_y = cell.y + cell.hy * ny;
           // Where weights differ much the surface runs that much faster somewhere.
           if (!near_ && (slack - kBorderSlack) * size * unevenness_ > kSameHit)
-            settle_on_surface(root_x, root_y, slack * size);
+            settle_on_surface(root_x, root_y, slack * size, kSameHit);
           add(root_x, root_y, 4 * slack * size);
           return true;
         }
@@ -429,7 +429,8 @@ class NetSearch {
   // Where weights differ much the coefficients are known too badly to tell a plain root, which the surface's own points
   // do: Newton's iteration on these, kept in the cell that was asked but for `outside`. False, and the place as it was,
   // if it does not settle.
-  bool settle_on_surface(double& root_x, double& root_y, double outside) const {
+  // `noise`: what the rounding of the points moves the place by, at least kSameHit.
+  bool settle_on_surface(double& root_x, double& root_y, double outside, double noise) const {
     constexpr int kMostSteps = 30;
     double x = root_x, y = root_y;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -442,7 +443,7 @@ class NetSearch {
       x += sx, y += sy;
       if (!(std::max(std::abs(x), std::abs(y)) <= 1 + kBorderSlack + outside)) return false;
       // With the whole patch for a cell its points' own rounding moves the root by some 1e-11.
-      if (std::max(std::abs(sx), std::abs(sy)) <= kSameHit) {
+      if (std::max(std::abs(sx), std::abs(sy)) <= noise) {
         root_x = x, root_y = y;
         return true;
       }
@@ -471,21 +472,40 @@ class NetSearch {
     Box3 hull;
     for (int k = 0; k < n(); ++k) hull.include(Vec3(patch_.points[k]) / patch_.points[k].w);
     const double size = std::min(whole_.x + whole_.y, hull.diameter());
-    if (allowance_ > kBorderSlack * size * least_weight_ && settle_on_surface(x, y, 0)) {
+    if (allowance_ > kBorderSlack * size * least_weight_ && settle_on_surface(x, y, 0, kSameHit)) {
       add(x, y, 10 * kSameHit);
       return;
     }
     const PatchPoint at = surface_at(x, y);
     const double lx = glm::length(at.ds), ly = glm::length(at.dt);
     if (!(lx <= 1e-6 * std::min(whole_.x, size) || ly <= 1e-6 * std::min(whole_.y, size) ||
-          glm::length(glm::cross(at.ds, at.dt)) <= 1e-6 * lx * ly))
+          glm::length(glm::cross(at.ds, at.dt)) <= 1e-6 * lx * ly)) {
+      add_if_crossed(at, x, y);
       return;
+    }
     if (!(glm::length(across(at.point)) <= kSameHit * size)) return;
     const double t = along(at.point);
     const double near = 1e-9 * size * std::sqrt(line_.inverse_length2);
     for (int i = 0; i < hits_.size(); ++i)
       if (std::abs(hits_[i].t - t) <= near) return;
     hits_.add({t, x, y});
+  }
+
+  // Beside a line along which a derivative vanishes the other one is short, and rounding moves a root far in
+  // parameters, but not in space. A tangent, which is undecided too, has a short derivative across the line alone.
+  void add_if_crossed(const PatchPoint& at, double x, double y) {
+    constexpr double kMostNoise = 1e-3;
+    const auto steepness = [&](const PatchPoint& p) {
+      const Vec3 across = glm::cross(p.ds, p.dt);
+      return std::abs(glm::dot(across, line_.line.direction)) * std::sqrt(line_.inverse_length2) /
+             (glm::length(p.ds) * glm::length(p.dt));
+    };
+    const double noise =
+        std::max(kSameHit, 8 * allowance_ / (least_weight_ * std::min(glm::length(at.ds), glm::length(at.dt))));
+    if (!(noise <= kMostNoise) || !(steepness(at) > 1e-6) || !settle_on_surface(x, y, noise, noise) ||
+        !(steepness(surface_at(x, y)) > 1e-6))
+      return;
+    add(x, y, 10 * noise);
   }
 
   // Keeps the part of [-1, 1] of a row of coefficients from x on, or up to x.
@@ -576,9 +596,13 @@ class NetSearch {
     // never become simpler by being made narrower), across the longer one.
     const bool bent = std::max(o.bend_x, o.bend_y) > 0.5 * std::min(o.extent_x, o.extent_y);
     cell.along_x = bent ? o.bend_x >= o.bend_y : o.extent_x >= o.extent_y;
-    // Unless rounding has the last word there already, and not in the other one.
-    if (slack[cell.along_x ? 0 : 1] > 0.5 * kMostRounding && slack[cell.along_x ? 1 : 0] <= 0.5 * kMostRounding)
-      cell.along_x = !cell.along_x;
+    // Unless rounding has the last word there already, and not in the other one. (At the centre alone it may have it:
+    // on a cusp a derivative vanishes, and the determinant is nothing but rounding.)
+    const auto is_spent = [&](bool along_x) {
+      return slack[along_x ? 0 : 1] > 0.5 * kMostRounding &&
+             rounding_ > 0.5 * kMostRounding * (along_x ? o.extent_x : o.extent_y);
+    };
+    if (is_spent(cell.along_x) && !is_spent(!cell.along_x)) cell.along_x = !cell.along_x;
     return Rest::halves;
   }
 

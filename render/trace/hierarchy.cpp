@@ -45,7 +45,8 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
   Box3 box;
   for (int i = record.first_piece(args->primID); i < record.end_of_pieces(args->primID); ++i)
-    box.include(box_of(record, i));
+    if (const Box3 piece = box_of(record, i); piece.bounded()) box.include(piece);
+  // Embree leaves out what is empty.
   *args->bounds_o = record.parts->float_bounds(box);
 }
 
@@ -67,13 +68,18 @@ Hierarchy::~Hierarchy() = default;
 void Hierarchy::add(Leaf given) {
   Parts& p = *parts_;
   Box3& box = given.box;
-  if (given.mesh) box = given.mesh->bounds();
-  if (given.shape) box = given.shape->bounds();
+  Box3 bounded;  // of the pieces that are
+  const auto include = [&](const Box3& part) {
+    box.include(part);
+    if (part.bounded()) bounded.include(part);
+  };
+  if (given.mesh) include(given.mesh->bounds());
+  if (given.shape) include(given.shape->bounds());
   for (const auto& target : given.targets)
-    for (int piece = 0; piece < target->piece_count(); ++piece) box.include(target->piece_bounds(piece));
+    for (int piece = 0; piece < target->piece_count(); ++piece) include(target->piece_bounds(piece));
   for (const auto& target : given.targets)
     given.feet.push_back(!given.parameters && target->surface().knows_feet() ? &target->surface() : nullptr);
-  given.size = box.bounded() && !box.empty() ? box.diameter() : 1.0;
+  given.size = bounded.empty() ? 1.0 : bounded.diameter();
   p.leaves.push_back(std::make_unique<Leaf>(std::move(given)));
   const Leaf& leaf = *p.leaves.back();
   const int number = p.leaf_count++;
@@ -130,7 +136,8 @@ bool Hierarchy::Parts::list_few() {
   if (count > kFew) return false;
   for (const auto& record : records)
     for (int i = 0; i < record->count; ++i)
-      few.push_back({record.get(), i, box_of(*record, i).inflated(kBoxInflation * radius)});
+      if (const Box3 piece = box_of(*record, i); piece.bounded())
+        few.push_back({record.get(), i, piece.inflated(kBoxInflation * radius)});
   for (const Piece& piece : few) few_box.include(piece.box);
   for (const auto& record : records)
     if (record->kind == GeometryRecord::Kind::target) {
@@ -205,22 +212,33 @@ void Hierarchy::Parts::build_scene() {
 
 void Hierarchy::commit() {
   Parts& p = *parts_;
-  // Unbounded things (planes, half-spaces, infinite cylinders) stand in a list beside the hierarchy.
+  // Unbounded things (planes, half-spaces, infinite cylinders, pieces about a pole) stand in a list beside the
+  // hierarchy.
   std::vector<std::unique_ptr<GeometryRecord>> bounded, others;
   for (auto& record : p.records) {
-    Box3 box;
-    const int count = record->count;
-    for (int i = 0; i < count; ++i) box.include(box_of(*record, i));
+    Box3 of_bounded;
     const bool child_has_unbounded =
         record->kind == GeometryRecord::Kind::instance && !record->child->parts_->unbounded.empty();
-    if (box.empty() || !box.bounded() || child_has_unbounded) {
-      if (!box.empty() || child_has_unbounded) p.unbounded.push_back(record.get());
+    for (int i = 0; i < record->count; ++i) {
+      const Box3 box = box_of(*record, i);
+      if (child_has_unbounded)
+        p.unbounded.push_back({record.get(), i, Box3::everything()});
+      else if (!box.empty() && !box.bounded())
+        p.unbounded.push_back({record.get(), i, box});
+      else
+        of_bounded.include(box);
+    }
+    if (of_bounded.empty()) {
       others.push_back(std::move(record));
     } else {
-      p.box.include(box);
+      p.box.include(of_bounded);
       bounded.push_back(std::move(record));
     }
   }
+  p.has_columns = std::any_of(p.unbounded.begin(), p.unbounded.end(), [](const Parts::Piece& piece) {
+    const Vec3 size = piece.box.size();
+    return std::min({size.x, size.y, size.z}) < geometry::kInfinity;
+  });
   p.records = std::move(bounded);
   if (!p.box.empty()) {
     p.center = p.box.center();

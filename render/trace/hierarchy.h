@@ -39,7 +39,7 @@ struct Leaf {
   int object = 0;
   // Set by Hierarchy::add.
   Box3 box;
-  double size = 0;  // diameter of the box, 1 for unbounded leaves
+  double size = 0;  // diameter of what of it is bounded; 1 if nothing is
   // By target: its surface if the nearest hits on it come without parameters and its foot tells all that is shown.
   std::vector<const geometry::Surface*> feet;
 };

@@ -41,13 +41,14 @@ struct GeometryRecord {
 struct Hierarchy::Parts {
   std::vector<std::unique_ptr<Leaf>> leaves;
   std::vector<std::unique_ptr<GeometryRecord>> records;  // by Embree geometry number, then the unbounded ones
-  std::vector<const GeometryRecord*> unbounded;
-  // The pieces of a scene of few, in place of an Embree scene, whose overhead would be most of its time.
   struct Piece {
     const GeometryRecord* record;
     int number;
     Box3 box;
   };
+  std::vector<Piece> unbounded;
+  bool has_columns = false;  // the boxes of some of them are bounded in some direction
+  // The pieces of a scene of few, in place of an Embree scene, whose overhead would be most of its time.
   std::vector<Piece> few;
   Box3 few_box;  // of all of them
   struct Numbered {

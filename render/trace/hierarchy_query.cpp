@@ -297,6 +297,17 @@ __attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query
   }
 }
 
+// Unbounded pieces, some of which the line may pass by.
+__attribute__((noinline)) void test_columns(const Hierarchy::Parts& p, Listed& listed, Query& query) {
+  const LineThroughBoxes line(query.line());
+  for (const Hierarchy::Parts::Piece& piece : p.unbounded) {
+    if (!listed.next()) continue;
+    if (query.is_done()) return;
+    if (line.may_enter(piece.box.inflated(kBoxInflation * p.radius), query.t_min, query.t_max))
+      test(*piece.record, piece.number, query);
+  }
+}
+
 }  // namespace
 
 void Hierarchy::run(Query& query) const {
@@ -315,10 +326,11 @@ void Hierarchy::run(Query& query) const {
     }
   }
   if (p.scene && query.among.scene) run_scene(p, query);
-  for (const GeometryRecord* record : p.unbounded) {
+  if (p.has_columns) return test_columns(p, listed, query);
+  for (const Parts::Piece& piece : p.unbounded) {
     if (!listed.next()) continue;
     if (query.is_done()) return;
-    for (int i = 0; i < record->count; ++i) test(*record, i, query);
+    test(*piece.record, piece.number, query);
   }
 }
 
@@ -342,7 +354,7 @@ Obstacles Hierarchy::obstacles(const Ray& from, const Box3& to) const {
     ++number;
   };
   for (const Parts::Piece& piece : p.few) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
-  for (const GeometryRecord* record : p.unbounded) list(!query.has_left(*record));
+  for (const Parts::Piece& piece : p.unbounded) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
   result.scene = p.scene && shaft.may_enter(p.box.inflated(kBoxInflation * p.radius));
   return result;
 }

@@ -112,6 +112,28 @@ class Numbers(ProgramTest):
         tile = self.measure("tile", "--topology")
         self.assertEqual([tile[key] for key in ("points", "sides", "triangles", "euler_characteristic", "closed")],
                          [4, 5, 2, 1, False])
+        self.assertEqual([tile[key] for key in ("free_sides", "turned_sides", "crowded_sides")], [4, 0, 0])
+
+    def test_what_keeps_meshes_from_being_closed(self):
+        """A tetrahedron of volume 1/6; with one face turned, turned inside out, without a face, with a fin."""
+        points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+        faces = ["f 1 3 2\n", "f 1 2 4\n", "f 2 3 4\n", "f 1 4 3\n"]
+
+        def of(faces):
+            self.write("solid.obj", points + "".join(faces))
+            self.write("solid.yaml", "lekalo: 1\ngeometry: { solid: { type: mesh, file: solid.obj } }\n")
+            return (self.json_of("measure", "solid.yaml", "solid"),
+                    self.run_program("measure", "solid.yaml", "solid")[0])
+
+        self.assert_near(of(faces)[0]["volume"], 1 / 6, 1e-15)
+        found, text = of(["f 1 2 3\n", "f 1 4 2\n", "f 2 4 3\n", "f 1 3 4\n"])
+        self.assert_near(found["volume"], -1 / 6, 1e-15)
+        self.assertIn("inside out", text)
+        for changed, sides in ((["f 1 2 3\n"] + faces[1:], [0, 3, 0]), (faces[1:], [3, 0, 0]),
+                               (faces + ["v 2 2 2\nf 1 2 5\n"], [2, 0, 1])):
+            found, text = of(changed)
+            self.assertEqual([found[key] for key in ("free_sides", "turned_sides", "crowded_sides")], sides)
+            self.assertIn("not closed", text)
 
     def test_distance_from_a_point(self):
         """The torus' four feet (Golovanov 2016, 4.2) and a circle's two; a point by name."""

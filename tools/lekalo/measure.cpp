@@ -262,6 +262,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       out["kind"] = "mesh";
       put(out, geometry::measure(**mesh));
+      if (!out["closed"].get<bool>()) put_open_sides(out, geometry::sides(**mesh));
     } else if (const auto* shape = std::get_if<geometry::ShapePtr>(&entity)) {
       const geometry::ShapeMeasures measured = geometry::measure(**shape);
       out["kind"] = "shape";
@@ -282,7 +283,9 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
 void print_measures(const ordered_json& measured) {
   const auto vector_text = [](const ordered_json& v) { return digits(Vec3(v[0], v[1], v[2])); };
   fmt::print("{} '{}'{}\n", measured["kind"].get<std::string>(), measured["name"].get<std::string>(),
-             measured.value("closed", true) ? "" : ", not closed: it has no volume");
+             !measured.value("closed", true)     ? ", not closed: it has no volume"
+             : measured.value("volume", 0.0) < 0 ? ", inside out: its volume is negative"
+                                                 : "");
   for (const auto& [key, value] : measured.items()) {
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
     const bool is_matrix = value.is_array() && value[0].is_array();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/mesh.h"
 #include "geometry/queries/distance.h"
 #include "json.h"
 #include "render/scene/model.h"
@@ -81,7 +82,9 @@ ordered_json continuity_of(const std::string& name, const render::Entity& entity
                            const render::Entity* other, double tolerance);
 void print_continuity(const ordered_json& found);
 
-// Parts of these outputs: a range of a parameter; a point back from JSON; the row's parameters as text.
+// Parts of these outputs: what keeps a mesh from being closed, as free_sides, turned_sides, crowded_sides; a range of a
+// parameter; a point back from JSON; the row's parameters as text.
+void put_open_sides(ordered_json& out, const geometry::MeshSides& sides);
 ordered_json range(const geometry::Interval& x);
 geometry::Vec3 vector_of(const ordered_json& v);
 // A place on a thing; of a body its vertex, edge or face first.

@@ -84,20 +84,15 @@ ordered_json body_topology(const Body& body) {
 
 ordered_json mesh_topology(const Mesh& mesh) {
   std::unordered_set<int32_t> points;
-  std::unordered_set<uint64_t> sides;
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t a = triangle.point[k], b = triangle.point[(k + 1) % 3];
-      points.insert(triangle.point[k]);
-      sides.insert(static_cast<uint64_t>(std::min(a, b)) << 32 | std::max(a, b));
-    }
-  }
+  for (const Mesh::Triangle& triangle : mesh.triangles) points.insert(triangle.point.begin(), triangle.point.end());
+  const geometry::MeshSides sides = geometry::sides(mesh);
   ordered_json out;
   out["closed"] = geometry::is_closed(mesh);
-  out["euler_characteristic"] = static_cast<int64_t>(points.size()) - static_cast<int64_t>(sides.size()) +
+  out["euler_characteristic"] = static_cast<int64_t>(points.size()) - static_cast<int64_t>(sides.count) +
                                 static_cast<int64_t>(mesh.triangles.size());
   out["points"] = points.size();
-  out["sides"] = sides.size();
+  out["sides"] = sides.count;
+  put_open_sides(out, sides);
   out["triangles"] = mesh.triangles.size();
   return out;
 }
@@ -113,6 +108,12 @@ std::string numbers_text(const ordered_json& numbers) {
 }
 
 }  // namespace
+
+void put_open_sides(ordered_json& out, const geometry::MeshSides& sides) {
+  out["free_sides"] = sides.free;
+  out["turned_sides"] = sides.turned;
+  out["crowded_sides"] = sides.crowded;
+}
 
 ordered_json topology(const std::string& name, const render::Entity& entity) {
   ordered_json out;
@@ -140,6 +141,10 @@ void print_topology(const ordered_json& found) {
   if (!is_body) {
     fmt::print("{} points, {} sides, {} triangles\n", found["points"].get<size_t>(), found["sides"].get<size_t>(),
                found["triangles"].get<size_t>());
+    if (!found["closed"].get<bool>())
+      fmt::print("{} sides of one triangle, {} of two that are turned differently, {} of more than two\n",
+                 found["free_sides"].get<size_t>(), found["turned_sides"].get<size_t>(),
+                 found["crowded_sides"].get<size_t>());
     return;
   }
   for (const auto& violation : found["violations"])
