@@ -93,8 +93,13 @@ Vec3 limit_normal(const Surface& surface, double u, double v) {
   }
   if (leading >= 0) {
     const Vec3& c = series.c[leading];
-    // A point just before a singular line that the direction crosses keeps the normal of its own side.
-    const bool crosses = !vanishes && glm::dot(series.c[0], c) < 0;
+    // A point just before a singular line that the direction crosses keeps the normal of its own side. On one where a
+    // smooth piece ends the series is that of the piece, but behind it there may be another.
+    const auto beyond = [&] {
+      const SurfaceJet jet = surface.evaluate(u + distance * step_u, v + distance * step_v, 1);
+      return glm::cross(jet.du(), jet.dv());
+    };
+    const bool crosses = glm::dot(vanishes ? beyond() : series.c[0], c) < 0;
     return glm::normalize(crosses ? -c : c);
   }
   for (const double shift : {1e-6, 1e-4, 1e-2}) {
