@@ -126,30 +126,35 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
   const Vec3 forward = -view.to_viewer;
   const PictureAxes axes = picture_axes(forward, view.up);
   const Vec2 tangent = 2 * std::tan(0.5 * field_of_view) * half_sides(width, height, margin);
-  std::vector<Vec2> across, upward;  // (x or y, depth)
   Range depth;
-  for (const Vec3& p : points) {
-    depth.include(glm::dot(p, forward));
-    across.emplace_back(glm::dot(p, axes.right), glm::dot(p, forward));
-    upward.emplace_back(glm::dot(p, axes.up), glm::dot(p, forward));
-  }
-  const auto nearest = [](const std::vector<Vec2>& side, double t) {
+  for (const Vec3& p : points) depth.include(glm::dot(p, forward));
+  // One side after the other: there may be very many points.
+  const auto along = [&](const Vec3& axis) {  // (x or y, depth)
+    std::vector<Vec2> side;
+    side.reserve(points.size());
+    for (const Vec3& p : points) side.emplace_back(glm::dot(p, axis), glm::dot(p, forward));
+    return side;
+  };
+  Range sides;
+  double distance = -kInfinity;
+  const auto add_side = [&](const std::vector<Vec2>& side, double t) {
     double a = -kInfinity, b = -kInfinity;
     for (const Vec2& p : side) {
       a = std::max(a, p.x - t * p.y);
       b = std::max(b, -p.x - t * p.y);
+      sides.include(p.x - side[0].x);
     }
-    return (a + b) / (2 * t);
+    distance = std::max(distance, (a + b) / (2 * t));
   };
-  double distance = std::max(nearest(across, tangent.x), nearest(upward, tangent.y));
+  add_side(along(axes.right), tangent.x);
+  add_side(along(axes.up), tangent.y);
   // The eye must not touch a point (all on one line of sight, or a single point).
-  Range sides;
-  for (const Vec2& p : across) sides.include(p.x - across[0].x);
-  for (const Vec2& p : upward) sides.include(p.x - upward[0].x);
   double size = std::max(depth.width(), sides.width());
-  if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(across[0].x), std::abs(upward[0].x)});
+  if (!(size > 0))
+    size = std::max({1.0, std::abs(depth.lo), std::abs(glm::dot(points[0], axes.right)),
+                     std::abs(glm::dot(points[0], axes.up))});
   distance = std::max(distance, -depth.lo + kLeastDistance * size);
-  const double x = centred(across, distance), y = centred(upward, distance);
+  const double x = centred(along(axes.right), distance), y = centred(along(axes.up), distance);
   PerspectiveView result;
   result.from = x * axes.right + y * axes.up - distance * forward;
   result.at = result.from + std::max(depth.middle() + distance, kLeastDistance * size) * forward;
