@@ -128,7 +128,7 @@ class Pictures(ProgramTest):
         self.write("deep.yaml", "lekalo: 1\ngeometry:\n  g0: { type: group, of: [{ shape: { type: ball, radius: 0.4 } }] }\n" + groups +
                    "objects: [{ shape: g9 }]\nimage: { size: [32, 24], samples: 1 }\n")
         self.run_program("render", "deep.yaml", "--quiet", "-o", "balls.exr")
-        self.write("deep.yaml", (self.folder / "deep.yaml").read_text().replace("ball, radius: 0.4", "line, points: [[0, 0, 0], [1, 1, 1]]"))
+        self.write("deep.yaml", (self.folder / "deep.yaml").read_text().replace("ball, radius: 0.4", "polyline, points: [[0, 0, 0], [1, 1, 1]]"))
         process = subprocess.Popen([LEKALO, "render", "deep.yaml", "--quiet", "-o", "deep.exr"], cwd=self.folder)
         self.addCleanup(process.kill)
         time.sleep(0.5)

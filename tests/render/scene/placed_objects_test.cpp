@@ -31,7 +31,9 @@ Model nested(int levels, const std::string& beside = "", const std::string& rest
 
 bool is_curve(const Object& object) { return std::holds_alternative<geometry::CurvePtr>(object.shape); }
 
-const std::string kCurve = ", { shape: { type: line, points: [[0, 0, 0], [0.1, 0, 0]] } }";
+const std::string kCurve = ", { shape: { type: polyline, points: [[0, 0, 0], [0.1, 0, 0]] } }";
+
+const std::string kCamera = "camera: { type: parallel, from: [0, -5, 0], at: [0, 0, 0], height: 4 }\n";
 
 TEST(PlacedObjects, AreCountedAndVisitedInTheirOrder) {
   const Model model = nested(2, kCurve);
@@ -66,11 +68,10 @@ TEST(PlacedObjects, OfOneGroupAreOneObject) {
 }
 
 TEST(DeepGroups, MakeAPictureAtOnce) {
-  for (const char* beside : {"", ", { shape: ball, material: glass, transform: { translate: [0, 0.4, 0] } }",
-                             ", { shape: ball, lines: { silhouette: black }, material: red }"}) {
-    const auto model = std::make_shared<const Model>(
-        nested(16, beside, "camera: { type: parallel, from: [0, -5, 0], at: [0, 0, 0], height: 4 }\n"));
-    EXPECT_EQ(left_to_drawings(model->objects).size(), std::string_view(beside).find("lines") < 100 ? 1u : 0u);
+  for (const std::string beside : {"", ", { shape: ball, material: glass, transform: { translate: [0, 0.4, 0] } }",
+                                   ", { shape: ball, lines: { silhouette: thin }, material: red }"}) {
+    const auto model = std::make_shared<const Model>(nested(16, beside, kCamera));
+    EXPECT_EQ(left_to_drawings(model->objects).size(), beside.find("lines") != beside.npos ? 1u : 0u);
     const World world(model);
     const RenderResult result = render(world, {.threads = 1});
     EXPECT_TRUE(result.complete);
@@ -96,7 +97,7 @@ TEST(DeepGroups, KeepTheirCopiesApart) {
 }
 
 TEST(DeepGroups, OfMoreCopiesThanCanBeNumberedAreRefused) {
-  EXPECT_THROW(World(std::make_shared<const Model>(nested(19))), std::invalid_argument);
+  EXPECT_THROW(World(std::make_shared<const Model>(nested(19, "", kCamera))), std::invalid_argument);
 }
 
 TEST(DeepGroups, AreFramedAtOnce) {
