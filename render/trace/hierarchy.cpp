@@ -110,6 +110,8 @@ void Hierarchy::add(Leaf given) {
   p.numbers.push_back({number, p.records.back().get(), nullptr});
 }
 
+void Hierarchy::reserve_instances(size_t count) { parts_->added.reserve(count); }
+
 void Hierarchy::add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object) {
   Parts& p = *parts_;
   const int64_t leaves = child->leaf_count(), first = p.leaf_count;

@@ -54,6 +54,8 @@ class Hierarchy {
   // Leaves and instances are numbered in the order in which they are added; an instance takes as many numbers as its
   // child has leaves. Throws std::invalid_argument if there are more than can be numbered.
   void add(Leaf leaf);
+  // Room for at most so many instances: growing takes twice the memory for a while.
+  void reserve_instances(size_t count);
   // `object` is the number of all that is in the instance; -1: its leaves keep their own.
   void add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object);
   // Builds; nothing may be added afterwards.

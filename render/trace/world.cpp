@@ -325,6 +325,7 @@ struct World::Compiled {
   // Adds a list of objects to a hierarchy whose space maps to the world by `to_world` (of its first use). `number` is
   // the object number that all of them carry, or -1 to number each.
   void add(Hierarchy& into, const std::vector<Object>& list, const Affine& to_world) {
+    into.reserve_instances(list.size());
     for (const Object& object : list) {
       const int number = static_cast<int>(objects.size());
       objects.push_back(&object);
