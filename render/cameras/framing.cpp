@@ -73,17 +73,17 @@ Vec2 half_sides(int width, int height, double margin) {
   return Vec2(0.5 * width / shorter - margin, 0.5 * height / shorter - margin);
 }
 
-// Place of the eye on one axis so that the points' pictures reach equally far to both sides.
-double centred(const std::vector<Vec2>& points, double distance) {
+// Place of the eye on the axis x or y so that the pictures of points (x, y, depth) reach equally far to both sides.
+double centred(const std::vector<Vec3>& points, int axis, double distance) {
   double lo = kInfinity, hi = -kInfinity;
-  for (const Vec2& p : points) {
-    lo = std::min(lo, p.x);
-    hi = std::max(hi, p.x);
+  for (const Vec3& p : points) {
+    lo = std::min(lo, p[axis]);
+    hi = std::max(hi, p[axis]);
   }
   for (int i = 0; i < 100 && lo < hi; ++i) {
     const double c = 0.5 * (lo + hi);
     Range tangents;
-    for (const Vec2& p : points) tangents.include((p.x - c) / (p.y + distance));
+    for (const Vec3& p : points) tangents.include((p[axis] - c) / (p.z + distance));
     (tangents.middle() > 0 ? lo : hi) = c;
   }
   return 0.5 * (lo + hi);
@@ -126,35 +126,29 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
   const Vec3 forward = -view.to_viewer;
   const PictureAxes axes = picture_axes(forward, view.up);
   const Vec2 tangent = 2 * std::tan(0.5 * field_of_view) * half_sides(width, height, margin);
+  std::vector<Vec3> seen;  // (x, y, depth)
+  seen.reserve(points.size());
   Range depth;
-  for (const Vec3& p : points) depth.include(glm::dot(p, forward));
-  // One side after the other: there may be very many points.
-  const auto along = [&](const Vec3& axis) {  // (x or y, depth)
-    std::vector<Vec2> side;
-    side.reserve(points.size());
-    for (const Vec3& p : points) side.emplace_back(glm::dot(p, axis), glm::dot(p, forward));
-    return side;
-  };
-  Range sides;
-  double distance = -kInfinity;
-  const auto add_side = [&](const std::vector<Vec2>& side, double t) {
+  for (const Vec3& p : points) {
+    seen.emplace_back(glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, forward));
+    depth.include(seen.back().z);
+  }
+  const auto nearest = [&](int axis, double t) {
     double a = -kInfinity, b = -kInfinity;
-    for (const Vec2& p : side) {
-      a = std::max(a, p.x - t * p.y);
-      b = std::max(b, -p.x - t * p.y);
-      sides.include(p.x - side[0].x);
+    for (const Vec3& p : seen) {
+      a = std::max(a, p[axis] - t * p.z);
+      b = std::max(b, -p[axis] - t * p.z);
     }
-    distance = std::max(distance, (a + b) / (2 * t));
+    return (a + b) / (2 * t);
   };
-  add_side(along(axes.right), tangent.x);
-  add_side(along(axes.up), tangent.y);
+  double distance = std::max(nearest(0, tangent.x), nearest(1, tangent.y));
   // The eye must not touch a point (all on one line of sight, or a single point).
+  Range sides;
+  for (const Vec3& p : seen) sides.include(p.x - seen[0].x), sides.include(p.y - seen[0].y);
   double size = std::max(depth.width(), sides.width());
-  if (!(size > 0))
-    size = std::max({1.0, std::abs(depth.lo), std::abs(glm::dot(points[0], axes.right)),
-                     std::abs(glm::dot(points[0], axes.up))});
+  if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(seen[0].x), std::abs(seen[0].y)});
   distance = std::max(distance, -depth.lo + kLeastDistance * size);
-  const double x = centred(along(axes.right), distance), y = centred(along(axes.up), distance);
+  const double x = centred(seen, 0, distance), y = centred(seen, 1, distance);
   PerspectiveView result;
   result.from = x * axes.right + y * axes.up - distance * forward;
   result.at = result.from + std::max(depth.middle() + distance, kLeastDistance * size) * forward;
