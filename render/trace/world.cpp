@@ -394,7 +394,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 void World::list_contacts() {
   const Hierarchy& top = compiled_->top;
   const auto has_medium = [](const Object& object) {
-    return object.material && object.material->interior(Wavelengths()).has_value();
+    return !is_drawn_only(object.shape) && object.material && object.material->interior(Wavelengths()).has_value();
   };
   const double placed = PlacedObjects(model_->objects, has_medium).count();
   if (placed == 0) return;
