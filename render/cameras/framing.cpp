@@ -73,17 +73,17 @@ Vec2 half_sides(int width, int height, double margin) {
   return Vec2(0.5 * width / shorter - margin, 0.5 * height / shorter - margin);
 }
 
-// Place of the eye on one axis so that the points' pictures reach equally far to both sides.
-double centred(const std::vector<Vec2>& points, double distance) {
+// Place of the eye on the axis x or y so that the pictures of points (x, y, depth) reach equally far to both sides.
+double centred(const std::vector<Vec3>& points, int axis, double distance) {
   double lo = kInfinity, hi = -kInfinity;
-  for (const Vec2& p : points) {
-    lo = std::min(lo, p.x);
-    hi = std::max(hi, p.x);
+  for (const Vec3& p : points) {
+    lo = std::min(lo, p[axis]);
+    hi = std::max(hi, p[axis]);
   }
   for (int i = 0; i < 100 && lo < hi; ++i) {
     const double c = 0.5 * (lo + hi);
     Range tangents;
-    for (const Vec2& p : points) tangents.include((p.x - c) / (p.y + distance));
+    for (const Vec3& p : points) tangents.include((p[axis] - c) / (p.z + distance));
     (tangents.middle() > 0 ? lo : hi) = c;
   }
   return 0.5 * (lo + hi);
@@ -126,30 +126,29 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
   const Vec3 forward = -view.to_viewer;
   const PictureAxes axes = picture_axes(forward, view.up);
   const Vec2 tangent = 2 * std::tan(0.5 * field_of_view) * half_sides(width, height, margin);
-  std::vector<Vec2> across, upward;  // (x or y, depth)
+  std::vector<Vec3> seen;  // (x, y, depth)
+  seen.reserve(points.size());
   Range depth;
   for (const Vec3& p : points) {
-    depth.include(glm::dot(p, forward));
-    across.emplace_back(glm::dot(p, axes.right), glm::dot(p, forward));
-    upward.emplace_back(glm::dot(p, axes.up), glm::dot(p, forward));
+    seen.emplace_back(glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, forward));
+    depth.include(seen.back().z);
   }
-  const auto nearest = [](const std::vector<Vec2>& side, double t) {
+  const auto nearest = [&](int axis, double t) {
     double a = -kInfinity, b = -kInfinity;
-    for (const Vec2& p : side) {
-      a = std::max(a, p.x - t * p.y);
-      b = std::max(b, -p.x - t * p.y);
+    for (const Vec3& p : seen) {
+      a = std::max(a, p[axis] - t * p.z);
+      b = std::max(b, -p[axis] - t * p.z);
     }
     return (a + b) / (2 * t);
   };
-  double distance = std::max(nearest(across, tangent.x), nearest(upward, tangent.y));
+  double distance = std::max(nearest(0, tangent.x), nearest(1, tangent.y));
   // The eye must not touch a point (all on one line of sight, or a single point).
   Range sides;
-  for (const Vec2& p : across) sides.include(p.x - across[0].x);
-  for (const Vec2& p : upward) sides.include(p.x - upward[0].x);
+  for (const Vec3& p : seen) sides.include(p.x - seen[0].x), sides.include(p.y - seen[0].y);
   double size = std::max(depth.width(), sides.width());
-  if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(across[0].x), std::abs(upward[0].x)});
+  if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(seen[0].x), std::abs(seen[0].y)});
   distance = std::max(distance, -depth.lo + kLeastDistance * size);
-  const double x = centred(across, distance), y = centred(upward, distance);
+  const double x = centred(seen, 0, distance), y = centred(seen, 1, distance);
   PerspectiveView result;
   result.from = x * axes.right + y * axes.up - distance * forward;
   result.at = result.from + std::max(depth.middle() + distance, kLeastDistance * size) * forward;

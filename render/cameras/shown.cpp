@@ -8,7 +8,7 @@
 #include "geometry/shapes/body_shape.h"
 #include "geometry/shapes/csg.h"
 #include "render/lines/curve_helpers.h"
-#include "render/scene/model.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -204,27 +204,14 @@ void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
   }
 }
 
-size_t count(const std::vector<Object>& objects) {
-  size_t sum = 0;
-  for (const Object& object : objects) {
-    const auto* group = std::get_if<GroupPtr>(&object.shape);
-    sum += group ? count((*group)->objects) : 1;
-    if (sum > kMostObjects) break;
-  }
-  return sum;
-}
-
-void add(const std::vector<Object>& objects, const Affine& map, bool closely, std::vector<Vec3>& points) {
+void add(const std::vector<Object>& objects, const Affine& map, std::vector<Vec3>& points) {
   for (const Object& object : objects) {
     const Affine placed = map * object.transform;
-    const auto* group = std::get_if<GroupPtr>(&object.shape);
-    if (group && closely) {
-      add((*group)->objects, placed, closely, points);
-    } else if (closely) {
+    if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
+      add((*group)->objects, placed, points);
+    } else {
       add(object.shape, placed, points);
       for (const Vec3& p : helper_points(object)) points.push_back(placed.point(p));
-    } else {
-      add_corners(bounds(object.shape), placed, points);
     }
   }
 }
@@ -279,19 +266,28 @@ void include_farthest(const std::vector<Object>& objects, const Affine& map, Box
 
 struct Shown::Points {
   std::once_flag once, box_once;
-  std::vector<Object> objects;
+  std::vector<Object> objects;  // that are looked at closely
   std::vector<Vec3> list;
   Box3 tight;
 };
 
 Shown::Shown(const Box3& box) : box(box), points_(std::make_shared<Points>()) {}
 
-Shown::Shown(const std::vector<Object>& objects) : Shown(bounds(objects)) { points_->objects = objects; }
+Shown::Shown(const std::vector<Object>& objects) : points_(std::make_shared<Points>()) {
+  Boxes boxes;
+  box = boxes.of(objects);
+  if (PlacedObjects(objects).count() <= kMostObjects) {
+    points_->objects = objects;
+    return;
+  }
+  points_->list.reserve(8 * objects.size());
+  for (const Object& object : objects) add_corners(boxes.of(object.shape), object.transform, points_->list);
+}
 
 const std::vector<Vec3>& Shown::points() const {
   Points& p = *points_;
   std::call_once(p.once, [&] {
-    add(p.objects, Affine(), count(p.objects) <= kMostObjects, p.list);
+    add(p.objects, Affine(), p.list);
     if (!p.list.empty()) return;
     const bool usable = !box.empty() && box.bounded();
     add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), p.list);
@@ -303,7 +299,7 @@ const Box3& Shown::tight_box() const {
   Points& p = *points_;
   std::call_once(p.box_once, [&] {
     for (const Vec3& point : points()) p.tight.include(point);
-    if (count(p.objects) <= kMostObjects) include_farthest(p.objects, Affine(), p.tight);
+    include_farthest(p.objects, Affine(), p.tight);
   });
   return p.tight;
 }

@@ -1,5 +1,7 @@
 #include "render/cameras/view_fields.h"
 
+#include <unordered_map>
+
 #include "render/scene/objects.h"
 #include "render/scene/types.h"
 
@@ -9,18 +11,74 @@ using namespace geometry;
 
 namespace {
 
-// Those of the objects, also inside groups, that show the thing.
-void find(const std::vector<Object>& objects, const void* shape, const Affine& map, std::vector<Object>& found) {
-  for (const Object& object : objects) {
-    const Affine placed = map * object.transform;
-    if (identity(object.shape) == shape) {
+// More copies of a thing stay in the groups that they stand in: their boxes are a little wider.
+constexpr double kMostApart = 1e5;
+
+// Those of some objects that show a thing, also inside groups.
+class Showing {
+ public:
+  explicit Showing(const void* shape) : shape_(shape) {}
+
+  void add(const std::vector<Object>& objects, std::vector<Object>& found) {
+    const Part part = part_of(objects);
+    if (part.copies > kMostApart)
+      found.insert(found.end(), part.objects.begin(), part.objects.end());
+    else
+      add_apart(part.objects, Affine(), found);
+  }
+
+ private:
+  // Groups in it have no other members than those wanted.
+  struct Part {
+    std::vector<Object> objects;
+    double copies = 0;
+  };
+  struct PartOfGroup {
+    GroupPtr group;
+    double copies = 0;
+  };
+
+  bool shows(const Object& object) const { return identity(object.shape) == shape_; }
+
+  Part part_of(const std::vector<Object>& objects) {
+    Part part;
+    for (const Object& object : objects) {
+      const auto* group = std::get_if<GroupPtr>(&object.shape);
+      if (shows(object)) {
+        part.objects.push_back(object);
+        ++part.copies;
+      } else if (group) {
+        const PartOfGroup inner = part_of(*group);
+        if (inner.copies == 0) continue;
+        part.objects.push_back(object);
+        part.objects.back().shape = inner.group;
+        part.copies += inner.copies;
+      }
+    }
+    return part;
+  }
+  PartOfGroup part_of(const GroupPtr& group) {
+    const auto known = groups_.find(group.get());
+    if (known != groups_.end()) return known->second;
+    Part part = part_of(group->objects);
+    return groups_[group.get()] = {std::make_shared<const Group>(Group{std::move(part.objects)}), part.copies};
+  }
+
+  void add_apart(const std::vector<Object>& objects, const Affine& map, std::vector<Object>& found) const {
+    for (const Object& object : objects) {
+      const Affine placed = map * object.transform;
+      if (!shows(object)) {
+        add_apart(std::get<GroupPtr>(object.shape)->objects, placed, found);
+        continue;
+      }
       found.push_back(object);
       found.back().transform = placed;
-    } else if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-      find((*group)->objects, shape, placed, found);
     }
   }
-}
+
+  const void* shape_;
+  std::unordered_map<const Group*, PartOfGroup> groups_;
+};
 
 }  // namespace
 
@@ -61,7 +119,7 @@ Shown ViewFields::shown(const Shown& all) const {
   for (const Entity& entity : framed) {
     const size_t before = part.size();
     const void* shape = identity(entity);
-    if (shape && all.objects) find(*all.objects, shape, Affine(), part);
+    if (shape && all.objects) Showing(shape).add(*all.objects, part);
     if (part.size() == before) part.emplace_back().shape = entity;
   }
   return Shown(part);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "render/cameras/shown.h"
 #include "render/cameras/window.h"
@@ -20,6 +21,7 @@
 #include "render/drawing/panel_layout.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -42,27 +44,38 @@ void add_once(std::string what, std::vector<std::string>& all) {
   if (std::find(all.begin(), all.end(), what) == all.end()) all.push_back(std::move(what));
 }
 
-void collect_legend(const std::vector<Object>& objects, std::vector<LegendEntry>& entries) {
-  for (const Object& object : objects) {
-    if (const auto* group = std::get_if<GroupPtr>(&object.shape))
-      collect_legend((*group)->objects, entries);
-    else if (!object.legend.empty())
-      entries.push_back({object.legend, {}, {}});
-  }
+std::vector<LegendEntry> legend_of(const std::vector<Object>& objects) {
+  std::vector<LegendEntry> entries;
+  PlacedObjects(objects, [](const Object& object) {
+    return !object.legend.empty();
+  }).visit([&](const Object& object, const Affine&, int) {
+    entries.push_back({object.legend, {}, {}});
+  });
+  return entries;
 }
 
-// What of the objects only lines show is not rendered under them.
-std::vector<Object> without_lines(const std::vector<Object>& objects) {
-  std::vector<Object> kept;
-  for (Object object : objects) {
-    if (std::holds_alternative<CurvePtr>(object.shape) || std::holds_alternative<Vec3>(object.shape)) continue;
-    if (const auto* group = std::get_if<GroupPtr>(&object.shape))
-      object.shape = std::make_shared<const Group>(Group{without_lines((*group)->objects)});
-    object.look = nullptr;
-    kept.push_back(std::move(object));
+// What of the objects only lines show is not rendered under them. Copies of a group stay copies of one.
+class WithoutLines {
+ public:
+  std::vector<Object> of(const std::vector<Object>& objects) {
+    std::vector<Object> kept;
+    for (Object object : objects) {
+      if (std::holds_alternative<CurvePtr>(object.shape) || std::holds_alternative<Vec3>(object.shape)) continue;
+      if (auto* group = std::get_if<GroupPtr>(&object.shape)) *group = of(*group);
+      object.look = nullptr;
+      kept.push_back(std::move(object));
+    }
+    return kept;
   }
-  return kept;
-}
+
+ private:
+  GroupPtr of(const GroupPtr& group) {
+    const auto known = groups_.find(group.get());
+    if (known != groups_.end()) return known->second;
+    return groups_[group.get()] = std::make_shared<const Group>(Group{of(group->objects)});
+  }
+  std::unordered_map<const Group*, GroupPtr> groups_;
+};
 
 // Draws one view onto the sheet.
 class ViewDrawing {
@@ -125,7 +138,7 @@ class ViewDrawing {
   void add_ground() {
     const auto begin = std::chrono::steady_clock::now();
     auto model = std::make_shared<Model>(*model_);
-    model->objects = without_lines(model->objects);
+    model->objects = WithoutLines().of(model_->objects);
     model->film.width = view_.camera.width(), model->film.height = view_.camera.height();
     model->film.crop = {};
     model->film.layers = {"color"};
@@ -357,8 +370,7 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
   model.camera = camera_for(size);
   const bool graph = model.camera->is_graph();
   if (graph || model.drawing.legend) {
-    std::vector<LegendEntry> legend;
-    collect_legend(model.objects, legend);
+    const std::vector<LegendEntry> legend = legend_of(model.objects);
     const View trial{model, *model.camera, at, per_pixel, {}, {at, at + size}};
     const Insets insets = insets_of(trial, legend);
     corner += Vec2(insets.left, insets.top);

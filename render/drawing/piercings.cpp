@@ -9,7 +9,7 @@
 #include "geometry/queries/mesh_contours.h"
 #include "geometry/transformed.h"
 #include "render/drawing/covering_layers.h"
-#include "render/lines/placed_objects.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -30,6 +30,13 @@ bool has_surfaces(const Shape& shape) {
   return std::none_of(leaves.begin(), leaves.end(), [](const CsgLeaf& leaf) { return leaf.shape != nullptr; });
 }
 
+// What lines pierce without surfaces that tell where.
+bool is_pierced_shape(const Object& object) {
+  if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) return false;
+  const auto* shape = std::get_if<ShapePtr>(&object.shape);
+  return shape ? !has_surfaces(**shape) : std::holds_alternative<MeshPtr>(object.shape);
+}
+
 }  // namespace
 
 Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : world_(world) {
@@ -46,16 +53,15 @@ Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : w
       surfaces_.push_back({placed, host.surface, stroke.to_world, stroke.object, nullptr});
     }
   tree_ = BoxTree(boxes);
-  each_placed(world.model().objects, [&](const Object& object, const Affine& to_world, int placement) {
-    add_shape(object, to_world, placement);
-  });
+  PlacedObjects(world.model().objects, is_pierced_shape)
+      .visit(
+          [&](const Object& object, const Affine& to_world, int placement) { add_shape(object, to_world, placement); });
 }
 
 void Piercings::add_shape(const Object& object, const Affine& to_world, int placement) {
-  if (!(object.visible_to & static_cast<uint32_t>(RayKind::camera))) return;
   const auto& all = world_.objects();
   const int number = static_cast<int>(std::find(all.begin(), all.end(), &object) - all.begin());
-  if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && !has_surfaces(**shape)) {
+  if (const auto* shape = std::get_if<ShapePtr>(&object.shape)) {
     const ShapePtr placed = transformed(*shape, to_world);
     shapes_.push_back({placed->bounds(), number, placement, [placed](const Line& chord, std::vector<double>& hits) {
                          std::vector<SurfaceHit> found;

@@ -14,7 +14,7 @@
 #include "render/drawing/covering_layers.h"
 #include "render/drawing/picture_crossings.h"
 #include "render/drawing/piercings.h"
-#include "render/lines/placed_objects.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 

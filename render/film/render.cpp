@@ -14,6 +14,7 @@
 
 #include "render/film/tiles.h"
 #include "render/lines/picture_lines.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -26,20 +27,18 @@ constexpr std::chrono::seconds kSaveInterval{60};
 // Materials numbered from 1 in the order in which objects first use them.
 class MaterialNumbers {
  public:
-  explicit MaterialNumbers(const std::vector<Object>& objects) { add(objects); }
+  explicit MaterialNumbers(const std::vector<Object>& objects) {
+    each_object(objects, [&](const Object& object) {
+      for (const Material* material : {object.material.get(), object.back_material.get()})
+        if (material) numbers_.emplace(material, static_cast<uint32_t>(numbers_.size() + 1));
+    });
+  }
   uint32_t operator()(const Material& material) const {
     const auto found = numbers_.find(&material);
     return found == numbers_.end() ? 0 : found->second;
   }
 
  private:
-  void add(const std::vector<Object>& objects) {
-    for (const Object& object : objects) {
-      for (const MaterialPtr& material : {object.material, object.back_material})
-        if (material) numbers_.emplace(material.get(), static_cast<uint32_t>(numbers_.size() + 1));
-      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) add((*group)->objects);
-    }
-  }
   std::unordered_map<const Material*, uint32_t> numbers_;
 };
 
@@ -75,7 +74,7 @@ class TileTracer {
         camera_(*world.model().camera),
         integrator_(*world.model().integrator),
         film_(film),
-        lines_(world),
+        lines_(world, stop),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
         materials_(world.model().objects),
         colors_only_(!film.keeps_data() && !film.channel(kKey) && lines_.empty() && !is_adaptive()),

@@ -72,7 +72,7 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
   }
 
   // A body whose surface is crossed both ways here, at an edge, is left as it was.
-  const auto turns = [&](int32_t instance) {
+  const auto turns = [&](int64_t instance) {
     int sum = 0;
     for (const Crossing& c : crossings)
       if (c.point.instance == instance) sum += c.front ? 1 : -1;
@@ -85,14 +85,14 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
     if (turns(c.point.instance) < 0) behind.leave(c.point.instance);
   for (const Crossing& c : crossings)
     if (turns(c.point.instance) > 0) behind.enter(c.point.instance, *c.medium);
-  const int32_t before = media.filling(), after = behind.filling();
+  const int64_t before = media.filling(), after = behind.filling();
   changes_filling = before != after;
 
   // Of two bodies that touch the one of the higher priority shows its surface, of equal ones the earlier; so it is the
   // same one from both sides.
   const Crossing* shown = nullptr;
   for (const Crossing& c : crossings) {
-    const int32_t body = c.point.instance;
+    const int64_t body = c.point.instance;
     if (body != (c.front ? after : before) || (c.front ? turns(body) <= 0 : turns(body) >= 0)) continue;
     if (!shown || c.medium->priority > shown->medium->priority ||
         (c.medium->priority == shown->medium->priority && body < shown->point.instance))
@@ -110,8 +110,8 @@ Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wav
   if (!world.may_be_in_medium(ray.origin)) return media;
   std::vector<Hit> hits;
   world.all_hits(ray, hits);
-  std::vector<int32_t> met;
-  std::vector<std::pair<int32_t, Medium>> around;  // the innermost first
+  std::vector<int64_t> met;
+  std::vector<std::pair<int64_t, Medium>> around;  // the innermost first
   for (const Hit& hit : hits) {
     if (std::find(met.begin(), met.end(), hit.instance) != met.end()) continue;
     met.push_back(hit.instance);

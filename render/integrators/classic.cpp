@@ -99,6 +99,10 @@ class Tracer {
     if (!world_.nearest(ray, hit)) hit.instance = -1;
     return hit;
   }
+  // Of the face of the copy of an object; two of them differ.
+  void mix_place(const SurfacePoint& point) {
+    mix(std::rotl(static_cast<uint64_t>(point.instance), 32) ^ static_cast<uint32_t>(point.face));
+  }
   void mix(uint64_t value) {
     if (whole_) sample_.key = (std::rotl(sample_.key, 23) ^ value) * 0x9e3779b97f4a7c15u;
   }
@@ -158,7 +162,7 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
 Spectrum Tracer::shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
                        const Spectrum& weight) {
   if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
-  mix(static_cast<uint64_t>(seen.point.instance) << 32 | static_cast<uint32_t>(seen.point.face));
+  mix_place(seen.point);
   mix(seen.front);
   if (whole_) mix(seen.material->cell(seen.point));
   if (depth == 0) record(seen);
@@ -384,7 +388,7 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
     if (met.changes_filling) share *= met.material->classic(met.point, kPrimaries).transmission;
     if (share.is_zero()) return {};
     media = met.behind;
-    mix(static_cast<uint64_t>(met.point.instance) << 32 | static_cast<uint32_t>(met.point.face));
+    mix_place(met.point);
     const Vec3 before = ray.origin;
     world_.leave(met.far_side(), ray.direction, ray);
     ray.t_max -= glm::dot(ray.origin - before, ray.direction);

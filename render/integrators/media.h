@@ -25,7 +25,7 @@ class Media {
   Medium current() const { return count_ == 0 ? Medium{} : entries_[strongest()].medium; }
 
   // `instance` numbers the copy of the body; a body that is entered twice (a wrong mesh) counts once.
-  void enter(int32_t instance, const Medium& medium) {
+  void enter(int64_t instance, const Medium& medium) {
     leave(instance);
     if (count_ == kMost) {  // forget the outermost: nobody nests so many bodies
       for (int i = 1; i < count_; ++i) entries_[i - 1] = entries_[i];
@@ -34,7 +34,7 @@ class Media {
     entries_[count_++] = {instance, medium};
   }
 
-  void leave(int32_t instance) {
+  void leave(int64_t instance) {
     for (int i = 0; i < count_; ++i) {
       if (entries_[i].instance != instance) continue;
       for (int j = i + 1; j < count_; ++j) entries_[j - 1] = entries_[j];
@@ -43,18 +43,18 @@ class Media {
     }
   }
 
-  bool is_inside(int32_t instance) const {
+  bool is_inside(int64_t instance) const {
     for (int i = 0; i < count_; ++i)
       if (entries_[i].instance == instance) return true;
     return false;
   }
 
   // The body that fills the place, -1 outside all.
-  int32_t filling() const { return count_ == 0 ? -1 : entries_[strongest()].instance; }
+  int64_t filling() const { return count_ == 0 ? -1 : entries_[strongest()].instance; }
 
  private:
   struct Entry {
-    int32_t instance = -1;
+    int64_t instance = -1;
     Medium medium;
   };
   int strongest() const {

@@ -103,8 +103,9 @@ std::optional<Spectrum> color_at(const Mark& mark, const Vec2& p, double line) {
 
 }  // namespace
 
-PictureLines::PictureLines(const World& world) : world_(world), camera_(world.model().camera.get()) {
-  LineWork work = line_work(world);
+PictureLines::PictureLines(const World& world, const std::atomic<bool>* stop)
+    : world_(world), camera_(world.model().camera.get()) {
+  LineWork work = line_work(world, stop);
   // Numbers of lines that clip planes leave nothing of are missing.
   int orders = 0;
   for (const Stroke& stroke : work.strokes) orders = std::max(orders, stroke.order + 1);
@@ -113,6 +114,7 @@ PictureLines::PictureLines(const World& world) : world_(world), camera_(world.mo
   for (const Stroke& stroke : work.strokes) colors_[stroke.order] = rgb(stroke.look.color);
   for (const Mark& mark : work.marks) colors_[mark.order] = rgb(mark.line.color);
   for (Stroke& stroke : work.strokes) {
+    if (stop && stop->load(std::memory_order_relaxed)) return;
     const bool square =
         stroke.look.cap == LineLook::Cap::square || (stroke.hidden && stroke.hidden->cap == LineLook::Cap::square);
     const double half = std::max(stroke.look.half_width, stroke.hidden ? stroke.hidden->half_width : 0);

@@ -15,6 +15,7 @@
 // lines. Behind clear bodies they are hidden too.
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,9 @@ namespace lekalo::render {
 
 class PictureLines {
  public:
-  // The lines of the world's model before its camera, on its film. The world must stay.
-  explicit PictureLines(const World& world);
+  // The lines of the world's model before its camera, on its film. The world must stay. Once `stop` is set (null:
+  // never) no more of them are looked for: no picture comes of these.
+  explicit PictureLines(const World& world, const std::atomic<bool>* stop = nullptr);
 
   bool empty() const { return items_.empty(); }
   // Puts what lines show at the picture point q over what the sample brings from its ray through it. Where that is a

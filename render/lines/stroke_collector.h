@@ -4,6 +4,7 @@
 // stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 
@@ -35,7 +36,8 @@ const T* solid_of(const Entity& shape) {
 
 class StrokeCollector {
  public:
-  StrokeCollector(const World& world, bool drawing);
+  // `stop`: as of line_work().
+  StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop);
   LineWork take() { return std::move(work_); }
 
  private:

@@ -13,9 +13,9 @@
 #include "geometry/shapes/half_space.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/transformed.h"
-#include "render/lines/placed_objects.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/objects.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -77,9 +77,10 @@ void StrokeCollector::each_bounded_part(const Entity& shape, const std::function
 
 std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
   std::vector<PlacedShape> found;
-  each_placed(model_.objects, [&](const Object& object, const Affine& to_world, int placement) {
-    if (&object != object_ && identity(object.shape) == identity(shape))
-      found.push_back({shape, to_world, numbers_.at(&object), placement});
+  PlacedObjects(model_.objects, [&](const Object& object) {
+    return &object != object_ && identity(object.shape) == identity(shape);
+  }).visit([&](const Object& object, const Affine& to_world, int placement) {
+    found.push_back({shape, to_world, numbers_.at(&object), placement});
   });
   if (found.empty()) found.push_back({shape, Affine(), -1});
   return found;

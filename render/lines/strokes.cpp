@@ -10,11 +10,11 @@
 #include "geometry/curves/polyline.h"
 #include "geometry/queries/self_intersections.h"
 #include "geometry/surfaces/plane.h"
-#include "render/lines/placed_objects.h"
 #include "render/lines/stroke_collector.h"
 #include "render/scene/color_names.h"
 #include "render/scene/look.h"
 #include "render/scene/objects.h"
+#include "render/scene/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -46,6 +46,20 @@ constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "knot
 
 bool shows(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+bool is_helper_shown(const Helper& helper, const Object& object) {
+  return shows(kHelpersShown, helper.type) || (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
+}
+
+// Whether pictures may show lines or marks of an object.
+bool has_lines_in_pictures(const Object& object) {
+  if (std::holds_alternative<Vec3>(object.shape) || std::holds_alternative<CurvePtr>(object.shape)) return true;
+  if (!object.look) return false;
+  const Look& look = *object.look;
+  return std::any_of(look.helpers.begin(), look.helpers.end(),
+                     [&](const Helper& helper) { return is_helper_shown(helper, object); }) ||
+         (look.lines && std::any_of(look.lines->styles.begin(), look.lines->styles.end(),
+                                    [](const auto& kind) { return shows(kLinesShown, kind.first); }));
 }
 
 LineLook look_of_style(const Style& style, double pixels, double least_width) {
@@ -92,7 +106,8 @@ std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, co
 
 }  // namespace
 
-StrokeCollector::StrokeCollector(const World& world, bool drawing) : model_(world.model()), drawing_(drawing) {
+StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop)
+    : model_(world.model()), drawing_(drawing) {
   pixels_ = drawing ? 1 : 1 / millimetres_of_pixel(model_);
   least_width_ = drawing ? 0 : 1;
   if (model_.camera) {
@@ -101,11 +116,14 @@ StrokeCollector::StrokeCollector(const World& world, bool drawing) : model_(worl
     view_.direction_or_eye =
         view_.central ? camera.ray(0.5 * camera.width(), 0.5 * camera.height()).origin : camera.view_direction();
   }
-  for (size_t i = 0; i < world.objects().size(); ++i) numbers_.emplace(world.objects()[i], static_cast<int>(i));
+  const auto is_wanted = [&](const Object& object) { return drawing || has_lines_in_pictures(object); };
+  for (size_t i = 0; i < world.objects().size(); ++i)
+    if (is_wanted(*world.objects()[i])) numbers_.emplace(world.objects()[i], static_cast<int>(i));
   work_.fills = drawing && model_.camera && model_.drawing.ground == Ground::fill;
-  each_placed(model_.objects, [&](const Object& object, const Affine& to_world, int placement) {
-    add_object(object, to_world, placement);
-  });
+  PlacedObjects(model_.objects, is_wanted)
+      .visit(
+          [&](const Object& object, const Affine& to_world, int placement) { add_object(object, to_world, placement); },
+          stop);
   if (work_.fills) add_meetings();
 }
 
@@ -389,25 +407,21 @@ Vec3 light_of(const Fill& fill, const Camera& camera) {
   return glm::normalize(-camera.view_direction() - kLightFromLeft * right + kLightFromAbove * up);
 }
 
-LineWork line_work(const World& world) { return StrokeCollector(world, false).take(); }
-LineWork drawing_work(const World& world) { return StrokeCollector(world, true).take(); }
+LineWork line_work(const World& world, const std::atomic<bool>* stop) {
+  return StrokeCollector(world, false, stop).take();
+}
+LineWork drawing_work(const World& world) { return StrokeCollector(world, true, nullptr).take(); }
 
 std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {
   std::set<std::string> lines, helpers;
-  const auto visit = [&](const auto& self, const std::vector<Object>& list) -> void {
-    for (const Object& object : list) {
-      if (const auto* group = std::get_if<GroupPtr>(&object.shape)) self(self, (*group)->objects);
-      if (!object.look) continue;
-      if (object.look->lines)
-        for (const auto& [kind, style] : object.look->lines->styles)
-          if (!shows(kLinesShown, kind)) lines.insert(kind);
-      for (const Helper& helper : object.look->helpers)
-        if (!shows(kHelpersShown, helper.type) &&
-            !(is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape)))
-          helpers.insert(helper.type);
-    }
-  };
-  visit(visit, objects);
+  each_object(objects, [&](const Object& object) {
+    if (!object.look) return;
+    if (object.look->lines)
+      for (const auto& [kind, style] : object.look->lines->styles)
+        if (!shows(kLinesShown, kind)) lines.insert(kind);
+    for (const Helper& helper : object.look->helpers)
+      if (!is_helper_shown(helper, object)) helpers.insert(helper.type);
+  });
   std::vector<std::string> result;
   const auto add = [&](const char* what, const std::set<std::string>& names) {
     std::string text;

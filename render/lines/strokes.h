@@ -5,6 +5,7 @@
 // of the drawing.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <optional>
 #include <set>
@@ -128,7 +129,8 @@ Vec3 light_of(const Fill& fill, const Camera& camera);
 // Millimetres on the page for one pixel of the picture.
 double millimetres_of_pixel(const Model& model);
 
-LineWork line_work(const World& world);
+// Once `stop` is set (null: never) no more of them are found.
+LineWork line_work(const World& world, const std::atomic<bool>* stop = nullptr);
 
 // That of a drawing: lengths in millimetres on the page, all kinds of lines, and the outlines of all surfaces, drawn or
 // not. `incomplete` counts surfaces whose silhouettes are not all known.

@@ -82,7 +82,9 @@ class Builder {
   bool read_fields_into(Fields& fields, const std::vector<Field>& declared, const Value& map, const Counters& counters,
                         const std::string& what, const std::vector<std::string>& also_allowed = {});
   // Items of a list, repeats expanded; a single value stands for a list of one.
-  std::vector<Scoped> items(const Value& value, const Counters& counters);
+  void each_item(const Value& value, const Counters& counters,
+                 const std::function<void(const Value& item, const Counters& inner)>& visit);
+  std::vector<Scoped> items(const Value& value, const Counters& counters);  // of each_item()
   // A copy in which every text has its templates filled: %k, %02k, %.3r, %(k+1); %% is a percent sign (templates.cpp).
   std::optional<Value> fill_templates(const Value& value, const Counters& counters);
   // A formula as --set takes it: as written, or its value if it speaks of counters.
@@ -185,6 +187,9 @@ class Builder {
   std::optional<Built> refer(const Value& value, const Counters& counters, std::span<const Category> wanted);
   std::optional<std::vector<std::any>> refer_all(const Value& value, const Counters& counters,
                                                  std::span<const Category> wanted);
+  // The same one by one, as there may be very many: false if one of them is wrong.
+  bool refer_each(const Value& value, const Counters& counters, std::span<const Category> wanted,
+                  const std::function<void(std::any)>& take);
   std::vector<std::string> names_of_references(const Value& value, const Counters& counters,
                                                std::span<const Category> wanted);
   std::optional<std::vector<Built>> named(const Value& value, std::span<const Category> wanted);

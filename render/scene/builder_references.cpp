@@ -266,24 +266,26 @@ std::optional<Built> Builder::refer(const Value& value, const Counters& counters
 std::optional<std::vector<std::any>> Builder::refer_all(const Value& value, const Counters& counters,
                                                         std::span<const Category> wanted) {
   std::vector<std::any> all;
-  bool good = true;
-  for (const Scoped& item : items(value, counters)) {
-    if (item.value->is_scalar() && section_of(wanted.front())) {
-      auto some = named(*item.value, wanted);
-      if (!some) {
-        good = false;
-        continue;
-      }
-      for (Built& built : *some) all.push_back(std::move(built.value));
-    } else {
-      auto one = refer(*item.value, item.counters, wanted);
-      if (one)
-        all.push_back(std::move(one->value));
-      else
-        good = false;
-    }
-  }
+  const bool good = refer_each(value, counters, wanted, [&](std::any one) { all.push_back(std::move(one)); });
   return good ? std::optional(std::move(all)) : std::nullopt;
+}
+
+bool Builder::refer_each(const Value& value, const Counters& counters, std::span<const Category> wanted,
+                         const std::function<void(std::any)>& take) {
+  bool good = true;
+  each_item(value, counters, [&](const Value& item, const Counters& inner) {
+    if (item.is_scalar() && section_of(wanted.front())) {
+      auto some = named(item, wanted);
+      good = good && some;
+      if (some)
+        for (Built& built : *some) take(std::move(built.value));
+    } else {
+      auto one = refer(item, inner, wanted);
+      good = good && one;
+      if (one) take(std::move(one->value));
+    }
+  });
+  return good;
 }
 
 // One for each that refer_all() finds.

@@ -169,14 +169,12 @@ GroupPtr Builder::in_material(const GroupPtr& group, const MaterialPtr& material
 
 std::optional<std::vector<Object>> Builder::build_objects(const Value& list) {
   static const Category wanted[] = {Category::object};
-  const auto all = refer_all(list, {}, wanted);
-  if (!all) return std::nullopt;
   std::vector<Object> objects;
-  for (const std::any& one : *all) {
-    const auto& some = std::any_cast<const Objects&>(one);
-    objects.insert(objects.end(), some.begin(), some.end());
-  }
-  return objects;
+  const bool good = refer_each(list, {}, wanted, [&](std::any one) {
+    auto& some = std::any_cast<Objects&>(one);
+    objects.insert(objects.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+  });
+  return good ? std::optional(std::move(objects)) : std::nullopt;
 }
 
 // No objects: every entity that nothing else uses.

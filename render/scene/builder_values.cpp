@@ -43,21 +43,21 @@ bool Builder::check_count(const FieldType& type, const Value& value, size_t coun
   return false;
 }
 
+void Builder::each_item(const Value& value, const Counters& counters,
+                        const std::function<void(const Value& item, const Counters& inner)>& visit) {
+  const auto add = [&](const Value& item) {
+    if (item.is_map() && item.find("repeat"))
+      repeat(item, counters, [&](const Counters& inner, const std::string&) { visit(item, inner); });
+    else
+      visit(item, counters);
+  };
+  if (!value.is_sequence()) return add(value);
+  for (const Value& item : value.items) add(item);
+}
+
 std::vector<Scoped> Builder::items(const Value& value, const Counters& counters) {
   std::vector<Scoped> all;
-  if (!value.is_sequence()) {
-    if (value.is_map() && value.find("repeat"))
-      repeat(value, counters, [&](const Counters& inner, const std::string&) { all.push_back({&value, inner}); });
-    else
-      all.push_back({&value, counters});
-    return all;
-  }
-  for (const Value& item : value.items) {
-    if (item.is_map() && item.find("repeat"))
-      repeat(item, counters, [&](const Counters& inner, const std::string&) { all.push_back({&item, inner}); });
-    else
-      all.push_back({&item, counters});
-  }
+  each_item(value, counters, [&](const Value& item, const Counters& inner) { all.push_back({&item, inner}); });
   return all;
 }
 

@@ -47,7 +47,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   build.search_path = read.search_path;
   build.allow_external = options.allow_external;
   Builder builder(scene, build, diagnostics);
-  result.model = std::make_shared<const Model>(builder.build());
+  result.model = std::make_shared<Model>(builder.build());
   const std::vector<std::filesystem::path>& data = builder.files_named();
   if (options.files_read) options.files_read->insert(options.files_read->end(), data.begin(), data.end());
   if (diagnostics.has_errors()) throw SceneError(diagnostics);

@@ -22,7 +22,7 @@ struct LoadOptions {
 };
 
 struct LoadedScene {
-  std::shared_ptr<const Model> model;
+  std::shared_ptr<Model> model;
   std::vector<std::string> defaults_taken;
   std::vector<ExternalNote> external_notes;
   uint64_t hash = 0;  // of all texts, data files and --set values

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -126,5 +127,15 @@ struct Model {
 geometry::Box3 bounds(const Model& model);
 geometry::Box3 bounds(const std::vector<Object>& objects);
 geometry::Box3 bounds(const Entity& entity);
+
+// The same of many things in a row: what several of them have in common is looked at once.
+class Boxes {
+ public:
+  geometry::Box3 of(const Entity& entity);
+  geometry::Box3 of(const std::vector<Object>& objects);
+
+ private:
+  std::unordered_map<const void*, geometry::Box3> known_;
+};
 
 }  // namespace lekalo::render

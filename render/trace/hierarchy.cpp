@@ -19,6 +19,9 @@ float round_down(double x) {
 }
 float round_up(double x) { return -round_down(-x); }
 
+// Copies of leaves in a hierarchy; numbers of lines and sums with them must not overflow.
+constexpr int64_t kMostLeaves = int64_t{1} << 62;
+
 // Pieces that are tested one after the other; an Embree scene of as many takes longer.
 constexpr size_t kFew = 6;
 
@@ -33,8 +36,10 @@ Box3 box_of(const GeometryRecord& record, int primitive) {
       return record.target->piece_bounds(primitive);
     case GeometryRecord::Kind::shape:
       return record.leaf->shape->bounds();
-    case GeometryRecord::Kind::instance:
-      return transformed(record.child->bounds(), record.to_parent);
+    case GeometryRecord::Kind::instances: {
+      const Instance& instance = record.instances[primitive];
+      return transformed(instance.child->bounds(), instance.to_parent);
+    }
     case GeometryRecord::Kind::mesh:
       return record.leaf->mesh->bounds();
   }
@@ -82,7 +87,7 @@ void Hierarchy::add(Leaf given) {
   given.size = bounded.empty() ? 1.0 : bounded.diameter();
   p.leaves.push_back(std::make_unique<Leaf>(std::move(given)));
   const Leaf& leaf = *p.leaves.back();
-  const int number = p.leaf_count++;
+  const int64_t number = p.leaf_count++;
   const auto record = [&](GeometryRecord::Kind kind) -> GeometryRecord& {
     p.records.push_back(std::make_unique<GeometryRecord>());
     GeometryRecord& r = *p.records.back();
@@ -108,22 +113,44 @@ void Hierarchy::add(Leaf given) {
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
   }
-  p.numbers.push_back({number, p.records.back().get()});
+  p.numbers.push_back({number, p.records.back().get(), nullptr});
 }
+
+void Hierarchy::reserve_instances(size_t count) { parts_->added.reserve(count); }
 
 void Hierarchy::add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object) {
   Parts& p = *parts_;
-  p.records.push_back(std::make_unique<GeometryRecord>());
-  GeometryRecord& r = *p.records.back();
-  r.kind = GeometryRecord::Kind::instance;
-  r.leaf_number = p.leaf_count;
-  r.to_parent = to_parent;
-  r.to_child = to_parent.inverse();
-  r.object = object;
-  r.parts = &p;
-  p.leaf_count += child->leaf_count();
-  r.child = std::move(child);
-  p.numbers.push_back({r.leaf_number, &r});
+  const int64_t leaves = child->leaf_count(), first = p.leaf_count;
+  if (leaves == 0) return;
+  if (leaves > kMostLeaves - first)
+    throw std::invalid_argument("groups in groups place more shapes than can be numbered");
+  p.leaf_count += leaves;
+  p.added.push_back({std::move(child), to_parent, to_parent.inverse(), first, object});
+}
+
+// The bounded instances are pieces of one record, since Embree takes a quarter of a kilobyte for each geometry; each
+// of the others has a record of its own.
+void Hierarchy::Parts::record_instances() {
+  const auto record = [&](std::vector<Instance> instances) {
+    GeometryRecord& r = *records.emplace_back(std::make_unique<GeometryRecord>());
+    r.kind = GeometryRecord::Kind::instances;
+    r.count = static_cast<int>(instances.size());
+    r.instances = std::move(instances);
+    r.parts = this;
+    for (const Instance& instance : r.instances) numbers.push_back({instance.first_leaf, &r, &instance});
+  };
+  const auto is_bounded = [](const Instance& instance) {
+    const Box3 box = transformed(instance.child->bounds(), instance.to_parent);
+    return instance.child->parts_->unbounded.empty() && box.bounded() && !box.empty();
+  };
+  if (added.empty()) return;
+  numbers.reserve(numbers.size() + added.size());
+  bytes += added.size() * (sizeof(Instance) + sizeof(Numbered));
+  const auto rest = std::partition(added.begin(), added.end(), is_bounded);
+  for (auto one = rest; one != added.end(); ++one) record({*one});
+  added.erase(rest, added.end());
+  if (!added.empty()) record(std::move(added));
+  std::sort(numbers.begin(), numbers.end(), [](const Numbered& a, const Numbered& b) { return a.first < b.first; });
 }
 
 // Lists the pieces beside each other if they are few and none is a mesh.
@@ -212,13 +239,15 @@ void Hierarchy::Parts::build_scene() {
 
 void Hierarchy::commit() {
   Parts& p = *parts_;
+  p.record_instances();
   // Unbounded things (planes, half-spaces, infinite cylinders, pieces about a pole) stand in a list beside the
   // hierarchy.
   std::vector<std::unique_ptr<GeometryRecord>> bounded, others;
   for (auto& record : p.records) {
     Box3 of_bounded;
     const bool child_has_unbounded =
-        record->kind == GeometryRecord::Kind::instance && !record->child->parts_->unbounded.empty();
+        std::any_of(record->instances.begin(), record->instances.end(),
+                    [](const Instance& instance) { return !instance.child->parts_->unbounded.empty(); });
     for (int i = 0; i < record->count; ++i) {
       const Box3 box = box_of(*record, i);
       if (child_has_unbounded)
@@ -249,23 +278,23 @@ void Hierarchy::commit() {
   // Unbounded records live on behind the bounded ones, whose places are Embree's numbers.
   for (auto& record : others) p.records.push_back(std::move(record));
   for (const auto& record : p.records)
-    if (record->kind == GeometryRecord::Kind::instance) {
-      p.pieces += record->child->piece_count();
-      p.triangles += record->child->triangle_count();
+    for (const Instance& instance : record->instances) {
+      p.pieces += instance.child->piece_count();
+      p.triangles += instance.child->triangle_count();
     }
 }
 
-Hierarchy::Place Hierarchy::place(int instance) const {
+Hierarchy::Place Hierarchy::place(int64_t instance) const {
   const auto& numbers = parts_->numbers;
   // One number each, unless an instance has several leaves.
-  const bool direct = static_cast<int>(numbers.size()) == parts_->leaf_count;
-  const GeometryRecord& record =
-      direct ? *numbers[instance].record
+  const bool direct = static_cast<int64_t>(numbers.size()) == parts_->leaf_count;
+  const Parts::Numbered& at =
+      direct ? numbers[instance]
              : *std::prev(std::upper_bound(numbers.begin(), numbers.end(), instance,
-                                           [](int n, const Parts::Numbered& entry) { return n < entry.first; }))
-                    ->record;
+                                           [](int64_t n, const Parts::Numbered& entry) { return n < entry.first; }));
   Place result;
-  if (record.kind != GeometryRecord::Kind::instance) {
+  if (!at.instance) {
+    const GeometryRecord& record = *at.record;
     // Vertices and rays of meshes are rounded to float about the centre.
     const double error = record.leaf->mesh ? kBoxInflation * parts_->radius : 0;
     result.leaf = record.leaf;
@@ -273,14 +302,15 @@ Hierarchy::Place Hierarchy::place(int instance) const {
     result.error = error;
     return result;
   }
-  result = record.child->place(instance - record.leaf_number);
-  result.to_world = result.to_world ? record.to_parent * *result.to_world : record.to_parent;
-  result.error *= geometry::largest_stretch(record.to_parent);
-  if (record.object >= 0) result.object = record.object;
+  const Instance& copy = *at.instance;
+  result = copy.child->place(instance - copy.first_leaf);
+  result.to_world = result.to_world ? copy.to_parent * *result.to_world : copy.to_parent;
+  result.error *= geometry::largest_stretch(copy.to_parent);
+  if (copy.object >= 0) result.object = copy.object;
   return result;
 }
 
-Box3 Hierarchy::bounds(int instance) const {
+Box3 Hierarchy::bounds(int64_t instance) const {
   const Place at = place(instance);
   if (at.to_world) return transformed(at.leaf->box, *at.to_world);
   if (at.leaf->box.bounded() || at.leaf->box.empty()) return at.leaf->box;
@@ -298,7 +328,7 @@ Box3 Hierarchy::bounds(int instance) const {
   return box.empty() ? Box3::everything() : box;
 }
 
-int Hierarchy::leaf_count() const { return parts_->leaf_count; }
+int64_t Hierarchy::leaf_count() const { return parts_->leaf_count; }
 Box3 Hierarchy::bounds() const { return parts_->box; }
 Vec3 Hierarchy::center() const { return parts_->center; }
 double Hierarchy::radius() const { return parts_->radius; }

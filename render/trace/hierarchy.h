@@ -52,8 +52,10 @@ class Hierarchy {
   Hierarchy& operator=(const Hierarchy&) = delete;
 
   // Leaves and instances are numbered in the order in which they are added; an instance takes as many numbers as its
-  // child has leaves.
+  // child has leaves. Throws std::invalid_argument if there are more than can be numbered.
   void add(Leaf leaf);
+  // Room for at most so many instances: growing takes twice the memory for a while.
+  void reserve_instances(size_t count);
   // `object` is the number of all that is in the instance; -1: its leaves keep their own.
   void add_instance(std::shared_ptr<const Hierarchy> child, const Affine& to_parent, int object);
   // Builds; nothing may be added afterwards.
@@ -84,16 +86,16 @@ class Hierarchy {
     int object = 0;
     double error = 0;  // bound on the distance between what Embree saw and what is meant, in this space
   };
-  Place place(int instance) const;
+  Place place(int64_t instance) const;
 
-  int leaf_count() const;
-  Box3 bounds() const;              // of the bounded leaves
-  Box3 bounds(int instance) const;  // of one leaf
+  int64_t leaf_count() const;
+  Box3 bounds() const;                  // of the bounded leaves
+  Box3 bounds(int64_t instance) const;  // of one leaf
   Vec3 center() const;
   double radius() const;
   size_t piece_count() const;
   size_t triangle_count() const;
-  size_t memory() const;
+  size_t memory() const;  // of pieces, meshes and instances; what children have is theirs
 
   struct Parts;
   struct Query;

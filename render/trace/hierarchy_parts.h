@@ -17,14 +17,22 @@ RTCDevice device();
 // ray's origin and direction to float and Embree's own arithmetic (docs/internals/rays.md).
 inline constexpr double kBoxInflation = 4e-7;
 
+// A child where it is placed.
+struct Instance {
+  std::shared_ptr<const Hierarchy> child;
+  Affine to_parent, to_child;
+  int64_t first_leaf = 0;  // number of its first leaf
+  int object = 0;          // as in Hierarchy::add_instance
+};
+
 // What an Embree geometry stands for.
 struct GeometryRecord {
-  enum class Kind { target, mesh, shape, instance } kind = Kind::target;
+  enum class Kind { target, mesh, shape, instances } kind = Kind::target;
   const Leaf* leaf = nullptr;
-  int leaf_number = 0;  // first number of an instance
-  int face = 0;         // of a target
+  int64_t leaf_number = 0;
+  int face = 0;  // of a target
   const geometry::LineTarget* target = nullptr;
-  int count = 1;  // pieces of a target
+  int count = 1;  // pieces of a target, or instances
   // Pieces that follow each other, neighbours mostly, and are one primitive to Embree: two where there are many.
   int together = 1;
   int primitive_count() const { return (count + together - 1) / together; }
@@ -32,8 +40,7 @@ struct GeometryRecord {
   int end_of_pieces(unsigned primitive) const { return std::min(first_piece(primitive) + together, count); }
   bool bare = false;   // the nearest hit needs no parameters
   bool whole = false;  // a target that all rays see, without clips
-  std::shared_ptr<const Hierarchy> child;
-  Affine to_parent, to_child;
+  std::vector<Instance> instances;
   int object = 0;
   const Hierarchy::Parts* parts = nullptr;
 };
@@ -50,13 +57,15 @@ struct Hierarchy::Parts {
   bool has_columns = false;  // the boxes of some of them are bounded in some direction
   // The pieces of a scene of few, in place of an Embree scene, whose overhead would be most of its time.
   std::vector<Piece> few;
-  Box3 few_box;  // of all of them
+  Box3 few_box;                 // of all of them
+  std::vector<Instance> added;  // instances, until they are sorted into records
   struct Numbered {
-    int first;
+    int64_t first;
     const GeometryRecord* record;
+    const Instance* instance;  // null: a leaf
   };
   std::vector<Numbered> numbers;  // one entry for each leaf or instance, by first number
-  int leaf_count = 0;
+  int64_t leaf_count = 0;
   Box3 box;
   Vec3 center{0};
   double radius = 0;
@@ -69,6 +78,7 @@ struct Hierarchy::Parts {
     if (scene) rtcReleaseScene(scene);
   }
 
+  void record_instances();
   bool list_few();
   void build_scene();
   RTCBounds float_bounds(const Box3& box) const;
@@ -97,8 +107,9 @@ struct Hierarchy::Query {
   double start = 0;                    // the float ray begins here
   double slack = 0;                    // float uncertainty of t
   uint32_t kind = 1;
-  int leaf_offset = 0;
-  int left_instance = -1, left_face = 0, left_piece = 0;  // as in Ray
+  int64_t leaf_offset = 0;
+  int64_t left_instance = -1;  // as in Ray, and what follows
+  int left_face = 0, left_piece = 0;
   bool left_for_good = false;
   Obstacles among;
   bool found = false;

@@ -35,13 +35,13 @@ bool keeps(const Leaf& leaf, const Line& line, double t, const Normal& normal) {
   return true;
 }
 
-void test_instance(const GeometryRecord& record, Query& query) {
-  const Line line{record.to_child.point(query.line().origin), record.to_child.direction(query.line().direction)};
+void test_instance(const Instance& instance, Query& query) {
+  const Line line{instance.to_child.point(query.line().origin), instance.to_child.direction(query.line().direction)};
   Query inner(line);
   inner.t_min = query.t_min;
   inner.t_max = query.t_max;
   inner.kind = query.kind;
-  inner.leaf_offset = query.leaf_offset + record.leaf_number;
+  inner.leaf_offset = query.leaf_offset + instance.first_leaf;
   inner.left_instance = query.left_instance;
   inner.left_face = query.left_face;
   inner.left_piece = query.left_piece;
@@ -49,7 +49,7 @@ void test_instance(const GeometryRecord& record, Query& query) {
   inner.found = query.found;
   inner.nearest = query.nearest;
   inner.all = query.all;
-  record.child->run(inner);
+  instance.child->run(inner);
   query.found = inner.found;
   query.t_max = inner.t_max;
 }
@@ -108,8 +108,8 @@ inline void test(const GeometryRecord& record, int primitive, Query& query) {
     if (!query.has_left(record, primitive)) test_whole_target(record, primitive, query);
     return;
   }
-  if (record.kind == GeometryRecord::Kind::instance)
-    test_instance(record, query);
+  if (record.kind == GeometryRecord::Kind::instances)
+    test_instance(record.instances[primitive], query);
   else if (!(record.leaf->visible_to & query.kind) || query.has_left(record, primitive))
     return;
   else if (record.kind == GeometryRecord::Kind::target)

@@ -16,21 +16,22 @@ inline constexpr uint32_t kVisibleToAll = 7;
 struct Ray : geometry::Line {
   double t_min = 0;
   double t_max = geometry::kInfinity;
-  RayKind kind = RayKind::camera;
   // The piece of a face that the ray left; instance -1: none. `left_for_good`: to a side from which it does not meet
   // any of the face again (Surface::free_sides).
-  int32_t left_instance = -1;
+  int64_t left_instance = -1;
+  RayKind kind = RayKind::camera;
   int32_t left_face = 0;
   int32_t left_piece = 0;
   bool left_for_good = false;
 };
 
-// What a ray meets. `instance` numbers the copy of the object that was hit, in the World's order of compilation.
+// What a ray meets. `instance` numbers the copy of the object that was hit, in the World's order of compilation: groups
+// in groups make more copies than 32 bits can tell apart.
 struct Hit {
   double t = 0;
   double u = 0;  // natural parameters of the surface; of a mesh the interpolated ones
   double v = 0;
-  int32_t instance = -1;
+  int64_t instance = -1;
   int32_t face = 0;
   int32_t piece = 0;
   // A triangle's barycentric weights of its second and third vertex; unused by direct hits.
@@ -51,7 +52,7 @@ struct SurfacePoint {
   double v = 0;
   double error = 0;       // bound on the distance of `position` from the surface that was hit
   double pixel_size = 0;  // width of a pixel at this distance in scene units; 0 where not known
-  int32_t instance = -1;
+  int64_t instance = -1;
   int32_t object = 0;  // number in the Model's objects, those of groups counted where they stand
   int32_t face = 0;
   int32_t piece = 0;

@@ -14,6 +14,7 @@
 #include "geometry/bodies/sew.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
+#include "render/scene/placed_objects.h"
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"
@@ -35,7 +36,7 @@ constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 // apart: more than the clearance of rays that leave a mesh.
 constexpr double kContact = 1e-5;
 // Pairs of boxes that are compared: more would be felt; rays look for themselves then.
-constexpr size_t kMostPairs = 10'000'000;
+constexpr double kMostPairs = 1e7;
 // Boxes of clear bodies that are asked for every ray of the eye.
 constexpr size_t kMostMedia = 32;
 
@@ -79,6 +80,15 @@ ShareKey key_of(const Object& object) {
 // them.
 constexpr double kLeastCell = 4;
 
+// Bytes of an object, without its shape and what objects have in common.
+size_t memory_of(const Object& object) {
+  const auto own = [](const std::string& text) {  // beside the object
+    const auto at = reinterpret_cast<uintptr_t>(text.data()), begin = reinterpret_cast<uintptr_t>(&text);
+    return at - begin < sizeof(text) ? 0 : text.capacity() + 1;
+  };
+  return sizeof(Object) + own(object.name) + own(object.legend) + object.clips.capacity() * sizeof(ClipPlane);
+}
+
 bool is_drawn_only(const Entity& entity) {
   return std::holds_alternative<Vec3>(entity) || std::holds_alternative<geometry::CurvePtr>(entity);
 }
@@ -103,7 +113,7 @@ struct World::Compiled {
   CameraPtr camera;
 
   void list_places() {
-    for (int i = 0; i < top.leaf_count(); ++i) {
+    for (int64_t i = 0; i < top.leaf_count(); ++i) {
       const Hierarchy::Place place = top.place(i);
       if (place.to_world) {
         places.clear();
@@ -307,9 +317,15 @@ struct World::Compiled {
     return leaf;
   }
 
+  void commit(Hierarchy& hierarchy) {
+    hierarchy.commit();
+    statistics.bytes += hierarchy.memory();
+  }
+
   // Adds a list of objects to a hierarchy whose space maps to the world by `to_world` (of its first use). `number` is
   // the object number that all of them carry, or -1 to number each.
   void add(Hierarchy& into, const std::vector<Object>& list, const Affine& to_world) {
+    into.reserve_instances(list.size());
     for (const Object& object : list) {
       const int number = static_cast<int>(objects.size());
       objects.push_back(&object);
@@ -319,7 +335,7 @@ struct World::Compiled {
         if (!child) {
           child = std::make_shared<Hierarchy>();
           add(*child, (*group)->objects, to_world * object.transform);
-          child->commit();
+          commit(*child);
         }
         into.add_instance(child, object.transform, -1);  // its members keep their own numbers and materials
         ++statistics.instances;
@@ -336,7 +352,7 @@ struct World::Compiled {
       if (!child) {
         child = std::make_shared<Hierarchy>();
         add_leaves(*child, object, number, to_world * object.transform);
-        child->commit();
+        commit(*child);
         if (share) shared[key] = child;
       }
       into.add_instance(child, object.transform, number);
@@ -359,7 +375,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   c.count_uses(model_->objects);
   with_device_threads([&] {
     c.add(c.top, model_->objects, Affine());
-    c.top.commit();
+    c.commit(c.top);
   });
   c.list_places();
   for (const Object* object : c.objects)
@@ -369,28 +385,29 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   c.statistics.pieces = c.top.piece_count();
   c.statistics.triangles = c.top.triangle_count();
   c.statistics.hierarchy_bytes = std::max(device_memory(), embree_before) - embree_before;
-  c.statistics.bytes = c.top.memory();
-  for (const auto& [key, child] : c.shared) c.statistics.bytes += child->memory();
+  c.statistics.object_bytes = c.objects.capacity() * sizeof(Object*) + contacts_.capacity() * sizeof(Box3);
+  for (const Object* object : c.objects) c.statistics.object_bytes += memory_of(*object);
   c.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // Where bodies of some substance are, and where others may touch them.
 void World::list_contacts() {
   const Hierarchy& top = compiled_->top;
-  const auto count = static_cast<size_t>(top.leaf_count());
-  const auto has_medium = [&](size_t leaf) {
-    const Object& object = *compiled_->objects[top.place(static_cast<int>(leaf)).object];
-    return object.material && object.material->interior(Wavelengths()).has_value();
+  const auto has_medium = [](const Object& object) {
+    return !is_drawn_only(object.shape) && object.material && object.material->interior(Wavelengths()).has_value();
   };
-  std::vector<size_t> media;
-  for (size_t i = 0; i < count; ++i)
-    if (has_medium(i)) media.push_back(i);
-  if (media.size() * count > kMostPairs) {
+  const double placed = PlacedObjects(model_->objects, has_medium).count();
+  if (placed == 0) return;
+  if (placed * static_cast<double>(top.leaf_count()) > kMostPairs) {
     media_ = {Box3::everything()};
     return;
   }
+  const auto count = static_cast<size_t>(top.leaf_count());
+  std::vector<size_t> media;
+  for (size_t i = 0; i < count; ++i)
+    if (has_medium(*compiled_->objects[top.place(static_cast<int64_t>(i)).object])) media.push_back(i);
   std::vector<Box3> boxes(count);
-  for (size_t i = 0; i < count; ++i) boxes[i] = top.bounds(static_cast<int>(i));
+  for (size_t i = 0; i < count; ++i) boxes[i] = top.bounds(static_cast<int64_t>(i));
   contacts_.resize(count);
   const double margin = kContact * (top.radius() + glm::length(top.center()));
   for (const size_t i : media) {

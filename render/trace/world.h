@@ -20,9 +20,10 @@ struct WorldStatistics {
   size_t pieces = 0;
   size_t triangles = 0;
   size_t instances = 0;
-  size_t bytes = 0;  // of pieces, shapes and the vertices of meshes
-  size_t hierarchy_bytes =
-      0;  // that Embree took in this process while the World was built, vertices of meshes included
+  size_t bytes = 0;         // of pieces, shapes, the vertices of meshes and instances
+  size_t object_bytes = 0;  // of the model's objects, and what the World knows of each
+  // That Embree took in this process while the World was built, vertices of meshes included.
+  size_t hierarchy_bytes = 0;
   // How lines meet the surfaces and shapes, by name: those of one method together.
   struct Method {
     std::string name;

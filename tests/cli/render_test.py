@@ -1,6 +1,7 @@
 """Pictures and meshes as files: the same bits for any number of threads and after an interruption, no half files."""
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -119,6 +120,41 @@ class Pictures(ProgramTest):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(5), -signal.SIGTERM)
         self.assertEqual(sorted(os.listdir(self.folder)), ["scene.yaml", "slow.yaml"])
+
+    def test_placed_lines_end_at_once(self):
+        """SIGTERM while the lines of 10^9 curves in groups in groups are looked for; balls there take no time."""
+        groups = "".join(f"  g{k}: {{ type: group, of: {{ repeat: {{ i: 0..9 }}, shape: g{k - 1}, transform: {{ translate: [10^{k}*i, 0, 0] }} }} }}\n"
+                         for k in range(1, 10))
+        self.write("deep.yaml", "lekalo: 1\ngeometry:\n  g0: { type: group, of: [{ shape: { type: ball, radius: 0.4 } }] }\n" + groups +
+                   "objects: [{ shape: g9 }]\nimage: { size: [32, 24], samples: 1 }\n")
+        self.run_program("render", "deep.yaml", "--quiet", "-o", "balls.exr")
+        self.write("deep.yaml", (self.folder / "deep.yaml").read_text().replace("ball, radius: 0.4", "polyline, points: [[0, 0, 0], [1, 1, 1]]"))
+        process = subprocess.Popen([LEKALO, "render", "deep.yaml", "--quiet", "-o", "deep.exr"], cwd=self.folder)
+        self.addCleanup(process.kill)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(5), INTERRUPTED)
+
+    def test_statistics_tell_the_memory(self):
+        """What many objects take: the resident set grows by what is told, to a quarter."""
+        self.write("many.yaml", "lekalo: 1\nparameters: { n: 1 }\ngeometry: { b: { type: ball, radius: 0.4 } }\n"
+                   "objects: [{ repeat: { i: 1..n, j: 1..200 }, shape: b, transform: { translate: [i, j, 0] } }]\n"
+                   "image: { size: [32, 24], samples: 1 }\n")
+
+        def memory(n):
+            """Told and resident, MiB."""
+            process = subprocess.Popen([LEKALO, "render", "many.yaml", "--set", f"n={n}", "--quiet", "--stats", "-o", "many.png"],
+                                       cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            told = process.stderr.read()
+            process.stderr.close()
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, DONE)
+            return sum(map(float, re.findall("([0-9.]+) MiB", told.splitlines()[0]))), usage.ru_maxrss / 1024
+
+        (told_of_few, few), (told, many) = memory(1), memory(500)
+        self.assertLess(abs((told - told_of_few) / (many - few) - 1), 0.25)
 
     def test_resume_of_another_scene_is_refused(self):
         self.write("nonsense.partial", "not a partial rendering")

@@ -1,6 +1,7 @@
 """Pictures over and over: --frames, --watch, make; and what goes into them: --stamp, --isa."""
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -37,6 +38,27 @@ class Sequences(ProgramTest):
         self.render("--frames", "lean=0 deg..90 deg:3", "-o", "turned.png")
         self.render("--set", "lean=90", "-o", "one.png")
         self.assertEqual(self.bytes_of("one.png"), self.bytes_of("turned_0003.png"))
+
+    def test_interrupted_frames_go_on_as_told(self):
+        """The change of the command that the message tells, typed in a shell: the frame ends in the same bits."""
+        self.write("ring.yaml", SCENE.replace("size: [32, 24], samples: 1", "size: [32, 24], samples: 300"))
+        names = ["-o", "it's one.exr", "-o", "two.png"]
+        self.render("--frames", "tube=0.1..0.5:3", *names)
+        whole = self.bytes_of("it's one_0002.exr"), self.bytes_of("two_0002.png")
+        for name in self.names():
+            (self.folder / name).unlink()
+        process = subprocess.Popen([LEKALO, "render", "ring.yaml", "--frames", "tube=0.1..0.5:3", *names],
+                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        while "two_0001.png" not in self.names():
+            time.sleep(0.001)
+        time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        notes = process.communicate()[1]
+        self.assertEqual(process.returncode, INTERRUPTED)
+        change, resume = re.search("the same command, (.*) in place of --frames and -o, and (.*)", notes).groups()
+        subprocess.run(f"'{LEKALO}' render ring.yaml --quiet {change} {resume}", shell=True, check=True, cwd=self.folder)
+        self.assertEqual((self.bytes_of("it's one_0002.exr"), self.bytes_of("two_0002.png")), whole)
 
     def test_wrong_frames(self):
         for frames in "tube", "tube=1:3", "tube=0.1..0.5", "tube=0.1..0.5:0", "tube=0.1..0.5:x", "=0.1..0.5:3", "tube=..1:3", "tube=(..1:3":

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
 #include "geometry/expression/expression.h"
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/include.h"
@@ -43,6 +47,17 @@ void print_external_notes(const render::LoadedScene& scene, bool all) {
     if (all) fmt::print(stderr, "note: {}: {}\n", note.place, note.text);
     for (const std::string& doubt : note.doubts) fmt::print(stderr, "warning: {}: {}\n", note.place, doubt);
   }
+}
+
+std::string shell_word(const std::string& text) {
+  const auto is_plain = [](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c)) ||
+           std::string_view("_-+=:,./@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name) {

@@ -37,6 +37,9 @@ void add_allow_external(CLI::App& app, bool& allow_external);
 // Writes doubts about external functions, and with `all` how each is met, to stderr.
 void print_external_notes(const render::LoadedScene& scene, bool all);
 
+// A word as it is typed in a POSIX shell: in quotes if it needs them.
+std::string shell_word(const std::string& text);
+
 // What the scene's geometry calls `name`; throws UsageError with the nearest name if there is none.
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name);
 

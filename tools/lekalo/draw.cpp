@@ -36,7 +36,7 @@ struct Options {
 void set_size(const std::pair<int, int>& size, render::Model& model) {
   PictureOverrides overrides;
   overrides.size = size;
-  model = *with_overrides(model, overrides);
+  apply(overrides, model);
   model.paper.height = model.paper.width * size.second / size.first;
   model.paper.auto_width = model.paper.auto_height = false;
 }

@@ -33,17 +33,15 @@ std::optional<std::time_t> source_date() {
 
 }  // namespace
 
-std::shared_ptr<render::Model> with_overrides(const render::Model& scene, const PictureOverrides& overrides) {
-  auto model = std::make_shared<render::Model>(scene);
+void apply(const PictureOverrides& overrides, render::Model& model) {
   if (overrides.size) {
-    std::tie(model->film.width, model->film.height) = *overrides.size;
-    model->camera = scene.make_camera(model->film.width, model->film.height);
+    std::tie(model.film.width, model.film.height) = *overrides.size;
+    model.camera = model.make_camera(model.film.width, model.film.height);
   }
-  if (overrides.samples) model->film.samples = *overrides.samples;
+  if (overrides.samples) model.film.samples = *overrides.samples;
   if (overrides.representation)
-    for (render::Object& object : model->objects) object.representation = *overrides.representation;
-  if (overrides.integrator) model->integrator = overrides.integrator;
-  return model;
+    for (render::Object& object : model.objects) object.representation = *overrides.representation;
+  if (overrides.integrator) model.integrator = overrides.integrator;
 }
 
 std::pair<int, int> parse_size(const std::string& text) {

@@ -19,7 +19,7 @@ struct PictureOverrides {
   render::IntegratorPtr integrator;
 };
 
-std::shared_ptr<render::Model> with_overrides(const render::Model& model, const PictureOverrides& overrides);
+void apply(const PictureOverrides& overrides, render::Model& model);
 
 // What --size and --crop say. Both throw UsageError; a crop lies inside the model's picture.
 std::pair<int, int> parse_size(const std::string& text);

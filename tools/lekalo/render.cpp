@@ -63,9 +63,10 @@ struct Options {
 void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
   const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
   fmt::print(stderr,
-             "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB, hierarchy {:.2f} MiB)\n",
+             "read and build   {:.3f} s ({} pieces, {} triangles, {} instances, {:.2f} MiB, objects {:.2f} MiB, "
+             "hierarchy {:.2f} MiB)\n",
              built, world.pieces, world.triangles, world.instances, static_cast<double>(world.bytes) / 1048576,
-             static_cast<double>(world.hierarchy_bytes) / 1048576);
+             static_cast<double>(world.object_bytes) / 1048576, static_cast<double>(world.hierarchy_bytes) / 1048576);
   for (const auto& method : world.methods)
     fmt::print(stderr, "lines met by     {}: {} {}, {} pieces, {:.2f} MiB\n", method.name, method.count,
                method.count == 1 ? "surface or shape" : "surfaces and shapes", method.pieces,
@@ -165,12 +166,20 @@ bool is_empty(const render::Image& image) {
   return alpha && std::all_of(alpha->values.begin(), alpha->values.end(), [](float a) { return a == 0; });
 }
 
+// How a command that makes frames is changed for one of them, which goes on as one picture.
+std::string of_one_frame(const render::ParameterSetting& setting, const std::vector<OutputFile>& outputs) {
+  std::string change = ", --set " + shell_word(setting.name + "=" + setting.value);
+  for (const OutputFile& file : outputs) change += " -o " + shell_word(file.path);
+  return change + " in place of --frames and -o,";
+}
+
 int render_frame(Run& run, const Frame& frame, bool first) {
   const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
   std::optional<Building> until_traced(std::in_place);
   const render::LoadedScene scene = load(run, frame);
-  const std::shared_ptr<Model> model = with_overrides(*scene.model, overrides_of(options));
+  const std::shared_ptr<Model> model = scene.model;
+  apply(overrides_of(options), *model);
   if (!options.quiet && first)
     for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
   if (first && (!options.quiet || options.stats)) print_external_notes(scene, options.stats);
@@ -186,6 +195,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (!drawn.empty())
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;
+  model->make_camera = nullptr;  // with what it knows of very many objects: no other picture is made of this model
   if (options.half) model->film.half_color = true;
   if (!options.layers.empty()) model->film.layers = options.layers;
   check_writable(outputs);
@@ -223,13 +233,9 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
   if (!result.complete) {
-    // One frame goes on as one picture.
-    const std::string alone = frame.setting
-                                  ? fmt::format(", --set {}={} -o {} in place of --frames and -o,", frame.setting->name,
-                                                frame.setting->value, outputs.front().path)
-                                  : "";
     fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command{} and --resume {}\n",
-               outputs.front().path, alone, settings.partial_file);
+               outputs.front().path, frame.setting ? of_one_frame(*frame.setting, outputs) : "",
+               shell_word(settings.partial_file));
     return kInterrupted;
   }
   // What an interrupted run has left, or this one has saved on the way.

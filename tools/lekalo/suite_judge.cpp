@@ -68,7 +68,8 @@ void check_numbers(const Expectation& expected, const render::LoadedScene& scene
 }
 
 void render_picture(const Suite& suite, const SuiteTest& test, const render::LoadedScene& scene, int threads) {
-  const auto model = with_overrides(*scene.model, {test.size, test.samples, test.representation, test.integrator});
+  const auto model = std::make_shared<render::Model>(*scene.model);
+  apply({test.size, test.samples, test.representation, test.integrator}, *model);
   model->film.layers.clear();  // all, whatever the scene keeps
   const render::World world(model);
   render::RenderOptions settings;

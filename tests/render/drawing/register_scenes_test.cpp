@@ -54,12 +54,13 @@ constexpr int kQuick = 4;
 // What a ray meets.
 struct Seen {
   struct Sheet {
-    int instance, face;
+    int64_t instance;
+    int face;
     Vec3 place, normal;
   };
   std::vector<Sheet> sheets;  // by distance
   // Objects and faces of them, sorted: where one thing goes through another is no outline.
-  std::vector<std::pair<int, int>> faces;
+  std::vector<std::pair<int64_t, int>> faces;
 };
 
 Seen seen_by(const World& world, const Ray& ray) {
