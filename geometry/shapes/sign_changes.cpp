@@ -10,7 +10,9 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kSmallestPart = 1e-13;
-constexpr int kMostParts = 20000;  // of formulas that oscillate without end; the rest counts as a touch
+// Of formulas that oscillate without end. After that many parts the smallest ones double with each kCoarser further, so
+// that what lies behind still gets its share.
+constexpr int kMostParts = 20000, kCoarser = 500;
 
 bool is_bounded(const Interval& range) { return std::isfinite(range.lo) && std::isfinite(range.hi); }
 
@@ -31,7 +33,8 @@ class Follower {
     stack[0] = {t0, t1};
     for (int parts = 0; top >= 0; ++parts) {
       const Interval part = stack[top--];
-      const State state = tell(part, parts > kMostParts || top > 60);
+      const double coarser = std::exp2(std::max(0, parts - kMostParts) / kCoarser);
+      const State state = tell(part, top > 60 ? kInfinity : coarser * smallest_);
       if (state == State::open) {
         const double middle = part.middle();
         stack[++top] = {middle, part.hi};
@@ -48,7 +51,8 @@ class Follower {
 
   double value_at(double t) const { return formula_(line_.at(t)); }
 
-  State tell(const Interval& part, bool last) {
+  // Parts of the width `least` or less are not halved further.
+  State tell(const Interval& part, double least) {
     const auto value = formula_.along(line_, Jet<Interval, 1>::variable(part));
     const double middle = part.middle();
     const Interval at_middle = formula_.along(line_, Interval(middle));
@@ -65,10 +69,15 @@ class Follower {
       if (begin != end) changes_.add(find_zero(formula_, line_, part.lo, part.hi, end, middle));
       return State::done;
     }
-    if (!last && part.width() > smallest_ && magnitude(range) > 4 * at_middle.width()) return State::open;
-    if (!in_cluster_) cluster_.lo = part.lo;
+    const bool is_rounding = magnitude(range) <= 4 * at_middle.width();
+    if (!is_rounding && part.width() > least) return State::open;
+    if (!in_cluster_) {
+      cluster_.lo = part.lo;
+      is_told_ = true;
+    }
     cluster_.hi = part.hi;
     in_cluster_ = true;
+    is_told_ = is_told_ && (is_rounding || part.width() <= smallest_);
     return State::done;
   }
 
@@ -78,6 +87,7 @@ class Follower {
     if (!in_cluster_) {
       if (positive == changes_.positive()) return;
       cluster_ = t;
+      is_told_ = true;
     }
     close_cluster(positive);
   }
@@ -85,11 +95,18 @@ class Follower {
   void close_cluster(bool after) {
     in_cluster_ = false;
     if (after == changes_.positive()) {
-      if (is_jump()) return;
+      if (!is_told_ || is_jump()) return;
       if (!formula_.has_sheets(line_.at(cluster_.middle()), after)) return;
       changes_.add(cluster_.lo);
       changes_.add(cluster_.hi);
-    } else if (is_jump()) {
+      return;
+    }
+    // One of the changes in what was given up.
+    while (!is_told_ && cluster_.width() > smallest_) {
+      const double middle = cluster_.middle();
+      (is_positive(value_at(middle)) == after ? cluster_.hi : cluster_.lo) = middle;
+    }
+    if (is_jump()) {
       changes_.jump(cluster_.middle());
     } else {
       changes_.add(cluster_.middle());
@@ -111,6 +128,7 @@ class Follower {
   SignChanges& changes_;
   bool in_cluster_ = false;
   Interval cluster_;
+  bool is_told_ = true;  // no part of the cluster was given up before its time
 };
 
 }  // namespace
