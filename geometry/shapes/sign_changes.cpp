@@ -94,31 +94,36 @@ class Follower {
 
   void close_cluster(bool after) {
     in_cluster_ = false;
+    const double reach = is_told_ ? std::max(cluster_.width(), smallest_) : smallest_;
     if (after == changes_.positive()) {
-      if (!is_told_ || is_jump()) return;
+      if (!is_told_ || is_jump(cluster_.middle(), reach)) return;
       if (!formula_.has_sheets(line_.at(cluster_.middle()), after)) return;
       changes_.add(cluster_.lo);
       changes_.add(cluster_.hi);
       return;
     }
-    // One of the changes in what was given up.
-    while (!is_told_ && cluster_.width() > smallest_) {
-      const double middle = cluster_.middle();
-      (is_positive(value_at(middle)) == after ? cluster_.hi : cluster_.lo) = middle;
-    }
-    if (is_jump()) {
-      changes_.jump(cluster_.middle());
-    } else {
-      changes_.add(cluster_.middle());
+    const double t = change_in_cluster(after);
+    if (is_jump(t, reach))
+      changes_.jump(t);
+    else
+      changes_.add(t);
+  }
+
+  // Where the computed sign changes, to the last digit: beside infinite slopes a hit has no better place.
+  double change_in_cluster(bool after) const {
+    double lo = cluster_.lo, hi = cluster_.hi;
+    while (true) {
+      const double middle = 0.5 * lo + 0.5 * hi;
+      if (!(lo < middle && middle < hi)) return middle;
+      (is_positive(value_at(middle)) == after ? hi : lo) = middle;
     }
   }
 
   // At a zero the value shrinks as a power p of the distance, by 64^p here; at a jump it stays, at a pole it grows.
-  bool is_jump() const {
+  bool is_jump(double t, double near) const {
     constexpr double kStays = 0.9;  // p < 1/40
-    const double near = std::max(cluster_.width(), smallest_), far = 64 * near, at = cluster_.middle();
-    const auto size = [&](double by) { return std::abs(value_at(at - by)) + std::abs(value_at(at + by)); };
-    return !(size(near) < kStays * size(far));
+    const auto size = [&](double by) { return std::abs(value_at(t - by)) + std::abs(value_at(t + by)); };
+    return !(size(near) < kStays * size(64 * near));
   }
 
   const ImplicitFormula& formula_;
