@@ -12,7 +12,7 @@ namespace {
 constexpr double kSmallestPart = 1e-13;
 // Of formulas that oscillate without end. After that many parts the smallest ones double with each kCoarser further, so
 // that what lies behind still gets its share.
-constexpr int kMostParts = 20000, kCoarser = 500;
+constexpr int kMostParts = 5000, kCoarser = 200;
 
 bool is_bounded(const Interval& range) { return std::isfinite(range.lo) && std::isfinite(range.hi); }
 
@@ -42,8 +42,8 @@ class Follower {
       }
       if (changes_.is_done()) return;
     }
-    const double end = value_at(t1);
-    if (in_cluster_) close_cluster(std::isnan(end) ? changes_.positive() : is_positive(end));
+    if (!in_cluster_) return;
+    if (const double end = value_at(t1); !std::isnan(end)) go_on(t1, is_positive(end));
   }
 
  private:
@@ -140,7 +140,7 @@ class Follower {
 
 double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start) {
   const double tolerance = 4e-16 * (hi - lo) + 2e-16 * std::max(std::abs(lo), std::abs(hi));
-  constexpr int kMostSteps = 200, kHalvedEach = 4;  // so that any bracket closes
+  constexpr int kMostSteps = 400, kHalvedEach = 8;  // so that any bracket closes
   const auto narrow = [&](double t, double value) { (is_positive(value) == rising ? hi : lo) = t; };
   double t = std::clamp(start, lo, hi);
   double previous = 0;  // the step before if it was Newton's

@@ -365,7 +365,9 @@ std::vector<double> sampled_zeros(const Function& function, const Line& line, co
       const Number middle = (lo + hi) / 2;
       ((at(middle) > 0) == ends ? hi : lo) = middle;
     }
-    if (size(lo, 1e-15L) < 0.9L * size(lo, 1e-12L)) zeros.push_back(static_cast<double>(lo));
+    // A zero that is nearly in a jump is left out as well.
+    const Number at_zero = size(lo, 1e-15L), near = size(lo, 1e-12L), beside = size(lo, 1e-9L);
+    if (at_zero < 0.9L * near && near < 0.9L * beside) zeros.push_back(static_cast<double>(lo));
   }
   return zeros;
 }
@@ -470,7 +472,7 @@ TEST(ImplicitSurface, NormalsAndPlacesAreRightWhereTheGradientIsInfinite) {
 // sin(1/x): zeros at 1/(k pi), without end towards x = 0. Those that can be told apart are found on both sides.
 TEST(ImplicitSurface, OscillationWithoutEndHidesNothingBehind) {
   for (const char* way : {"", " + 0*floor(y)"}) {
-    const ImplicitSurface shape = surface(std::string("sin(1/x)") + way, cube(1, {0.013, 0, 0}));
+    const ImplicitSurface shape = surface(std::string("sin(1/x)") + way, cube(1, {0.06, 0, 0}));
     const std::vector<double> t = places(shape, {{-2, 0.1, 0.2}, {1, 0, 0}});
     for (int k = 1; k <= 20; ++k)
       for (const double x : {1 / (k * M_PI), -1 / (k * M_PI)})
