@@ -18,6 +18,9 @@ namespace {
 constexpr double kCellSlack = 1e-13;
 // A model is good whose error is this part of what F changes in the cell.
 constexpr double kGoodModel = 1.0 / 8;
+// An error so many times larger than the model itself, beside a pole or a root, asks for a part of the line for each
+// unit of its fourth root: interval arithmetic, which sees every part for itself, is faster.
+constexpr double kHopelessModel = 1e6;
 // Fourth derivatives are enclosed anew in boxes down to this part of the region, and in smaller ones as long as that
 // makes the bounds smaller by kGain than what follows from those of the box around.
 constexpr double kSmallBox = 0.13;
@@ -202,7 +205,8 @@ bool ImplicitCells::make_cell(const Box3& given, FourthDerivatives& fourth, Cell
       if (own.error < fourth.error) fourth = own;
       fourth.is_sharp = is_sharp;
     }
-    cell.error = fourth.error + rounding;
+    const bool is_hopeless = fourth.error > kHopelessModel * (std::abs(cell.f) + slope + bend);
+    cell.error = is_hopeless ? kInfinity : fourth.error + rounding;
     cell.slope_error = fourth.slope_error + rounding;
     if (!straighten(cell.error, half, cell)) return false;
     // Where boxes are large, and few, the formula's own range may still tell more.

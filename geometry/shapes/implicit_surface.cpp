@@ -19,10 +19,29 @@ constexpr int kMostBoundCells = 1024;  // that only bound a polynomial's surface
 // formula's rounding is all that is known.
 constexpr double kWorstPlace = 1e-7;
 constexpr double kGoodPlace = 1e-11;
+// How near to a change of sign the line's own place is, of the region's size: what cells and halving leave.
+constexpr double kPlaceOnLine = 1e-13;
 
 // A bound on the errors of F - level in Bernstein form, halvings included, on segments in the box.
 double noise_of(const LinePolynomial& polynomial, double level, const Box3& box) {
   return 2 * (polynomial.rounding(box) + 0x1p-53 * std::abs(level));
+}
+
+double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+bool has_value(const Vec3& v) { return !(std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z)); }
+
+// Whether a gradient is infinite, or as good as that: its square is.
+bool is_steep(const Vec3& gradient) { return has_value(gradient) && largest(gradient) > 1e150; }
+
+// The direction of a gradient; of one that is infinite along some axes that of these alone, its limit. Zero where it is
+// zero or has no value.
+Vec3 direction_of(const Vec3& gradient) {
+  const double most = largest(gradient);
+  if (!has_value(gradient) || most == 0) return Vec3(0);
+  Vec3 share = gradient / most;
+  if (most == kInfinity)
+    for (int k = 0; k < 3; ++k) share[k] = std::isinf(gradient[k]) ? std::copysign(1.0, gradient[k]) : 0;
+  return glm::normalize(share);
 }
 
 // F - level between two places.
@@ -136,6 +155,7 @@ void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only
   // From an origin near the region: a line that begins far away loses no digits beyond those of its t.
   const double foot =
       glm::dot(region_.box.center() - given.origin, given.direction) / glm::dot(given.direction, given.direction);
+  if (!std::isfinite(foot)) return;  // neither is the line
   const Line line{given.at(foot), given.direction};
   Chord chord;
   if (!find_chord(line, chord)) return;
@@ -216,25 +236,28 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
     slope = {both.c[1], both.c[2], both.c[3]};
     value = both.c[0];
   }
-  double square = glm::dot(slope, slope), length = std::sqrt(square);
-  if (square > 0) {
+  const double square = glm::dot(slope, slope), length = std::sqrt(square);
+  if (square > 0 && square < kInfinity) {
     if (std::abs(value) <= worst * length) at.position -= value / square * slope;
     // The bound for the whole region is mostly good enough.
     double rounding = polynomial_ ? noise_ : cells_->rounding();
     if (polynomial_ && rounding > kGoodPlace * size_ * length)
       rounding = noise_of(*polynomial_, formula_.level(), {near, near});
     at.error = std::min(2 * rounding / length, worst);
+    at.normal = slope / length;
+  } else if (is_steep(slope)) {
+    at.error = kPlaceOnLine * size_;
+    at.normal = direction_of(slope);
   } else {
     // A singular point: a normal of its surroundings.
     at.error = worst;
     for (const Vec3& by : {Vec3(1, 0.3, 0.1), Vec3(0.1, 1, 0.3), Vec3(0.3, 0.1, 1)}) {
-      slope = gradient(near + worst * by);
-      square = glm::dot(slope, slope);
-      if (square > 0) break;
+      const Vec3 beside = direction_of(gradient(near + worst * by));
+      if (beside == Vec3(0)) continue;
+      at.normal = beside;
+      break;
     }
-    length = std::sqrt(square);
   }
-  if (square > 0 && square < kInfinity) at.normal = slope / length;
   return at;
 }
 

@@ -39,7 +39,8 @@ class ImplicitSurface final : public Shape {
   // Faces: 0 is F = level; the border of the region is 1 to 6 (x_min, x_max, y_min, ... of a box) or 1 (of a ball).
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override;
-  // The normal is grad F / |grad F| on face 0. There are no parameters: u = v = 0.
+  // The normal is grad F / |grad F| on face 0, or its limit where grad F is infinite. There are no parameters: u = v =
+  // 0.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return closed_; }
   std::string how_to_close() const override { return "an implicit surface is closed with closed: true"; }

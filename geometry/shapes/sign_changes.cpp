@@ -10,7 +10,11 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kSmallestPart = 1e-13;
-constexpr int kMostParts = 20000;  // of formulas that oscillate without end; the rest counts as a touch
+// Of formulas that oscillate without end. After that many parts the smallest ones double with each kCoarser further, so
+// that what lies behind still gets its share.
+constexpr int kMostParts = 5000, kCoarser = 200;
+
+bool is_bounded(const Interval& range) { return std::isfinite(range.lo) && std::isfinite(range.hi); }
 
 class Follower {
  public:
@@ -22,13 +26,15 @@ class Follower {
         changes_(changes) {}
 
   void run(double t0, double t1) {
-    if (!changes_.has_begun()) changes_.begin(sign_at(t0));
+    if (const double begin = value_at(t0); !changes_.has_begun() && !std::isnan(begin))
+      changes_.begin(is_positive(begin));
     Interval stack[64];
     int top = 0;
     stack[0] = {t0, t1};
     for (int parts = 0; top >= 0; ++parts) {
       const Interval part = stack[top--];
-      const State state = tell(part, parts > kMostParts || top > 60);
+      const double coarser = std::exp2(std::max(0, parts - kMostParts) / kCoarser);
+      const State state = tell(part, top > 60 ? kInfinity : coarser * smallest_);
       if (state == State::open) {
         const double middle = part.middle();
         stack[++top] = {middle, part.hi};
@@ -36,61 +42,88 @@ class Follower {
       }
       if (changes_.is_done()) return;
     }
-    close_cluster(sign_at(t1));
+    if (!in_cluster_) return;
+    if (const double end = value_at(t1); !std::isnan(end)) go_on(t1, is_positive(end));
   }
 
  private:
   enum class State { open, done };
 
-  bool sign_at(double t) const { return is_positive(formula_(line_.at(t))); }
+  double value_at(double t) const { return formula_(line_.at(t)); }
 
-  State tell(const Interval& part, bool last) {
+  // Parts of the width `least` or less are not halved further.
+  State tell(const Interval& part, double least) {
     const auto value = formula_.along(line_, Jet<Interval, 1>::variable(part));
     const double middle = part.middle();
     const Interval at_middle = formula_.along(line_, Interval(middle));
     Interval range = value.c[0];
     if (slopes_) range = intersect(range, at_middle + value.c[1] * (part - middle));
     if (range.lo > 0 || range.hi < 0) {
-      close_cluster(range.lo > 0);
-      changes_.pass(part.lo, range.lo > 0);
+      go_on(part.lo, range.lo > 0);
       return State::done;
     }
-    if (slopes_ && !value.c[1].contains(0.0)) {
-      const bool begin = sign_at(part.lo), end = sign_at(part.hi);
-      close_cluster(begin);
-      changes_.pass(part.lo, begin);
+    // Only what is bounded with its slope is continuous: beside a pole slopes may have one sign, too (tan).
+    if (slopes_ && is_bounded(value.c[0]) && is_bounded(value.c[1]) && !value.c[1].contains(0.0)) {
+      const bool begin = is_positive(value_at(part.lo)), end = is_positive(value_at(part.hi));
+      go_on(part.lo, begin);
       if (begin != end) changes_.add(find_zero(formula_, line_, part.lo, part.hi, end, middle));
       return State::done;
     }
-    if (!last && part.width() > smallest_ && magnitude(range) > 4 * at_middle.width()) return State::open;
-    if (!in_cluster_) cluster_.lo = part.lo;
+    const bool is_rounding = magnitude(range) <= 4 * at_middle.width();
+    if (!is_rounding && part.width() > least) return State::open;
+    if (!in_cluster_) {
+      cluster_.lo = part.lo;
+      is_told_ = true;
+    }
     cluster_.hi = part.hi;
     in_cluster_ = true;
+    is_told_ = is_told_ && (is_rounding || part.width() <= smallest_);
     return State::done;
   }
 
+  // The sign from t on. What lies between it and another one before may be a jump or a pole.
+  void go_on(double t, bool positive) {
+    if (!changes_.has_begun()) changes_.begin(positive);
+    if (!in_cluster_) {
+      if (positive == changes_.positive()) return;
+      cluster_ = t;
+      is_told_ = true;
+    }
+    close_cluster(positive);
+  }
+
   void close_cluster(bool after) {
-    if (!in_cluster_) return;
     in_cluster_ = false;
+    const double reach = is_told_ ? std::max(cluster_.width(), smallest_) : smallest_;
     if (after == changes_.positive()) {
-      if (is_jump()) return;
+      if (!is_told_ || is_jump(cluster_.middle(), reach)) return;
       if (!formula_.has_sheets(line_.at(cluster_.middle()), after)) return;
       changes_.add(cluster_.lo);
       changes_.add(cluster_.hi);
-    } else if (is_jump()) {
-      changes_.jump(cluster_.middle());
-    } else {
-      changes_.add(cluster_.middle());
+      return;
+    }
+    const double t = change_in_cluster(after);
+    if (is_jump(t, reach))
+      changes_.jump(t);
+    else
+      changes_.add(t);
+  }
+
+  // Where the computed sign changes, to the last digit: beside infinite slopes a hit has no better place.
+  double change_in_cluster(bool after) const {
+    double lo = cluster_.lo, hi = cluster_.hi;
+    while (true) {
+      const double middle = 0.5 * lo + 0.5 * hi;
+      if (!(lo < middle && middle < hi)) return middle;
+      (is_positive(value_at(middle)) == after ? hi : lo) = middle;
     }
   }
 
-  // At a zero the value shrinks with the distance; at a jump it stays, at a pole it grows.
-  bool is_jump() const {
-    const double near = std::max(cluster_.width(), smallest_), far = 64 * near, at = cluster_.middle();
-    const auto size = [&](double by) {
-      return std::abs(formula_(line_.at(at - by))) + std::abs(formula_(line_.at(at + by)));
-    };
-    return !(size(near) < 0.5 * size(far));
+  // At a zero the value shrinks as a power p of the distance, by 64^p here; at a jump it stays, at a pole it grows.
+  bool is_jump(double t, double near) const {
+    constexpr double kStays = 0.9;  // p < 1/40
+    const auto size = [&](double by) { return std::abs(value_at(t - by)) + std::abs(value_at(t + by)); };
+    return !(size(near) < kStays * size(64 * near));
   }
 
   const ImplicitFormula& formula_;
@@ -100,25 +133,37 @@ class Follower {
   SignChanges& changes_;
   bool in_cluster_ = false;
   Interval cluster_;
+  bool is_told_ = true;  // no part of the cluster was given up before its time
 };
 
 }  // namespace
 
 double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start) {
   const double tolerance = 4e-16 * (hi - lo) + 2e-16 * std::max(std::abs(lo), std::abs(hi));
-  double t = std::clamp(start, lo, hi), previous = 0;
-  for (int step = 0; step < 200; ++step) {
+  constexpr int kMostSteps = 400, kHalvedEach = 8;  // so that any bracket closes
+  const auto narrow = [&](double t, double value) { (is_positive(value) == rising ? hi : lo) = t; };
+  double t = std::clamp(start, lo, hi);
+  double previous = 0;  // the step before if it was Newton's
+  for (int step = 1; step <= kMostSteps && hi - lo > tolerance; ++step) {
     const auto value = formula.along(line, Jet<double, 1>::variable(t));
-    (is_positive(value.c[0]) == rising ? hi : lo) = t;
-    double next = t - value.c[0] / value.c[1];
-    const bool is_newtons = lo <= next && next <= hi;
-    if (!is_newtons) next = 0.5 * lo + 0.5 * hi;
-    const double change = std::abs(next - t);
-    t = next;
+    if (value.c[0] == 0) return t;
+    narrow(t, value.c[0]);
+    const double next = t - value.c[0] / value.c[1], change = std::abs(next - t);
+    if (!std::isfinite(value.c[1]) || !(lo <= next && next <= hi) || step % kHalvedEach == 0) {
+      t = 0.5 * lo + 0.5 * hi;
+      previous = 0;
+      continue;
+    }
     // Newton's steps shrink at least as their squares: the one after would be change^3 / previous^2.
-    if (change <= tolerance || hi - lo <= tolerance) break;
-    if (is_newtons && change < 0.1 * previous && change * change * change <= tolerance * previous * previous) break;
+    if (change < 0.1 * previous && change * change * change <= tolerance * previous * previous) return next;
     previous = change;
+    t = next;
+    if (change > tolerance) continue;
+    // A small step is no proof: beside an infinite slope all steps are. The other sign must be as near.
+    const double beyond = std::clamp(t + (t - lo < hi - t ? tolerance : -tolerance), lo, hi);
+    narrow(beyond, formula(line.at(beyond)));
+    t = 0.5 * lo + 0.5 * hi;
+    previous = 0;
   }
   return t;
 }

@@ -56,12 +56,14 @@ class SignChanges {
   bool found_ = false;
 };
 
-// The only zero between lo and hi, where the signs differ: Newton's iteration from `start`, kept in the bracket.
+// The only zero between lo and hi, where the signs differ: Newton's iteration from `start`, kept in the bracket, and
+// halving where derivatives are not finite or tell nothing.
 double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start);
 
 // Follows the sign of the formula along the line from t0 to t1 by halving: a part is done where the enclosure of F
-// excludes zero, or that of its derivative. What is left where no halving tells more, by rounding or at 1e-13 of
-// `size`, is a touch, two changes at its ends, or, where the signs there differ, one change.
+// excludes zero, or that of its derivative where it is bounded. What is left where no halving tells more, by rounding
+// or at 1e-13 of `size`, is a touch, two changes at its ends, or, where the signs there differ, one change; but if F
+// does not come down to zero there it is a jump or a pole.
 void follow_by_intervals(const ImplicitFormula& formula, const Line& line, double t0, double t1, double size,
                          SignChanges& changes);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "geometry/surfaces/surface_checks.h"
@@ -325,12 +326,171 @@ TEST(ImplicitSurface, RaysThatLeaveDoNotComeBack) {
 TEST(ImplicitSurface, KinksJumpsAndPoles) {
   // |x| - 0.25 in a cube: two planes.
   EXPECT_EQ(places(surface("abs(x) - 0.25", cube(1)), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 2U);
-  // A jump is no zero, and neither is a pole.
-  EXPECT_EQ(places(surface("floor(x) + 0.5 + 0*y", cube(1)), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 0U);
-  EXPECT_EQ(places(surface("1/(x - 0.01)", cube(1)), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 0U);
-  EXPECT_EQ(places(surface("1/(x - 0.01)^2 - 100", cube(1)), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 2U);
-  // But the solid ends there.
-  EXPECT_EQ(places(surface("floor(x) + 0.5 + 0*y", cube(1), true), {{-2, 0.1, 0.2}, {1, 0, 0}}).size(), 2U);
+  // A jump is no zero, and neither is a pole, wherever it lies in the cells.
+  for (const double at : {0.01, 0.0, 0.5}) {
+    const Line line{{-2, 0.1, 0.2}, {1, 0, 0}};
+    EXPECT_EQ(places(surface(fmt::format("floor(x - {}) + 0.5 + 0*y", at), cube(1)), line).size(), 0U) << at;
+    EXPECT_EQ(places(surface(fmt::format("1/(x - {})", at), cube(1)), line).size(), 0U) << at;
+    EXPECT_EQ(places(surface(fmt::format("1/(x - {})^2 - 100", at), cube(1)), line).size(), 2U) << at;
+    // But the solid ends there.
+    EXPECT_EQ(places(surface(fmt::format("floor(x - {}) + 0.5 + 0*y", at), cube(1), true), line).size(), 2U) << at;
+  }
+}
+
+// A formula, and the same function in long double.
+using Number = long double;
+struct Function {
+  std::string text;
+  std::function<Number(Number, Number, Number)> of;
+};
+
+// Where a function changes its sign on a line, by samples and halving in 64 bits alone. Changes where it does not come
+// down to zero are left out: jumps and poles.
+std::vector<double> sampled_zeros(const Function& function, const Line& line, const Interval& t) {
+  constexpr int kSamples = 500;
+  const auto at = [&](Number s) {
+    return function.of(line.origin.x + s * line.direction.x, line.origin.y + s * line.direction.y,
+                       line.origin.z + s * line.direction.z);
+  };
+  const auto size = [&](Number s, Number by) { return std::abs(at(s - by)) + std::abs(at(s + by)); };
+  std::vector<double> zeros;
+  Number before = t.lo;
+  for (int i = 1; i <= kSamples; ++i) {
+    const Number next = t.lo + Number(t.hi - t.lo) * i / kSamples;
+    Number lo = before, hi = next;
+    before = next;
+    const bool ends = at(hi) > 0;
+    if ((at(lo) > 0) == ends) continue;
+    for (int step = 0; step < 70; ++step) {
+      const Number middle = (lo + hi) / 2;
+      ((at(middle) > 0) == ends ? hi : lo) = middle;
+    }
+    // A zero that is nearly in a jump is left out as well.
+    const Number at_zero = size(lo, 1e-15L), near = size(lo, 1e-12L), beside = size(lo, 1e-9L);
+    if (at_zero < 0.9L * near && near < 0.9L * beside) zeros.push_back(static_cast<double>(lo));
+  }
+  return zeros;
+}
+
+// Slopes without bound at zeros and elsewhere, poles and jumps, where cells meet and between.
+TEST(ImplicitSurface, ZerosAreWhereTheFormulaComesDownToZero) {
+  const std::vector<Function> functions{
+      {"cbrt(x) - z", [](Number x, Number, Number z) { return std::cbrt(x) - z; }},
+      {"cbrt(x) + cbrt(y) + cbrt(z) - 0.5",
+       [](Number x, Number y, Number z) { return std::cbrt(x) + std::cbrt(y) + std::cbrt(z) - 0.5L; }},
+      {"abs(x)^0.5*sign(x) - z",
+       [](Number x, Number, Number z) { return std::copysign(std::sqrt(std::abs(x)), x) - z; }},
+      {"abs(x - y)^0.1*sign(x - y)",
+       [](Number x, Number y, Number) { return std::copysign(std::pow(std::abs(x - y), 0.1L), x - y); }},
+      {"((x + 2.5)^(1/3) - 1.5)*cbrt(y - 0.2)",
+       [](Number x, Number y, Number) { return (std::pow(x + 2.5L, Number(1.0 / 3)) - 1.5L) * std::cbrt(y - 0.2L); }},
+      {"z - tan(x)", [](Number x, Number, Number z) { return z - std::tan(x); }},
+      {"x + atan(tan(x + y))/(1 rad) - z",
+       [](Number x, Number y, Number z) { return x + std::atan(std::tan(x + y)) - z; }},
+      {"1/x - z", [](Number x, Number, Number z) { return 1 / x - z; }},
+      {"z - 1/(x^2 + y^2)", [](Number x, Number y, Number z) { return z - 1 / (x * x + y * y); }},
+      {"log(abs(x + y)) - z", [](Number x, Number y, Number z) { return std::log(std::abs(x + y)) - z; }},
+      {"floor(x) - z", [](Number x, Number, Number z) { return std::floor(x) - z; }},
+      {"(x - 0.1)/abs(x - 0.1) + y", [](Number x, Number y, Number) { return (x < Number(0.1) ? -1 : 1) + y; }},
+      {"mod(x + y, 1.25) - z - 0.5",
+       [](Number x, Number y, Number z) { return x + y - 1.25L * std::floor((x + y) / 1.25L) - z - 0.5L; }},
+      {"max(1/x, cbrt(y)) - z", [](Number x, Number y, Number z) { return std::max(1 / x, std::cbrt(y)) - z; }},
+      // A model of the third order near such a pole would ask for a hundred thousand parts of a line.
+      {"(1/(z - 1.2*y - 1.8)^4)^(1/3) - 1/(z - 0.5*x)^2 - 2", [](Number x, Number y, Number z) {
+         return std::pow(std::abs(z - 1.2L * y - 1.8L), Number(-4.0 / 3)) - 1 / ((z - x / 2) * (z - x / 2)) - 2;
+       }}};
+  std::mt19937_64 random(9);
+  std::uniform_int_distribution<int> quarter(-7, 7);
+  for (const Function& function : functions)
+    for (const double off : {0.0, 0.137}) {
+      const ImplicitRegion region = cube(2, Vec3(off, 0, -off));
+      const ImplicitSurface open = surface(function.text, region), closed = surface(function.text, region, true);
+      int found = 0;
+      const int count = tests::tier_count(2000);
+      for (int i = 0; i < count; ++i) {
+        Line line = random_line(random, region.box, 4);
+        // Through places where formulas are singular, between lines that are parallel to an axis.
+        if (i % 3 == 1)
+          line.origin = 0.25 * Vec3(quarter(random), quarter(random), quarter(random)) - 4.0 * line.direction;
+        if (i % 3 == 2) line = {line.at(4) - Vec3(4, 0, 0), {1, 0, 0}};
+        const Interval t = inside(line, region.box);
+        if (!(t.width() > 1e-3)) continue;
+        const std::vector<double> expected = sampled_zeros(function, line, t), at = places(open, line);
+        for (const double zero : expected) {
+          if (std::min(zero - t.lo, t.hi - zero) < 1e-9) continue;
+          ++found;
+          ASSERT_TRUE(std::any_of(at.begin(), at.end(), [&](double hit) { return std::abs(hit - zero) < 1e-11; }))
+              << function.text << ", line " << i << " at " << zero;
+        }
+        std::vector<SurfaceHit> hits;
+        open.all_hits(line, Interval::entire(), hits);
+        for (const SurfaceHit& hit : hits) {
+          // Two zeros nearer than the samples are hits as well: the function is small beside.
+          const auto near = [&](double by) {
+            const Vec3 p = line.at(hit.t + by);
+            return std::abs(function.of(p.x, p.y, p.z));
+          };
+          ASSERT_LT(near(-1e-12) + near(1e-12), 0.9L * (near(-1e-6) + near(1e-6)))
+              << function.text << ", line " << i << " at " << hit.t;
+          const ShapePoint point = open.point(hit, line.at(hit.t));
+          ASSERT_LE(glm::length(point.position - line.at(hit.t)), 1e-9) << function.text << ", line " << i;
+          ASSERT_NEAR(glm::length(point.normal), 1, 1e-12) << function.text << ", line " << i;
+          ASSERT_LE(point.error, 1e-6);
+        }
+        ASSERT_EQ(places(closed, line).size() % 2, 0U) << function.text << ", line " << i;
+      }
+      EXPECT_GT(found, 0) << function.text;
+    }
+}
+
+// z = cbrt(x) is x = z^3, whose normal is known everywhere.
+TEST(ImplicitSurface, NormalsAndPlacesAreRightWhereTheGradientIsInfinite) {
+  const ImplicitSurface shape = surface("cbrt(x) - z", cube(2));
+  std::mt19937_64 random(10);
+  const auto check = [&](const Line& line, double t) {
+    std::vector<SurfaceHit> hits;
+    shape.all_hits(line, Interval::entire(), hits);
+    const auto hit =
+        std::find_if(hits.begin(), hits.end(), [&](const SurfaceHit& h) { return std::abs(h.t - t) < 1e-11; });
+    ASSERT_NE(hit, hits.end());
+    const ShapePoint at = shape.point(*hit, line.at(hit->t));
+    const double z = at.position.z;
+    EXPECT_LE(std::abs(at.position.x - z * z * z), at.error + 4e-15);
+    EXPECT_LE(at.error, 1e-12);
+    EXPECT_LE(glm::length(at.normal - glm::normalize(Vec3(1, 0, -3 * z * z))), 1e-7);
+  };
+  for (const double z : {0.0, 1e-9, 1e-5, 1e-3, 0.1, 1.0}) {
+    check({{-3, 0.1, z}, {1, 0, 0}}, 3 + z * z * z);
+    for (int i = 0; i < tests::tier_count(10000); ++i) {
+      const Vec3 d = random_direction(random);
+      if (std::abs(d.x - 3 * z * z * d.z) < 0.2) continue;
+      check({Vec3(z * z * z, 0.1, z) - 3.0 * d, d}, 3);
+    }
+  }
+}
+
+// sin(1/x): zeros at 1/(k pi), without end towards x = 0. Those that can be told apart are found on both sides.
+TEST(ImplicitSurface, OscillationWithoutEndHidesNothingBehind) {
+  for (const char* way : {"", " + 0*floor(y)"}) {
+    const ImplicitSurface shape = surface(std::string("sin(1/x)") + way, cube(1, {0.06, 0, 0}));
+    const std::vector<double> t = places(shape, {{-2, 0.1, 0.2}, {1, 0, 0}});
+    for (int k = 1; k <= 20; ++k)
+      for (const double x : {1 / (k * M_PI), -1 / (k * M_PI)})
+        EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](double at) { return std::abs(at - 2 - x) < 1e-11; })) << x;
+  }
+}
+
+TEST(ImplicitSurface, LinesThatAreNotFiniteMeetNothing) {
+  const double none = std::nan("");
+  for (const ImplicitSurface& shape : {surface(kGyroid, cube(5), true), surface("x", cube(1), true)})
+    for (const double bad : {none, kInfinity, -kInfinity})
+      for (int k = 0; k < 3; ++k) {
+        Vec3 p(0.1, 0.2, 0.3), d(1, 0, 0);
+        p[k] = bad;
+        EXPECT_TRUE(places(shape, {p, {1, 0, 0}}).empty());
+        d[k] = bad;
+        EXPECT_TRUE(places(shape, {{0.1, 0.2, 0.3}, d}).empty());
+      }
 }
 
 // Whitney's umbrella x^2 = y^2 z: for z > 0 two sheets cross in the axis, which must not be a gap; for z < 0 the axis
