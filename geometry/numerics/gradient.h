@@ -11,6 +11,7 @@ template <class S>
 struct Gradient : JetOperations<Gradient<S>, S, 4>, ComposedJet<Gradient<S>, S, 1> {
   using Base = JetOperations<Gradient<S>, S, 4>;
   using Base::c;  // value, d/dx, d/dy, d/dz
+  static constexpr int kFirst = 3;
 
   constexpr Gradient() = default;
   template <JetScalar<S> A>

@@ -23,6 +23,7 @@ struct Jet : JetOperations<Jet<S, N>, S, N + 1> {
   using Base = JetOperations<Jet<S, N>, S, N + 1>;
   using Base::c;
   static constexpr int kOrder = N;
+  static constexpr int kFirst = 1;
 
   constexpr Jet() = default;
   template <JetScalar<S> A>

@@ -18,6 +18,7 @@ struct Jet2 : JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>, ComposedJet<J
   using Base = JetOperations<Jet2<S, N>, S, (N + 1) * (N + 2) / 2>;
   using Base::c;
   static constexpr int kOrder = N;
+  static constexpr int kFirst = 2;
 
   constexpr Jet2() = default;
   template <JetScalar<S> A>

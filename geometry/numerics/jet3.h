@@ -48,6 +48,7 @@ struct Jet3 : JetOperations<Jet3<S, N>, S, (N + 1) * (N + 2) * (N + 3) / 6>, Com
   using Base::c;
   using Base::kCount;
   static constexpr int kOrder = N;
+  static constexpr int kFirst = 3;
 
   constexpr Jet3() = default;
   template <JetScalar<S> A>

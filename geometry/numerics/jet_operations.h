@@ -15,7 +15,8 @@ namespace lekalo::geometry {
 template <class A, class S>
 concept JetScalar = std::is_arithmetic_v<A> || std::same_as<A, S>;
 
-// J is the jet (Jet<S, N>, Jet2<S, N>), Count its number of coefficients; J supplies product(a, b), quotient(a, b).
+// J is the jet (Jet<S, N>, Jet2<S, N>), Count its number of coefficients; J supplies product(a, b), quotient(a, b), and
+// kFirst: c[1] to c[kFirst] are the first derivatives, by one variable each.
 template <class J, class S, int Count>
 struct JetOperations {
   using Scalar = S;
@@ -133,19 +134,19 @@ struct JetOperations {
   // how fast they rise.
   friend constexpr J floor(const J& a) {
     using std::floor;
-    return steps(S(floor(a.c[0])));
+    return steps(S(floor(a.c[0])), a);
   }
   friend constexpr J ceil(const J& a) {
     using std::ceil;
-    return steps(S(ceil(a.c[0])));
+    return steps(S(ceil(a.c[0])), a);
   }
   friend constexpr J round(const J& a) {
     using std::round;
-    return steps(S(round(a.c[0])));
+    return steps(S(round(a.c[0])), a);
   }
   friend constexpr J sign(const J& a) {
     using ::lekalo::geometry::sign;  // argument-dependent lookup adds the scalar's own
-    return steps(S(sign(a.c[0])));
+    return steps(S(sign(a.c[0])), a);
   }
 
  private:
@@ -160,11 +161,12 @@ struct JetOperations {
     r.c[0] = value;
     return r;
   }
-  static constexpr J steps(const S& value) {
+  static constexpr J steps(const S& value, const J& a) {
     J r(value);
     if constexpr (std::is_same_v<S, Interval>)
       if (value.lo != value.hi)
-        for (int k = 1; k < Count; ++k) r.c[k] = Interval::entire();
+        for (int k = 1; k < Count; ++k)
+          if (k > J::kFirst || !(a.c[k] == S(0))) r.c[k] = Interval::entire();
     return r;
   }
 };

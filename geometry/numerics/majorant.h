@@ -19,6 +19,7 @@ template <int N>
 struct Majorant : JetOperations<Majorant<N>, Interval, N + 1>, ComposedJet<Majorant<N>, Interval, N> {
   using Base = JetOperations<Majorant<N>, Interval, N + 1>;
   using Base::c;
+  static constexpr int kFirst = 0;  // bounds for all directions at once
 
   constexpr Majorant() = default;
   template <JetScalar<Interval> A>

@@ -108,9 +108,11 @@ struct SurfaceCells {
   struct Distance {
     double least, most, hull;
   };
-  Distance distance(const LineBasis& line) const {
+  // `may_be_thin`: the hull may be a wall, long in one direction alone, of which n1 and n2 see a square.
+  Distance distance(const LineBasis& line, bool may_be_thin, double slack) const {
     const Box3 hull = surface->enclose(box, 0).values[0];
-    if (!hull.bounded()) return {passes_by(line.line, hull) ? kInfinity : 0, kInfinity, kInfinity};
+    if (may_be_thin && passes_by(line.line, hull.inflated(slack))) return {kInfinity, kInfinity, hull.diameter()};
+    if (!hull.bounded()) return {0, kInfinity, kInfinity};
     const Vec3 r = hull.center() - line.line.origin;
     const Vec3 half = 0.5 * hull.size();
     const double rounding = 1e-15 * glm::length(r);
@@ -356,7 +358,13 @@ struct Search {
     const Vec2 e = extent(m);
     if (e.x + e.y < kSmallestCell * size()) return true;
     if (!unbounded) return std::max(hx, hy) < kSmallestCell;
-    return hull <= kSmallestCell * size() || (is_exhausted(part.u) && is_exhausted(part.v));
+    return hull <= kSmallestCell * size() || (is_spent(part.u, m.reach_x(), hx) && is_spent(part.v, m.reach_y(), hy));
+  }
+  // Whether making a part shorter along one parameter, of which it has a share, tells nothing more. About a step at
+  // zero doubles would go on for a thousand halvings; |x|^0.2 is as small as the smallest cell at 1e-60.
+  bool is_spent(const Interval& range, double reach, double share) const {
+    constexpr double kLeastShare = 1e-60;
+    return reach <= slack() || share <= kLeastShare || is_exhausted(range);
   }
 };
 
@@ -432,7 +440,7 @@ void search(Search& s, const Part& part, const CellModel& m, const ProxyPatch* p
   if (is_settled(s, cells, m, hull, part.x0, part.y0, part.hx, part.hy)) return;
   const auto along = [&] { return s.along(m, part.hx, part.hy); };
   const auto go_on = [&](const Part& smaller) {
-    const SurfaceCells::Distance d = SurfaceCells{&s.surface, smaller.box}.distance(s.line);
+    const SurfaceCells::Distance d = SurfaceCells{&s.surface, smaller.box}.distance(s.line, s.unbounded, s.slack());
     // Along a line that runs in the surface, be it by its singular points, every place is a root: a tangent.
     if (d.least > s.slack() || (d.most <= s.slack() && along() != Along::neither)) return;
     search(s, smaller, model_of(s.surface, smaller.box), nullptr, d.hull);
@@ -460,7 +468,9 @@ void search(Search& s, const Part& part, const CellModel& m, const ProxyPatch* p
     }
   }
   bool across_x = is_thin ? part.hx >= part.hy : halve_across_x(m, along(), hull, part.hx, part.hy);
-  if (s.unbounded && is_exhausted(across_x ? part.box.u : part.box.v)) across_x = !across_x;
+  if (s.unbounded &&
+      (across_x ? s.is_spent(part.box.u, m.reach_x(), part.hx) : s.is_spent(part.box.v, m.reach_y(), part.hy)))
+    across_x = !across_x;
   for (const double side : {-0.5, 0.5}) go_on(across_x ? part.cell(side, 0, 0.5, 1) : part.cell(0, side, 1, 0.5));
 }
 
