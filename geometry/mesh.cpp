@@ -56,18 +56,18 @@ MeshSides sides(const Mesh& mesh) {
   struct Uses {
     int up = 0, down = 0;
   };
-  std::unordered_map<uint64_t, Uses> sides;
-  sides.reserve(2 * mesh.triangles.size());
+  std::unordered_map<uint64_t, Uses> used;
+  used.reserve(2 * mesh.triangles.size());
   for (const Mesh::Triangle& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = t.point[k], b = t.point[(k + 1) % 3];
-      Uses& uses = sides[(static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b)];
+      Uses& uses = used[(static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b)];
       ++(a < b ? uses.up : uses.down);
     }
   }
   MeshSides result;
-  result.count = sides.size();
-  for (const auto& [side, uses] : sides) {
+  result.count = used.size();
+  for (const auto& [side, uses] : used) {
     if (uses.up + uses.down == 1)
       ++result.free;
     else if (uses.up + uses.down > 2)
@@ -78,10 +78,7 @@ MeshSides sides(const Mesh& mesh) {
   return result;
 }
 
-bool is_closed(const Mesh& mesh) {
-  const MeshSides found = sides(mesh);
-  return found.free + found.turned + found.crowded == 0;
-}
+bool is_closed(const Mesh& mesh) { return sides(mesh).closed(); }
 
 void set_flat_normals(Mesh& mesh) {
   mesh.normals.clear();

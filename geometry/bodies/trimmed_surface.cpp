@@ -278,8 +278,7 @@ class Trimming {
           fmt::format("the loop that begins with {} goes all round the closed surface: alone it encloses nothing",
                       first),
           "two that go round have a band between them: give another one, a segment along the border of the domain if "
-          "all "
-          "is meant up to there");
+          "all is meant up to there");
     for (TrimLoop& loop : loops_) outline(loop);
     std::vector<TrimLoop> bands;
     for (size_t k = 0; k < rings.size(); k += 2) bands.push_back(band(rings[k], rings[k + 1]));

@@ -66,7 +66,7 @@ struct PatchCells {
   }
 };
 
-// Whether the line misses a box without bounds in some directions, but for its rounding.
+// Whether the line misses a box, which may have no bounds in some directions, but for its rounding.
 bool passes_by(const Line& line, const Box3& box) {
   double begin = -kInfinity, end = kInfinity;
   for (int k = 0; k < 3; ++k) {

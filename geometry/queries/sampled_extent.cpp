@@ -1,9 +1,9 @@
 #include "geometry/queries/sampled_extent.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "geometry/point_formulas.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -15,8 +15,6 @@ constexpr double kImplausible = 8;
 constexpr int kSteps = 16;            // of the grid that tells the surface's size
 constexpr size_t kMostParts = 400;    // about a place in the middle of a cell four rows of 40 halvings, two parts each
 constexpr double kMostGrowth = 1000;  // of the points' box by a part's own: more is a pole
-
-bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 double at(const Interval& range, int i, int steps) { return range.lo + (range.hi - range.lo) * i / steps; }
 

@@ -87,7 +87,7 @@ ordered_json mesh_topology(const Mesh& mesh) {
   for (const Mesh::Triangle& triangle : mesh.triangles) points.insert(triangle.point.begin(), triangle.point.end());
   const geometry::MeshSides sides = geometry::sides(mesh);
   ordered_json out;
-  out["closed"] = geometry::is_closed(mesh);
+  out["closed"] = sides.closed();
   out["euler_characteristic"] = static_cast<int64_t>(points.size()) - static_cast<int64_t>(sides.count) +
                                 static_cast<int64_t>(mesh.triangles.size());
   out["points"] = points.size();
