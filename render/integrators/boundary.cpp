@@ -1,6 +1,7 @@
 #include "render/integrators/boundary.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lekalo::render {
 
@@ -18,14 +19,18 @@ struct Crossing {
   std::optional<Medium> medium;  // of the body whose surface it is
 };
 
-// Length of the ray that is lost between a surface and the place behind it where rays that leave it begin.
-double lost_length(const Ray& ray, const SurfacePoint& point) {
-  return World::clearance(point) / std::max(std::abs(glm::dot(ray.direction, point.geometric_normal)), kFlattest);
+// Length of the ray that is lost between a surface, which is met no more exactly than the ray's own places are known,
+// and the place behind it where rays that leave it begin.
+double lost_length(const Ray& ray, double t, const SurfacePoint& point) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  const double place = kRounding * (glm::length(ray.origin) + std::abs(t));
+  return (World::clearance(point) + place) /
+         std::max(std::abs(glm::dot(ray.direction, point.geometric_normal)), kFlattest);
 }
 
 }  // namespace
 
-void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths,
+bool Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths,
                         Media& media) {
   // Their room is kept. No ray is traced while they are in use.
   static thread_local std::vector<Hit> hits;
@@ -34,8 +39,8 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
   crossings.push_back({hit.t, point, front, material, front_material_->interior(wavelengths)});
   Ray stretch = ray;
   // Of meshes the nearest hit is not always the first one.
-  stretch.t_min = std::max(ray.t_min, hit.t - lost_length(ray, point));
-  double end = hit.t + lost_length(ray, point);
+  stretch.t_min = std::max(ray.t_min, hit.t - lost_length(ray, hit.t, point));
+  double end = hit.t + lost_length(ray, hit.t, point);
   do {  // further, as long as something is found whose own neighbourhood goes on
     stretch.t_max = end;
     world.all_hits(stretch, hits);
@@ -52,11 +57,11 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
       c.material = &world.material(c.point, c.front);
       // Not seen from behind.
       if (!c.front && c.material->classic(c.point, wavelengths).catches_shadows) continue;
-      end = std::max(end, h.t + lost_length(ray, c.point));
+      end = std::max(end, h.t + lost_length(ray, c.t, c.point));
       crossings.push_back(c);
     }
   } while (end > stretch.t_max);
-  if (crossings.size() == 1) return;
+  if (crossings.size() == 1) return false;
   std::stable_sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 
   // What lets no light through is all that is seen, and as from within what lies on it.
@@ -68,7 +73,7 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
     show(world);
     changes_filling = true;
     behind = media;
-    return;
+    return true;
   }
 
   // A body whose surface is crossed both ways here, at an edge, is left as it was.
@@ -99,10 +104,20 @@ void Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
       shown = &c;
   }
   others_.emplace(crossings.front().point, crossings.back().point);
-  if (!shown) return;
+  if (std::all_of(crossings.begin(), crossings.end(),
+                  [&](const Crossing& c) { return turns(c.point.instance) == 0; })) {
+    // Only edges are touched: no side of any of their faces is the one to go on from, but the place behind them is.
+    SurfacePoint& behind_edges = others_->second;
+    behind_edges.position = behind_edges.smooth_position = ray.origin + end * ray.direction;
+    behind_edges.geometric_normal = ray.direction;
+    behind_edges.instance = -1;
+    behind_edges.free_sides = {};
+  }
+  if (!shown) return true;
   point = shown->point;
   front = shown->front;
   show(world);
+  return true;
 }
 
 Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths) {
@@ -110,17 +125,27 @@ Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wav
   if (!world.may_be_in_medium(ray.origin)) return media;
   std::vector<Hit> hits;
   world.all_hits(ray, hits);
-  std::vector<int64_t> met;
-  std::vector<std::pair<int64_t, Medium>> around;  // the innermost first
+  struct Body {
+    int64_t instance;
+    Medium medium;
+    int turns = 0;   // entered or left, at the first place where it is crossed to one side
+    double end = 0;  // of that place
+  };
+  std::vector<Body> bodies;  // the innermost first
   for (const Hit& hit : hits) {
-    if (std::find(met.begin(), met.end(), hit.instance) != met.end()) continue;
-    met.push_back(hit.instance);
+    auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.instance == hit.instance; });
+    if (body != bodies.end() && body->turns != 0 && hit.t > body->end) continue;
     const SurfacePoint point = world.surface_point(ray, hit);
-    if (glm::dot(ray.direction, point.geometric_normal) < 0) continue;
-    if (const auto medium = world.material(point, true).interior(wavelengths))
-      around.emplace_back(hit.instance, *medium);
+    if (body == bodies.end()) {
+      const auto medium = world.material(point, true).interior(wavelengths);
+      if (!medium) continue;
+      body = bodies.insert(body, Body{hit.instance, *medium});
+    }
+    body->turns += glm::dot(ray.direction, point.geometric_normal) < 0 ? 1 : -1;
+    body->end = hit.t + lost_length(ray, hit.t, point);
   }
-  for (auto i = around.rbegin(); i != around.rend(); ++i) media.enter(i->first, i->second);
+  for (auto body = bodies.rbegin(); body != bodies.rend(); ++body)
+    if (body->turns < 0) media.enter(body->instance, body->medium);
   return media;
 }
 

@@ -18,12 +18,16 @@ class Boundary {
     show(world);
     if (!world.has_transmitting_materials()) return;
     const std::optional<Medium> medium = front_material_->interior(wavelengths);
-    if (medium && !front && !media.is_inside(point.instance)) media.enter(point.instance, *medium);
+    if (medium) {
+      const bool was_entered = front || media.is_inside(point.instance);
+      // What is left but was never entered may only be touched, at an edge.
+      if ((!was_entered || world.may_be_in_contact(point)) && take_all(world, ray, hit, wavelengths, media)) return;
+      if (!was_entered) media.enter(point.instance, *medium);
+    }
     behind = media;
     if (!medium) return;
     front ? behind.enter(point.instance, *medium) : behind.leave(point.instance);
     changes_filling = (front ? behind : media).filling() == point.instance;
-    if (world.may_be_in_contact(point)) take_all(world, ray, hit, wavelengths, media);
   }
   Boundary(const Boundary&) = delete;
   Boundary& operator=(const Boundary&) = delete;
@@ -45,13 +49,15 @@ class Boundary {
     front_material_ = object.material.get();
     material = front || !object.back_material ? front_material_ : object.back_material.get();
   }
-  void take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media);
+  // False, and nothing done, if the ray crosses just the one surface here.
+  bool take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media);
 
   const Material* front_material_ = nullptr;
   std::optional<std::pair<SurfacePoint, SurfacePoint>> others_;  // where there are several: the first and the last
 };
 
 // The media that a ray begins in: of the bodies that it leaves before it enters them, the one left last entered first.
+// What it crosses both ways at an edge is neither left nor entered there.
 Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths);
 
 }  // namespace lekalo::render

@@ -13,16 +13,16 @@ class DistantLamp final : public Light {
  public:
   explicit DistantLamp(const DistantLight& light)
       : light_(light),
-        irradiance_(light.lamp),
         frame_(frame_about(Vec3(0), -light.direction)),
         sine_(std::sin(0.5 * light.angular_diameter)),
-        one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)) {}
+        one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)),
+        irradiance_(RoundIrradiance(light.lamp, light.sampling).at(1, one_minus_cosine_)) {}
 
   int sample_count() const override { return light_.angular_diameter > 0 ? light_.sampling.n * light_.sampling.n : 1; }
 
   LightSample sample(const Vec3&, int index, double r1, double r2) const override {
     const int count = sample_count();
-    LightSample sample{frame_.z, kInfinity, irradiance_.at(1), 1.0 / count};
+    LightSample sample{frame_.z, kInfinity, irradiance_, 1.0 / count};
     if (light_.angular_diameter > 0) {
       // Equal areas of the disc are equal solid angles when 1 - cos grows with the square of the disc's radius.
       const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
@@ -36,16 +36,16 @@ class DistantLamp final : public Light {
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3&) const override {
     if (!is_jittered()) return std::nullopt;
-    return ConeLight{frame_.z, sine_, irradiance_.at(1), kInfinity, light_.sampling.n};
+    return ConeLight{frame_.z, sine_, irradiance_, kInfinity, light_.sampling.n};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
 
  private:
   DistantLight light_;
-  Irradiance irradiance_;
   Frame frame_;
   double sine_, one_minus_cosine_;  // of half the angular diameter
+  Spectrum irradiance_;             // of each sample
 };
 
 }  // namespace

@@ -29,6 +29,17 @@ Vec2 concentric_disc(const Vec2& square) {
   return {b * std::cos(angle), b * std::sin(angle)};
 }
 
+RoundIrradiance::RoundIrradiance(const Lamp& lamp, const AreaSampling& sampling)
+    : irradiance_(lamp), mean_square_(0.5) {
+  if (!sampling.grid) return;
+  mean_square_ = 0;
+  const int count = sampling.n * sampling.n;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 place = concentric_disc(area_sample(sampling, i, 0, 0));
+    mean_square_ += glm::dot(place, place) / count;
+  }
+}
+
 void declare_lamp(TypeDeclaration& type, bool with_decay) {
   type.field("color", color().non_negative(), "of the light", "white")
       .field("intensity", number().non_negative(),

@@ -102,6 +102,23 @@ Vec2 area_sample(const AreaSampling& sampling, int index, double r1, double r2);
 // The unit square onto the unit disc, area preserving (Shirley and Chiu 1997).
 Vec2 concentric_disc(const Vec2& square);
 
+// That of a round source, whose samples fill a cone evenly in solid angle (area_sample on concentric_disc): of such a
+// strength that a surface that faces the middle receives of all of them what it would of one light there.
+// `height`: 1 - the cosine of half the cone's opening.
+class RoundIrradiance {
+ public:
+  RoundIrradiance(const Lamp& lamp, const AreaSampling& sampling);
+  Spectrum at(double distance, double height) const {
+    return static_cast<float>(1 / mean_cosine(height)) * irradiance_.at(distance);
+  }
+  // Of the angles between the samples and the middle.
+  double mean_cosine(double height) const { return 1 - mean_square_ * height; }
+
+ private:
+  Irradiance irradiance_;
+  double mean_square_;  // of the samples' distances from the disc's centre
+};
+
 // Fields color, intensity, shadows, and decay where `with_decay`.
 void declare_lamp(geometry::TypeDeclaration& type, bool with_decay = true);
 Lamp lamp(const geometry::Fields& fields);

@@ -11,7 +11,7 @@ namespace {
 
 class SphereLamp final : public Light {
  public:
-  explicit SphereLamp(const SphereLight& light) : light_(light), irradiance_(light.lamp) {}
+  explicit SphereLamp(const SphereLight& light) : light_(light), irradiance_(light.lamp, light.sampling) {}
 
   int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
 
@@ -21,8 +21,7 @@ class SphereLamp final : public Light {
     const double distance = glm::length(to_center);
     LightSample sample{{0, 0, 1}, 0, {}, 1.0 / sample_count()};
     if (distance <= light_.radius) return sample;  // inside the lamp: no light
-    const double sine = light_.radius / distance;
-    const double one_minus_cosine = sine * sine / (1 + std::sqrt(1 - sine * sine));
+    const double one_minus_cosine = this->one_minus_cosine(distance);
     const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
     const double height = glm::dot(disc, disc) * one_minus_cosine;
     const Vec3 local(disc * std::sqrt(one_minus_cosine * (2 - height)), 1 - height);
@@ -30,7 +29,7 @@ class SphereLamp final : public Light {
     const double along = distance * local.z;
     const double square = light_.radius * light_.radius - (distance * distance - along * along);
     sample.distance = along - std::sqrt(std::fmax(0.0, square));
-    sample.irradiance = irradiance_.at(distance);
+    sample.irradiance = irradiance_.at(distance, one_minus_cosine);
     return sample;
   }
   bool is_jittered() const override { return !light_.sampling.grid; }
@@ -38,8 +37,8 @@ class SphereLamp final : public Light {
     const Vec3 to_center = light_.center - point;
     const double distance = glm::length(to_center);
     if (distance <= light_.radius || !is_jittered()) return std::nullopt;
-    return ConeLight{to_center / distance, light_.radius / distance, irradiance_.at(distance), distance,
-                     light_.sampling.n};
+    return ConeLight{to_center / distance, light_.radius / distance,
+                     irradiance_.at(distance, one_minus_cosine(distance)), distance, light_.sampling.n};
   }
   Box3 places() const override {
     return {light_.center - Vec3(light_.radius * (1 + 1e-12)), light_.center + Vec3(light_.radius * (1 + 1e-12))};
@@ -48,8 +47,14 @@ class SphereLamp final : public Light {
   std::any made_from() const override { return light_; }
 
  private:
+  // Of half the angle under which the ball is seen.
+  double one_minus_cosine(double distance) const {
+    const double sine = light_.radius / distance;
+    return sine * sine / (1 + std::sqrt(1 - sine * sine));
+  }
+
   SphereLight light_;
-  Irradiance irradiance_;
+  RoundIrradiance irradiance_;
 };
 
 }  // namespace

@@ -112,6 +112,7 @@ std::string Writer::lamp(const Light& light) {
   } else if (const auto* distant = std::any_cast<DistantLight>(&value)) {
     lamp = distant->lamp;
     if (distant->angular_diameter > 0) sampling = distant->sampling;
+    lamp.intensity /= RoundIrradiance(lamp, sampling).mean_cosine(1 - std::cos(0.5 * distant->angular_diameter));
   } else if (const auto* rectangle = std::any_cast<RectangleLight>(&value)) {
     lamp = rectangle->lamp, sampling = rectangle->sampling, one_sided = rectangle->one_sided;
     from = rectangle->frame.origin + rectangle->frame.z;

@@ -193,5 +193,36 @@ TEST(Boundary, ShadowsAreTintedByBothOfTwoThatTouch) {
   }
 }
 
+// Rays that only touch a silhouette edge of a body are in it nowhere, from wherever they come: they see the white sky
+// behind it, and light goes past it. The two faces of the edge are met at the same place, in the order that rounding
+// says.
+TEST(Boundary, EdgesThatAreOnlyTouchedAreNoWayIn) {
+  ClassicLook matt, grey;
+  matt.ambient = grey.ambient = grey.diffuse = 0.0;
+  matt.diffuse = grey.transmission = 1.0;
+  grey.absorption = Vec3(0.5);
+  for (const int sides : {6, 8, 12}) {
+    std::vector<Vec2> corners;
+    for (int i = 0; i < sides; ++i) corners.push_back({std::cos(2 * kPi * i / sides), std::sin(2 * kPi * i / sides)});
+    SmallScene scene;
+    scene.model.background = Spectrum(1, 1, 1);
+    scene.add(std::make_shared<Body>(prism(Frame{{0, 0, -1}}, corners, 2)), make_material(grey));
+    const auto world = scene.world();
+    scene.add(plane({0, 90, 0}, {0, -1, 0}), make_material(matt));
+    scene.light(DistantLight{.direction = {0, 1, 0}});
+    const auto lit = scene.world();
+    // Along the tangents of the circle through all edges.
+    for (int i = 0; i < sides; ++i)
+      for (const double way : {1.0, 5.0, 500.0})
+        for (const double z : {-0.3, 0.0, 0.7}) {
+          const Vec3 tangent(-corners[i].y, corners[i].x, 0), edge(corners[i], z);
+          EXPECT_NEAR(trace(*world, edge - way * tangent, tangent).radiance[0], 1, kFloat)
+              << sides << " " << i << " " << way << " " << z;
+        }
+    for (const double x : {-1.0, 1.0})
+      EXPECT_NEAR(trace(*lit, {x, 89, 0.2}, {0, 1, 0}).radiance[0], 1, kFloat) << sides << " " << x;
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::render::boundary_test

@@ -227,7 +227,8 @@ TEST(ClassicIntegrator, SoftLightsAreWithoutNoiseButInPenumbras) {
       const DistantLight sun{-in_xz(slant), 30 * kDegree, {.n = 1}};
       scene.light(sun);
       const auto world = scene.world();
-      const double mean = make_light(sun)->cone(Vec3(0))->mean_cosine(std::cos(slant * kDegree));
+      const ConeLight cone = *make_light(sun)->cone(Vec3(0));
+      const double mean = cone.mean_cosine(std::cos(slant * kDegree)) / cone.mean_cosine(1);
       for (uint32_t i = 0; i < 100; ++i) {
         Ray ray;
         ray.origin = {0.01 * i, 0.3, 1}, ray.direction = {0, 0, -1};

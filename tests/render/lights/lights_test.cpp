@@ -119,13 +119,31 @@ TEST(Lights, SphereSamplesLieOnItsNearSideWithinItsOutline) {
   }
 }
 
-TEST(Lights, DistantDiscGivesLessThanItsMiddleByTheMeanCosine) {
-  // Directions evenly in a cone of half angle a: mean cosine (1 + cos a) / 2.
-  DistantLight light{.direction = {0, 0, -1}, .angular_diameter = kPi / 3, .sampling = {64, false}};
-  EXPECT_NEAR(irradiance(*make_light(light)) / kPi, 0.5 * (1 + std::cos(kPi / 6)), 1e-4);
-  light.angular_diameter = 0;
-  EXPECT_EQ(make_light(light)->sample_count(), 1);
-  EXPECT_NEAR(irradiance(*make_light(light)) / kPi, 1, 1e-6);
+// A surface that faces the middle of a round source receives its intensity, however large it is seen, in the mean of
+// random samples as in all fixed ones; one whose normal is `slant` away the cosine of it, if all of the source is above
+// its horizon.
+TEST(Lights, RoundSourcesGiveTheirIntensityAtAnySize) {
+  for (const AreaSampling& sampling : {AreaSampling{64, false}, {1, true}, {2, true}, {5, true}}) {
+    const double near = sampling.grid ? 1e-6 : 2e-3;
+    for (const double diameter : {0.0, 10.0, 60.0, 120.0, 170.0}) {
+      const auto sun = make_light(
+          DistantLight{.direction = {0, 0, -1}, .angular_diameter = diameter * kPi / 180, .sampling = sampling});
+      EXPECT_EQ(sun->sample_count() == 1, diameter == 0 || sampling.n == 1);
+      EXPECT_NEAR(irradiance(*sun) / kPi, 1, near) << diameter << " " << sampling.n;
+      if (const auto cone = sun->cone(Vec3(0)))
+        for (const double slant : {0.0, 0.5 * (90 - 0.5 * diameter)})
+          EXPECT_NEAR(cone->mean_cosine(std::cos(slant * kPi / 180)) * cone->irradiance[0] / kPi,
+                      std::cos(slant * kPi / 180), 1e-6);
+    }
+    // A ball of the radiance L gives pi L (r / d)^2 at right angles: the law of the square to its very surface.
+    for (const double distance : {1.01, 1.5, 2.0, 4.0}) {
+      const auto even = make_light(SphereLight{{0, 0, distance}, 1, sampling, {.intensity = 3}});
+      EXPECT_NEAR(irradiance(*even) / kPi, 3, 3 * near) << distance;
+      const auto ball =
+          make_light(SphereLight{{0, 0, distance}, 1, sampling, {.intensity = 3, .inverse_square = true}});
+      EXPECT_NEAR(irradiance(*ball) / kPi, 3 / (distance * distance), 3 * near) << distance;
+    }
+  }
 }
 
 TEST(Lights, ConeAboveAndBelowTheHorizonBringsTheMeanOfItsSamples) {
