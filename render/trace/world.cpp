@@ -45,18 +45,22 @@ constexpr size_t kMostMedia = 32;
 constexpr double kMeshAngle = 10 * geometry::kPi / 180;
 
 // What one leaf is made from; equal keys share a compiled child.
-using ShareKey = std::tuple<const void*, int, double, double, bool, bool>;
+using ShareKey = std::tuple<std::vector<const void*>, int, double, double, bool, bool>;
 
-const void* identity(const Entity& entity) {
+// All that it consists of.
+std::vector<const void*> identity(const Entity& entity) {
   return std::visit(
-      [](const auto& value) -> const void* {
+      [](const auto& value) -> std::vector<const void*> {
         using T = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<T, Vec3>)
-          return nullptr;
-        else if constexpr (std::is_same_v<T, SurfaceSet>)
-          return value.empty() ? nullptr : value.front().get();
-        else
-          return value.get();
+        if constexpr (std::is_same_v<T, Vec3>) {
+          return {};
+        } else if constexpr (std::is_same_v<T, SurfaceSet>) {
+          std::vector<const void*> all;
+          for (const auto& surface : value) all.push_back(surface.get());
+          return all;
+        } else {
+          return {value.get()};
+        }
       },
       entity);
 }
@@ -126,7 +130,7 @@ struct World::Compiled {
   void count_uses(const std::vector<Object>& list) {
     for (const Object& object : list) {
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-        if (uses[{group->get(), -1, 0, 0, false, false}]++ == 0) count_uses((*group)->objects);
+        if (uses[{{group->get()}, -1, 0, 0, false, false}]++ == 0) count_uses((*group)->objects);
       } else {
         ++uses[key_of(object)];
       }
