@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include "geometry/queries/position.h"
 #include "geometry/shapes/body_shape.h"
@@ -21,35 +22,87 @@ constexpr int kStepsOfParts = 8;  // of surfaces that are cut: lines find what i
 constexpr int kNarrowings = 80;   // by golden section: 0.618^80 of a step is below rounding
 constexpr size_t kMostObjects = 500;  // and parts of a solid, with grids of their own
 
-void add_corners(const Box3& box, const Affine& map, std::vector<Vec3>& points) {
-  if (box.empty() || !box.bounded()) return;
-  for (int i = 0; i < 8; ++i)
-    points.push_back(
-        map.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z}));
-}
-
 double between(const Interval& range, int i, int steps = kSteps) {
   return range.lo + (range.hi - range.lo) * i / steps;
 }
 
-void add_curve(const Curve& curve, const Affine& map, std::vector<Vec3>& points) {
-  const Interval domain = curve.domain();
-  for (int i = 0; i <= kSteps; ++i) points.push_back(map.point(curve.evaluate(between(domain, i), 0).point()));
+// A list of points that grows by those that an object's planes leave.
+class Kept {
+ public:
+  explicit Kept(std::vector<Vec3>& points, std::span<const ClipPlane> planes = {}) : points_(points), planes_(planes) {}
+
+  bool is_cut() const { return !planes_.empty(); }
+  void add(const Vec3& point) {
+    if (keeps(point)) points_.push_back(point);
+  }
+  // Where planes cut the curve point(t) between samples.
+  template <class F>
+  void add_cuts(const F& point, const Interval& range, int steps) {
+    if (!is_cut()) return;
+    for (int i = 0; i < steps; ++i) {
+      double in = between(range, i, steps), out = between(range, i + 1, steps);
+      if (keeps(point(in)) == keeps(point(out))) continue;
+      if (!keeps(point(in))) std::swap(in, out);
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = 0.5 * (in + out);
+        (keeps(point(middle)) ? in : out) = middle;
+      }
+      points_.push_back(point(in));
+    }
+  }
+  template <class F>
+  void add_along(const F& point, const Interval& range, int steps) {
+    for (int i = 0; i <= steps; ++i) add(point(between(range, i, steps)));
+    add_cuts(point, range, steps);
+  }
+
+ private:
+  static constexpr int kHalvings = 30;
+
+  bool keeps(const Vec3& point) const {
+    return std::all_of(planes_.begin(), planes_.end(),
+                       [&](const ClipPlane& plane) { return glm::dot(point - plane.through, plane.normal) <= 0; });
+  }
+
+  std::vector<Vec3>& points_;
+  const std::span<const ClipPlane> planes_;
+};
+
+void add_corners(const Box3& box, const Affine& map, Kept points) {
+  if (box.empty() || !box.bounded()) return;
+  const auto corner = [&](int i) {
+    return map.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
+  };
+  for (int i = 0; i < 8; ++i) points.add(corner(i));
+  for (int i = 0; i < 8; ++i)
+    for (const int axis : {1, 2, 4})
+      if ((i & axis) == 0)
+        points.add_cuts([&](double t) { return glm::mix(corner(i), corner(i | axis), t); }, {0, 1}, 1);
+}
+
+void add_curve(const Curve& curve, const Affine& map, Kept points) {
+  points.add_along([&](double t) { return map.point(curve.evaluate(t, 0).point()); }, curve.domain(), kSteps);
 }
 
 // Points of the surface inside `limit`, which keeps the parts of a face's surface beyond the body out.
-void add_surface(const Surface& surface, const Box3& limit, const Affine& map, std::vector<Vec3>& points,
-                 int steps = kSteps) {
+void add_surface(const Surface& surface, const Box3& limit, const Affine& map, Kept points, int steps = kSteps) {
   if (!surface.bounded()) return;
   const Rectangle domain = surface.domain();
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= steps; ++j) {
       const Vec3 p = surface.point(between(domain.u, i, steps), between(domain.v, j, steps));
-      if (limit.contains(p)) points.push_back(map.point(p));
+      if (limit.contains(p)) points.add(map.point(p));
     }
+  if (!points.is_cut()) return;
+  const auto at = [&](double u, double v) { return map.point(surface.point(u, v)); };
+  for (int i = 0; i <= steps; ++i) {
+    const double u = between(domain.u, i, steps), v = between(domain.v, i, steps);
+    points.add_cuts([&](double t) { return at(t, v); }, domain.u, steps);
+    points.add_cuts([&](double t) { return at(u, t); }, domain.v, steps);
+  }
 }
 
-void add_body(const Body& body, const Affine& map, std::vector<Vec3>& points, int steps = kSteps) {
+void add_body(const Body& body, const Affine& map, Kept points, int steps = kSteps) {
   for (const Edge& edge : body.edges)
     if (edge.curve) add_curve(*edge.curve, map, points);
   const Box3 limit = bounds(body);
@@ -146,9 +199,9 @@ void add_parts(const Shape& shape, const Affine& map, std::vector<PartPoint>& po
   if (!shape.bounds().bounded()) return;
   std::vector<Vec3> own;
   if (steps == 0)
-    add_corners(shape.bounds(), map, own);
+    add_corners(shape.bounds(), map, Kept(own));
   else if (const auto* body = dynamic_cast<const BodyShape*>(&shape))
-    add_body(*body->body(), map, own, steps);
+    add_body(*body->body(), map, Kept(own), steps);
   else
     add_met_by_lines(shape, map, own);
   const Vec3 middle = map.point(shape.bounds().center());
@@ -183,9 +236,9 @@ const Csg* put_together(const Shape& shape) {
   return dynamic_cast<const Csg*>(moved ? moved->original().get() : &shape);
 }
 
-void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
+void add(const Entity& entity, const Affine& map, Kept points) {
   if (const auto* point = std::get_if<Vec3>(&entity)) {
-    points.push_back(map.point(*point));
+    points.add(map.point(*point));
   } else if (const auto* curve = std::get_if<CurvePtr>(&entity)) {
     add_curve(**curve, map, points);
   } else if (const auto* surface = std::get_if<SurfacePtr>(&entity)) {
@@ -195,23 +248,36 @@ void add(const Entity& entity, const Affine& map, std::vector<Vec3>& points) {
   } else if (const auto* body = std::get_if<BodyPtr>(&entity)) {
     add_body(**body, map, points);
   } else if (const auto* shape = std::get_if<ShapePtr>(&entity)) {
-    if (const Csg* solid = put_together(**shape); solid && bounds(**shape).bounded())
-      add_solid(**shape, map, points, solid->leaf_count() <= static_cast<int>(kMostObjects) ? kSteps : 0);
-    else
+    if (const Csg* solid = put_together(**shape); solid && bounds(**shape).bounded()) {
+      std::vector<Vec3> whole;
+      add_solid(**shape, map, whole, solid->leaf_count() <= static_cast<int>(kMostObjects) ? kSteps : 0);
+      for (const Vec3& p : whole) points.add(p);
+    } else {
       add_corners(bounds(entity), map, points);
+    }
   } else if (const auto* mesh = std::get_if<MeshPtr>(&entity)) {
-    for (const Vec3& p : (*mesh)->points) points.push_back(map.point(p));
+    std::vector<Vec3> placed;
+    for (const Vec3& p : (*mesh)->points) placed.push_back(map.point(p));
+    for (const Vec3& p : placed) points.add(p);
+    if (!points.is_cut()) return;
+    for (const Mesh::Triangle& triangle : (*mesh)->triangles)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 &a = placed[static_cast<size_t>(triangle.point[k])],
+                   &b = placed[static_cast<size_t>(triangle.point[(k + 1) % 3])];
+        points.add_cuts([&](double t) { return glm::mix(a, b, t); }, {0, 1}, 1);
+      }
   }
 }
 
 void add(const std::vector<Object>& objects, const Affine& map, std::vector<Vec3>& points) {
   for (const Object& object : objects) {
-    const Affine placed = map * object.transform;
     if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-      add((*group)->objects, placed, points);
+      add((*group)->objects, map * object.transform, points);
     } else {
-      add(object.shape, placed, points);
-      for (const Vec3& p : helper_points(object)) points.push_back(placed.point(p));
+      std::vector<Vec3> own;  // where the object is placed, as its planes are
+      add(object.shape, object.transform, Kept(own, object.clips));
+      for (const Vec3& p : own) points.push_back(map.point(p));
+      for (const Vec3& p : helper_points(object)) points.push_back(map.point(object.transform.point(p)));
     }
   }
 }
@@ -257,7 +323,7 @@ void include_farthest(const std::vector<Object>& objects, const Affine& map, Box
     const Affine placed = map * object.transform;
     if (const auto* group = std::get_if<GroupPtr>(&object.shape)) include_farthest((*group)->objects, placed, box);
     const auto* curve = std::get_if<CurvePtr>(&object.shape);
-    if (!curve) continue;
+    if (!curve || !object.clips.empty()) continue;
     for (const CurvePiece& piece : (*curve)->pieces()) include_farthest(**curve, placed, piece.domain, box);
   }
 }
@@ -281,7 +347,8 @@ Shown::Shown(const std::vector<Object>& objects) : points_(std::make_shared<Poin
     return;
   }
   points_->list.reserve(8 * objects.size());
-  for (const Object& object : objects) add_corners(boxes.of(object.shape), object.transform, points_->list);
+  for (const Object& object : objects)
+    add_corners(boxes.of(object.shape), object.transform, Kept(points_->list, object.clips));
 }
 
 const std::vector<Vec3>& Shown::points() const {
@@ -290,7 +357,7 @@ const std::vector<Vec3>& Shown::points() const {
     add(p.objects, Affine(), p.list);
     if (!p.list.empty()) return;
     const bool usable = !box.empty() && box.bounded();
-    add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), p.list);
+    add_corners(usable ? box : Box3{Vec3(-0.5), Vec3(0.5)}, Affine(), Kept(p.list));
   });
   return p.list;
 }

@@ -23,8 +23,8 @@ class Shown {
   // Points on the shapes, dense enough to stand for them in the picture: grids on surfaces and faces, points along
   // edges and curves; of solids that are put together where lines in a grid meet them. A silhouette between them may
   // stand out by half a hundredth of the shape's size, a corner that cuts make by three hundredths. Unbounded shapes
-  // are left out. Of very many objects only the corners of their boxes are taken, and no more is kept of them. Else
-  // computed when first asked for: many cameras do not ask.
+  // are left out, and what planes cut away. Of very many objects only the corners of their boxes are taken, and no more
+  // is kept of them. Else computed when first asked for: many cameras do not ask.
   const std::vector<geometry::Vec3>& points() const;
 
   // The box of these points, and of the places where curves are farthest along x and y, found to rounding: a graph of

@@ -6,6 +6,11 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/bodies/primitives.h"
+#include "geometry/curves/circle.h"
+#include "geometry/shapes/body_shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/tessellation/tessellate.h"
 #include "render/small_scene.h"
 
 namespace lekalo::render::cameras_test {
@@ -180,6 +185,39 @@ TEST(Framing, FitsTheOutlineOfABall) {
   EXPECT_NEAR(outline, 0.8, 0.005);
   const Vec3 sight = glm::normalize(view.at - view.from);
   EXPECT_LT(glm::length(glm::cross(Vec3(1, 2, 3) - view.from, sight)), 0.02);
+}
+
+// What planes cut away is not framed: of each kind of thing the part with x <= 0.3 of what is about the origin, where
+// the object and its planes stand in a group that is turned.
+TEST(Framing, LeavesOutWhatPlanesCutAway) {
+  using namespace geometry;
+  const auto ball = std::make_shared<Body>(geometry::ball(Frame{}, 2));
+  const auto ring = std::make_shared<Circle>(Frame{}, 2.0);
+  const auto block = std::make_shared<Body>(box(Frame{{-2, -2, -2}}, {4, 4, 4}));
+  const MeshPtr mesh = std::make_shared<Mesh>(tessellate(*block, {}));
+  const ShapePtr solid = std::make_shared<Csg>(
+      Csg::Operation::unite,
+      std::vector<ShapePtr>{std::make_shared<BodyShape>(block), std::make_shared<BodyShape>(ball)});
+  for (const Entity& shape :
+       {Entity(sphere({0, 0, 0}, 2)), Entity(ball), Entity(ring), Entity(block), Entity(mesh), Entity(solid)}) {
+    Group group;
+    group.objects.emplace_back();
+    group.objects[0].shape = shape;
+    group.objects[0].transform = Affine::translation({5, 0, 0});
+    group.objects[0].clips = {{{5.3, 7, 7}, {1, 0, 0}, false}};
+    Object placed;
+    placed.shape = std::make_shared<const Group>(group);
+    placed.transform = Affine::rotation(kPi / 2, {0, 0, 1});
+    Box3 found;
+    const Shown all(std::vector<Object>{placed});
+    for (const Vec3& p : all.points()) found.include(p);
+    // The group's x is the world's y.
+    const double within = std::holds_alternative<ShapePtr>(shape) ? 4.0 / 32 : 0.002;
+    EXPECT_NEAR(found.lo.y, 3, 0.01) << shape.index();
+    EXPECT_NEAR(found.hi.y, 5.3, within) << shape.index();
+    EXPECT_LE(found.hi.y, 5.3 + 1e-9) << shape.index();
+    EXPECT_NEAR(found.hi.x - found.lo.x, 4, 0.02) << shape.index();
+  }
 }
 
 // A model of any size, anywhere, looks the same.
