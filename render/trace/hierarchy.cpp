@@ -273,6 +273,7 @@ void Hierarchy::commit() {
     p.center = p.box.center();
     p.radius = 0.5 * p.box.diameter();
     if (!(p.radius > 0)) p.radius = 1e-30 + 1e-12 * glm::length(p.center);
+    p.extent = glm::length(p.center) + p.radius;
     if (!p.list_few()) p.build_scene();
   }
   // Unbounded records live on behind the bounded ones, whose places are Embree's numbers.

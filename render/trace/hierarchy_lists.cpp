@@ -123,8 +123,9 @@ void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
     begin(query, rays[i]);
     query.among.scene = false;
     query.nearest = &hits[i];
+    query.extent = p.extent;
     query.found = hits[i].instance >= 0;
-    if (query.found) query.t_max = hits[i].t;
+    if (query.found) query.t_max = query.end_behind(hits[i].t);
     run(query);
   }
 }

@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "render/trace/hierarchy.h"
 
@@ -69,6 +70,7 @@ struct Hierarchy::Parts {
   Box3 box;
   Vec3 center{0};
   double radius = 0;
+  double extent = 0;  // the largest distance from the origin of coordinates
   size_t pieces = 0, triangles = 0, bytes = 0;
   // The scene holds nothing but triangles that all rays see, so that Embree alone finds candidates.
   bool plain_triangles = false;
@@ -98,12 +100,17 @@ inline bool comes_before(const Hit& a, const Hit& b) {
   return a.piece < b.piece;
 }
 
+// Surfaces of two objects whose places on a ray differ by less than this part of their distance from its origin, and of
+// that one's from the origin of coordinates, lie on one another: rounding alone would say which is first.
+inline constexpr double kSamePlace = 64 * std::numeric_limits<double>::epsilon();
+
 // A query in the space of one hierarchy. Embree hands its address back to the callbacks.
 struct Hierarchy::Query {
   RTCIntersectContext context;
   geometry::PreparedLine prepared;
   double t_min = 0;
-  double t_max = geometry::kInfinity;  // of the nearest hit so far
+  double t_max = geometry::kInfinity;  // up to where hits may still be the nearest
+  double extent = 0;                   // of all that is asked, from the origin of coordinates
   double start = 0;                    // the float ray begins here
   double slack = 0;                    // float uncertainty of t
   uint32_t kind = 1;
@@ -134,16 +141,24 @@ struct Hierarchy::Query {
       all->push_back(hit);
     found = true;
   }
-  // The same where the nearest hit is wanted.
+  // The same where the nearest hit is wanted. Of objects that lie on one another there the last listed shows, as if
+  // painted over the others.
   void accept_nearest(const Hit& hit) {
-    if (!found || comes_before(hit, *nearest)) {
-      *nearest = hit;
-      t_max = hit.t;
-    }
+    if (found && !(lies_on_nearest(hit) ? hit.instance > nearest->instance : comes_before(hit, *nearest))) return;
     found = true;
+    *nearest = hit;
+    t_max = std::min(t_max, end_behind(hit.t));
   }
+  // Behind all that lies on what is met at t.
+  double end_behind(double t) const { return t + kSamePlace * (extent + std::abs(t)); }
 
  private:
+  bool lies_on_nearest(const Hit& hit) const {
+    const double apart = std::abs(hit.t - nearest->t);
+    if (hit.instance == nearest->instance || hit.t + apart > end_behind(hit.t)) return false;
+    const Vec3 &o = line().origin, &d = line().direction;
+    return apart <= kSamePlace * (glm::length(o) / glm::length(d) + std::abs(hit.t));
+  }
   bool is_left(const GeometryRecord& record) const {
     return record.kind == GeometryRecord::Kind::target && leaf_offset + record.leaf_number == left_instance &&
            record.face == left_face;

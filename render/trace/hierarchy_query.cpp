@@ -40,6 +40,7 @@ void test_instance(const Instance& instance, Query& query) {
   Query inner(line);
   inner.t_min = query.t_min;
   inner.t_max = query.t_max;
+  inner.extent = query.extent;
   inner.kind = query.kind;
   inner.leaf_offset = query.leaf_offset + instance.first_leaf;
   inner.left_instance = query.left_instance;
@@ -338,6 +339,7 @@ bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
   Query query(ray);
   begin(query, ray);
   query.nearest = &hit;
+  query.extent = parts_->extent;
   run(query);
   return query.found;
 }

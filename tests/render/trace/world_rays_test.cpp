@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/nurbs_surface.h"
 #include "geometry/surfaces/patches.h"
@@ -311,6 +312,67 @@ TEST_F(WorldRays, ClosedBodiesAreMetInPairs) {
     tests::report_figure(std::string(name) + "_rays", count);
     tests::report_figure(std::string(name) + "_unpaired", unpaired);
   }
+}
+
+// Surfaces of unlike kinds in one plane, some of them in a group that is turned: everywhere the last listed of those
+// that are there is met, from both sides and at angles down to five degrees.
+TEST_F(WorldRays, OfSurfacesThatLieOnOneAnotherTheLastListedIsMet) {
+  const Frame frame = frame_about({0.3, -2, 7}, glm::normalize(Vec3(1, 2, 3)));
+  const auto patch = [&](int degree) {
+    const double step = 2.0 / degree;
+    Grid<Vec3> points{degree + 1, degree + 1, std::vector<Vec3>((degree + 1) * (degree + 1))};
+    for (int i = 0; i <= degree; ++i)
+      for (int k = 0; k <= degree; ++k)
+        points.at(i, k) =
+            frame.point({step * (i + 0.15 * unit_(random_)) - 1, step * (k + 0.15 * unit_(random_)) - 1, 0});
+    return std::make_shared<NurbsSurface>(bezier_surface(points));
+  };
+  Frame below = frame;
+  below.origin -= 0.5 * frame.z;
+  const std::vector<Entity> shapes = {SurfacePtr(std::make_shared<Plane>(frame)), SurfacePtr(patch(2)),
+                                      BodyPtr(std::make_shared<Body>(box(below, {1.5, 1.5, 0.5}))),
+                                      SurfacePtr(std::make_shared<Plane>(frame, Rectangle{{-0.5, 2}, {-0.7, 0.9}})),
+                                      SurfacePtr(patch(5))};
+  const Affine turn = Affine::rotation(0.9, glm::normalize(Vec3(3, -1, 2)), {1, 1, 1});
+  std::vector<int> order = {0, 1, 2, 3, 4};
+  int wrong = 0, together = 0;
+  for (int round = 0; round < 10; ++round) {
+    std::shuffle(order.begin(), order.end(), random_);
+    auto model = std::make_shared<Model>();
+    for (const int k : order) {
+      Object object;
+      object.shape = shapes[static_cast<size_t>(k)];
+      if (k % 2 == round % 2) {
+        object.transform = turn.inverse();
+        Group group;
+        group.objects = {object};
+        object.shape = std::make_shared<const Group>(group);
+        object.transform = turn;
+      }
+      model->objects.push_back(object);
+    }
+    const World world(model);
+    for (int i = 0; i < tests::tier_count(200000); ++i) {
+      Ray ray;
+      ray.direction = any_direction();
+      if (std::abs(glm::dot(ray.direction, frame.z)) < 0.09) continue;
+      ray.origin =
+          frame.point({2 * unit_(random_) - 1, 2 * unit_(random_) - 1, 0}) - (1 + 20 * unit_(random_)) * ray.direction;
+      Hit hit;
+      ASSERT_TRUE(world.nearest(ray, hit));
+      const std::vector<Hit> all = world.all_hits(ray);
+      int64_t last = 0;
+      int there = 0;
+      for (const Hit& h : all)
+        if (h.t <= all.front().t + 1e-10) last = std::max(last, h.instance), ++there;
+      together += there > 1;
+      wrong += hit.instance != last;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(together, tests::tier_count(200000));
+  tests::report_figure("together", together);
+  tests::report_figure("wrong", wrong);
 }
 
 class MeshRays : public WorldRays {
