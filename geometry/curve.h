@@ -95,6 +95,9 @@ class Curve {
   // At a break in smoothness the derivatives are those from the right (from the left at the domain's end).
   virtual CurveJet evaluate(double t, int order) const = 0;
   virtual void evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const;
+  // Where the first derivatives are those of a fit to the points: how far it was seen to be from them, a length. 0
+  // where they are the points' own.
+  virtual double fit_distance() const { return 0; }
 
   // Certified enclosure of the point and derivatives up to `order` (0..2) over an interval inside the domain. At a
   // break in smoothness that is the interval's upper end the derivatives from the left count.

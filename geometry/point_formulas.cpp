@@ -1,5 +1,7 @@
 #include "geometry/point_formulas.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 namespace lekalo::geometry {
@@ -26,7 +28,14 @@ PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std:
                              Coordinates coordinates) {
   std::array<Expression, 3> result;
   for (size_t k = 0; k < 3; ++k) result[k] = formula_of(texts[k], variables);
-  return {result, coordinates};
+  return {result, coordinates, variables};
+}
+
+std::string PointFormulas::no_value(std::span<const double> at) const {
+  std::string text;
+  for (size_t k = 0; k < at.size(); ++k)
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "the formulas have no value at " : ", ", variables_[k], at[k]);
+  return text;
 }
 
 void declare_formulas(TypeDeclaration& type, const std::vector<std::string>& variables) {
@@ -62,7 +71,7 @@ PointFormulas read_formulas(const Fields& fields, const std::vector<std::string>
     for (size_t k = 0; k < variables.size(); ++k) result[k] = formula_of(variables[k], variables);
     result[variables.size()] = fields.get<Expression>(other);
     if (variables.size() == 1) result[2] = formula_of("0", variables);
-    return {result, Coordinates::cartesian};
+    return {result, Coordinates::cartesian, places(variables)};
   }
   const auto& given = fields.get<std::vector<Expression>>("point");
   for (size_t k = 0; k < 3; ++k) result[k] = k < given.size() ? given[k] : formula_of("0", variables);
@@ -70,8 +79,8 @@ PointFormulas read_formulas(const Fields& fields, const std::vector<std::string>
   if (given.size() != needed)
     throw FieldError("point", coordinates + " coordinates are " + std::to_string(needed) + ", found " +
                                   std::to_string(given.size()));
-  if (coordinates == "polar" || coordinates == "cylindrical") return {result, Coordinates::cylindrical};
-  return {result, coordinates == "spherical" ? Coordinates::spherical : Coordinates::cartesian};
+  if (coordinates == "polar" || coordinates == "cylindrical") return {result, Coordinates::cylindrical, variables};
+  return {result, coordinates == "spherical" ? Coordinates::spherical : Coordinates::cartesian, variables};
 }
 
 }  // namespace lekalo::geometry

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "geometry/describe.h"
 #include "geometry/expression/expression.h"
@@ -39,13 +41,18 @@ Triple<T> point_of(Coordinates coordinates, const T& a, const T& b, const T& c) 
 // Three formulas, bound to the variables, and what they mean.
 class PointFormulas {
  public:
-  PointFormulas(const std::array<Expression, 3>& formulas, Coordinates coordinates)
+  // `variables`: as whoever wrote the formulas calls the one or two.
+  PointFormulas(const std::array<Expression, 3>& formulas, Coordinates coordinates, std::vector<std::string> variables)
       : formulas_(std::make_shared<const std::array<Expression, 3>>(formulas)),
         program_(formulas),
-        coordinates_(coordinates) {}
+        coordinates_(coordinates),
+        variables_(std::move(variables)) {}
 
   const std::array<Expression, 3>& formulas() const { return *formulas_; }
   Coordinates coordinates() const { return coordinates_; }
+  const std::vector<std::string>& variables() const { return variables_; }
+  // What to say of a place where the point is not finite: "the formulas have no value at x = 0.5, y = 1".
+  std::string no_value(std::span<const double> at) const;
 
   // The point at t, or at (u, v), over the number types of FormulaProgram.
   template <class T, class... More>
@@ -60,6 +67,7 @@ class PointFormulas {
   std::shared_ptr<const std::array<Expression, 3>> formulas_;
   FormulaProgram program_;
   Coordinates coordinates_;
+  std::vector<std::string> variables_;
 };
 
 // From texts. Throws std::invalid_argument for one that is no formula of the variables.

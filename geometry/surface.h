@@ -154,6 +154,8 @@ class Surface {
   // Point and partial derivatives up to total `order` (0..kMaxSurfaceOrder).
   virtual SurfaceJet evaluate(double u, double v, int order) const = 0;
   virtual void evaluate_many(std::span<const Vec2> uv, int order, std::span<SurfaceJet> result) const;
+  // As for curves: how far the fit whose first derivatives these are was seen to be from the points, or 0.
+  virtual double fit_distance() const { return 0; }
   // The same but for rounding where the point is known to lie at `near`, as that of a hit is: what a formula would find
   // anew from the parameters (cosines and sines of angles) a surface may take from there.
   virtual SurfaceJet evaluate_near(const Vec3& /*near*/, double u, double v, int order) const {

@@ -9,9 +9,10 @@
 // r_uv x r_v times the sign of v - v0: the tip of a cone thus keeps one normal for each u. Where r_u and r_v are
 // parallel at a corner, or control points coincide to higher order, c_2 and c_3 decide; they need derivatives up to
 // order 4.
+#include "geometry/surface_normal.h"
+
 #include <cmath>
 
-#include "geometry/surface.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -74,10 +75,8 @@ NormalSeries normal_series(const SurfaceJet& jet, double step_u, double step_v) 
 }
 
 Vec3 limit_normal(const Surface& surface, double u, double v) {
-  const Rectangle domain = surface.domain();
-  const double step_u = scale_of(domain.u) * inward(domain.u, u);
-  const double step_v = scale_of(domain.v) * inward(domain.v, v);
-  const NormalSeries series = normal_series(surface.evaluate(u, v, kSeriesOrder + 1), step_u, step_v);
+  const Vec2 step = inward_step(surface.domain(), u, v);
+  const NormalSeries series = normal_series(surface.evaluate(u, v, kSeriesOrder + 1), step.x, step.y);
   // The coefficient that rules at a small distance. A vanishing N is looked at from further away: at a double root (the
   // tip of a horn torus) c_1 is known long before it vanishes, but has opposite signs on the two sides.
   const bool vanishes = !(glm::length(series.c[0]) > series.noise[0]);
@@ -96,14 +95,17 @@ Vec3 limit_normal(const Surface& surface, double u, double v) {
     // A point just before a singular line that the direction crosses keeps the normal of its own side. On one where a
     // smooth piece ends the series is that of the piece, but behind it there may be another.
     const auto beyond = [&] {
-      const SurfaceJet jet = surface.evaluate(u + distance * step_u, v + distance * step_v, 1);
+      const SurfaceJet jet = surface.evaluate(u + distance * step.x, v + distance * step.y, 1);
       return glm::cross(jet.du(), jet.dv());
     };
     const bool crosses = glm::dot(vanishes ? beyond() : series.c[0], c) < 0;
     return glm::normalize(crosses ? -c : c);
   }
-  for (const double shift : {1e-6, 1e-4, 1e-2}) {
-    const SurfaceJet near = surface.evaluate(u + shift * step_u, v + shift * step_v, 1);
+  // Beside derivatives that grow without bounds, as those of a root of zero, no digits are lost, however near the
+  // place.
+  const bool infinite = !std::isfinite(glm::length(series.c[0]));
+  for (double shift = infinite ? 1e-15 : 1e-6; shift < 0.1; shift *= 100) {
+    const SurfaceJet near = surface.evaluate(u + shift * step.x, v + shift * step.y, 1);
     const Vec3 n = glm::cross(near.du(), near.dv());
     const double length = glm::length(n);
     if (length > 0 && std::isfinite(length)) return n / length;
@@ -116,6 +118,10 @@ Vec3 limit_normal(const Surface& surface, double u, double v) {
 }
 
 }  // namespace
+
+Vec2 inward_step(const Rectangle& domain, double u, double v) {
+  return {scale_of(domain.u) * inward(domain.u, u), scale_of(domain.v) * inward(domain.v, v)};
+}
 
 Vec3 parametric_normal(const Surface& surface, double u, double v, const SurfaceJet& jet) {
   const Vec3 n = glm::cross(jet.du(), jet.dv());

@@ -16,6 +16,7 @@ class TransformedCurve final : public Curve {
   double period() const override { return original_->period(); }
   bool is_closed() const override { return original_->is_closed(); }
   CurveJet evaluate(double t, int order) const override;
+  double fit_distance() const override { return map_.most_stretch() * original_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
   std::optional<NurbsCurveForm> as_nurbs() const override;
@@ -37,6 +38,7 @@ class TransformedSurface final : public Surface {
   Rectangle domain() const override { return original_->domain(); }
   Periods periods() const override { return original_->periods(); }
   SurfaceJet evaluate(double u, double v, int order) const override;
+  double fit_distance() const override { return map_.most_stretch() * original_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return original_->enclosure_order(); }
   std::vector<SurfacePiece> pieces() const override;

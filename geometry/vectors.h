@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -91,6 +92,10 @@ struct Affine {
   Vec3 direction(const Vec3& v) const { return linear * v; }
   bool is_identity() const { return linear == Mat3(1.0) && offset == Vec3(0); }
   double determinant() const { return glm::determinant(linear); }
+  // No vector gets longer by more than this factor (Frobenius's norm: at most sqrt(3) times the least such).
+  double most_stretch() const {
+    return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
+  }
   Affine inverse() const {
     const Mat3 inverse_linear = glm::inverse(linear);
     return {inverse_linear, -(inverse_linear * offset)};

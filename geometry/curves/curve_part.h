@@ -15,6 +15,7 @@ class CurvePart final : public Curve {
   Interval domain() const override { return range_; }
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override { return of_->evaluate(t, order); }
+  double fit_distance() const override { return of_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override { return of_->enclose(t, order); }
   std::vector<CurvePiece> pieces() const override;
   // The whole curve's: it covers more than the part.

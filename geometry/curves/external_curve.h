@@ -23,6 +23,7 @@ class ExternalCurve final : public Curve {
   // Throw ExternalError.
   CurveJet evaluate(double t, int order) const override;
   void evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const override;
+  double fit_distance() const override { return order_ > 0 ? 0 : report_.distance(); }
   // Of the spline, wider by what the function was seen to differ from it.
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::optional<NurbsCurveForm> as_nurbs() const override { return fit_->as_nurbs(); }

@@ -32,7 +32,7 @@ FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain,
   for (int i = 0; i <= kTried; ++i) {
     const double t = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried;
     const Vec3 p = point(t);
-    if (!is_finite(p)) throw FieldError("domain", "the formulas have no value at t = " + std::to_string(t));
+    if (!is_finite(p)) throw FieldError("domain", point_.no_value({{t}}));
     size = std::max(size, glm::length(p - first));
   }
   if (closed && glm::length(point(domain.hi) - first) > kClosedCurve * size)

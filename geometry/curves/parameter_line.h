@@ -17,6 +17,7 @@ class ParameterLine final : public Curve {
   double period() const override;
   // Throws std::invalid_argument for an order above kMaxSurfaceOrder.
   CurveJet evaluate(double t, int order) const override;
+  double fit_distance() const override { return surface_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
 

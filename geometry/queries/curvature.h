@@ -20,11 +20,17 @@ CurveCurvature curvature(const CurveJet& jet);  // order >= 3
 // Gaussian, mean and principal curvatures, signed by the normal: a convex surface seen from outside has negative ones
 // (Golovanov 2016, 3.1.4-3.1.12). principal[0] >= principal[1]; directions are unit vectors of space.
 struct SurfaceCurvature {
-  bool regular = false;  // r_u x r_v != 0
+  bool regular = false;  // false: all that follows is not known
   double gaussian = 0, mean = 0;
   double principal[2] = {0, 0};
   Vec3 directions[2]{Vec3(0), Vec3(0)};
 };
-SurfaceCurvature curvature(const SurfaceJet& jet, const Vec3& normal);  // order >= 2, unit normal
+// At a regular place, r_u x r_v != 0. The jet is of order >= 2, the normal of length 1.
+SurfaceCurvature curvature(const SurfaceJet& jet, const Vec3& normal);
+
+// The same everywhere in the domain: where r_u x r_v vanishes, and beside such a place, the limit from inside if there
+// is one, the same for all directions at a pole. There is none at the tip of a cone. To about 1e-7 of the curvature, or
+// of 1 / the length of the parameter lines where the surface is flatter.
+SurfaceCurvature curvature(const Surface& surface, double u, double v);
 
 }  // namespace lekalo::geometry

@@ -10,9 +10,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "geometry/curves/parameter_line.h"
+#include "geometry/queries/curvature.h"
 #include "geometry/queries/face_integral.h"
 
 namespace lekalo::geometry {
@@ -93,8 +96,89 @@ void add_rounding(Integral& integral, const Scale& scale, double diameter) {
   for (size_t k = 1; k < integral.error.size(); ++k) integral.error[k] += scale.rounding * area;
 }
 
-SurfaceMeasures area_of(Integral integral, const Scale& scale) {
+std::vector<double> smooth_breaks(const Curve& curve, const Interval& range) {
+  std::vector<double> breaks{range.lo};
+  for (const CurvePiece& piece : curve.pieces())
+    if (piece.domain.lo > breaks.back() && piece.domain.lo < range.hi) breaks.push_back(piece.domain.lo);
+  breaks.push_back(range.hi);
+  return breaks;
+}
+
+// Where the derivatives are those of a fit, integrals over it tell the area of the fit. Points that are moved by up to
+// d change an area by at most d (length of its border + int |2 H| dS), and a length by d (2 + int k ds), but for d^2:
+// the first variation. The slopes that come with d, much larger than it is, cancel between the ends.
+struct Variation {
+  double distance = 0;  // d, a length
+  double factor = 0;    // border + bend of an area (a length), ends + turn of a length (a number)
+};
+
+constexpr IntegrationGoal kBend{0, 1e-2, 20000};  // the integrals of curvature: no more than a size
+
+double turn(const Curve& curve, const Interval& range) {
+  const auto integrand = [&](double t, std::span<double> values) {
+    const CurveJet jet = curve.evaluate(t, 2);
+    const double speed2 = glm::dot(jet.d[1], jet.d[1]);
+    values[0] = speed2 > 0 ? glm::length(glm::cross(jet.d[1], jet.d[2])) / speed2 : 0;
+  };
+  const Integral integral = integrate(integrand, 1, smooth_breaks(curve, range), kBend);
+  return integral.value[0] + integral.error[0];
+}
+
+Variation variation(const Curve& curve, const Interval& range) {
+  const double distance = curve.fit_distance();
+  return distance > 0 ? Variation{distance, 2 + turn(curve, range)} : Variation{};
+}
+
+double bend(const Surface& surface) {
+  const auto integrand = [&](double u, double v, std::span<double> values) {
+    const SurfaceJet jet = surface.evaluate(u, v, 2);
+    const SurfaceCurvature c = curvature(jet, surface.normal(u, v, jet));
+    values[0] = c.regular ? std::abs(2 * c.mean) * glm::length(glm::cross(jet.du(), jet.dv())) : 0;
+  };
+  const Rectangle domain = surface.domain();
+  const Integral integral = integrate(integrand, 1, domain.u, domain.v, kBend);
+  return integral.value[0] + integral.error[0];
+}
+
+// Of a part of the surface with this border.
+Variation variation(const Surface& surface, const std::function<double()>& border) {
+  const double distance = surface.fit_distance();
+  return distance > 0 ? Variation{distance, border() + bend(surface)} : Variation{};
+}
+
+double border_of(const Surface& surface) {
+  const SurfacePtr alias(SurfacePtr(), &surface);
+  const Rectangle domain = surface.domain();
+  double sum = 0;
+  for (const double u : {domain.u.lo, domain.u.hi})
+    sum += arc_length(ParameterLine(alias, HeldParameter::u, u), domain.v.lo, domain.v.hi).value;
+  for (const double v : {domain.v.lo, domain.v.hi})
+    sum += arc_length(ParameterLine(alias, HeldParameter::v, v), domain.u.lo, domain.u.hi).value;
+  return sum;
+}
+
+double border_of(const Body& body, int face) {
+  double sum = 0;
+  for (const int loop : body.faces[face].loops)
+    for (const int coedge : body.loops[loop].coedges) {
+      const Curve& edge = *body.edges[body.coedges[coedge].edge].curve;
+      sum += arc_length(edge, edge.domain().lo, edge.domain().hi).value;
+    }
+  return sum;
+}
+
+// To the first integral, a length or an area (of `dimension` 1 or 2), to its moments, and to integrals of coordinates
+// over it.
+void add_variation(Integral& integral, const Scale& scale, const Variation& by, int dimension) {
+  const double distance = by.distance / scale.unit, change = distance * by.factor / std::pow(scale.unit, dimension - 1);
+  integral.error[0] += change;
+  for (size_t k = 1; k < integral.error.size(); ++k)
+    integral.error[k] += distance * integral.value[0] + (k < kAreaIntegrals ? change : 0);
+}
+
+SurfaceMeasures area_of(Integral integral, const Scale& scale, const Variation& by) {
   add_rounding(integral, scale, 2 * scale.unit);
+  add_variation(integral, scale, by, 2);
   SurfaceMeasures result;
   result.area = {scale.factor(0) * integral.value[0], scale.factor(0) * integral.error[0]};
   set_centroid(integral, scale, result.centroid, result.centroid_error);
@@ -145,14 +229,6 @@ MassProperties properties_of(const std::array<double, kAllIntegrals>& value,
   return result;
 }
 
-std::vector<double> smooth_breaks(const Curve& curve, const Interval& range) {
-  std::vector<double> breaks{range.lo};
-  for (const CurvePiece& piece : curve.pieces())
-    if (piece.domain.lo > breaks.back() && piece.domain.lo < range.hi) breaks.push_back(piece.domain.lo);
-  breaks.push_back(range.hi);
-  return breaks;
-}
-
 void require_bounded(const Interval& range) {
   if (!(range.lo > -kInfinity && range.hi < kInfinity))
     throw std::invalid_argument("an unbounded curve has no length; give it a range");
@@ -196,6 +272,7 @@ CurveMeasures measure(const Curve& curve) {
   require_measure(integral, "the length");
   integral.error[0] += 2 * scale.rounding;  // at its ends
   for (int k = 1; k < 4; ++k) integral.error[k] += scale.rounding * integral.value[0];
+  add_variation(integral, scale, variation(curve, curve.domain()), 1);
   CurveMeasures result;
   result.length = {scale.unit * integral.value[0], scale.unit * integral.error[0]};
   set_centroid(integral, scale, result.centroid, result.centroid_error);
@@ -209,7 +286,8 @@ Measured arc_length(const Curve& curve, double a, double b) {
   const Integral integral =
       integrate([&](double t, std::span<double> values) { values[0] = glm::length(curve.evaluate(t, 1).d[1]); }, 1,
                 smooth_breaks(curve, range), {0, kMeasureAccuracy, 2000000});
-  return {a < b ? integral.value[0] : -integral.value[0], integral.error[0]};
+  const Variation by = variation(curve, range);
+  return {a < b ? integral.value[0] : -integral.value[0], integral.error[0] + by.distance * by.factor};
 }
 
 SurfaceMeasures measure(const Surface& surface) {
@@ -219,7 +297,7 @@ SurfaceMeasures measure(const Surface& surface) {
   const Integral integral =
       integrate_over(surface, surface.domain(), integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale));
   require_measure(integral, "the area");
-  return area_of(integral, scale);
+  return area_of(integral, scale, variation(surface, [&] { return border_of(surface); }));
 }
 
 SurfaceMeasures measure_face(const Body& body, int face) {
@@ -230,7 +308,7 @@ SurfaceMeasures measure_face(const Body& body, int face) {
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { area_integrands(jet, scale, values); };
   const Integral integral = integrate_over(body, face, integrands, kAreaIntegrals, goal(kMeasureAccuracy, scale));
   require_measure(integral, "the area of face " + std::to_string(face));
-  return area_of(integral, scale);
+  return area_of(integral, scale, variation(*body.faces[face].surface, [&] { return border_of(body, face); }));
 }
 
 namespace {
@@ -243,10 +321,11 @@ MassProperties measure(const Body& body, double accuracy) {
   const Scale scale(box);
   const auto integrands = [&](const SurfaceJet& jet, std::span<double> values) { mass_integrands(jet, scale, values); };
   std::array<double, kAllIntegrals> value{}, error{};
-  for (size_t face = 0; face < body.faces.size(); ++face) {
-    Integral integral = integrate_over(body, static_cast<int>(face), integrands, kAllIntegrals, goal(accuracy, scale));
+  for (int face = 0; face < static_cast<int>(body.faces.size()); ++face) {
+    Integral integral = integrate_over(body, face, integrands, kAllIntegrals, goal(accuracy, scale));
     require_measure(integral, "the area of face " + std::to_string(face));
-    add_rounding(integral, scale, bounds(body, static_cast<int>(face)).diameter());
+    add_rounding(integral, scale, bounds(body, face).diameter());
+    add_variation(integral, scale, variation(*body.faces[face].surface, [&] { return border_of(body, face); }), 2);
     for (int k = 0; k < kAllIntegrals; ++k) {
       const double sign = k < kAreaIntegrals ? 1 : outward(body.faces[face]);
       value[k] += sign * scale.factor(k) * integral.value[k];

@@ -1,7 +1,8 @@
 // Lengths, areas, volumes, centres of mass and inertia (Golovanov 2016, 8.9-8.11), with the error of each.
 //
 // Densities are one: multiply volumes and moments by the density for masses. Values are exact up to the stated errors,
-// which come from comparing two quadrature rules (usually much too large), or from rounding for meshes.
+// which come from comparing two quadrature rules (usually much too large), or from rounding for meshes. Where
+// derivatives are those of a fit (fit_distance()) they hold what its distance changes.
 #pragma once
 
 #include "geometry/body.h"

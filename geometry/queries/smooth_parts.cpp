@@ -43,7 +43,8 @@ std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface) {
     const auto& f = branch.formulas;
     try {
       part.surface = std::make_shared<FormulaSurface>(
-          PointFormulas({f[0], f[1], f[2]}, whole->formulas().coordinates()), domain, FormulaSurface::Closed{});
+          PointFormulas({f[0], f[1], f[2]}, whole->formulas().coordinates(), whole->formulas().variables()), domain,
+          FormulaSurface::Closed{});
     } catch (const FieldError&) {
       return {{surface, {}}};
     }

@@ -1,5 +1,7 @@
 #include "geometry/shapes/ball_sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,11 +35,27 @@ double farthest(const Box3& box, const Vec3& from) { return glm::length(glm::max
 
 double farthest(const Interval& range, double from) { return std::max(range.hi - from, from - range.lo); }
 
+// Of a curve over a finite domain that is unbounded all the same: where its bounds stay infinite in ever shorter parts.
+double unbounded_at(const Curve& curve) {
+  Interval t = curve.domain();
+  constexpr int kHalvings = 30;
+  const double narrow = std::ldexp(t.width(), -kHalvings);
+  for (int step = 0; step < kHalvings; ++step) {
+    const Interval below{t.lo, t.middle()};
+    t = curve.enclose(below, 0).d[0].bounded() ? Interval{below.hi, t.hi} : below;
+  }
+  return narrow * std::round(t.middle() / narrow) + 0.0;  // zero is no -4e-10
+}
+
 }  // namespace
 
 BallSweep::BallSweep(CurvePtr curve, RadiusLaw law) : curve_(std::move(curve)), law_(std::move(law)) {
+  if (!(curve_->domain().width() < kInfinity)) throw FieldError("of", "the curve is unbounded", "give it a domain");
   const Box3 box = bounds(*curve_);
-  if (!box.bounded()) throw FieldError("of", "the curve is unbounded", "give it a domain");
+  if (!box.bounded())
+    throw FieldError(
+        "of", fmt::format("the curve has no bounds or no value near its parameter {:.6g}", unbounded_at(*curve_)),
+        "a pole, or a place such as 0/0: end the domain before it");
   size_ = box.diameter();
   if (!(size_ > 0)) throw FieldError("of", "the curve has no length");
   narrowest_ = 1e-15 * curve_->domain().width();

@@ -279,9 +279,6 @@ TypeDeclaration tube_type() {
              "ends of the tube: half a ball, a disk, or open; that of a closed curve has none", "round")
       .built_by([](const Fields& f) -> ShapePtr {
         const CurvePtr of = f.curve("of");
-        const Interval domain = of->domain();
-        if (!(domain.lo > -kInfinity && domain.hi < kInfinity))
-          throw FieldError("of", "the curve is unbounded", "give it a domain");
         const std::string& caps = f.text("caps");
         return std::make_shared<Tube>(of, RadiusLaw(f.get<Expression>("radius"), *of),
                                       caps == "flat"   ? Caps::flat

@@ -28,6 +28,7 @@ class ExternalSurface final : public Surface {
   // Throw ExternalError.
   SurfaceJet evaluate(double u, double v, int order) const override;
   void evaluate_many(std::span<const Vec2> uv, int order, std::span<SurfaceJet> result) const override;
+  double fit_distance() const override { return order_ > 0 ? 0 : report_.distance(); }
   // Of the spline, wider by what the function was seen to differ from it.
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override { return fit_->as_nurbs(); }

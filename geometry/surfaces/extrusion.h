@@ -18,6 +18,7 @@ class ExtrusionSurface final : public Surface {
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {curve_->period(), 0}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
+  double fit_distance() const override { return curve_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;

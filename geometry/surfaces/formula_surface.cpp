@@ -36,9 +36,7 @@ FormulaSurface::FormulaSurface(PointFormulas point_formulas, const Rectangle& do
     for (int j = 0; j <= kTried; ++j) {
       const double u = place(domain.u, i), v = place(domain.v, j);
       const Vec3 p = point(u, v);
-      if (!is_finite(p))
-        throw FieldError("domain",
-                         "the formulas have no value at u = " + std::to_string(u) + ", v = " + std::to_string(v));
+      if (!is_finite(p)) throw FieldError("domain", point_.no_value({{u, v}}));
       box.include(p);
     }
   const double same = kClosedCurve * box.diameter();

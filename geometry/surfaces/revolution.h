@@ -22,6 +22,7 @@ class RevolutionSurface final : public Surface {
   Rectangle domain() const override { return domain_; }
   Periods periods() const override { return {curve_->period(), kTwoPi}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
+  double fit_distance() const override { return curve_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;

@@ -2,10 +2,14 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "geometry/describe.h"
 #include "include/lekalo/external.h"
@@ -18,11 +22,59 @@ using geometry::FieldError;
 
 namespace {
 
+// What this thread runs of a library: a function, or nothing yet but what a library does when it is loaded (no place).
+struct Running {
+  const char* name;
+  std::span<const double> place;
+};
+thread_local const Running* running = nullptr;
+
+// Marks a call for as long as it lasts.
+class Call {
+ public:
+  Call(const char* name, std::span<const double> place) : running_{name, place} { running = &running_; }
+  ~Call() { running = nullptr; }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+ private:
+  Running running_;
+};
+
+// Signals by which faulty code ends a process, and what they did before.
+constexpr std::array kDeadly{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+std::array<struct sigaction, kDeadly.size()> before;
+
+// Tells who it was, then leaves the signal to whom it went before: by default that is the end of the process.
+void tell_and_die(int signal) {
+  std::array<char, 100> what;
+  const char* description = sigdescr_np(signal);
+  *fmt::format_to_n(what.data(), what.size() - 1, "was ended by a signal ({})", description ? description : "?").out =
+      0;
+  tell_library_call(what.data());
+  for (size_t i = 0; i < kDeadly.size(); ++i)
+    if (kDeadly[i] == signal) sigaction(signal, &before[i], nullptr);
+  raise(signal);
+}
+
+void watch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = tell_and_die;
+  for (size_t i = 0; i < kDeadly.size(); ++i) sigaction(kDeadly[i], &action, &before[i]);
+}
+
+void* load(const fs::path& path) {
+  static const bool watched = (watch_signals(), true);
+  (void)watched;
+  const Call call(path.c_str(), {});
+  return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+}
+
 struct Library {
   void* handle = nullptr;
   std::mutex one_at_a_time;
 
-  explicit Library(const fs::path& path) : handle(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  explicit Library(const fs::path& path) : handle(load(path)) {
     if (handle) return;
     const char* reason = dlerror();
     throw FieldError("library", fmt::format("cannot be loaded: {}", reason ? reason : "no reason given"),
@@ -75,6 +127,7 @@ class LibraryFunction final : public geometry::ExternalFunction {
 
  private:
   int call(std::span<const double> place, int order, double* out) const {
+    const Call call(name_.c_str(), place);
     try {
       if (parameter_count_ == 1) return reinterpret_cast<lekalo_curve*>(symbol_)(numbers_.data(), place[0], order, out);
       return reinterpret_cast<lekalo_surface*>(symbol_)(numbers_.data(), place[0], place[1], order, out);
@@ -106,6 +159,19 @@ std::shared_ptr<const geometry::ExternalFunction> load_function(const fs::path& 
                      "'nm -D --defined-only' lists what a library offers; functions of C++ need extern \"C\"");
   return std::make_shared<LibraryFunction>(std::move(library), symbol, name, parameter_count, std::move(numbers),
                                            concurrent);
+}
+
+// The heap may be what a crash has spoilt: fmt writes numbers into the array and takes no memory and no locks.
+bool tell_library_call(const char* what) {
+  if (!running) return false;
+  std::array<char, 1000> text;
+  const auto [name, place] = *running;
+  char* end = fmt::format_to_n(text.data(), 600, "lekalo: '{}' {}", name, what).out;
+  if (place.size() == 1) end = fmt::format_to(end, " at t = {:.12g}", place[0]);
+  if (place.size() == 2) end = fmt::format_to(end, " at u = {:.12g}, v = {:.12g}", place[0], place[1]);
+  if (place.empty()) end = fmt::format_to(end, " while it was loaded");
+  *end++ = '\n';
+  return write(STDERR_FILENO, text.data(), static_cast<size_t>(end - text.data())) > 0;
 }
 
 }  // namespace lekalo::render

@@ -17,4 +17,9 @@ std::shared_ptr<const geometry::ExternalFunction> load_function(const std::files
                                                                 const std::string& name, int parameter_count,
                                                                 std::vector<double> numbers, bool concurrent);
 
+// A library runs in this process and may end it. If this thread is inside of one, writes to stderr which call that is
+// and `what` it did: "lekalo: 'wave' ended the program at u = 0.5, v = 2"; false if it is not. Async-signal-safe. From
+// the first library on a signal that kills the process is told so.
+bool tell_library_call(const char* what);
+
 }  // namespace lekalo::render

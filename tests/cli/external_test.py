@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import shutil
+import signal
 import sys
 import unittest
 
@@ -131,6 +132,22 @@ class Library(External):
         error = self.run_program("evaluate", self.faulty("returns_7_at_one"), "theirs", "--at", "0.123,0.5", ALLOW,
                                  code=FILE_ERROR)[1]
         self.assertEqual(error, "lekalo: 'returns_7_at_one' returned 7 at u = 0.123, v = 0.5, order 2\n")
+
+    def test_library_that_ends_the_program(self):
+        for words in (["render", "--size", "24x18", "-o", "x.png"], ["measure", "--json"]):
+            scene = self.faulty("exits_at_some")
+            out, error = self.run_program(words[0], scene, *(["theirs"] if words[0] == "measure" else []), *words[1:],
+                                          ALLOW, code=FILE_ERROR)
+            self.assertRegex(error, r"^lekalo: 'exits_at_some' ended the program at u = 0\.\d+, v = \S+\n$")
+            self.assertEqual(out, "")
+        self.assertEqual([path.name for path in self.folder.glob("x.png*")], [])
+        for function, code, what in (("exits_at_one", FILE_ERROR, "ended the program"),
+                                     ("crashes_at_one", -signal.SIGSEGV, "was ended by a signal (Segmentation fault)")):
+            out, error = self.run_program("evaluate", self.faulty(function), "theirs", "--at", "0.123,0.5", ALLOW, code=code)
+            self.assertEqual((out, error), ("", f"lekalo: '{function}' {what} at u = 0.123, v = 0.5\n"))
+        error = self.run_program("check", self.faulty("aborts", "", "external_curve", "[0, 3]"), ALLOW,
+                                 code=-signal.SIGABRT)[1]
+        self.assertEqual(error, "lekalo: 'aborts' was ended by a signal (Aborted) at t = 0\n")
 
     def test_wrong_derivatives_are_doubted(self):
         error = self.run_program("check", self.faulty("wrong_dv"), ALLOW)[1]

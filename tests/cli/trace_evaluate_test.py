@@ -75,6 +75,17 @@ class TraceThenEvaluate(ProgramTest):
         self.check(["wedge"], 0, 6, "lekalo: 1\ngeometry: { wedge: { type: wedge, size: [2, 3, 1], top: 1 } }\n",
                    [0.5, 1, 0.5])
 
+    def test_curvatures_at_a_pole(self):
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  dish: { type: formula_surface, coordinates: cylindrical, "
+                   "point: [u, v, u^2], domain: { u: [0, 1], v: [0, 2*pi] } }\n"
+                   "  cone: { type: formula_surface, coordinates: cylindrical, point: [u, v, u], "
+                   "domain: { u: [0, 1], v: [0, 2*pi] } }\n")
+        dish = self.json_of("evaluate", "scene.yaml", "dish", "--at", "0,0.4")
+        self.assert_near(dish["gaussian_curvature"], 4, 1e-7)
+        self.assert_near(dish["principal_curvatures"], [2, 2], 1e-7)
+        self.assertRegex(self.run_program("evaluate", "scene.yaml", "cone", "--at", "0,0.4")[0],
+                         r"gaussian_curvature +-\nmean_curvature +-\nprincipal_curvatures +-\n")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -151,6 +151,20 @@ TEST(ParametricNormal, BesideAPoleFarOffTheOrigin) {
       EXPECT_LE(distance(spindle.normal(u, v), limit), 3 * u + 1e-7) << u << " " << v;
 }
 
+// z = sqrt(1 - x^2) is vertical at its borders, where r_u is infinite.
+TEST(ParametricNormal, RootOfZero) {
+  const FormulaSurface half(
+      [](const auto& u, const auto& v) {
+        using std::sqrt;
+        return Triple{u, v, sqrt(1.0 - u * u)};
+      },
+      {{-1, 1}, {-1, 1}});
+  for (const double v : {-1.0, 0.0, 0.5}) {
+    EXPECT_LE(distance(half.normal(1, v), {1, 0, 0}), 1e-7);
+    EXPECT_LE(distance(half.normal(-1, v), {-1, 0, 0}), 1e-7);
+  }
+}
+
 TEST(ParametricNormal, ReversedSurfacesTurnTheirNormals) {
   NurbsSurface s = bezier_surface(Grid<Vec3>{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}});
   EXPECT_EQ(s.normal(0.3, 0.6), Vec3(0, 0, 1));

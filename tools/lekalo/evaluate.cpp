@@ -44,7 +44,7 @@ ordered_json evaluate_surface(const geometry::Surface& surface, double u, double
   out["dvv"] = to_json(jet.dvv());
   const Vec3 normal = surface.normal(u, v);
   out["normal"] = to_json(normal);
-  const geometry::SurfaceCurvature c = geometry::curvature(jet, normal);
+  const geometry::SurfaceCurvature c = geometry::curvature(surface, u, v);
   out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
   out["mean_curvature"] = json_or_null(c.regular, c.mean);
   out["principal_curvatures"] =

@@ -1,15 +1,18 @@
 // The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <stdexcept>
 
 #include "command.h"
 #include "geometry/expression/nearest_name.h"
+#include "render/external/library.h"
 #include "render/image/image_error.h"
 
 using namespace lekalo;
@@ -47,9 +50,15 @@ std::string failure(const CLI::App* app, const CLI::Error& error) {
                      command == app ? "lekalo" : "lekalo " + command->get_name());
 }
 
+// A library that calls exit() must not pass for success; nothing of this program's output is written any more.
+void tell_early_end() {
+  if (render::tell_library_call("ended the program")) _exit(command::kFileError);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::atexit(tell_early_end);
   CLI::App app{"Renders and draws geometric models from scene files.\n\n  lekalo render scenes/primer/teapot.yaml\n",
                "lekalo"};
   app.formatter(std::make_shared<ExamplesFirst>());

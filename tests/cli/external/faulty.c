@@ -2,6 +2,7 @@
  * fault. */
 #include <lekalo/external.h>
 #include <math.h>
+#include <stdlib.h>
 
 LEKALO_SURFACE(good)
 LEKALO_SURFACE(returns_7_at_some)
@@ -15,6 +16,10 @@ LEKALO_SURFACE(has_an_edge)
 LEKALO_SURFACE(points_only)
 LEKALO_SURFACE(one_call_at_a_time)
 LEKALO_SURFACE(constant)
+LEKALO_SURFACE(exits_at_some)
+LEKALO_SURFACE(exits_at_one)
+LEKALO_SURFACE(crashes_at_one)
+LEKALO_CURVE(aborts)
 LEKALO_CURVE(wrong_second_derivative)
 
 static void saddle(double u, double v, int order, double* out) {
@@ -114,4 +119,24 @@ int wrong_second_derivative(const double* parameters, double t, int order, doubl
   const double values[9] = {cos(t), sin(t), t, -sin(t), cos(t), 1, cos(t), -sin(t), 0};
   for (int i = 0; i < 3 * (order + 1); ++i) out[i] = values[i];
   return 0;
+}
+
+int exits_at_some(const double* parameters, double u, double v, int order, double* out) {
+  if (u > 0.7 && v > 0.6) exit(0);
+  return good(parameters, u, v, order, out);
+}
+
+int exits_at_one(const double* parameters, double u, double v, int order, double* out) {
+  if (u == 0.123) exit(0);
+  return good(parameters, u, v, order, out);
+}
+
+int crashes_at_one(const double* parameters, double u, double v, int order, double* out) {
+  if (u == 0.123) *(volatile double*)0 = v;
+  return good(parameters, u, v, order, out);
+}
+
+int aborts(const double* parameters, double t, int order, double* out) {
+  (void)parameters, (void)t, (void)order, (void)out;
+  abort();
 }

@@ -81,6 +81,29 @@ TEST(MassProperties, SurfacesWithRootsOfZero) {
   expect_near(area("sqrt(abs(u))"), 2 * std::sqrt(5) + std::asinh(2.0));
 }
 
+// Derivatives that jump along curves askew to the parameter lines: a paraboloid, a cone and a disk cut out of the plane
+// z = x over a plane, and a fold.
+TEST(MassProperties, SurfacesWithCurvedCreases) {
+  const auto measured = [](const std::string& z) {
+    return measure(FormulaSurface(point_formulas({"u", "v", z}, {"u", "v"}, Coordinates::cartesian), {{-1, 1}, {-1, 1}},
+                                  FormulaSurface::Closed{}));
+  };
+  const auto expect_within = [](const Measured& found, double exact) {
+    EXPECT_LE(std::abs(found.value - exact), found.error);
+    EXPECT_LE(found.error, 1e-6);
+  };
+  const double disk = kPi / 2;  // of the radius sqrt(1/2)
+  const SurfaceMeasures cap = measured("max(0, 0.5 - u^2 - v^2)");
+  expect_within(cap.area, 4 - disk + kPi / 6 * (std::pow(3, 1.5) - 1));
+  EXPECT_LE(std::max(std::abs(cap.centroid.x), std::abs(cap.centroid.y)), cap.centroid_error);
+  expect_within(measured("u if u^2 + v^2 < 0.5 else 0").area, 4 + (std::sqrt(2) - 1) * disk);
+  expect_within(measured("max(0, 0.5 - hypot(u - 0.1, v))").area, 4 + (std::sqrt(2) - 1) * kPi / 4);
+  expect_within(measured("abs(u - 0.3*v)").area, 4 * std::sqrt(2.09));
+  // What is infinite stays so.
+  for (const char* infinite : {"1/(u - 0.3*v - 0.07)", "max(0, 1/(u^2 + v^2 - 0.5))"})
+    EXPECT_THROW(measured(infinite), std::invalid_argument) << infinite;
+}
+
 TEST(MassProperties, AreasOfSurfaces) {
   expect_near(measure(SphereSurface(Frame{}, 3)).area, 36 * kPi);
   const SurfaceMeasures half = measure(SphereSurface(Frame{}, 1, {{0, kTwoPi}, {0, 0.5 * kPi}}));

@@ -7,11 +7,16 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/curves/external_curve.h"
+#include "geometry/curves/formula_curve.h"
 #include "geometry/describe.h"
 #include "geometry/external_stub.h"
 #include "geometry/queries/line_intersections.h"
+#include "geometry/queries/mass_properties.h"
+#include "geometry/surfaces/extrusion.h"
 #include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/torus.h"
+#include "geometry/transformed.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry::external_surface_test {
@@ -201,6 +206,41 @@ TEST(ExternalSurface, RefusesWhatIsNoSurface) {
     if (u > 5) jet.values[0].y = std::nan("");
   });
   EXPECT_THROW(ExternalSurface(broken, bent->domain(), {}, 2, 1e-9), ExternalError);
+}
+
+// Derivatives of a fit give the area of the fit: the stated error tells by how much that is wrong, and not a thousand
+// times more. With derivatives of its own the area is exact.
+TEST(ExternalSurface, MeasuresTellWhatTheFitErrs) {
+  const auto expect_within = [](const SurfaceMeasures& found, double area, const Vec3& centroid, double size) {
+    EXPECT_LE(std::abs(found.area.value - area), found.area.error);
+    EXPECT_LE(glm::length(found.centroid - centroid), found.centroid_error);
+    EXPECT_LE(found.area.error, 1e3 * size * area);
+    EXPECT_LE(found.centroid_error, 1e3 * size);
+  };
+  const double area = 4 * kPi * kPi * 2 * 0.7;
+  for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-11}) {
+    const auto wall = std::make_shared<ExternalSurface>(external(torus(), {true, true}, 0, tolerance));
+    EXPECT_GT(wall->fit_distance(), 0);
+    expect_within(measure(*wall), area, Vec3(0), tolerance);
+    const Affine twice{Mat3(2.0), {1, 2, 3}};
+    expect_within(measure(*transformed(wall, twice)), 4 * area, {1, 2, 3}, tolerance);
+
+    const CurvePtr helix =
+        std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "0.2*t"}, {"t"}), Interval{0, 6});
+    const auto known =
+        std::make_shared<ExternalCurve>(std::make_shared<CurveStub>(helix), helix->domain(), false, 0, tolerance);
+    const CurveMeasures wire = measure(*known);
+    EXPECT_LE(std::abs(wire.length.value - 6 * std::sqrt(1.04)), wire.length.error);
+    EXPECT_LE(wire.length.error, 1e3 * tolerance);
+    const Vec3 middle(std::sin(6) / 6, (1 - std::cos(6)) / 6, 0.6);
+    EXPECT_LE(glm::length(wire.centroid - middle), wire.centroid_error);
+    EXPECT_LE(std::abs(arc_length(*known, 1, 2).value - std::sqrt(1.04)), arc_length(*known, 1, 2).error);
+    expect_within(measure(ExtrusionSurface(known, {0, 0, 0.1})), 0.6, middle + Vec3(0, 0, 0.05), tolerance);
+  }
+  const ExternalSurface exact = external(torus(), {true, true}, 1, 1e-6);
+  EXPECT_EQ(exact.fit_distance(), 0);
+  EXPECT_NEAR(measure(exact).area.value, area, 1e-10);
+  EXPECT_LE(measure(exact).area.error, 1e-9);
 }
 
 }  // namespace

@@ -327,6 +327,19 @@ TEST(BuilderErrors, SurfacesWithoutArea) {
   EXPECT_EQ(about("{ type: bezier_surface, points: [[[0, 0, 0], [0, 0, 0]], [[2, 0, 0], [3, 1, 0]]] }"), "");
 }
 
+// Formulas are told of by the names of their own variables.
+TEST(BuilderErrors, FormulasWithoutAValue) {
+  const std::string square = ", domain: { u: [-1, 1], v: [0, 1] } }";
+  EXPECT_EQ(about("{ type: formula_surface, z: log(x) + y" + square),
+            "3:54 the formulas have no value at x = -1, y = 0\n");
+  EXPECT_EQ(about("{ type: formula_surface, point: [u, v, log(u) + v]" + square),
+            "3:66 the formulas have no value at u = -1, v = 0\n");
+  EXPECT_EQ(about("{ type: formula_curve, y: sqrt(x), domain: [-1, 1] }"),
+            "3:49 the formulas have no value at x = -1\n");
+  EXPECT_EQ(about("{ type: formula_curve, point: [t, sqrt(t)], domain: [-1, 1] }"),
+            "3:58 the formulas have no value at t = -1\n");
+}
+
 TEST(BuilderErrors, FramesPlacesAndNets) {
   EXPECT_EQ(about("{ type: ball, frame: { z: x }, center: [1, 1], radius: 1 }"),
             "3:45 a placement is given by 'frame' or by 'center' and 'normal', not by both\n");

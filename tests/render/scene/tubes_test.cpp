@@ -34,6 +34,18 @@ TEST(Tubes, WrongOnesAreExplained) {
             "4:55 expected a value greater than 0, found 0\n\n");
 }
 
+// A pole or 0/0 that lies between the places where the formulas are tried.
+TEST(Tubes, PlacesWithoutBoundsAreNamed) {
+  const auto said = [](const std::string& y, const std::string& domain) {
+    return said_about("{ type: tube, of: { type: formula_curve, y: " + y + ", domain: " + domain + " }, radius: 0.1 }");
+  };
+  const std::string hint = "\na pole, or a place such as 0/0: end the domain before it\n";
+  const std::string near = "4:24 the curve has no bounds or no value near its parameter ";
+  EXPECT_EQ(said("tan(x)", "[-1, 2]"), near + "1.5708" + hint);
+  EXPECT_EQ(said("1/(x - 0.3)", "[-1, 1.31]"), near + "0.3" + hint);
+  EXPECT_EQ(said("sin(x - 0.3)/(x - 0.3)", "[-1, 1.31]"), near + "0.3" + hint);
+}
+
 TEST(Tubes, TakeParametersAndPlacesAndRepeat) {
   const BuiltText text = build_text(R"(
 parameters: { r: 0.2 }
