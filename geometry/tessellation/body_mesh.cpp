@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "geometry/tessellation/curve_polygon.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -173,7 +174,32 @@ class BodyMesher {
       for (int k = 1; k <= parts; ++k)
         finer.push_back(k == parts ? result[i + 1] : result[i] + (result[i + 1] - result[i]) * k / parts);
     }
-    return finer;
+    return from_lines && edge.kind != EdgeKind::pole && meets_breaks(edge) ? over_breaks(edge, finer, tolerance)
+                                                                           : finer;
+  }
+
+  bool meets_breaks(const Edge& edge) const {
+    return std::any_of(edge.coedges.begin(), edge.coedges.end(),
+                       [&](int c) { return !grids_[face_of(body_.coedges[c])].broken.empty(); });
+  }
+
+  // Where a face breaks its lines do not keep the sag: chords there are halved until they do.
+  static std::vector<double> over_breaks(const Edge& edge, std::vector<double> waiting,
+                                         const TessellationTolerance& tolerance) {
+    const double least = kSmallestCell * (waiting.back() - waiting.front());
+    std::reverse(waiting.begin(), waiting.end());
+    std::vector<double> result{waiting.back()};
+    waiting.pop_back();
+    while (!waiting.empty()) {
+      const double a = result.back(), b = waiting.back();
+      if (b - a > least && chord_excess(*edge.curve, a, b, tolerance) > 1.05) {
+        waiting.push_back(0.5 * (a + b));
+      } else {
+        result.push_back(b);
+        waiting.pop_back();
+      }
+    }
+    return result;
   }
 
   // Into how many parts the grids of the faces, and the edge's own sag, want a chord cut.

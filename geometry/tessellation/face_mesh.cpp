@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "geometry/tessellation/breaks.h"
 #include "geometry/tessellation/face_border.h"
 #include "geometry/tessellation/triangulation.h"
 
@@ -54,8 +55,11 @@ class FaceMesher {
       keep_cells_inside();
     else
       keep_cells_of_rectangle();
+    const size_t first = result_.mesh.triangles.size();
     emit_cells();
+    const size_t band = result_.mesh.triangles.size();
     if (!sides_.empty()) fill_band();
+    if (!grid_.broken.empty()) split_over_breaks(first, band);
   }
 
  private:
@@ -235,6 +239,7 @@ class FaceMesher {
           return result_.chords.contains(vertices_[v[a]].point, vertices_[v[b]].point);
         };
         if (taken(other ? 1 : 0, other ? 3 : 2)) other = !other;
+        const size_t before = result_.mesh.triangles.size();
         if (other) {
           emit({v[0], v[1], v[3]});
           emit({v[1], v[2], v[3]});
@@ -242,6 +247,8 @@ class FaceMesher {
           emit({v[0], v[1], v[2]});
           emit({v[0], v[2], v[3]});
         }
+        if (grid_.is_broken(i, j))
+          for (size_t k = before; k < result_.mesh.triangles.size(); ++k) over_breaks_.push_back(static_cast<int>(k));
         // The cell's outline is a hole of the band: its sides the other way round.
         for (int k = 0; k < 4; ++k) toggle_side(v[(k + 1) % 4], v[k]);
       }
@@ -295,6 +302,17 @@ class FaceMesher {
     }
     triangle.face = face_;
     result_.mesh.triangles.push_back(triangle);
+  }
+
+  // Triangles of broken cells, and those of the band wherever they are.
+  void split_over_breaks(size_t first, size_t band) {
+    for (size_t k = band; k < result_.mesh.triangles.size(); ++k) over_breaks_.push_back(static_cast<int>(k));
+    std::map<int32_t, int> poles;
+    for (const FaceVertex& vertex : vertices_)
+      if (vertex.free_coordinate >= 0) poles.emplace(vertex.point, vertex.free_coordinate);
+    const auto is_shared = [&](int32_t a, int32_t b) { return result_.border_sides.contains(a, b); };
+    const double sign = body_.faces[face_].forward ? 1 : -1;
+    split_at_breaks(result_.mesh, {surface_, sign, first, over_breaks_, is_shared, poles}, tolerance_);
   }
 
   // What lies between the kept cells and the border.
@@ -386,13 +404,15 @@ class FaceMesher {
         const int a = v[(k + 1) % 3], b = v[(k + 2) % 3];
         Vec2 middle;
         double excess = side_excess(a, b, middle);
+        // What deviates where the surface breaks is split there afterwards.
+        if (!grid_.broken.empty()) excess = 0;
         // The place between a pole and another vertex is not on their side in the plane: only in need.
         if (vertices_[a].free_coordinate >= 0 || vertices_[b].free_coordinate >= 0) excess *= 0.7;
         if (result_.chords.contains(vertices_[a].point, vertices_[b].point) && vertices_[a].point != vertices_[b].point)
           excess = kInfinity;
         if (excess > worst) worst = excess, uv = middle, found = true;
       }
-      if (!found && fixed[0] + fixed[1] + fixed[2] < 3) found = center_deviates(v, uv);
+      if (!found && grid_.broken.empty() && fixed[0] + fixed[1] + fixed[2] < 3) found = center_deviates(v, uv);
       if (found) place = plane_.place(uv);
       return found;
     };
@@ -435,6 +455,7 @@ class FaceMesher {
   std::vector<char> keep_;        // cells that are split as they are
   std::vector<std::vector<int>> borders_;
   std::set<std::pair<int, int>> sides_;  // outline of what is left for the band
+  std::vector<int> over_breaks_;         // triangles of broken cells
   std::vector<int> band_vertex_;         // face vertex of each vertex of the triangulation
 };
 

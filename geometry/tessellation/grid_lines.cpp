@@ -11,7 +11,8 @@
 // The angle limits the steps by the derivatives of the normal (Weingarten).
 //
 // Lines are spread by the integral of the density 1/du (max over v) and 1/dv (max over u). Then every cell is measured
-// and densities are raised where the surface bends faster than its samples showed.
+// and densities are raised where the surface bends faster than its samples showed; cells that it breaks in are left to
+// breaks.h, since lines as dense as a kink asks for would run over the whole domain.
 #include "geometry/tessellation/grid_lines.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "geometry/tessellation/breaks.h"
 
 namespace lekalo::geometry {
 
@@ -101,8 +104,7 @@ struct Demand {
   double turn_u = 0, turn_v = 0;  // |m_u| / angle, |m_v| / angle
 };
 
-Demand demand_at(const Surface& surface, double u, double v, const TessellationTolerance& tolerance) {
-  const SurfaceJet s = surface.evaluate(u, v, 2);
+Demand demand_of(const SurfaceJet& s, const TessellationTolerance& tolerance) {
   const Vec3 cross = glm::cross(s.du(), s.dv());
   const double area = glm::length(cross);
   const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
@@ -131,6 +133,12 @@ Demand demand_at(const Surface& surface, double u, double v, const TessellationT
 
 struct Densities {
   Direction u, v;
+  // What the densities are made from.
+  struct Sample {
+    Vec2 uv;
+    Vec3 point;
+  };
+  std::vector<Sample> samples;
 };
 
 // Share of the tolerance that a direction's lines use where they stand, given its demands without the share.
@@ -150,14 +158,16 @@ double used_share(Direction& direction, const std::vector<double>& demand, int f
 
 Densities make_densities(const Surface& surface, const Rectangle& box, const TessellationTolerance& tolerance,
                          int fewest_u, int fewest_v) {
-  Densities result{make_direction(surface, box, true), make_direction(surface, box, false)};
+  Densities result{make_direction(surface, box, true), make_direction(surface, box, false), {}};
   std::vector<double> middle_u, middle_v;
   result.u.each([&](int, const LineDensity& s, size_t k) { middle_u.push_back(0.5 * (s.at[k] + s.at[k + 1])); });
   result.v.each([&](int, const LineDensity& s, size_t k) { middle_v.push_back(0.5 * (s.at[k] + s.at[k + 1])); });
   std::vector<double> sag_u(middle_u.size()), turn_u(middle_u.size()), sag_v(middle_v.size()), turn_v(middle_v.size());
   for (size_t i = 0; i < middle_u.size(); ++i) {
     for (size_t j = 0; j < middle_v.size(); ++j) {
-      const Demand demand = demand_at(surface, middle_u[i], middle_v[j], tolerance);
+      const SurfaceJet jet = surface.evaluate(middle_u[i], middle_v[j], 2);
+      result.samples.push_back({{middle_u[i], middle_v[j]}, jet.point()});
+      const Demand demand = demand_of(jet, tolerance);
       sag_u[i] = std::max(sag_u[i], demand.u);
       sag_v[j] = std::max(sag_v[j], demand.v);
       turn_u[i] = std::max(turn_u[i], demand.turn_u);
@@ -198,17 +208,19 @@ Vec3 normal_of(const Surface& surface, const SurfaceJet& jet, const Vec2& at, co
 }
 
 // Fills nodes and diagonals and measures the grid: for every column and row of cells, the largest deviation as a
-// multiple of the tolerance, where that is more than 1.
+// multiple of the tolerance, where that is more than 1. Where it is more than `suspicious`, or the normal turns too
+// much, breaks are looked for: broken cells are marked, and ask for no more lines.
 class GridCheck {
  public:
-  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, SurfaceGrid& grid)
-      : surface_(surface), tolerance_(tolerance), grid_(grid) {}
+  GridCheck(const Surface& surface, const TessellationTolerance& tolerance, SurfaceGrid& grid, double suspicious = 1)
+      : surface_(surface), tolerance_(tolerance), grid_(grid), suspicious_(suspicious) {}
 
   void run() {
     const size_t nu = grid_.u.size(), nv = grid_.v.size();
     grid_.points.resize(nu * nv);
     grid_.normals.resize(nu * nv);
     grid_.other_diagonal.assign((nu - 1) * (nv - 1), 0);
+    grid_.broken.clear();
     excess_u_.assign(nu - 1, 0);
     excess_v_.assign(nv - 1, 0);
     fill_nodes();
@@ -265,16 +277,25 @@ class GridCheck {
     for (int j = 0; j < rows; ++j) centers_[j] = jets_[2 * rows + 1 + j].point();
   }
 
-  // Deviation of the middle of a side in the direction of the normals, as a multiple of the sag; a turn of the normal
-  // beyond the angle is entered in `excess`, but for sides no longer than the sag: across a singular point the normal
-  // turns however short they are.
+  bool breaks_between(size_t a, size_t b) const {
+    const auto place = [&](size_t node) {
+      return Vec2(grid_.u[node / grid_.v.size()], grid_.v[node % grid_.v.size()]);
+    };
+    return find_break(surface_, place(a), place(b)).has_value();
+  }
+
+  // Deviation of the middle of a side in the direction of the normals, as a multiple of the sag, infinite where the
+  // surface breaks; a turn of the normal beyond the angle is entered in `excess`, but for sides no longer than the sag:
+  // across a singular point the normal turns however short they are.
   double side_excess(size_t a, size_t b, const Vec3& middle, double& excess) const {
     const Vec3 &m = grid_.normals[a], &n = grid_.normals[b];
     const double turn = glm::dot(m, n), limit = tolerance_.sag_near(middle);
     const bool is_short = glm::length(grid_.points[b] - grid_.points[a]) <= limit;
-    if (turn < cosine_ && !is_short) excess = std::max(excess, sqr(std::acos(std::max(-1.0, turn)) / tolerance_.angle));
+    const bool turns = turn < cosine_ && !is_short;
     const Vec3 offset = middle - 0.5 * (grid_.points[a] + grid_.points[b]);
     const double sag = turn > -0.5 ? std::abs(glm::dot(offset, m + n)) / glm::length(m + n) : glm::length(offset);
+    if ((turns || sag > suspicious_ * (1 + 1e-6) * limit) && breaks_between(a, b)) return kInfinity;
+    if (turns) excess = std::max(excess, sqr(std::acos(std::max(-1.0, turn)) / tolerance_.angle));
     return sag / limit;
   }
 
@@ -300,6 +321,11 @@ class GridCheck {
     // What the sides do not explain is twist, which both directions share.
     const double twist = std::max(0.0, center - along_u - along_v);
     const double worst = std::max({center, along_u, along_v});
+    if (worst == kInfinity || (worst > suspicious_ * (1 + 1e-6) && (breaks_between(a, c) || breaks_between(b, d)))) {
+      grid_.broken.resize(grid_.other_diagonal.size(), 0);
+      grid_.broken[grid_.cell(i, j)] = 1;
+      return;
+    }
     if (!(worst > 1 + 1e-6)) return;
     if (along_u + twist >= 0.25 * worst) excess_u_[i] = std::max(excess_u_[i], worst);
     if (along_v + twist >= 0.25 * worst) excess_v_[j] = std::max(excess_v_[j], worst);
@@ -310,6 +336,7 @@ class GridCheck {
   const Surface& surface_;
   const TessellationTolerance& tolerance_;
   SurfaceGrid& grid_;
+  const double suspicious_;
   const double cosine_ = std::cos(std::min(kPi, tolerance_.angle*(1 + 1e-6)));
   std::vector<double> excess_u_, excess_v_;
   std::vector<double> sides_u_, sides_v_, sides_v_before_;
@@ -317,6 +344,28 @@ class GridCheck {
   std::vector<Vec2> places_;
   std::vector<SurfaceJet> jets_;
 };
+
+// True if a grid that keeps its tolerance has a cell, not known to be broken, that a break in it takes from a sample by
+// more than the sag: between few nodes kinks and steps may cancel out.
+bool misses_break(const Surface& surface, const SurfaceGrid& grid, const std::vector<Densities::Sample>& samples,
+                  const TessellationTolerance& tolerance) {
+  const auto interval = [](const std::vector<double>& lines, double x) {
+    return static_cast<int>(std::upper_bound(lines.begin() + 1, lines.end() - 1, x) - lines.begin()) - 1;
+  };
+  return std::any_of(samples.begin(), samples.end(), [&](const Densities::Sample& sample) {
+    const int i = interval(grid.u, sample.uv.x), j = interval(grid.v, sample.uv.y);
+    if (grid.is_broken(i, j)) return false;
+    const Vec2 lo(grid.u[i], grid.v[j]), hi(grid.u[i + 1], grid.v[j + 1]), part = (sample.uv - lo) / (hi - lo);
+    const auto point = [&](int a, int b) { return grid.points[grid.node(i + a, j + b)]; };
+    const Vec3 flat = (1 - part.x) * ((1 - part.y) * point(0, 0) + part.y * point(0, 1)) +
+                      part.x * ((1 - part.y) * point(1, 0) + part.y * point(1, 1));
+    const Vec3 offset = sample.point - flat;
+    if (!(glm::length(offset) > tolerance.sag_near(sample.point))) return false;
+    const Vec3 normal = surface.normal(sample.uv.x, sample.uv.y);
+    if (!(std::abs(glm::dot(offset, normal)) > tolerance.sag_near(sample.point))) return false;
+    return find_break(surface, lo, sample.uv) || find_break(surface, hi, sample.uv);
+  });
+}
 
 // How many steps a direction needs at least, so that triangles of a closed surface do not fall on each other.
 int fewest_steps(const Surface& surface, const Rectangle& box, bool along_u) {
@@ -373,41 +422,53 @@ static void gather_poles(SurfaceGrid& grid) {
   for (int i = 0; i <= grid.columns(); ++i) gather(grid.rows() + 1, [&](int j) { return grid.node(i, j); });
 }
 
+// The last look at a grid with breaks. In the middle between two nodes a kink shows no more than half of what it
+// deviates by where it is.
+static void finish(const Surface& surface, const TessellationTolerance& tolerance, SurfaceGrid& grid) {
+  if (!grid.broken.empty()) GridCheck(surface, tolerance, grid, 0.5).run();
+  gather_poles(grid);
+}
+
 SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<double> v,
                     const TessellationTolerance& tolerance) {
   SurfaceGrid grid;
   grid.u = std::move(u);
   grid.v = std::move(v);
   GridCheck(surface, tolerance, grid).run();
-  gather_poles(grid);
+  finish(surface, tolerance, grid);
   return grid;
+}
+
+void refuse_mesh(double triangles) {
+  throw std::invalid_argument(
+      fmt::format("a mesh that keeps its sag and angle would need about {:.0e} triangles (at most {:.0e}): give a "
+                  "larger sag, or leave the surface exact",
+                  triangles, kMostTriangles));
 }
 
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& given) {
   TessellationTolerance tolerance = given;
   // Beyond a right angle the deviation along normals measures nothing.
   tolerance.angle = std::min(given.angle, 0.49 * kPi);
-  const int fewest_u = fewest_steps(surface, box, true), fewest_v = fewest_steps(surface, box, false);
+  int fewest_u = fewest_steps(surface, box, true), fewest_v = fewest_steps(surface, box, false);
   Densities densities = make_densities(surface, box, tolerance, fewest_u, fewest_v);
   SurfaceGrid grid;
   // Each makes steps that are too long up to half as long: after so many they are nothing but rounding.
   constexpr int kMostRounds = 40;
   for (int round = 0; round < kMostRounds; ++round) {
     const double triangles = 2 * densities.u.total() * densities.v.total();
-    if (!(triangles < kMostTriangles))
-      throw std::invalid_argument(fmt::format(
-          "a mesh that keeps its sag and angle would need about {:.0e} triangles (at most {:.0e}): give a larger "
-          "sag, or leave the surface exact",
-          triangles, kMostTriangles));
+    if (!(triangles < kMostTriangles)) refuse_mesh(triangles);
     grid.u = densities.u.lines(fewest_u);
     grid.v = densities.v.lines(fewest_v);
     GridCheck check(surface, tolerance, grid);
     check.run();
     const bool raised_u = densities.u.raise(grid.u, check.excess_u());
     const bool raised_v = densities.v.raise(grid.v, check.excess_v());
-    if (!raised_u && !raised_v) break;
+    if (raised_u || raised_v) continue;
+    if (fewest_u >= kSamples || !misses_break(surface, grid, densities.samples, tolerance)) break;
+    fewest_u = fewest_v = kSamples;
   }
-  gather_poles(grid);
+  finish(surface, tolerance, grid);
   return grid;
 }
 

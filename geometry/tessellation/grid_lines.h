@@ -19,12 +19,15 @@ struct SurfaceGrid {
   // Cell (i, j) at i * (v.size() - 1) + j: true where the diagonal from (i + 1, j) to (i, j + 1) lies nearer to the
   // surface than the one from (i, j) to (i + 1, j + 1).
   std::vector<char> other_diagonal;
+  // True where the surface breaks within the cell, so that it may deviate; empty where it does nowhere.
+  std::vector<char> broken;
 
   int columns() const { return static_cast<int>(u.size()) - 1; }
   int rows() const { return static_cast<int>(v.size()) - 1; }
   size_t node(int i, int j) const { return static_cast<size_t>(i) * v.size() + j; }
   size_t cell(int i, int j) const { return static_cast<size_t>(i) * (v.size() - 1) + j; }
   bool is_empty_cell(int i, int j) const { return u[i] == u[i + 1] || v[j] == v[j + 1]; }
+  bool is_broken(int i, int j) const { return !broken.empty() && broken[cell(i, j)]; }
   // All nodes of the row v[j] (the column u[i]) are one point.
   bool row_is_point(int j) const;
   bool column_is_point(int i) const;
@@ -32,7 +35,8 @@ struct SurfaceGrid {
 
 // The grid over a bounded rectangle whose cells, each split along its better diagonal, deviate from the surface by at
 // most the sag and turn its normal along a side by at most the angle: measured in the middle of every side and cell,
-// and made denser until they do. Throws std::invalid_argument when that would take more than kMostTriangles.
+// and made denser until they do, but for broken cells (breaks.h). Throws std::invalid_argument when that would take
+// more than kMostTriangles.
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& tolerance);
 
 // The grid on given lines, increasing, each at most twice; the tolerance decides diagonals only.
@@ -40,6 +44,8 @@ SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<d
                     const TessellationTolerance& tolerance);
 
 inline constexpr double kMostTriangles = 6.4e7;
+// Throws std::invalid_argument for a mesh that would need so many.
+[[noreturn]] void refuse_mesh(double triangles);
 
 // Parameters of one direction where the surface's smooth pieces meet inside the range, shifted by whole periods.
 std::vector<double> joints(const Surface& surface, const Rectangle& box, bool along_u);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/tessellation/breaks.h"
 #include "geometry/tessellation/grid_lines.h"
 
 namespace lekalo::geometry {
@@ -17,7 +18,7 @@ class SurfaceMesher {
     closed_v_ = joins(false);
   }
 
-  Mesh run() {
+  Mesh run(const TessellationTolerance& tolerance) {
     name_points();
     mesh_.normals = grid_.normals;
     mesh_.parameters.reserve(grid_.points.size());
@@ -27,6 +28,7 @@ class SurfaceMesher {
     for (int i = 0; i < grid_.columns(); ++i)
       for (int j = 0; j < grid_.rows(); ++j)
         if (!grid_.is_empty_cell(i, j)) add_cell(i, j);
+    split_at_breaks(mesh_, {surface_, 1, 0, over_breaks_, {}, poles()}, tolerance);
     return std::move(mesh_);
   }
 
@@ -76,6 +78,7 @@ class SurfaceMesher {
 
   void add_cell(int i, int j) {
     pole_ = -1;
+    const size_t before = mesh_.triangles.size();
     const std::array<std::array<int, 2>, 4> corner{{{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
     if (grid_.other_diagonal[grid_.cell(i, j)]) {
       add_triangle(corner[0], corner[1], corner[3], i, j);
@@ -84,6 +87,18 @@ class SurfaceMesher {
       add_triangle(corner[0], corner[1], corner[2], i, j);
       add_triangle(corner[0], corner[2], corner[3], i, j);
     }
+    if (!grid_.is_broken(i, j)) return;
+    for (size_t k = before; k < mesh_.triangles.size(); ++k) over_breaks_.push_back(static_cast<int>(k));
+  }
+
+  // The coordinate that means nothing at each pole.
+  std::map<int32_t, int> poles() const {
+    std::map<int32_t, int> result;
+    for (int i = 0; i <= grid_.columns(); ++i)
+      if (column_is_point_[i]) result.emplace(index_[grid_.node(i, 0)], 1);
+    for (int j = 0; j <= grid_.rows(); ++j)
+      if (row_is_point_[j]) result.emplace(index_[grid_.node(0, j)], 0);
+    return result;
   }
 
   void add_triangle(std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c, int i, int j) {
@@ -131,7 +146,8 @@ class SurfaceMesher {
   std::vector<int32_t> index_;  // mesh point of every node
   std::vector<char> row_is_point_, column_is_point_;
   bool closed_u_ = false, closed_v_ = false;
-  int32_t pole_ = -1;  // normal and parameter of the cell's pole corner
+  std::vector<int> over_breaks_;  // triangles of broken cells
+  int32_t pole_ = -1;             // normal and parameter of the cell's pole corner
 };
 
 }  // namespace
@@ -139,7 +155,7 @@ class SurfaceMesher {
 Mesh tessellate(const Surface& surface, const TessellationTolerance& tolerance) {
   if (!surface.bounded()) throw std::invalid_argument("an unbounded surface has no mesh; give it a domain");
   const SurfaceGrid grid = make_grid(surface, surface.domain(), tolerance);
-  return SurfaceMesher(surface, grid).run();
+  return SurfaceMesher(surface, grid).run(tolerance);
 }
 
 }  // namespace lekalo::geometry

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/queries/parameter_lines.h"
+
 namespace lekalo::render {
 
 using geometry::Surface;
@@ -24,6 +26,16 @@ Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const
              hi = glm::max(glm::max(corner[0], corner[1]), corner[2]);
   const Vec2 inside = 1e-9 * (hi - lo);
   return glm::clamp(foot, lo + inside, hi - inside);
+}
+
+// Triangles are interpolated across the seam of a closed surface and whole periods away: a trim moves the cut to where
+// no loop lies. What is shown are the surface's own parameters.
+Vec2 in_domain(const Surface& surface, const Vec2& at) {
+  const geometry::Periods periods = surface.periods();
+  if (periods.u == 0 && periods.v == 0) return at;
+  const geometry::Rectangle domain = surface.domain();
+  return {domain.u.clamp(at.x + geometry::shift_into(domain.u, at.x, periods.u)),
+          domain.v.clamp(at.y + geometry::shift_into(domain.v, at.y, periods.v))};
 }
 
 // A point of a surface or shape in the space of its leaf. All members are written at once: this runs for every hit of
@@ -112,6 +124,7 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
       dv = (per_det * a.x) * ac - (per_det * b.x) * ab;
     }
   }
+  if (!leaf.mesh_surfaces.empty()) at = in_domain(*leaf.mesh_surfaces[hit.face], at);
   return {.position = position,
           .smooth_position = smooth_position,
           .incoming = incoming,

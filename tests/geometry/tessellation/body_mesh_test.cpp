@@ -10,11 +10,13 @@
 #include "geometry/bodies/construct.h"
 #include "geometry/bodies/primitives.h"
 #include "geometry/bodies/sew.h"
+#include "geometry/bodies/trimmed_surface.h"
 #include "geometry/curves/circle.h"
 #include "geometry/curves/segment.h"
 #include "geometry/queries/mass_properties.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/cone.h"
+#include "geometry/surfaces/formula_surface.h"
 #include "geometry/surfaces/patches.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
@@ -265,6 +267,42 @@ TEST(BodyMesh, SewnWholeSurfacesHaveSeamsAndPoles) {
   for (const Violation& v : body.violations()) ADD_FAILURE() << v.condition << ": " << v.entity;
   EXPECT_EQ(body.euler_characteristic(), 2);
   check(body, {0.01, 0.5, {}});
+}
+
+SurfacePtr kinked(const Rectangle& domain) {
+  return std::make_shared<FormulaSurface>(
+      point_formulas({"u", "v", "max(v, 0.3*u)"}, {"u", "v"}, Coordinates::cartesian), domain,
+      FormulaSurface::Closed{});
+}
+
+// A kink across a disc: halves of planes with the slopes 1 and 0.3. Sides of the border belong to others and are not
+// split: it keeps the sag by itself.
+TEST(BodyMesh, KinkAcrossATrimmedFace) {
+  const SurfacePtr sheet = kinked({{-2, 2}, {-2, 2}});
+  const std::vector<Curve2Ptr> circle{std::make_shared<Circle>(Frame{}, 1.5)};
+  const Body disc = trimmed_surface(sheet, circle);
+  for (const double sag : {0.01, 1e-3, 1e-4}) {
+    const Mesh mesh = tessellate(disc, {sag, 0.35, {}});
+    EXPECT_TRUE(points_are_distinct(mesh));
+    EXPECT_EQ(euler_characteristic(mesh), 1);
+    EXPECT_LE(measured_sag(mesh, *sheet, 0), 1.05 * sag);
+    EXPECT_LE(mesh.triangles.size(), 40 / std::sqrt(sag));
+    EXPECT_NEAR(measure(mesh).area.value, kPi * 1.5 * 1.5 / 2 * (std::sqrt(2) + std::sqrt(1.09)), 20 * sag);
+  }
+}
+
+// Across the common side of two faces: no crack there, and as few triangles.
+TEST(BodyMesh, KinkAcrossASharedEdge) {
+  const std::vector<SurfacePtr> sheets{kinked({{-2, -0.5}, {-2, 2}}), kinked({{-0.5, 2}, {-2, 2}})};
+  const Body body = sew(sheets);
+  for (const double sag : {0.01, 1e-3, 1e-4}) {
+    const Mesh mesh = tessellate(body, {sag, 0.35, {}});
+    EXPECT_TRUE(points_are_distinct(mesh));
+    EXPECT_EQ(euler_characteristic(mesh), 1);
+    EXPECT_LE(mesh.triangles.size(), 1000u);
+    for (int face = 0; face < 2; ++face) EXPECT_LE(measured_sag(mesh, *sheets[face], face), 1.05 * sag);
+    EXPECT_NEAR(measure(mesh).area.value, 8 * (std::sqrt(2) + std::sqrt(1.09)), 20 * sag);
+  }
 }
 
 TEST(BodyMesh, SewnTeapotHasNoCracks) {

@@ -154,6 +154,82 @@ TEST(SurfaceMesh, SingularPointsAreNoReasonForMillionsOfTriangles) {
     }
 }
 
+FormulaSurface over_square(const std::string& height) {
+  return {point_formulas({"u", "v", height}, {"u", "v"}, Coordinates::cartesian), {{-2, 2}, {-2, 2}}, {}};
+}
+
+double area_of(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += 0.5 * glm::length(glm::cross(mesh.points[t.point[1]] - mesh.points[t.point[0]],
+                                        mesh.points[t.point[2]] - mesh.points[t.point[0]]));
+  return sum;
+}
+
+// Kinks that are no parameter lines: the mesh follows them.
+TEST(SurfaceMesh, PlanesWithKinksNeedAFewTriangles) {
+  // Each with its area: sqrt(2) above the kink v = 0.3 u and sqrt(1.09) below, half of the square each; sqrt(2.1369);
+  // and a crossing of two, with slopes (+-c, 1) above and (0.3 +- c, 0) below.
+  const double c = 0.3;
+  const std::array<std::pair<std::string, double>, 3> heights{{
+      {"max(v, 0.3*u)", 8 * std::sqrt(2) + 8 * std::sqrt(1.09)},
+      {"abs(u - 0.37*v)", 16 * std::sqrt(2 + 0.37 * 0.37)},
+      {"0.3*abs(u) + max(v, 0.3*u)", 8 * std::sqrt(2 + c * c) + (4 + 0.6) * std::sqrt(1 + 4 * c * c) + (4 - 0.6)},
+  }};
+  for (const auto& [height, area] : heights)
+    for (const double sag : {0.01, 1e-4, 1e-6}) {
+      const FormulaSurface surface = over_square(height);
+      const Mesh mesh = tessellate(surface, {sag, 10 * kPi / 180, {}});
+      EXPECT_LE(mesh.triangles.size(), 40u) << height;
+      EXPECT_LE(measured_sag(mesh, surface), sag) << height;
+      EXPECT_EQ(euler_characteristic(mesh), 1) << height;
+      EXPECT_NEAR(area_of(mesh), area, 4 * sag) << height;
+      expect_good_normals(mesh, 1 - 1e-6);
+    }
+}
+
+TEST(SurfaceMesh, BentKinksGrowLikeSmoothSurfaces) {
+  for (const std::string height :
+       {"abs(u^2 + v^2 - 1.1)", "max(exp(-u^2 - v^2), 0.5) + 0.1*sin(3*u)", "max(sqrt(u + 2), 1 + 0.1*v)"}) {
+    const FormulaSurface surface = over_square(height);
+    for (const double sag : {0.01, 1e-3, 1e-4}) {
+      const Mesh mesh = tessellate(surface, {sag, 20 * kPi / 180, {}});
+      EXPECT_LE(mesh.triangles.size(), 20 / sag) << height;
+      EXPECT_LE(measured_sag(mesh, surface), 1.05 * sag) << height;
+      EXPECT_EQ(euler_characteristic(mesh), 1) << height;
+    }
+  }
+}
+
+// Kinks that run over the seam and into the poles of a closed surface: no cracks.
+TEST(SurfaceMesh, KinksOfClosedSurfacesLeaveNoCracks) {
+  const std::string radius = "(1 + 0.2*abs(sin(3*u + v)))";
+  const FormulaSurface surface(point_formulas({radius + "*cos(v/2)*cos(u)", radius + "*cos(v/2)*sin(u)", "sin(v/2)"},
+                                              {"u", "v"}, Coordinates::cartesian),
+                               {{0, kTwoPi}, {-kPi, kPi}}, {true, false});
+  for (const double sag : {0.01, 1e-3}) {
+    const Mesh mesh = tessellate(surface, {sag, 0.35, {}});
+    EXPECT_TRUE(is_closed(mesh));
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    EXPECT_LE(measured_sag(mesh, surface), 1.1 * sag);
+    EXPECT_LE(mesh.triangles.size(), 100 / sag);
+  }
+}
+
+// A step leaves a gap: two plane rectangles, without a triangle between them.
+TEST(SurfaceMesh, StepsHaveNoWalls) {
+  const FormulaSurface surface = over_square("floor(0.25*u + 0.1*v + 0.03)");
+  for (const double sag : {0.01, 1e-3}) {
+    const Mesh mesh = tessellate(surface, {sag, 0.35, {}});
+    for (const auto& t : mesh.triangles) {
+      const double z = mesh.points[t.point[0]].z;
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(mesh.points[t.point[k]].z, z, 1e-12);
+    }
+    EXPECT_NEAR(area_of(mesh), 16, 1e-6);
+    EXPECT_LE(mesh.triangles.size(), 5000u);
+  }
+}
+
 TEST(SurfaceMesh, UnevenWeightsAndEdgesThatArePoints) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);

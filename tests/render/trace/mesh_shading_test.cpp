@@ -2,9 +2,12 @@
 // meshes that were made from surfaces.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "geometry/bodies/primitives.h"
+#include "geometry/bodies/trimmed_surface.h"
+#include "geometry/curves/circle.h"
 #include "geometry/surfaces/cone.h"
 #include "geometry/surfaces/plane.h"
 #include "geometry/surfaces/sphere.h"
@@ -145,6 +148,58 @@ TEST(MeshShading, ConesHaveTrueNormalsUpToTheTip) {
   const auto side = std::make_shared<ConeSurface>(Frame(), 1, 0, 2);
   expect_true_normals(side, SurfacePtr(side), 0.1);
   expect_true_normals(side, BodyPtr(std::make_shared<Body>(frustum(Frame(), 1, 0, 2))), 0.1);
+}
+
+CurvePtr hole(double u, double v) { return std::make_shared<Circle>(Frame{{u, v, 0}}, 0.2); }
+
+// Closed surfaces that a trim cuts open where no hole lies, away from u = 0 (and v = -pi): hits show the angles of the
+// domain all the same, smooth and flat. `angles` are those of a point in space, by the arc tangent; where a facet's
+// point stands off the surface a flat one may be off by what its interpolation is, 1/8 of the step's square.
+void expect_own_parameters(const SurfacePtr& surface, const std::vector<CurvePtr>& holes,
+                           const std::function<Vec2(const Vec3&)>& angles) {
+  const auto body = std::make_shared<Body>(trimmed_surface(surface, holes, true));
+  const Rectangle d = surface->domain();
+  bool beyond = false;
+  for (const Vec2& uv : tessellate(*body, {1e-4, kPi, {}}).parameters)
+    beyond = beyond || uv.x > d.u.hi + 0.1 || uv.y > d.v.hi + 0.1;
+  EXPECT_TRUE(beyond) << "the trim does not move the seam: nothing is tested";
+  auto flat_model = model_of(BodyPtr(body), Representation::mesh, 1e-4);
+  flat_model->objects[0].flat_shading = true;
+  const World smooth(model_of(BodyPtr(body), Representation::mesh, 1e-4)), flat(flat_model),
+      direct(model_of(BodyPtr(body)));
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.002, 0.998);  // at the seam itself 0 is as good as 2 pi
+  int found = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const double u = d.u.lo + unit(random) * d.u.width(), v = d.v.lo + unit(random) * d.v.width();
+    const Vec3 n = surface->normal(u, v), x = surface->point(u, v);
+    for (const auto& [world, error] : {std::pair{&smooth, 1e-4}, {&flat, 3e-3}, {&direct, 1e-12}}) {
+      const auto point = seen(*world, x + 0.1 * n, x);
+      if (!point || glm::length(point->position - x) > 1e-3) continue;  // through a hole
+      const Vec2 expected = angles(point->position);
+      ASSERT_NEAR(point->u, expected.x, error) << "at " << u << ", " << v;
+      ASSERT_NEAR(point->v, expected.y, error) << "at " << u << ", " << v;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 9000);
+}
+
+double turn_from(double start, double angle) { return angle < start ? angle + kTwoPi : angle; }
+
+TEST(MeshShading, TrimmedClosedSurfacesKeepTheirOwnParameters) {
+  const auto cylinder = std::make_shared<CylinderSurface>(Frame{}, 1, 3);
+  std::vector<CurvePtr> holes;
+  for (int k = 0; k < 6; ++k) holes.push_back(hole(k * kPi / 3, 0.6));
+  expect_own_parameters(cylinder, holes,
+                        [](const Vec3& p) { return Vec2(turn_from(0, std::atan2(p.y, p.x)), p.z / 3); });
+
+  const auto torus = std::make_shared<TorusSurface>(Frame{}, 3, 1);
+  holes.clear();
+  for (int k = 0; k < 6; ++k) holes.push_back(hole(k * kPi / 3, k % 2 == 0 ? kPi : 0));
+  expect_own_parameters(torus, holes, [start = torus->domain().v.lo](const Vec3& p) {
+    return Vec2(turn_from(0, std::atan2(p.y, p.x)), turn_from(start, std::atan2(p.z, std::hypot(p.x, p.y) - 3)));
+  });
 }
 
 }  // namespace
