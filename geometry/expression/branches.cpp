@@ -1,6 +1,7 @@
 #include "geometry/expression/branches.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/expression/operations.h"
 
@@ -9,32 +10,37 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr size_t kMostBranches = 256;
+constexpr double kNoStep = 1e-9;  // of a step's height
+
+bool is_step(Operation operation) {
+  return operation == Operation::floor || operation == Operation::ceil || operation == Operation::round ||
+         operation == Operation::mod;
+}
 
 }  // namespace
 
 class ExpressionBrancher {
  public:
-  std::optional<std::vector<ExpressionBranch>> run(std::span<const Expression> formulas) {
-    std::vector<Choice> all{{}};
-    for (const Expression& formula : formulas) {
-      const Value value = value_of(formula.program_);
-      all = combined(all, value.choices, [](const Choice& a, const Choice& b, Choice& both) {
-        both.programs = a.programs;
-        both.programs.push_back(b.programs[0]);
-      });
-    }
-    if (too_many_) return std::nullopt;
-    const auto expression = [&](const Program& program) {
-      Expression result = formulas[0];
-      result.program_ = program;
-      result.compile();
-      return result;
-    };
+  ExpressionBrancher(std::span<const Expression> formulas, std::span<const Interval> ranges)
+      : formulas_(formulas), ranges_(ranges) {}
+
+  std::optional<std::vector<ExpressionBranch>> run() {
+    Choice given;
+    for (const Expression& formula : formulas_) given.programs.push_back(formula.program_);
     std::vector<ExpressionBranch> branches;
-    for (const Choice& choice : all) {
-      ExpressionBranch& branch = branches.emplace_back();
-      for (const Program& program : choice.programs) branch.formulas.push_back(expression(program));
-      for (const Side& side : choice.sides) branch.sides.push_back({expression(side.height), side.positive});
+    for (const Choice& steps : without_steps(given)) {
+      std::vector<Choice> all{{{}, steps.sides}};
+      for (const Program& program : steps.programs)
+        all = combined(all, value_of(program).choices, [](const Choice& a, const Choice& b, Choice& both) {
+          both.programs = a.programs;
+          both.programs.push_back(b.programs[0]);
+        });
+      if (too_many_ || branches.size() + all.size() > kMostBranches) return std::nullopt;
+      for (const Choice& choice : all) {
+        ExpressionBranch& branch = branches.emplace_back();
+        for (const Program& program : choice.programs) branch.formulas.push_back(expression(program));
+        for (const Side& side : choice.sides) branch.sides.push_back({expression(side.height), side.positive});
+      }
     }
     return branches;
   }
@@ -42,10 +48,11 @@ class ExpressionBrancher {
  private:
   using Instruction = Expression::Instruction;
   using Program = std::vector<Instruction>;
-  // `of` is what there was to choose between.
+  // `of` is what there was to choose between; of steps what they round, whose border is where the height vanishes.
   struct Side {
     Program of, height;
     bool positive;
+    double border = 0;
   };
   // What is left of formulas where sides are chosen.
   struct Choice {
@@ -57,6 +64,19 @@ class ExpressionBrancher {
     Program whole;
     std::vector<Choice> choices;
   };
+
+  Expression expression(const Program& program) const {
+    Expression result = formulas_[0];
+    result.program_ = program;
+    result.compile();
+    return result;
+  }
+  static bool is_constant(const Program& program) {
+    return std::none_of(program.begin(), program.end(), [](const Instruction& in) {
+      return static_cast<Operation>(in.operation) == Operation::variable;
+    });
+  }
+  double value(const Program& constant) const { return expression(constant)(); }
 
   static bool same(const Program& a, const Program& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Instruction& x, const Instruction& y) {
@@ -76,7 +96,8 @@ class ExpressionBrancher {
     bool known = false;
     for (const Side& one : sides) {
       if (!same(one.of, side.of)) continue;
-      if (one.positive != side.positive) return false;
+      if (one.positive != side.positive && (one.positive ? one : side).border >= (one.positive ? side : one).border)
+        return false;
       known = known || same(one.height, side.height);
     }
     if (!known) sides.push_back(side);
@@ -104,8 +125,81 @@ class ExpressionBrancher {
   }
 
   void add_side(Choice choice, const Program& of, const Program& height, bool positive, std::vector<Choice>& choices) {
-    if (choose(choice.sides, {of, height, positive})) choices.push_back(std::move(choice));
+    if (is_constant(height) ? (value(height) >= 0) == positive : choose(choice.sides, {of, height, positive}))
+      choices.push_back(std::move(choice));
     too_many_ = too_many_ || choices.size() > kMostBranches;
+  }
+
+  // Where the program of the last operand before `end` begins.
+  static size_t operand_begin(const Program& program, size_t end) {
+    for (int missing = 1; missing > 0;) missing += operand_count(static_cast<Operation>(program[--end].operation)) - 1;
+    return end;
+  }
+  static Program part(const Program& program, size_t begin, size_t end) {
+    return {program.begin() + static_cast<std::ptrdiff_t>(begin), program.begin() + static_cast<std::ptrdiff_t>(end)};
+  }
+  static Program replaced(Program program, const Program& old, const Program& now) {
+    for (size_t at = program.size() + 1; at-- > old.size();)
+      if (const size_t begin = at - old.size(); same(part(program, begin, at), old)) {
+        program.erase(program.begin() + static_cast<std::ptrdiff_t>(begin),
+                      program.begin() + static_cast<std::ptrdiff_t>(at));
+        program.insert(program.begin() + static_cast<std::ptrdiff_t>(begin), now.begin(), now.end());
+        at = std::min(at, program.size() + 1);
+      }
+    return program;
+  }
+
+  // The formulas for each value of their steps, the innermost first; as they are where one has too many.
+  std::vector<Choice> without_steps(const Choice& given) {
+    std::vector<Choice> waiting{given}, done;
+    while (!waiting.empty()) {
+      const Choice choice = std::move(waiting.back());
+      waiting.pop_back();
+      const std::optional<Program> step = first_step(choice.programs);
+      if (!step)
+        done.push_back(choice);
+      else if (!add_steps(choice, *step, waiting) || waiting.size() + done.size() > kMostBranches)
+        return {given};
+    }
+    return done;
+  }
+  static std::optional<Program> first_step(const std::vector<Program>& programs) {
+    for (const Program& program : programs)
+      for (size_t i = 0; i < program.size(); ++i)
+        if (is_step(static_cast<Operation>(program[i].operation)))
+          return part(program, operand_begin(program, i + 1), i + 1);
+    return std::nullopt;
+  }
+  // A step has the value n for n + shift <= q <= n + 1 + shift.
+  bool add_steps(const Choice& choice, const Program& step, std::vector<Choice>& choices) const {
+    const auto operation = static_cast<Operation>(step.back().operation);
+    const bool is_mod = operation == Operation::mod;
+    const double shift = operation == Operation::ceil ? -1 : operation == Operation::round ? -0.5 : 0;
+    const size_t end = step.size() - 1, second = operand_begin(step, end);
+    const Program a = part(step, 0, is_mod ? second : end), b = part(step, second, end);
+    const Program q = is_mod ? made(Operation::divide, {&a, &b}) : a;
+    if (ranges_.empty()) return false;
+    const Interval range = expression(q).evaluate(ranges_);
+    if (!(range.width() <= kMostBranches)) return false;
+    // A step that begins where the range ends is one no more.
+    const double first = std::floor(range.lo - shift + kNoStep),
+                 last = std::max(first, std::ceil(range.hi - shift - kNoStep) - 1);
+    for (double n = first; n <= last; ++n) {
+      Choice one = choice;
+      Program value = number(n);
+      if (is_mod) {
+        const Program multiple = made(Operation::multiply, {&b, &value});
+        value = made(Operation::subtract, {&a, &multiple});
+      }
+      const auto is_beside = [&](double border, bool positive) {
+        const Program at = number(border);
+        return choose(one.sides, {q, made(Operation::subtract, {&q, &at}), positive, border});
+      };
+      if ((n != first && !is_beside(n + shift, true)) || (n != last && !is_beside(n + 1 + shift, false))) continue;
+      for (Program& program : one.programs) program = replaced(std::move(program), step, value);
+      choices.push_back(std::move(one));
+    }
+    return true;
   }
 
   Value value_of(const Program& program) {
@@ -133,7 +227,9 @@ class ExpressionBrancher {
         for (const Choice& a : operands[0].choices)
           for (const bool positive : {true, false}) {
             Choice one = a;
-            if (operation == Operation::sign)
+            if (operation == Operation::sign && is_constant(a.programs[0]))
+              one.programs = {made(operation, {&a.programs[0]})};
+            else if (operation == Operation::sign)
               one.programs = {number(positive ? 1 : -1)};
             else if (!positive)
               one.programs = {made(Operation::negate, {&a.programs[0]})};
@@ -184,8 +280,14 @@ class ExpressionBrancher {
 
   static Instruction instruction(Operation operation) { return {static_cast<std::uint8_t>(operation), 0, 0, 0}; }
 
-  static Program whole_of(const Instruction& in, const std::vector<Value>& operands) {
-    switch (static_cast<Operation>(in.operation)) {
+  Program whole_of(const Instruction& in, const std::vector<Value>& operands) const {
+    const auto operation = static_cast<Operation>(in.operation);
+    const bool compares = operation == Operation::equal || operation == Operation::unequal ||
+                          operation == Operation::less || operation == Operation::less_equal ||
+                          operation == Operation::greater || operation == Operation::greater_equal;
+    if (compares && is_constant(operands[0].whole) && is_constant(operands[1].whole))
+      return number(value(made(operation, {&operands[0].whole, &operands[1].whole})) != 0 ? 1 : -1);
+    switch (operation) {
       case Operation::less:
       case Operation::less_equal:
         return made(Operation::subtract, {&operands[1].whole, &operands[0].whole});
@@ -197,9 +299,12 @@ class ExpressionBrancher {
       case Operation::unequal:
         return number(1);
       case Operation::logical_and:
-        return made(Operation::min, {&operands[0].whole, &operands[1].whole});
       case Operation::logical_or:
-        return made(Operation::max, {&operands[0].whole, &operands[1].whole});
+        for (const int k : {0, 1})
+          if (const Program& known = operands[k].whole, &other = operands[1 - k].whole; is_constant(known))
+            return (value(known) >= 0) == (operation == Operation::logical_and) ? other : known;
+        return made(operation == Operation::logical_and ? Operation::min : Operation::max,
+                    {&operands[0].whole, &operands[1].whole});
       case Operation::logical_not:
         return made(Operation::negate, {&operands[0].whole});
       case Operation::select: {  // with the condition as it is computed
@@ -215,11 +320,14 @@ class ExpressionBrancher {
     return program;
   }
 
+  const std::span<const Expression> formulas_;
+  const std::span<const Interval> ranges_;
   bool too_many_ = false;
 };
 
-std::optional<std::vector<ExpressionBranch>> expression_branches(std::span<const Expression> formulas) {
-  return ExpressionBrancher().run(formulas);
+std::optional<std::vector<ExpressionBranch>> expression_branches(std::span<const Expression> formulas,
+                                                                 std::span<const Interval> ranges) {
+  return ExpressionBrancher(formulas, ranges).run();
 }
 
 }  // namespace lekalo::geometry

@@ -25,8 +25,9 @@ void each_kept(const Interval& domain, bool closed, const std::vector<double>& c
   ends.push_back(closed && !cuts.empty() ? cuts.front() + domain.width() : domain.hi);
   for (size_t k = 0; k + 1 < ends.size(); ++k) {
     const Interval t{ends[k], ends[k + 1]};
-    const double middle = t.middle() > domain.hi ? t.middle() - domain.width() : t.middle();
-    if (t.width() > kLeastPart * domain.width() && keeps(middle)) put(t);
+    double inside = place_inside(t);
+    if (inside > domain.hi) inside -= domain.width();
+    if (t.width() > kLeastPart * domain.width() && keeps(inside)) put(t);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "geometry/queries/smooth_parts.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/curves/curve_part.h"
 #include "geometry/describe.h"
@@ -16,6 +17,8 @@ namespace {
 
 // So far beside a line, of the domain, the part on its other side is looked for.
 constexpr double kBeside = 1e-6;
+// Parts farther from each other than this share of their size do not meet.
+constexpr double kStep = 1e-7;
 constexpr double kPlaces[] = {0.05, 0.23, 0.5, 0.81, 0.97};
 
 Box3 around(const Rectangle& domain) { return {{domain.u.lo, domain.v.lo, 0}, {domain.u.hi, domain.v.hi, 0}}; }
@@ -31,7 +34,8 @@ std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface) {
   }
   const auto* whole = dynamic_cast<const FormulaSurface*>(surface.get());
   if (!whole) return {{surface, {}}};
-  const auto branches = expression_branches(whole->formulas().formulas());
+  const std::array ranges{whole->domain().u, whole->domain().v};
+  const auto branches = expression_branches(whole->formulas().formulas(), ranges);
   if (!branches || branches->size() == 1) return {{surface, {}}};
   const Rectangle domain = whole->domain();
   std::vector<SmoothPart> parts;
@@ -72,11 +76,15 @@ FreeCreases free_creases(const std::vector<SmoothPart>& parts) {
           std::find_if(parts.begin(), parts.end(), [&](const SmoothPart& one) { return hold(one.sides, below); });
       if (other == parts.end()) continue;
       line.parts[1] = static_cast<int>(other - parts.begin());
-      const auto normal = [&](int part) { return parts[static_cast<size_t>(part)].surface->normal(at.x, at.y); };
-      is_sharp = is_sharp || glm::length(normal(line.parts[0]) - normal(line.parts[1])) > kSmoothEdge;
+      const auto part = [&](int k) -> const Surface& { return *parts[static_cast<size_t>(line.parts[k])].surface; };
+      const auto normal = [&](int k) { return part(k).normal(at.x, at.y); };
+      const SurfaceJet here = part(0).evaluate(at.x, at.y, 1);
+      const double size = glm::length(here.du()) * domain.u.width() + glm::length(here.dv()) * domain.v.width();
+      line.step = line.step || glm::length(here.point() - part(1).point(at.x, at.y)) > kStep * size;
+      is_sharp = is_sharp || glm::length(normal(0) - normal(1)) > kSmoothEdge;
     }
     if (line.parts[1] < 0) found.complete = false;
-    if (is_sharp) found.lines.push_back(std::move(line));
+    if (is_sharp || line.step) found.lines.push_back(std::move(line));
   };
   for (size_t on = 0; on < parts.size(); ++on)
     for (size_t k = 0; k < parts[on].sides.size(); ++k) {

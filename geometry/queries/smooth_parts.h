@@ -19,10 +19,12 @@ struct SmoothPart {
 // domain.
 std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface);
 
-// Where two parts meet and their normals differ by kSmoothEdge somewhere, in the parameter plane of both.
+// Where two parts meet and their normals differ by kSmoothEdge somewhere, in the parameter plane of both; or where they
+// do not meet, for the surface steps from one to the other.
 struct FreeCrease {
   Curve2Ptr image;
   int parts[2];
+  bool step = false;
 };
 struct FreeCreases {
   std::vector<FreeCrease> lines;

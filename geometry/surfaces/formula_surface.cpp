@@ -100,9 +100,10 @@ TypeDeclaration formula_surface_type() {
   TypeDeclaration type =
       declare(Category::surface, "formula_surface",
               "Surface given by formulas of its parameters u and v; the normal is r_u x r_v. Formulas must be smooth "
-              "inside the domain but for kinks of abs, min, max, clamp, sign and `if`, which are creases, and places "
-              "where a root or power of zero has no derivatives, as the tip of sqrt(u^2 + v^2); surfaces may meet "
-              "themselves and have poles, cusps and pinch points.");
+              "inside the domain but for kinks of abs, min, max, clamp and `if`, which are creases, steps of floor, "
+              "ceil, round, mod, sign and `if`, whose two edges have no wall between them, and places where a root or "
+              "power of zero has no derivatives, as the tip of sqrt(u^2 + v^2); surfaces may meet themselves and have "
+              "poles, cusps and pinch points.");
   type.example("point: [u*cos(v), u*sin(v), 0.4*v], domain: { u: [-1, 1], v: [0, 2*pi] }");
   declare_formulas(type, kVariables);
   type.field("domain", rectangle(), "of u and v, or of x and y");

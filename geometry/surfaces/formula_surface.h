@@ -8,8 +8,8 @@ namespace lekalo::geometry {
 
 // r(u, v) = point of three formulas of u and v in Cartesian, cylindrical or spherical coordinates, over a finite
 // rectangle. All derivatives are exact (jets), enclosures certified (jets of intervals in centered form). The formulas
-// must be smooth inside the domain, but for what branches of abs, min, max, clamp, sign and `if` make of them without a
-// jump (queries/smooth_parts.h); singular points (poles, cusps, pinch points) are welcome.
+// must be smooth inside the domain, but for what branches of abs, min, max, clamp, sign, `if`, floor, ceil, round and
+// mod make of them (queries/smooth_parts.h); singular points (poles, cusps, pinch points) are welcome.
 class FormulaSurface final : public Surface {
  public:
   struct Closed {

@@ -122,7 +122,7 @@ std::vector<Interval> StrokeCollector::kept_parts(const Stroke& whole) const {
     const Interval t{cuts[k], cuts[k + 1]};
     if (!(t.width() > kLeastPart * domain.width())) continue;
     if (!std::all_of(cutters_.begin(), cutters_.end(),
-                     [&](const Cutter& cutter) { return cutter.keeps(stroke, t.middle(), size); }))
+                     [&](const Cutter& cutter) { return cutter.keeps(stroke, place_inside(t), size); }))
       continue;
     if (!parts.empty() && parts.back().hi >= t.lo - kLeastPart * domain.width())
       parts.back().hi = t.hi;

@@ -36,10 +36,19 @@ void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style,
   const FreeCreases found = free_creases(parts);
   if (!found.complete) is_incomplete();
   for (const FreeCrease& crease : found.lines) {
-    const SurfacePtr& on = parts[static_cast<size_t>(crease.parts[0])].surface;
-    if (drawing_)
-      for (const int part : crease.parts) hosts_.push_back({parts[static_cast<size_t>(part)].surface, crease.image});
-    stroke(std::make_shared<SurfaceCurve>(on, crease.image), style, hidden);
+    const auto lies_on_part = [&](int k) {
+      const SurfacePtr& part = parts[static_cast<size_t>(crease.parts[k])].surface;
+      if (drawing_) hosts_.push_back({part, crease.image});
+      return part;
+    };
+    const SurfacePtr on = lies_on_part(0);
+    if (crease.step) {  // an edge of each side
+      stroke(std::make_shared<SurfaceCurve>(on, crease.image), style, hidden);
+      stroke(std::make_shared<SurfaceCurve>(lies_on_part(1), crease.image), style, hidden);
+    } else {
+      lies_on_part(1);
+      stroke(std::make_shared<SurfaceCurve>(on, crease.image), style, hidden);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // Formulas with kinks: their branches against the formulas themselves, creases and outlines against closed forms.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -50,7 +51,7 @@ TEST(ExpressionBranches, EachIsTheFormulaWhereItsSidesHold) {
                {"min(x, y)*max(x, y)", 4},
                {"clamp(x, -y, y)", 3},
                {"sign(x)*x + floor(y)", 2},
-               {"x if x > y and not z > 0 or y <= -z else abs(z) if x == y else z^2", 4},
+               {"x if x > y and not z > 0 or y <= -z else abs(z) if x == y else z^2", 2},
                {"abs(abs(x) - abs(y))", 8},
                {"sqrt(abs(x - max(y, z)))", 4}};
   std::mt19937 random(3);
@@ -77,6 +78,49 @@ TEST(ExpressionBranches, EachIsTheFormulaWhereItsSidesHold) {
   const Expression many =
       formula("abs(x) + abs(y) + abs(z) + abs(x+1) + abs(y+1) + abs(z+1) + abs(x+2) + abs(y+2) + abs(z+2)");
   EXPECT_FALSE(expression_branches({&many, 1}));
+}
+
+// Steps are branches where the ranges of the variables tell how many there are.
+TEST(ExpressionBranches, StepsAreThoseInTheRanges) {
+  const struct {
+    const char* text;
+    size_t branches;
+  } cases[] = {{"floor(2*x) + y", 8},
+               {"ceil(x + y)", 8},
+               {"round(x)*z", 5},
+               {"mod(x, 2)", 2},
+               {"mod(x*y, 3) + floor(x*y)", 32},
+               {"x - floor(x)*floor(x)", 4},
+               {"abs(floor(x)) + mod(y, -2)", 8},
+               {"sign(floor(x)) + max(floor(y), 0.5)", 16},
+               {"1 if mod(floor(x) + floor(y), 2) == 0 else z", 16},
+               {"x if floor(x) > 0 and y > z else -x", 5},
+               {"floor(100*x)", 1},
+               {"mod(x, y)", 1}};
+  const Expression unknown = formula("floor(2*x) + y");
+  EXPECT_EQ(expression_branches({&unknown, 1})->size(), 1u);
+  const std::array ranges{Interval{-2, 2}, Interval{-2, 2}, Interval{-2, 2}};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (const auto& one : cases) {
+    const Expression whole = formula(one.text);
+    const auto branches = expression_branches({&whole, 1}, ranges);
+    ASSERT_TRUE(branches);
+    EXPECT_EQ(branches->size(), one.branches) << one.text;
+    for (int k = 0; k < 200; ++k) {
+      const double x = number(random), y = number(random), z = number(random);
+      int holding = 0;
+      for (const ExpressionBranch& branch : *branches) {
+        bool holds = true;
+        for (const ExpressionBranch::Side& side : branch.sides)
+          holds = holds && side.height(x, y, z) * (side.positive ? 1 : -1) >= 0;
+        if (!holds) continue;
+        ++holding;
+        EXPECT_NEAR(branch.formulas[0](x, y, z), whole(x, y, z), 1e-14) << one.text;
+      }
+      EXPECT_EQ(holding, 1) << one.text;
+    }
+  }
 }
 
 TEST(FormulaKinks, CubeAndOctahedron) {
@@ -185,6 +229,38 @@ TEST(FormulaKinks, SurfacesByParameters) {
       }
     }
     EXPECT_NEAR(length, one.length, 1e-5) << one.z;
+  }
+}
+
+// The edges of steps, once on each side.
+TEST(FormulaKinks, StepsOfSurfaces) {
+  const double corner = std::acos(0.8);  // of the circle of radius 1.25 about a square of half side 1
+  const struct {
+    const char* z;
+    double length;
+    size_t parts;
+  } cases[] = {{"sign(u^2 + v^2 - 0.49)", 2 * kPi * 0.7, 2},
+               {"floor(4*hypot(u, v))", 2 * kPi * (0.25 + 0.5 + 0.75 + 1) + 1.25 * (2 * kPi - 8 * corner), 6},
+               {"ceil(2*u)", 3 * 2.0, 4},
+               {"round(u + v)", 2 * std::sqrt(2.0) * (1.5 + 0.5), 5},
+               {"mod(1.5*u + v, 2) + v^2", 2 * std::hypot(2.0 / 3, 1) + 2 * std::hypot(1.0 / 3, 0.5), 4}};
+  for (const auto& one : cases) {
+    const SurfacePtr sheet = std::make_shared<FormulaSurface>(point_formulas({"u", "v", one.z}, {"u", "v"}),
+                                                              Rectangle{{-1, 1}, {-1, 1}}, FormulaSurface::Closed{});
+    const std::vector<SmoothPart> parts = smooth_parts(sheet);
+    EXPECT_EQ(parts.size(), one.parts) << one.z;
+    const FreeCreases found = free_creases(parts);
+    EXPECT_TRUE(found.complete) << one.z;
+    double length = 0;
+    for (const FreeCrease& crease : found.lines) {
+      EXPECT_TRUE(crease.step);
+      const Interval t = crease.image->domain();
+      constexpr int kSteps = 4000;
+      for (int k = 0; k < kSteps; ++k)
+        length += glm::length(crease.image->point(t.lo + t.width() * (k + 1) / kSteps) -
+                              crease.image->point(t.lo + t.width() * k / kSteps));
+    }
+    EXPECT_NEAR(length, one.length, 2e-5) << one.z;
   }
 }
 

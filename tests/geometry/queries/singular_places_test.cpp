@@ -120,6 +120,14 @@ TEST(SingularPlaces, HeightsByFormulas) {
       {"log(abs(u))", [](double x, double) { return std::log(std::abs(x)); }},
       {"floor(4*u) + v", [](double x, double y) { return std::floor(4 * x) + y; }},
       {"mod(3*u, 1)", [](double x, double) { return 3 * x - std::floor(3 * x); }},
+      {"floor(3*sqrt(u^2 + v^2))", [&](double x, double y) { return std::floor(3 * r(x, y)); }},
+      {"round(3*u*v)/3", [](double x, double y) { return std::round(3 * x * y) / 3; }},
+      {"ceil(2*u + v)*u", [](double x, double y) { return std::ceil(2 * x + y) * x; }},
+      {"mod(2*u*v + v, 0.5)",
+       [](double x, double y) { return 2 * x * y + y - 0.5 * std::floor((2 * x * y + y) / 0.5); }},
+      // Too many steps to be surfaces of their own.
+      {"floor(150*u)/150", [](double x, double) { return std::floor(150 * x) / 150; }},
+      {"floor(8*u)/8 + floor(8*v)/8", [](double x, double y) { return std::floor(8 * x) / 8 + std::floor(8 * y) / 8; }},
       {"abs(u*v)^0.5", [](double x, double y) { return std::sqrt(std::abs(x * y)); }},
       {"u/(abs(u) + 1e-9)", [](double x, double) { return x / (std::abs(x) + 1e-9); }},
   };
