@@ -1,35 +1,18 @@
 // Normals at places where r_u x r_v vanishes, against closed forms of the limits (Golovanov 2016, 3.1).
 #include "geometry/curves/bezier_curve.h"
-#include "geometry/formula.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/revolution.h"
 #include "geometry/surfaces/surface_checks.h"
+#include "support/surface_of_formula.h"
 
 namespace lekalo::geometry::surface_normal_test {
 namespace {
 
 using checks::distance;
-
-// A surface from a formula, for these tests.
-template <class Formula>
-class FormulaSurface final : public Surface {
- public:
-  FormulaSurface(Formula formula, Rectangle domain) : formula_(formula), domain_(domain) {}
-  Rectangle domain() const override { return domain_; }
-  SurfaceJet evaluate(double u, double v, int order) const override {
-    return evaluate_surface_formula(formula_, u, v, order);
-  }
-  SurfaceEnclosure enclose(const Rectangle& box, int order) const override {
-    return enclose_surface_formula(formula_, box, order);
-  }
-
- private:
-  Formula formula_;
-  Rectangle domain_;
-};
+using tests::SurfaceOfFormula;
 
 TEST(ParametricNormal, PolesOfASphere) {
-  const FormulaSurface sphere(
+  const SurfaceOfFormula sphere(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{cos(u) * cos(v) * 3.0, sin(u) * cos(v) * 3.0, sin(v) * 3.0};
@@ -51,7 +34,7 @@ TEST(ParametricNormal, TipOfAConeKeepsItsGeneratrix) {
     using std::cos, std::sin;
     return Triple{cos(u) * v * 0.5, sin(u) * v * 0.5, -1.0 * v};
   };
-  const FormulaSurface lower(formula, {{0, kTwoPi}, {0, 2}}), upper(formula, {{0, kTwoPi}, {-2, 0}});
+  const SurfaceOfFormula lower(formula, {{0, kTwoPi}, {0, 2}}), upper(formula, {{0, kTwoPi}, {-2, 0}});
   for (double u = 0; u < 6; u += 0.5) {
     // r_u x r_v = v/2 (-cos u, -sin u, -1/2), by hand.
     const Vec3 n = glm::normalize(Vec3(-std::cos(u), -std::sin(u), -0.5));
@@ -62,7 +45,7 @@ TEST(ParametricNormal, TipOfAConeKeepsItsGeneratrix) {
 
 // Horn torus: the tip lies inside the domain; each side has its own limit.
 TEST(ParametricNormal, SidesOfASingularLineKeepTheirNormals) {
-  const FormulaSurface horn(
+  const SurfaceOfFormula horn(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{(1.0 + cos(v)) * cos(u), (1.0 + cos(v)) * sin(u), sin(v)};
@@ -153,7 +136,7 @@ TEST(ParametricNormal, BesideAPoleFarOffTheOrigin) {
 
 // z = sqrt(1 - x^2) is vertical at its borders, where r_u is infinite.
 TEST(ParametricNormal, RootOfZero) {
-  const FormulaSurface half(
+  const SurfaceOfFormula half(
       [](const auto& u, const auto& v) {
         using std::sqrt;
         return Triple{u, v, sqrt(1.0 - u * u)};

@@ -7,30 +7,14 @@
 #include <memory>
 
 #include "geometry/curves/bezier_curve.h"
-#include "geometry/formula.h"
 #include "geometry/surfaces/bezier_surface.h"
 #include "geometry/surfaces/revolution.h"
+#include "support/surface_of_formula.h"
 
 namespace lekalo::geometry::curvature_test {
 namespace {
 
-// A surface from a formula, for these tests.
-template <class Formula>
-class FormulaSurface final : public Surface {
- public:
-  FormulaSurface(Formula formula, Rectangle domain) : formula_(formula), domain_(domain) {}
-  Rectangle domain() const override { return domain_; }
-  SurfaceJet evaluate(double u, double v, int order) const override {
-    return evaluate_surface_formula(formula_, u, v, order);
-  }
-  SurfaceEnclosure enclose(const Rectangle& box, int order) const override {
-    return enclose_surface_formula(formula_, box, order);
-  }
-
- private:
-  Formula formula_;
-  Rectangle domain_;
-};
+using tests::SurfaceOfFormula;
 
 void expect_curvatures(const Surface& surface, double u, double v, double gaussian, double mean,
                        double tolerance = 1e-7) {
@@ -47,7 +31,7 @@ const double kDistances[] = {0,    1e-300, 1e-16, 1e-13, 1e-10, 3e-9, 1e-8, 3e-8
                              1e-6, 1e-5,   3e-5,  1e-4,  3e-4,  1e-3, 0.01, 0.1,  0.5};
 
 TEST(SurfaceCurvature, SphereUpToItsPoles) {
-  const FormulaSurface sphere(
+  const SurfaceOfFormula sphere(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{cos(u) * cos(v) * 2.0, sin(u) * cos(v) * 2.0, sin(v) * 2.0};
@@ -60,7 +44,7 @@ TEST(SurfaceCurvature, SphereUpToItsPoles) {
 
 // h = x^2/a^4 + y^2/b^4 + z^2/c^4: K = 1 / (a b c h)^2, H = (r^2 - a^2 - b^2 - c^2) / (2 (a b c)^2 h^(3/2)).
 TEST(SurfaceCurvature, EllipsoidUpToItsPoles) {
-  const FormulaSurface ellipsoid(
+  const SurfaceOfFormula ellipsoid(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{cos(u) * cos(v) * 3.0, sin(u) * cos(v) * 2.0, sin(v) * 1.0};
@@ -86,7 +70,7 @@ TEST(SurfaceCurvature, ParaboloidInPolarCoordinates) {
     using std::cos, std::sin;
     return Triple{u * cos(v), u * sin(v), u * u};
   };
-  const FormulaSurface whole(formula, {{0, 1}, {0, kTwoPi}}), sector(formula, {{0, 1}, {0.2, 1.7}});
+  const SurfaceOfFormula whole(formula, {{0, 1}, {0, kTwoPi}}), sector(formula, {{0, 1}, {0.2, 1.7}});
   for (const Surface* surface : {static_cast<const Surface*>(&whole), static_cast<const Surface*>(&sector)})
     for (const double d : kDistances) {
       const double w = 1 + 4 * d * d;
@@ -96,7 +80,7 @@ TEST(SurfaceCurvature, ParaboloidInPolarCoordinates) {
 
 // A plane has curvature zero at the origin of polar coordinates, not only about it.
 TEST(SurfaceCurvature, PlaneInPolarCoordinates) {
-  const FormulaSurface plane(
+  const SurfaceOfFormula plane(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{u * cos(v), u * sin(v), 0.5 * u * cos(v)};
@@ -152,7 +136,7 @@ TEST(SurfaceCurvature, BezierEdgeShrunkToAPoint) {
 // Where there is no limit nothing is told: at the tip of a cone, and on a pole from which the surface bends in each
 // direction as it likes, z = v^2 (2 + cos 3u).
 TEST(SurfaceCurvature, IsNotKnownWithoutALimit) {
-  const FormulaSurface cone(
+  const SurfaceOfFormula cone(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{cos(u) * v * 0.5, sin(u) * v * 0.5, -1.0 * v};
@@ -166,7 +150,7 @@ TEST(SurfaceCurvature, IsNotKnownWithoutALimit) {
     // 1 / (rho / cos of the half angle), rho = v / 2.
     EXPECT_NEAR(std::abs(c.mean), 1 / (std::sqrt(1.25) * d), 1e-6 / d) << d;
   }
-  const FormulaSurface bent(
+  const SurfaceOfFormula bent(
       [](const auto& u, const auto& v) {
         using std::cos, std::sin;
         return Triple{cos(u) * v, sin(u) * v, v * v * (cos(3.0 * u) + 2.0)};

@@ -40,6 +40,25 @@ double length_of(const ImplicitContours& lines) {
 
 const ViewOf kView{false, {0.48, -0.61, 0.63}};
 
+// At each place just one of the branches holds, and has the value of the whole.
+void expect_parted(const Expression& whole, const std::vector<ExpressionBranch>& branches, double error) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (int k = 0; k < 200; ++k) {
+    const double x = number(random), y = number(random), z = number(random);
+    int holding = 0;
+    for (const ExpressionBranch& branch : branches) {
+      bool holds = true;
+      for (const ExpressionBranch::Side& side : branch.sides)
+        holds = holds && side.height(x, y, z) * (side.positive ? 1 : -1) >= 0;
+      if (!holds) continue;
+      ++holding;
+      EXPECT_NEAR(branch.formulas[0](x, y, z), whole(x, y, z), error) << whole.text();
+    }
+    EXPECT_EQ(holding, 1) << whole.text();
+  }
+}
+
 TEST(ExpressionBranches, EachIsTheFormulaWhereItsSidesHold) {
   const struct {
     const char* text;
@@ -54,26 +73,12 @@ TEST(ExpressionBranches, EachIsTheFormulaWhereItsSidesHold) {
                {"x if x > y and not z > 0 or y <= -z else abs(z) if x == y else z^2", 2},
                {"abs(abs(x) - abs(y))", 8},
                {"sqrt(abs(x - max(y, z)))", 4}};
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> number(-2, 2);
   for (const auto& one : cases) {
     const Expression whole = formula(one.text);
     const auto branches = expression_branches({&whole, 1});
     ASSERT_TRUE(branches);
     EXPECT_EQ(branches->size(), one.branches) << one.text;
-    for (int k = 0; k < 200; ++k) {
-      const double x = number(random), y = number(random), z = number(random);
-      int holding = 0;
-      for (const ExpressionBranch& branch : *branches) {
-        bool holds = true;
-        for (const ExpressionBranch::Side& side : branch.sides)
-          holds = holds && side.height(x, y, z) * (side.positive ? 1 : -1) >= 0;
-        if (!holds) continue;
-        ++holding;
-        EXPECT_EQ(branch.formulas[0](x, y, z), whole(x, y, z)) << one.text;
-      }
-      EXPECT_EQ(holding, 1) << one.text;
-    }
+    expect_parted(whole, *branches, 0);
   }
   const Expression many =
       formula("abs(x) + abs(y) + abs(z) + abs(x+1) + abs(y+1) + abs(z+1) + abs(x+2) + abs(y+2) + abs(z+2)");
@@ -100,26 +105,12 @@ TEST(ExpressionBranches, StepsAreThoseInTheRanges) {
   const Expression unknown = formula("floor(2*x) + y");
   EXPECT_EQ(expression_branches({&unknown, 1})->size(), 1u);
   const std::array ranges{Interval{-2, 2}, Interval{-2, 2}, Interval{-2, 2}};
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> number(-2, 2);
   for (const auto& one : cases) {
     const Expression whole = formula(one.text);
     const auto branches = expression_branches({&whole, 1}, ranges);
     ASSERT_TRUE(branches);
     EXPECT_EQ(branches->size(), one.branches) << one.text;
-    for (int k = 0; k < 200; ++k) {
-      const double x = number(random), y = number(random), z = number(random);
-      int holding = 0;
-      for (const ExpressionBranch& branch : *branches) {
-        bool holds = true;
-        for (const ExpressionBranch::Side& side : branch.sides)
-          holds = holds && side.height(x, y, z) * (side.positive ? 1 : -1) >= 0;
-        if (!holds) continue;
-        ++holding;
-        EXPECT_NEAR(branch.formulas[0](x, y, z), whole(x, y, z), 1e-14) << one.text;
-      }
-      EXPECT_EQ(holding, 1) << one.text;
-    }
+    expect_parted(whole, *branches, 1e-14);
   }
 }
 
