@@ -130,10 +130,11 @@ TEST(Lights, RoundSourcesGiveTheirIntensityAtAnySize) {
           DistantLight{.direction = {0, 0, -1}, .angular_diameter = diameter * kPi / 180, .sampling = sampling});
       EXPECT_EQ(sun->sample_count() == 1, diameter == 0 || sampling.n == 1);
       EXPECT_NEAR(irradiance(*sun) / kPi, 1, near) << diameter << " " << sampling.n;
-      if (const auto cone = sun->cone(Vec3(0)))
+      if (const auto cone = sun->cone(Vec3(0))) {
         for (const double slant : {0.0, 0.5 * (90 - 0.5 * diameter)})
           EXPECT_NEAR(cone->mean_cosine(std::cos(slant * kPi / 180)) * cone->irradiance[0] / kPi,
                       std::cos(slant * kPi / 180), 1e-6);
+      }
     }
     // A ball of the radiance L gives pi L (r / d)^2 at right angles: the law of the square to its very surface.
     for (const double distance : {1.01, 1.5, 2.0, 4.0}) {
