@@ -19,6 +19,10 @@ inline constexpr double kHitSlack = 5e-13;
 inline constexpr double kShallowSlack = 4.5e-16;
 inline constexpr double kShallowReach = 1e-7;
 
+// Rounding of the place where a line meets a surface, relative to the coordinates and lengths that went into it, 64
+// epsilon: surfaces of several objects that differ by less on a line lie on one another there.
+inline constexpr double kHitRounding = 0x1p-46;
+
 // Two hits of one surface or closed body closer than this, crossing in the same direction, are one crossing reported by
 // two neighbours: the border slack seen from the line, with a factor for the angle.
 inline constexpr double kSameHit = 1e-10;

@@ -1,7 +1,8 @@
 #include "render/integrators/boundary.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "geometry/tolerances.h"
 
 namespace lekalo::render {
 
@@ -22,8 +23,7 @@ struct Crossing {
 // Length of the ray that is lost between a surface, which is met no more exactly than the ray's own places are known,
 // and the place behind it where rays that leave it begin.
 double lost_length(const Ray& ray, double t, const SurfacePoint& point) {
-  constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
-  const double place = kRounding * (glm::length(ray.origin) + std::abs(t));
+  const double place = geometry::kHitRounding * (glm::length(ray.origin) + std::abs(t));
   return (World::clearance(point) + place) /
          std::max(std::abs(glm::dot(ray.direction, point.geometric_normal)), kFlattest);
 }

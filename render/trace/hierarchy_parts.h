@@ -4,8 +4,8 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/tolerances.h"
 #include "render/trace/hierarchy.h"
 
 namespace lekalo::render {
@@ -100,10 +100,6 @@ inline bool comes_before(const Hit& a, const Hit& b) {
   return a.piece < b.piece;
 }
 
-// Surfaces of two objects whose places on a ray differ by less than this part of their distance from its origin, and of
-// that one's from the origin of coordinates, lie on one another: rounding alone would say which is first.
-inline constexpr double kSamePlace = 64 * std::numeric_limits<double>::epsilon();
-
 // A query in the space of one hierarchy. Embree hands its address back to the callbacks.
 struct Hierarchy::Query {
   RTCIntersectContext context;
@@ -150,14 +146,14 @@ struct Hierarchy::Query {
     t_max = std::min(t_max, end_behind(hit.t));
   }
   // Behind all that lies on what is met at t.
-  double end_behind(double t) const { return t + kSamePlace * (extent + std::abs(t)); }
+  double end_behind(double t) const { return t + geometry::kHitRounding * (extent + std::abs(t)); }
 
  private:
   bool lies_on_nearest(const Hit& hit) const {
     const double apart = std::abs(hit.t - nearest->t);
     if (hit.instance == nearest->instance || hit.t + apart > end_behind(hit.t)) return false;
     const Vec3 &o = line().origin, &d = line().direction;
-    return apart <= kSamePlace * (glm::length(o) / glm::length(d) + std::abs(hit.t));
+    return apart <= geometry::kHitRounding * (glm::length(o) / glm::length(d) + std::abs(hit.t));
   }
   bool is_left(const GeometryRecord& record) const {
     return record.kind == GeometryRecord::Kind::target && leaf_offset + record.leaf_number == left_instance &&

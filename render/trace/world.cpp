@@ -14,6 +14,7 @@
 #include "geometry/bodies/sew.h"
 #include "geometry/queries/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
+#include "geometry/tolerances.h"
 #include "render/scene/placed_objects.h"
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
@@ -28,9 +29,6 @@ using geometry::MeshPtr;
 using geometry::SurfacePtr;
 
 namespace {
-
-// Rounding of a hit's position in double, relative to the coordinates that went into it.
-constexpr double kPositionError = 64 * std::numeric_limits<double>::epsilon();
 
 // Boxes nearer to each other than this part of the scene's size and place may hold surfaces that rays do not tell
 // apart: more than the clearance of rays that leave a mesh.
@@ -162,7 +160,7 @@ struct World::Compiled {
   void finish(const Leaf& leaf, const Ray& ray, SurfacePoint& point) const {
     const auto size = [](const Vec3& v) { return Vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); };
     const Vec3 sizes = size(point.position) + size(point.position - ray.origin);
-    point.error += kPositionError * (sizes.x + sizes.y + sizes.z);
+    point.error += geometry::kHitRounding * (sizes.x + sizes.y + sizes.z);
     if (leaf.parameters && camera) point.pixel_size = camera->pixel_size(point.position);
   }
 
