@@ -83,10 +83,11 @@ struct NurbsSurfaceForm {
   }
 };
 
-// The nearest point of a surface, and the unit normal there.
+// The nearest point of a surface, and the unit normal there. (Aligned: read in the pairs of numbers that it was written
+// in. Of two that were written one at a time, and are read as one, a processor waits for both.)
 struct Foot {
-  Vec3 point;
-  Vec3 normal;
+  alignas(16) Vec3 point;
+  alignas(16) Vec3 normal;
 };
 
 // Which edges of the domain shrink to a point (poles, apexes, collapsed Bezier edges).

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/local_line.h"
 
 namespace lekalo::geometry {
@@ -98,7 +99,7 @@ std::optional<NurbsSurfaceForm> TransformedSurface::as_nurbs() const {
 
 // An affine map keeps the parameter along a line. The line starts anew near the surface before it is mapped: the map of
 // a distant origin would lose as many digits as it is farther away than the surface is large.
-void TransformedSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
+LEKALO_FUSED void TransformedSurface::meet_line(const Line& line, const Interval& t, LineHits& hits) const {
   const MovedLine moved = moved_near(line, center_);
   LineHits found;
   original_->line_hits({inverse_.point(moved.origin), inverse_.direction(moved.direction)}, Interval::entire(), found);

@@ -50,10 +50,11 @@ class TransformedSurface final : public Surface {
     return orientation_ < 0 ? sides.turned() : sides;
   }
   bool has_line_formula() const override { return original_->has_line_formula(); }
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
   Vec3 normal(double u, double v) const override;
 
  private:
+  void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
   SurfacePtr original_;
   Affine map_;
   Affine inverse_;

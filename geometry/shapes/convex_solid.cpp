@@ -221,7 +221,7 @@ LEKALO_FUSED bool ConvexSolid::clip_to_ball(const LineOfSolids& line, Stretch& i
 
 // A line steeper than a cone is inside its nappe from the crossing on, or up to it; the other crossing is of the other
 // nappe.
-bool ConvexSolid::clip_to_quadric(const LineOfSolids& line, Stretch& inside) const {
+LEKALO_FUSED bool ConvexSolid::clip_to_quadric(const LineOfSolids& line, Stretch& inside) const {
   const double start = glm::dot(center_ - line.line.origin, line.line.direction) * line.inverse_square;
   const Vec3 o = to_unit_ * (fused_at(line.line, start) - center_) + unit_center_, d = to_unit_ * line.line.direction;
   const QuadricRoots roots = quadric_roots(quadric_, o, d);

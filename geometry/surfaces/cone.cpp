@@ -6,6 +6,7 @@
 #include "geometry/surfaces/cone.h"
 
 #include "geometry/curves/conic_forms.h"
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -47,7 +48,7 @@ Foot ConeSurface::foot(const Vec3& near) const {
   return MeridianSurface::foot(near);
 }
 
-void ConeSurface::line_hits(const Line& line, const Interval& t, LineHits& hits) const {
+LEKALO_FUSED void ConeSurface::meet_line(const Line& line, const Interval& t, LineHits& hits) const {
   const MovedLine moved = local_line(line, nearest_axis_point());
   const bool cylinder = widening_ == 0;
   const double slope = widening_ / height_, scale = cylinder ? std::abs(radius_) : 1.0;

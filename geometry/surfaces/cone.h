@@ -21,7 +21,7 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
   // Of one nappe the outer side.
   Sides free_sides(double u, double v) const override;
   Foot foot(const Vec3& near) const override;
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 
   template <class T>
   MeridianPoint<T> meridian_at(const T& v) const {
@@ -29,6 +29,7 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
   }
 
  private:
+  void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
   NurbsCurveForm meridian_form() const override;
   Vec3 nearest_axis_point() const;
   double radius_, widening_, height_;

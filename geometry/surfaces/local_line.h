@@ -24,11 +24,17 @@ struct MovedLine {
   MovedLine shifted(const Vec3& to) const { return {start, origin - to, direction}; }
 };
 
-// The line's point at t with one rounding in each coordinate.
-Vec3 fused_at(const Line& line, double t);
+// The line's point at t with one rounding in each coordinate. (Inline, as what else meets surfaces in closed form: who
+// calls it is LEKALO_FUSED.)
+inline Vec3 fused_at(const Line& line, double t) {
+  const Vec3 &o = line.origin, &d = line.direction;
+  return {std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z)};
+}
 
 inline MovedLine moved_near(const Line& line, const Vec3& center) {
-  const double t = glm::dot(center - line.origin, line.direction) / glm::dot(line.direction, line.direction);
+  const double square = glm::dot(line.direction, line.direction);
+  double t = glm::dot(center - line.origin, line.direction);
+  if (std::abs(square - 1) > 1e-9) t /= square;  // any place near will do, and a quotient takes long
   return {t, fused_at(line, t), line.direction};
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "geometry/curves/conic_forms.h"
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -167,8 +168,8 @@ Foot MeridianSurface::foot(const Vec3& near) const {
   return {near - direction(step), direction(sign * half)};
 }
 
-void MeridianSurface::add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
-                                       std::optional<double> (*parameter)(const Vec3&)) const {
+LEKALO_FUSED void MeridianSurface::add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
+                                                    std::optional<double> (*parameter)(const Vec3&)) const {
   const bool by_height = knows_feet_ && !hits.wants_parameters();
   visit_quadric_hits(quadric_, local_line(line, frame_.origin), scale_, range, hits, [&](double t, const Vec3& p) {
     const Place place = by_height ? place_by_height(p.z) : Place::at_border;

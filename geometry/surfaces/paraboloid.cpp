@@ -2,6 +2,7 @@
 #include "geometry/surfaces/paraboloid.h"
 
 #include "geometry/curves/conic_forms.h"
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -64,7 +65,7 @@ std::optional<NurbsSurfaceForm> HyperbolicParaboloid::as_nurbs() const {
   return form;
 }
 
-void HyperbolicParaboloid::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
+LEKALO_FUSED void HyperbolicParaboloid::meet_line(const Line& line, const Interval& range, LineHits& hits) const {
   const Vec3 scale(1 / a_, 1 / b_, 1);
   visit_quadric_hits({{1, -1, 0}, -1, 0}, moved_near(line, frame_.origin, frame_), scale, range, hits,
                      [&](double t, const Vec3& p) {

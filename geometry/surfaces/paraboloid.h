@@ -43,9 +43,10 @@ class HyperbolicParaboloid final : public Surface {
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
   bool has_line_formula() const override { return true; }
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 
  private:
+  void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
   template <class T>
   Triple<T> at(const T& u, const T& v) const;
   Frame frame_;

@@ -7,6 +7,7 @@
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/numerics/instruction_sets.h"
+#include "geometry/surfaces/local_line.h"
 #include "geometry/surfaces/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -65,7 +66,7 @@ std::optional<NurbsSurfaceForm> Plane::as_nurbs() const {
   return form;
 }
 
-void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
+LEKALO_FUSED void Plane::meet_line(const Line& line, const Interval& range, LineHits& hits) const {
   const double speed = glm::dot(line.direction, frame_.z), length = taxicab(line.direction);
   constexpr double kParallel = 4 * std::numeric_limits<double>::epsilon();
   if (std::abs(speed) <= kParallel * length) return;
@@ -76,15 +77,8 @@ void Plane::line_hits(const Line& line, const Interval& range, LineHits& hits) c
     const double slack = 2e-15 * (std::abs(rough) * length + distance_ + taxicab(line.origin)) * std::abs(inverse);
     if (rough < range.lo - slack || rough > range.hi + slack) return;
   }
-  add_hit(line, range, rough, inverse, hits);
-}
-
-LEKALO_FUSED void Plane::add_hit(const Line& line, const Interval& range, double rough, double inverse,
-                                 LineHits& hits) const {
-  // Anew from the rough hit: fused_at(), in line.
-  const Vec3 &o = line.origin, &d = line.direction;
-  const Vec3 from =
-      Vec3(std::fma(rough, d.x, o.x), std::fma(rough, d.y, o.y), std::fma(rough, d.z, o.z)) - frame_.origin;
+  // Anew from the rough hit.
+  const Vec3 from = fused_at(line, rough) - frame_.origin;
   const double s = -glm::dot(from, frame_.z) * inverse;
   const double t = rough + s;
   if (!range.contains(t)) return;

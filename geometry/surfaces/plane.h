@@ -24,12 +24,10 @@ class Plane final : public Surface {
   Foot foot(const Vec3& near) const override;
   Sides free_sides(double, double) const override { return {true, true}; }
   bool has_line_formula() const override { return true; }
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 
  private:
-  // Adds the hit at about t = `rough` if it lies in the range and the domain; `inverse` is 1 / (direction . normal).
-  void add_hit(const Line& line, const Interval& range, double rough, double inverse, LineHits& hits) const;
-
+  void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
   Frame frame_;
   Rectangle domain_;
   bool whole_;       // unbounded in all directions

@@ -35,7 +35,11 @@ Vec3 SphereSurface::normal(double, double, const SurfaceJet& jet) const {
 }
 
 Foot SphereSurface::foot(const Vec3& near) const {
-  const Vec3 outward = glm::normalize(near - frame_.origin);
+  // The length differs from the radius by rounding, so that one step of Newton's iteration replaces root and quotient.
+  const Vec3 from_center = near - frame_.origin;
+  const double square = glm::dot(from_center, from_center) * (scale_.x * scale_.x);
+  const Vec3 outward =
+      std::abs(square - 1) < 1e-8 ? (scale_.x * (1.5 - 0.5 * square)) * from_center : glm::normalize(from_center);
   return {frame_.origin + radius_ * outward, normal_sign() * outward};
 }
 

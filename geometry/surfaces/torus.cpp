@@ -8,6 +8,7 @@
 #include "geometry/surfaces/torus.h"
 
 #include "geometry/curves/conic_forms.h"
+#include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/polynomial.h"
 #include "geometry/surfaces/parameter_range.h"
 
@@ -78,7 +79,7 @@ TorusSurface::MeridianTangent TorusSurface::meridian_near(const MeridianPoint<do
   return {major_ + scale * out, scale * near.z, -scale * near.z, scale * out};
 }
 
-void TorusSurface::line_hits(const Line& line, const Interval& range, LineHits& hits) const {
+LEKALO_FUSED void TorusSurface::meet_line(const Line& line, const Interval& range, LineHits& hits) const {
   if (major_ == 0) {
     add_quadric_hits(line, range, hits, [](const Vec3& p) {
       return std::optional<double>(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)));

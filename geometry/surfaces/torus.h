@@ -26,7 +26,7 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
   Sides free_sides(double, double v) const override {
     return {.front = major_ <= 0 || std::cos(v) >= 0, .back = false};
   }
-  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
+  void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 
   template <class T>
   MeridianPoint<T> meridian_at(const T& v) const {
@@ -36,6 +36,7 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
   }
 
  private:
+  void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
   NurbsCurveForm meridian_form() const override;
   MeridianTangent meridian_near(const MeridianPoint<double>& near, double v) const override;
   double major_, minor_;

@@ -47,11 +47,11 @@ struct Seen : Boundary {
       : Boundary(world, ray, hit, kYellow, media),
         length(way + hit.t),
         geometric_normal(front ? point.geometric_normal : -point.geometric_normal),
-        smooth_normal(front ? point.normal : -point.normal),
-        normal(smooth_normal) {}
+        smooth_normal(front ? point.normal : -point.normal) {}
 
-  double length;                                 // of the way from the eye
-  Vec3 geometric_normal, smooth_normal, normal;  // of the facet; of the surface; after bumps
+  double length;                         // of the way from the eye
+  Vec3 geometric_normal, smooth_normal;  // of the facet; of the surface
+  Vec3 normal;                           // after bumps; set where light is reflected
 };
 
 // A sample of a light at a surface point.
@@ -285,23 +285,26 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     // A sample, whose ray shadow_ray becomes; none if it matters to nothing. (Inline: twice called, it would not be.)
     const auto take = [&](int i) __attribute__((always_inline))->std::optional<Taken> {
       Taken taken;
-      LightSample sample;
+      Vec3 direction;
+      double distance;
       if (cone) {
-        sample.direction = cone->direction(seen.normal, i, random_);
-        sample.distance = cone->distance_along(sample.direction);
-        taken.cosine = glm::dot(seen.normal, sample.direction);
+        direction = cone->direction(seen.normal, i, random_);
+        distance = cone->distance_along(direction);
+        taken.cosine = glm::dot(seen.normal, direction);
         if (!(taken.cosine > 0)) return Taken();
         taken.light_per_pi = static_cast<float>(1 / (count * taken.cosine)) * all_of_cone;
       } else {
         const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
-        sample = light->sample(seen.point.position, i, r.x, r.y);
-        taken.cosine = glm::dot(seen.normal, sample.direction);
-        if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, sample.direction) <= 0 || sample.irradiance.is_zero())
+        const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
+        direction = sample.direction;
+        distance = sample.distance;
+        taken.cosine = glm::dot(seen.normal, direction);
+        if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, direction) <= 0 || sample.irradiance.is_zero())
           return Taken();
         taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       }
       // R.V with R = 2 (m.L) m - L and V = -d
-      const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(sample.direction, ray.direction);
+      const double cos_alpha = 2 * taken.cosine * m_v + glm::dot(direction, ray.direction);
       // Beside diffuse light no float shows what of a highlight is below e^-20, and alone none is as small as e^-104:
       // cos^n <= e^(-n (1 - cos)).
       const bool is_lost = c.exponent * (1 - cos_alpha) > (diffuse ? 20 : 104);
@@ -311,8 +314,8 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       }
       if (!diffuse && taken.highlight == 0) return std::nullopt;
       leave();
-      shadow_ray.direction = sample.direction;
-      shadow_ray.t_max = sample.distance;
+      shadow_ray.direction = direction;
+      shadow_ray.t_max = distance;
       return taken;
     };
     // What a sample brings. `hidden`: something stands in its way.

@@ -125,7 +125,7 @@ void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
     query.nearest = &hits[i];
     query.extent = p.extent;
     query.found = hits[i].instance >= 0;
-    if (query.found) query.t_max = query.end_behind(hits[i].t);
+    if (query.found) query.range.hi = query.end_behind(hits[i].t);
     run(query);
   }
 }

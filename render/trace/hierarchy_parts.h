@@ -104,11 +104,10 @@ inline bool comes_before(const Hit& a, const Hit& b) {
 struct Hierarchy::Query {
   RTCIntersectContext context;
   geometry::PreparedLine prepared;
-  double t_min = 0;
-  double t_max = geometry::kInfinity;  // up to where hits may still be the nearest
-  double extent = 0;                   // of all that is asked, from the origin of coordinates
-  double start = 0;                    // the float ray begins here
-  double slack = 0;                    // float uncertainty of t
+  geometry::Interval range{0, geometry::kInfinity};  // up to where hits may still be the nearest
+  double extent = 0;                                 // of all that is asked, from the origin of coordinates
+  double start = 0;                                  // the float ray begins here
+  double slack = 0;                                  // float uncertainty of t
   uint32_t kind = 1;
   int64_t leaf_offset = 0;
   int64_t left_instance = -1;  // as in Ray, and what follows
@@ -143,7 +142,7 @@ struct Hierarchy::Query {
     if (found && !(lies_on_nearest(hit) ? hit.instance > nearest->instance : comes_before(hit, *nearest))) return;
     found = true;
     *nearest = hit;
-    t_max = std::min(t_max, end_behind(hit.t));
+    range.hi = std::min(range.hi, end_behind(hit.t));
   }
   // Behind all that lies on what is met at t.
   double end_behind(double t) const { return t + geometry::kHitRounding * (extent + std::abs(t)); }

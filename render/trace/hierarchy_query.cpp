@@ -38,8 +38,7 @@ bool keeps(const Leaf& leaf, const Line& line, double t, const Normal& normal) {
 void test_instance(const Instance& instance, Query& query) {
   const Line line{instance.to_child.point(query.line().origin), instance.to_child.direction(query.line().direction)};
   Query inner(line);
-  inner.t_min = query.t_min;
-  inner.t_max = query.t_max;
+  inner.range = query.range;
   inner.extent = query.extent;
   inner.kind = query.kind;
   inner.leaf_offset = query.leaf_offset + instance.first_leaf;
@@ -52,7 +51,7 @@ void test_instance(const Instance& instance, Query& query) {
   inner.all = query.all;
   instance.child->run(inner);
   query.found = inner.found;
-  query.t_max = inner.t_max;
+  query.range.hi = inner.range.hi;
 }
 
 void test_shape(const GeometryRecord& record, Query& query) {
@@ -61,12 +60,12 @@ void test_shape(const GeometryRecord& record, Query& query) {
   };
   if (!query.all && record.leaf->clips.empty()) {
     geometry::SurfaceHit first;
-    if (record.leaf->shape->first_hit(query.line(), {query.t_min, query.t_max}, first)) accept(first);
+    if (record.leaf->shape->first_hit(query.line(), query.range, first)) accept(first);
     return;
   }
   static thread_local std::vector<geometry::SurfaceHit> hits;  // its room is kept
   hits.clear();
-  record.leaf->shape->all_hits(query.line(), {query.t_min, query.t_max}, hits);
+  record.leaf->shape->all_hits(query.line(), query.range, hits);
   for (const geometry::SurfaceHit& h : hits) {
     const auto normal = [&] { return record.leaf->shape->bare_point(h, query.line().at(h.t)).normal; };
     if (!keeps(*record.leaf, query.line(), h.t, normal)) continue;
@@ -79,7 +78,7 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
   const Leaf& leaf = *record.leaf;
   const bool is_cut = !leaf.clips.empty();
   LineHits hits(!query.all && !is_cut, query.all || is_cut || (query.nearest && !record.bare));
-  record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
+  record.target->piece_hits(primitive, query.prepared, query.range, hits);
   for (int i = 0; i < hits.size(); ++i) {
     const geometry::LineHit& h = hits[i];
     const auto normal = [&] { return leaf.signs[record.face] * record.target->surface().normal(h.u, h.v); };
@@ -91,15 +90,17 @@ void test_target(const GeometryRecord& record, int primitive, Query& query) {
 // The same of a whole target for queries that do not want all hits, which most tests are.
 void test_whole_target(const GeometryRecord& record, int primitive, Query& query) {
   LineHits hits(true, query.nearest && !record.bare);
-  record.target->piece_hits(primitive, query.prepared, {query.t_min, query.t_max}, hits);
+  record.target->piece_hits(primitive, query.prepared, query.range, hits);
   if (hits.size() == 0) return;
   if (!query.nearest) {
     query.found = true;
     return;
   }
   for (int i = 0; i < hits.size(); ++i) {
+    // Without parameters t alone is copied: what was just written in parts is slow to read as one.
     const geometry::LineHit& h = hits[i];
-    query.accept_nearest({h.t, h.u, h.v, query.leaf_offset + record.leaf_number, record.face, primitive});
+    const Vec2 at = record.bare ? Vec2(0) : Vec2(h.u, h.v);
+    query.accept_nearest({h.t, at.x, at.y, query.leaf_offset + record.leaf_number, record.face, primitive});
   }
 }
 
@@ -127,7 +128,7 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
 }
 
 // A line on its way through boxes, which are inflated beyond the rounding of the test. `may_enter`: true if the line
-// may be in the box between t_min and t_max. The extremes are taken in an order in which a NaN, of a line that runs in
+// may be in the box at t in the range. The extremes are taken in an order in which a NaN, of a line that runs in
 // the plane of a side, changes nothing.
 #ifdef __SSE2__
 // x and y together, then z. The extremes of two are the second where one is a NaN.
@@ -139,14 +140,14 @@ class LineThroughBoxes {
         inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
         inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {}
 
-  bool may_enter(const Box3& box, double t_min, double t_max) const {
+  bool may_enter(const Box3& box, const geometry::Interval& range) const {
     const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
                   b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
                   a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
                   b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
     const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(b_z, a_z),
                   out_z = _mm_max_sd(b_z, a_z);
-    __m128d begin = _mm_max_sd(in, _mm_set_sd(t_min)), end = _mm_min_sd(out, _mm_set_sd(t_max));
+    __m128d begin = _mm_max_sd(in, _mm_load_sd(&range.lo)), end = _mm_min_sd(out, _mm_load_sd(&range.hi));
     begin = _mm_max_sd(_mm_unpackhi_pd(in, in), begin);
     end = _mm_min_sd(_mm_unpackhi_pd(out, out), end);
     return _mm_comile_sd(_mm_max_sd(in_z, begin), _mm_min_sd(out_z, end));
@@ -160,7 +161,8 @@ class LineThroughBoxes {
  public:
   explicit LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
 
-  bool may_enter(const Box3& box, double t_min, double t_max) const {
+  bool may_enter(const Box3& box, const geometry::Interval& range) const {
+    double t_min = range.lo, t_max = range.hi;
     for (int k = 0; k < 3; ++k) {
       const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
       t_min = std::max(t_min, std::min(a, b));
@@ -221,11 +223,11 @@ class Listed {
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   Query& query = *reinterpret_cast<Query*>(args->context);
-  const double before = query.t_max;
+  const double before = query.range.hi;
   test_primitive(args->geometryUserPtr, args->primID, query);
-  if (query.t_max < before) {
+  if (query.range.hi < before) {
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-    ray.tfar = std::min(ray.tfar, ray_end(query.t_max - query.start + query.slack));
+    ray.tfar = std::min(ray.tfar, ray_end(query.range.hi - query.start + query.slack));
   }
 }
 
@@ -244,7 +246,7 @@ void triangle_filter(const RTCFilterFunctionNArguments* args) {
   const Leaf& leaf = *record.leaf;
   Hit hit;
   const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line(), hit) &&
-                    hit.t >= query.t_min && hit.t <= query.t_max &&
+                    hit.t >= query.range.lo && hit.t <= query.range.hi &&
                     keeps(leaf, query.line(), hit.t, [&] { return leaf.mesh->outward(triangle); });
   if (seen && query.all) {
     hit.instance = query.leaf_offset + record.leaf_number;
@@ -258,7 +260,7 @@ namespace {
 // The part of a query that Embree's hierarchy answers. (Not inline: it would cost queries of lists alone their
 // registers.)
 __attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query) {
-  const Stretch stretch = stretch_in(p, query.line(), query.t_min, query.t_max);
+  const Stretch stretch = stretch_in(p, query.line(), query.range.lo, query.range.hi);
   if (stretch.empty) return;
   query.start = stretch.start;
   query.slack = stretch.slack;
@@ -291,7 +293,7 @@ __attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query
     const GeometryRecord& record = *p.records[ray.hit.geomID];
     Hit hit;
     if (triangle_hit(*record.leaf->mesh, static_cast<int>(ray.hit.primID), query.line(), hit) &&
-        hit.t >= query.t_min - query.slack) {
+        hit.t >= query.range.lo - query.slack) {
       hit.instance = query.leaf_offset + record.leaf_number;
       query.accept(hit);
     }
@@ -304,7 +306,7 @@ __attribute__((noinline)) void test_columns(const Hierarchy::Parts& p, Listed& l
   for (const Hierarchy::Parts::Piece& piece : p.unbounded) {
     if (!listed.next()) continue;
     if (query.is_done()) return;
-    if (line.may_enter(piece.box.inflated(kBoxInflation * p.radius), query.t_min, query.t_max))
+    if (line.may_enter(piece.box.inflated(kBoxInflation * p.radius), query.range))
       test(*piece.record, piece.number, query);
   }
 }
@@ -318,10 +320,10 @@ void Hierarchy::run(Query& query) const {
   if (!p.few.empty()) {
     const LineThroughBoxes line(query.line());
     // Most rays miss the box of all.
-    const bool any = p.few.size() < 3 || line.may_enter(p.few_box, query.t_min, query.t_max);
+    const bool any = p.few.size() < 3 || line.may_enter(p.few_box, query.range);
     for (const Parts::Piece& piece : p.few) {
       if (!listed.next() || !any || query.has_left(*piece.record)) continue;
-      if (!line.may_enter(piece.box, query.t_min, query.t_max)) continue;
+      if (!line.may_enter(piece.box, query.range)) continue;
       test(*piece.record, piece.number, query);
       if (query.is_done()) return;
     }

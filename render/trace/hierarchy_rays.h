@@ -12,8 +12,8 @@ namespace lekalo::render {
 inline float ray_end(double x) { return static_cast<float>(x + 0x1p-23 * std::abs(x)); }
 
 inline void begin(Hierarchy::Query& query, const Ray& ray) {
-  query.t_min = ray.t_min;
-  query.t_max = ray.t_max;
+  query.range.lo = ray.t_min;
+  query.range.hi = ray.t_max;
   query.kind = static_cast<uint32_t>(ray.kind);
   query.left_instance = ray.left_instance;
   query.left_face = ray.left_face;
