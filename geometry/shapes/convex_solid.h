@@ -17,7 +17,7 @@ namespace lekalo::geometry {
 
 // A line with what every solid along it asks for.
 struct LineOfSolids {
-  explicit LineOfSolids(const Line& l) : line(l), inverse_square(1 / glm::dot(l.direction, l.direction)) {}
+  explicit LineOfSolids(const Line& l) : line(l), inverse_square(geometry::inverse_square(l.direction)) {}
   const Line& line;
   double inverse_square;  // 1 / |direction|^2
 };

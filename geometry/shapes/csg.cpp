@@ -179,12 +179,18 @@ struct Csg::Stretch {
 
 struct Csg::Search {
   explicit Search(const Line& line, double size)
-      : solids(line), tolerance_at_zero(kSameHit * size * std::sqrt(solids.inverse_square)) {}
+      : solids(line), tolerance_at_zero(kSameHit * size * root(solids.inverse_square)) {}
+  // Of a number that is 1 but for rounding for all rays.
+  static double root(double x) { return std::abs(x - 1) < 1e-8 ? 0.5 * (1 + x) : std::sqrt(x); }
   double tolerance(double t) const { return tolerance_at_zero + 4e-16 * std::abs(t); }
   const Line& line() const { return solids.line; }
+  const BoxTree::LineToBoxes& to_boxes() {
+    if (!line_to_boxes) line_to_boxes.emplace(line());
+    return *line_to_boxes;
+  }
 
   LineOfSolids solids;
-  std::optional<BoxTree::LineToBoxes> to_boxes;  // for gather()
+  std::optional<BoxTree::LineToBoxes> line_to_boxes;  // once it is needed
   double tolerance_at_zero;                      // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
 };
@@ -229,7 +235,7 @@ Interval Csg::gather_leaf(int number, const Interval& range, Search& search) con
   const Node& node = nodes_[number];
   const Shape& shape = *leaves_[node.leaf].shape;
   const bool begins = !node.box.bounded() && shape.begins_inside(search.line());
-  if (node.box.bounded() && !BoxTree::meets(node.box, *search.to_boxes, range)) return kNowhere;
+  if (node.box.bounded() && !BoxTree::meets(node.box, search.to_boxes(), range)) return kNowhere;
   // The room is kept from call to call, but for calls within calls.
   static thread_local std::vector<SurfaceHit> room;
   std::vector<SurfaceHit> hits = std::move(room);
@@ -253,8 +259,8 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
   const Node& node = nodes_[number];
   if (node.convex) return gather_convex(number, range, search);
   if (node.leaf >= 0) return gather_leaf(number, range, search);
-  if (node.parent >= 0 && !BoxTree::meets(node.box, *search.to_boxes, range)) return kNowhere;
-  Interval result = range;
+  if (node.parent >= 0 && !BoxTree::meets(node.box, search.to_boxes(), range)) return kNowhere;
+  Interval result{range.lo, range.hi};  // a copy as one would wait for its parts to be written
   if (node.operation == Operation::intersect) {
     const size_t before = search.crossings.size();
     for (int k = 0; k < static_cast<int>(node.operands.size()); ++k) {
@@ -270,14 +276,14 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
     result = gather(node.operands[0], range, search);
     if (result.empty()) return kNowhere;
   }
-  Interval any = kNowhere;
-  const Interval within = result;
+  Interval any{kInfinity, -kInfinity};
   const auto visit = [&](int k) {
-    const Interval one = gather(node.operands[k], within, search);
+    const Interval one = gather(node.operands[k], result, search);
     any = {std::min(any.lo, one.lo), std::max(any.hi, one.hi)};
   };
   for (int k = unite ? 0 : 1; k < node.first_in_tree; ++k) visit(k);
-  node.tree.along(*search.to_boxes, within, [&](int k) { visit(node.first_in_tree + k); });
+  if (node.first_in_tree < static_cast<int>(node.operands.size()))
+    node.tree.along(search.to_boxes(), result, [&](int k) { visit(node.first_in_tree + k); });
   return unite ? any : result;
 }
 
@@ -309,7 +315,6 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
     if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out));
     return;
   }
-  search.to_boxes.emplace(line);
   // A crossing just beyond either end may be one with a crossing inside.
   const Interval range{t.lo - 4 * search.tolerance(t.lo), t.hi + 4 * search.tolerance(t.hi)};
   if (gather(0, range, search).empty()) return;

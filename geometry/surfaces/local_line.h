@@ -31,10 +31,14 @@ inline Vec3 fused_at(const Line& line, double t) {
   return {std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z)};
 }
 
+// 1 / |direction|^2, of rays, whose directions are of unit length but for rounding, without a quotient.
+inline double inverse_square(const Vec3& direction) {
+  const double square = glm::dot(direction, direction), off = square - 1;
+  return std::abs(off) < 1e-8 ? 1 - off : 1 / square;
+}
+
 inline MovedLine moved_near(const Line& line, const Vec3& center) {
-  const double square = glm::dot(line.direction, line.direction);
-  double t = glm::dot(center - line.origin, line.direction);
-  if (std::abs(square - 1) > 1e-9) t /= square;  // any place near will do, and a quotient takes long
+  const double t = glm::dot(center - line.origin, line.direction) * inverse_square(line.direction);
   return {t, fused_at(line, t), line.direction};
 }
 
