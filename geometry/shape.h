@@ -12,12 +12,12 @@
 namespace lekalo::geometry {
 
 // What a shape shows at a hit: point, outward unit normal, parameters and the derivatives by them (zero where it has
-// none).
+// none). Aligned as Foot.
 struct ShapePoint {
-  Vec3 position{0};
-  Vec3 normal{0, 0, 1};
-  Vec3 du{0};
-  Vec3 dv{0};
+  alignas(16) Vec3 position{0};
+  alignas(16) Vec3 normal{0, 0, 1};
+  alignas(16) Vec3 du{0};
+  alignas(16) Vec3 dv{0};
   double u = 0;
   double v = 0;
   double error = 0;  // bound on the distance of the position from the shape, beyond the rounding of its coordinates

@@ -172,9 +172,14 @@ struct Csg::Crossing {
   double u = 0, v = 0;
 };
 
-// From one crossing to another, either of which may be at infinity.
+// Of a convex node, from one crossing to another, either of which may be at infinity.
 struct Csg::Stretch {
-  Crossing in, out;
+  struct End {
+    double t;
+    int leaf, face;
+    Crossing of(int node) const { return {t, node, leaf, face}; }
+  };
+  End in, out;
 };
 
 struct Csg::Search {
@@ -200,22 +205,21 @@ constexpr Interval kNowhere{kInfinity, -kInfinity};
 }
 
 bool Csg::stretch(const Node& node, const Search& search, Stretch& inside) const {
-  const int number = static_cast<int>(&node - nodes_.data());
   ConvexSolid::Stretch one;
   if (node.leaf >= 0) {
     if (!leaves_[node.leaf].convex->stretch(search.solids, one)) return false;
-    inside.in = {one.in, number, node.leaf, one.face_in};
-    inside.out = {one.out, number, node.leaf, one.face_out};
+    inside.in = {one.in, node.leaf, one.face_in};
+    inside.out = {one.out, node.leaf, one.face_out};
     return true;
   }
-  inside.in = {-kInfinity, number, -1, 0};
-  inside.out = {kInfinity, number, -1, 0};
+  inside.in = {-kInfinity, -1, 0};
+  inside.out = {kInfinity, -1, 0};
   for (const int operand : node.operands) {
     const int leaf = nodes_[operand].leaf;
     if (!leaves_[leaf].convex->stretch(search.solids, one)) return false;
     // Of faces in one place that of the first operand counts.
-    if (one.in > inside.in.t + search.tolerance(one.in)) inside.in = {one.in, number, leaf, one.face_in};
-    if (one.out < inside.out.t - search.tolerance(one.out)) inside.out = {one.out, number, leaf, one.face_out};
+    if (one.in > inside.in.t + search.tolerance(one.in)) inside.in = {one.in, leaf, one.face_in};
+    if (one.out < inside.out.t - search.tolerance(one.out)) inside.out = {one.out, leaf, one.face_out};
     if (!(inside.in.t < inside.out.t)) return false;
   }
   return true;
@@ -226,8 +230,8 @@ Interval Csg::gather_convex(int number, const Interval& range, Search& search) c
   if (!stretch(nodes_[number], search, inside)) return kNowhere;
   const Interval result{std::max(range.lo, inside.in.t), std::min(range.hi, inside.out.t)};
   if (result.empty()) return kNowhere;
-  search.crossings.add(inside.in);
-  if (inside.out.t < kInfinity) search.crossings.add(inside.out);
+  search.crossings.add(inside.in.of(number));
+  if (inside.out.t < kInfinity) search.crossings.add(inside.out.of(number));
   return result;
 }
 
@@ -311,8 +315,8 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
     if (!stretch(nodes_[0], search, inside)) return;
     const double in = inside.in.t, out = inside.out.t;
     if (in > -kInfinity && out - in <= search.tolerance(in)) return;
-    if (in > -kInfinity && t.contains(in) && !visit(hit_of(inside.in))) return;
-    if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out));
+    if (in > -kInfinity && t.contains(in) && !visit(hit_of(inside.in.of(0)))) return;
+    if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out.of(0)));
     return;
   }
   // A crossing just beyond either end may be one with a crossing inside.
