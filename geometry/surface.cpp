@@ -9,6 +9,12 @@
 
 namespace lekalo::geometry {
 
+void LineHits::add_to_more(double t, double u, double v) {
+  if (!more_) more_ = std::make_unique<std::vector<LineHit>>();
+  more_->push_back({t, u, v});
+  ++count_;
+}
+
 void Surface::evaluate_many(std::span<const Vec2> uv, int order, std::span<SurfaceJet> result) const {
   for (size_t i = 0; i < uv.size(); ++i) result[i] = evaluate(uv[i].x, uv[i].y, order);
 }

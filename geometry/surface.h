@@ -119,13 +119,10 @@ class LineHits {
   bool wants_parameters() const { return parameters_; }
 
   void add(const LineHit& hit) {
-    if (count_ < kInline) {
-      few_[count_] = hit;
-    } else {
-      if (!more_) more_ = std::make_unique<std::vector<LineHit>>();
-      more_->push_back(hit);
-    }
-    ++count_;
+    if (count_ < kInline)
+      few_[count_++] = hit;
+    else
+      add_to_more(hit.t, hit.u, hit.v);
   }
   int size() const { return count_; }
   LineHit& operator[](int i) { return i < kInline ? few_[i] : (*more_)[i - kInline]; }
@@ -137,6 +134,7 @@ class LineHits {
 
  private:
   static constexpr int kInline = 16;
+  void add_to_more(double t, double u, double v);  // by value, so that a hit need not be in memory before it is added
   bool first_is_enough_ = false, parameters_ = true;
   int count_ = 0;
   std::array<LineHit, kInline> few_;  // not initialised: one of these is made for each candidate of each ray

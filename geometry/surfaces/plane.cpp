@@ -89,23 +89,26 @@ LEKALO_FUSED void Plane::meet_line(const Line& line, const Interval& range, Line
   const double along_x = glm::dot(line.direction, frame_.x), along_y = glm::dot(line.direction, frame_.y);
   const double x = glm::dot(from, frame_.x) + s * along_x;
   const double y = glm::dot(from, frame_.y) + s * along_y;
-  if (domain_.contains(x, y)) {
+  if (domain_.contains(x, y))
     hits.add({t, x, y});
-    return;
-  }
+  else
+    add_beside(t, {x, y}, inverse * Vec2(along_x, along_y), taxicab(from), hits);
+}
+
+// A hit at t, outside the domain in numbers. `lean`: how far it moves in u and v where the line is moved by a unit of
+// length along the normal; `from_origin`: its distance from the frame's origin. (Not inline: what is rare would cost
+// all others their registers.)
+__attribute__((noinline)) void Plane::add_beside(double t, const Vec2& at, const Vec2& lean, double from_origin,
+                                                 LineHits& hits) const {
   if (!bounded()) {
-    const auto u = within(domain_.u, x), v = within(domain_.v, y);
+    const auto u = within(domain_.u, at.x), v = within(domain_.v, at.y);
     if (u && v) hits.add({t, *u, *v});
     return;
   }
   // Rounding of a line that the plane hardly turns against moves the hit far along it: through an edge it must meet
   // both faces. Inside is what comes within the rounding of the edge itself, which is the same for both.
-  const double rounding = kShallowSlack * (distance_ + taxicab(from));
-  const auto slack = [&](double along) {
-    const double lean = along * inverse;
-    return rounding * std::sqrt(1 + lean * lean);
-  };
-  const auto u = within(domain_.u, x, slack(along_x)), v = within(domain_.v, y, slack(along_y));
+  const Vec2 slack = kShallowSlack * (distance_ + from_origin) * glm::sqrt(1.0 + lean * lean);
+  const auto u = within(domain_.u, at.x, slack.x), v = within(domain_.v, at.y, slack.y);
   if (u && v) hits.add({t, *u, *v});
 }
 

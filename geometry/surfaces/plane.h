@@ -28,6 +28,7 @@ class Plane final : public Surface {
 
  private:
   void meet_line(const Line& line, const Interval& t, LineHits& hits) const;
+  void add_beside(double t, const Vec2& at, const Vec2& lean, double from_origin, LineHits& hits) const;
   Frame frame_;
   Rectangle domain_;
   bool whole_;       // unbounded in all directions

@@ -115,8 +115,9 @@ inline QuadricHit quadric_hit(const Quadric& quadric, const Vec3& direction, con
 // Calls visit(t, point) for the hits with t in the range, in the order of t, until `hits` has enough. `line` is in the
 // quadric's frame, whose coordinates times `scale` are those of F.
 template <class Visit>
-void visit_quadric_hits(const Quadric& quadric, const MovedLine& line, const Vec3& scale, const Interval& range,
-                        const LineHits& hits, Visit visit) {
+__attribute__((always_inline)) inline void visit_quadric_hits(const Quadric& quadric, const MovedLine& line,
+                                                              const Vec3& scale, const Interval& range,
+                                                              const LineHits& hits, Visit visit) {
   const Vec3 direction = line.direction * scale;
   const QuadricRoots roots = quadric_roots(quadric, line.origin * scale, direction);
   const Interval near{range.lo - line.start, range.hi - line.start};
