@@ -196,7 +196,7 @@ struct Csg::Search {
 
   LineOfSolids solids;
   std::optional<BoxTree::LineToBoxes> line_to_boxes;  // once it is needed
-  double tolerance_at_zero;                      // in units of the line's direction
+  double tolerance_at_zero;                           // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
 };
 

@@ -14,7 +14,7 @@ class PointLamp final : public Light {
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.position - point;
     const double distance = glm::length(to_light);
-    return {(1 / distance) * to_light, distance, irradiance_.at(distance), 1};
+    return {to_light / distance, distance, irradiance_.at(distance), 1};
   }
   bool casts_shadows() const override { return light_.lamp.shadows; }
   std::any made_from() const override { return light_; }
