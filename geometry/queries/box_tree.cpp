@@ -6,6 +6,7 @@
 namespace lekalo::geometry {
 
 BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
+  for (Box3& box : boxes_) box = with_rounding(box);
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     if (!boxes[i].empty()) order_.push_back(i);
   if (order_.empty()) return;

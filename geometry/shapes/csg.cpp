@@ -101,6 +101,14 @@ Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands) : operands_
   outside_.assign(nodes_.size(), 0);
   for (const Node& node : nodes_)
     if (node.taken_away) ++outside_[node.parent];
+  std::vector<int> inside = outside_;
+  for (int number = 0; number < static_cast<int>(nodes_.size()); ++number) {
+    Node& node = nodes_[number];
+    if (node.leaf < 0 && !node.convex) continue;
+    turn(number, inside.data());
+    node.is_enough = inside[0] >= nodes_[0].needed;
+    turn(number, inside.data());
+  }
 }
 
 // The trees of operands that are operations themselves are taken apart, so that all leaves meet in one list.
@@ -189,13 +197,13 @@ struct Csg::Search {
   static double root(double x) { return std::abs(x - 1) < 1e-8 ? 0.5 * (1 + x) : std::sqrt(x); }
   double tolerance(double t) const { return tolerance_at_zero + 4e-16 * std::abs(t); }
   const Line& line() const { return solids.line; }
-  const BoxTree::LineToBoxes& to_boxes() {
-    if (!line_to_boxes) line_to_boxes.emplace(line());
-    return *line_to_boxes;
+  const LineThroughBoxes& through_boxes() {
+    if (!line_through_boxes) line_through_boxes.emplace(line());
+    return *line_through_boxes;
   }
 
   LineOfSolids solids;
-  std::optional<BoxTree::LineToBoxes> line_to_boxes;  // once it is needed
+  std::optional<LineThroughBoxes> line_through_boxes;  // once it is needed
   double tolerance_at_zero;                           // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
 };
@@ -239,7 +247,7 @@ Interval Csg::gather_leaf(int number, const Interval& range, Search& search) con
   const Node& node = nodes_[number];
   const Shape& shape = *leaves_[node.leaf].shape;
   const bool begins = !node.box.bounded() && shape.begins_inside(search.line());
-  if (node.box.bounded() && !BoxTree::meets(node.box, search.to_boxes(), range)) return kNowhere;
+  if (node.box.bounded() && !search.through_boxes().meets(node.box, range)) return kNowhere;
   // The room is kept from call to call, but for calls within calls.
   static thread_local std::vector<SurfaceHit> room;
   std::vector<SurfaceHit> hits = std::move(room);
@@ -263,7 +271,7 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
   const Node& node = nodes_[number];
   if (node.convex) return gather_convex(number, range, search);
   if (node.leaf >= 0) return gather_leaf(number, range, search);
-  if (node.parent >= 0 && !BoxTree::meets(node.box, search.to_boxes(), range)) return kNowhere;
+  if (node.parent >= 0 && !search.through_boxes().meets(node.box, range)) return kNowhere;
   Interval result{range.lo, range.hi};  // a copy as one would wait for its parts to be written
   if (node.operation == Operation::intersect) {
     const size_t before = search.crossings.size();
@@ -287,7 +295,7 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
   };
   for (int k = unite ? 0 : 1; k < node.first_in_tree; ++k) visit(k);
   if (node.first_in_tree < static_cast<int>(node.operands.size()))
-    node.tree.along(search.to_boxes(), result, [&](int k) { visit(node.first_in_tree + k); });
+    node.tree.along(search.through_boxes(), result, [&](int k) { visit(node.first_in_tree + k); });
   return unite ? any : result;
 }
 
@@ -310,19 +318,24 @@ void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
   const auto hit_of = [&](const Crossing& at) -> SurfaceHit {
     return {at.t, at.u, at.v, at.leaf + leaf_count() * at.face, at.piece};
   };
+  // Where the solid is a stretch, either end of which may be at infinity.
+  const auto visit_ends = [&](const Crossing& in, const Crossing& out) {
+    if (in.t > -kInfinity && out.t - in.t <= search.tolerance(in.t)) return;
+    if (in.t > -kInfinity && t.contains(in.t) && !visit(hit_of(in))) return;
+    if (out.t < kInfinity && t.contains(out.t)) visit(hit_of(out));
+  };
   if (nodes_[0].convex) {
     Stretch inside;
-    if (!stretch(nodes_[0], search, inside)) return;
-    const double in = inside.in.t, out = inside.out.t;
-    if (in > -kInfinity && out - in <= search.tolerance(in)) return;
-    if (in > -kInfinity && t.contains(in) && !visit(hit_of(inside.in.of(0)))) return;
-    if (out < kInfinity && t.contains(out)) visit(hit_of(inside.out.of(0)));
+    if (stretch(nodes_[0], search, inside)) visit_ends(inside.in.of(0), inside.out.of(0));
     return;
   }
   // A crossing just beyond either end may be one with a crossing inside.
   const Interval range{t.lo - 4 * search.tolerance(t.lo), t.hi + 4 * search.tolerance(t.hi)};
   if (gather(0, range, search).empty()) return;
   Crossing *const begin = search.crossings.begin(), *const end = begin + search.crossings.size();
+  // Mostly it is one part that is crossed, in and out.
+  if (end - begin == 2 && begin[0].node == begin[1].node && nodes_[begin[0].node].is_enough)
+    return visit_ends(begin[0], begin[1]);
   std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
 
   GrowingRoom<int, 64> counts(outside_);

@@ -61,6 +61,7 @@ class Csg final : public Shape {
     bool taken_away = false;  // by its parent
     bool convex = false;      // a leaf with a closed form, or an intersection of such
     int needed = 1;
+    bool is_enough = false;  // of a leaf or convex node: what is inside of it alone is inside of all
     Box3 box = Box3::everything();
     BoxTree tree;  // of many operands that need not all be looked at: operands[first_in_tree] and on
     int first_in_tree = 0;

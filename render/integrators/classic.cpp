@@ -90,8 +90,17 @@ class Tracer {
   Spectrum shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
                  const Spectrum& weight);
   Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
-  // What clear bodies let through.
-  Spectrum passing(const Ray& shadow_ray, const Media& media);
+  // The share of light that arrives along a ray, and the same of one that meets `first` (instance -1: nothing).
+  Spectrum visible_share(const Ray& shadow_ray, const Obstacles& among, const Media& media) {
+    if (!tinted_) return world_.occluded(shadow_ray, among) ? Spectrum() : kWhite;
+    Hit first;
+    if (!world_.nearest(shadow_ray, first, among)) {
+      if (media.is_air()) return kWhite;
+      first.instance = -1;
+    }
+    return passing(shadow_ray, first, media);
+  }
+  Spectrum passing(const Ray& shadow_ray, const Hit& first, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
   void record(const Seen& seen);
   Hit met(const Ray& ray) const {
@@ -318,16 +327,14 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       shadow_ray.t_max = distance;
       return taken;
     };
-    // What a sample brings. `hidden`: something stands in its way.
-    const auto add = [&](const Taken& taken, const Ray& to_light, bool hidden) __attribute__((always_inline)) {
+    // What a sample brings, of which the share `visible` arrives.
+    const auto add = [&](const Taken& taken, const Spectrum& visible) __attribute__((always_inline)) {
       if (taken.is_dark()) {
         mix(4);
         return;
       }
       if (!cone && c.catches_shadows) sum.unobstructed += static_cast<float>(taken.cosine) * taken.light_per_pi;
       if (shadows) ++sample_.shadow_rays;
-      Spectrum visible = kWhite;
-      if (hidden) visible = tinted_ ? passing(to_light, media) : Spectrum();
       // A highlight jitters with the places on the light.
       if (jittered && (!cone || visible != kWhite || taken.highlight > kGrain)) sample_.noisy = true;
       if (whole_) mix(visible.is_zero() ? 5 : 6);
@@ -341,8 +348,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       for (int i = 0; i < count; ++i) {
         const std::optional<Taken> taken = take(i);
         if (!taken) continue;
-        const bool hidden = !clear && !taken->is_dark() && (!asks_first || world_.occluded(shadow_ray, obstacles));
-        add(*taken, shadow_ray, hidden);
+        add(*taken, clear || taken->is_dark() ? kWhite : visible_share(shadow_ray, obstacles, media));
       }
     } else {
       static thread_local std::vector<Taken> samples;  // their room is kept
@@ -360,10 +366,11 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         size_t next = 0;
         for (const Taken& taken : samples) {
           if (taken.is_dark()) {
-            add(taken, shadow_ray, false);
+            add(taken, kWhite);
             continue;
           }
-          add(taken, shadow_rays[next], hidden[next]);
+          const Ray& to_light = shadow_rays[next];
+          add(taken, !hidden[next] ? kWhite : tinted_ ? passing(to_light, met(to_light), media) : Spectrum());
           ++next;
         }
       }
@@ -377,14 +384,17 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
   return sum;
 }
 
-Spectrum Tracer::passing(const Ray& shadow_ray, const Media& around) {
+Spectrum Tracer::passing(const Ray& shadow_ray, const Hit& first, const Media& around) {
   Ray ray = shadow_ray;
   Media media = around;
   Spectrum share = kWhite;
+  Hit hit = first;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (pass > 0) ++sample_.shadow_rays;
-    Hit hit;
-    if (!world_.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
+    if (pass > 0) {
+      ++sample_.shadow_rays;
+      hit = met(ray);
+    }
+    if (hit.instance < 0) return share * transmittance(media.current().absorption, ray.t_max);
     const Boundary met(world_, ray, hit, kYellow, media);
     if (!met.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);

@@ -61,7 +61,7 @@ class Hierarchy {
   // Builds; nothing may be added afterwards.
   void commit();
 
-  bool nearest(const Ray& ray, Hit& hit) const;
+  bool nearest(const Ray& ray, Hit& hit, const Obstacles& among = {}) const;
   // The nearest hit of each ray; its instance is -1 where there is none.
   void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   bool occluded(const Ray& ray) const { return occluded(ray, {}); }

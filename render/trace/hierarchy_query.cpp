@@ -3,10 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
+#include "geometry/queries/line_through_boxes.h"
 #include "geometry/tolerances.h"
 #include "render/trace/hierarchy_rays.h"
 
@@ -14,6 +11,7 @@ namespace lekalo::render {
 
 using geometry::Line;
 using geometry::LineHits;
+using geometry::LineThroughBoxes;
 
 namespace {
 
@@ -126,55 +124,6 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
   const int end = record.end_of_pieces(primitive);
   for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
 }
-
-// A line on its way through boxes, which are inflated beyond the rounding of the test. `may_enter`: true if the line
-// may be in the box at t in the range. The extremes are taken in an order in which a NaN, of a line that runs in
-// the plane of a side, changes nothing.
-#ifdef __SSE2__
-// x and y together, then z. The extremes of two are the second where one is a NaN.
-class LineThroughBoxes {
- public:
-  explicit LineThroughBoxes(const Line& line)
-      : origin_xy_(_mm_loadu_pd(&line.origin.x)),
-        origin_z_(_mm_load_sd(&line.origin.z)),
-        inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
-        inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {}
-
-  bool may_enter(const Box3& box, const geometry::Interval& range) const {
-    const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
-                  b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
-                  a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
-                  b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
-    const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(b_z, a_z),
-                  out_z = _mm_max_sd(b_z, a_z);
-    __m128d begin = _mm_max_sd(in, _mm_load_sd(&range.lo)), end = _mm_min_sd(out, _mm_load_sd(&range.hi));
-    begin = _mm_max_sd(_mm_unpackhi_pd(in, in), begin);
-    end = _mm_min_sd(_mm_unpackhi_pd(out, out), end);
-    return _mm_comile_sd(_mm_max_sd(in_z, begin), _mm_min_sd(out_z, end));
-  }
-
- private:
-  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
-};
-#else
-class LineThroughBoxes {
- public:
-  explicit LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
-
-  bool may_enter(const Box3& box, const geometry::Interval& range) const {
-    double t_min = range.lo, t_max = range.hi;
-    for (int k = 0; k < 3; ++k) {
-      const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
-      t_min = std::max(t_min, std::min(a, b));
-      t_max = std::min(t_max, std::max(a, b));
-    }
-    return t_min <= t_max;
-  }
-
- private:
-  Vec3 origin_, inverse_;
-};
-#endif
 
 // All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
 class Shaft {
@@ -337,9 +286,10 @@ void Hierarchy::run(Query& query) const {
   }
 }
 
-bool Hierarchy::nearest(const Ray& ray, Hit& hit) const {
+bool Hierarchy::nearest(const Ray& ray, Hit& hit, const Obstacles& among) const {
   Query query(ray);
   begin(query, ray);
+  query.among = among;
   query.nearest = &hit;
   query.extent = parts_->extent;
   run(query);

@@ -432,7 +432,9 @@ bool World::may_be_in_medium(const Vec3& place) const {
 
 World::~World() = default;
 
-bool World::nearest(const Ray& ray, Hit& hit) const { return compiled_->top.nearest(ray, hit); }
+bool World::nearest(const Ray& ray, Hit& hit, const Obstacles& among) const {
+  return compiled_->top.nearest(ray, hit, among);
+}
 void World::nearest(std::span<const Ray> rays, std::span<Hit> hits) const { compiled_->top.nearest(rays, hits); }
 bool World::occluded(const Ray& ray) const { return compiled_->top.occluded(ray); }
 Obstacles World::obstacles(const Ray& from, const Box3& to) const { return compiled_->top.obstacles(from, to); }

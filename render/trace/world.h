@@ -44,8 +44,9 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece).
-  bool nearest(const Ray& ray, Hit& hit) const;
+  // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece). `among`: for rays that end in the
+  // box that obstacles() was asked for.
+  bool nearest(const Ray& ray, Hit& hit, const Obstacles& among = {}) const;
   // The same for as many rays as hits; a hit's instance is -1 where its ray meets nothing. Triangles of meshes are
   // found faster so, most of all if neighbours in the list go the same way. Between triangles that float cannot tell
   // apart the choice may be another than for the ray alone.
