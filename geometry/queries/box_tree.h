@@ -1,6 +1,8 @@
 // A small bounding-volume hierarchy in double precision for the queries of the geometry library.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "geometry/numerics/interval.h"
@@ -69,8 +71,14 @@ class BoxTree {
   // A box around this one and the rounding of its sides.
   static Box3 with_rounding(const Box3& box) {
     if (box.empty()) return box;
-    const Vec3 by = 4e-16 * glm::max(glm::abs(box.lo), glm::abs(box.hi));
-    return {box.lo - by, box.hi + by};
+    Box3 larger = box;
+    for (int k = 0; k < 3; ++k) {
+      const auto [smaller, size] = std::minmax({std::abs(box.lo[k]), std::abs(box.hi[k])});
+      const double by = 4e-16 * (size < kInfinity ? size : smaller);
+      larger.lo[k] -= by;
+      larger.hi[k] += by;
+    }
+    return larger;
   }
 
  private:

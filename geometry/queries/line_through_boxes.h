@@ -28,6 +28,8 @@ class LineThroughBoxes {
  private:
   // Of t, where it is compared; each side of it has at most three roundings.
   static constexpr double kRounding = 1e-15;
+  // No line is followed further: beside a box, and going neither to it nor from it, it has the box at infinity.
+  static constexpr double kFarthest = 1e308;
 
 #ifdef __SSE2__
   // x and y together, then z. The extremes of two are the second where one is a NaN.
@@ -74,8 +76,9 @@ inline bool LineThroughBoxes::may_enter(const Box3& box, const Interval& range) 
 
 inline bool LineThroughBoxes::meets(const Box3& box, const Interval& range) const {
   const Stretch s = inside(box, range);
-  const __m128d size = _mm_andnot_pd(_mm_set_sd(-0.0), s.end);
-  return _mm_comile_sd(s.begin, _mm_add_sd(s.end, _mm_mul_sd(_mm_set_sd(kRounding), size)));
+  const __m128d far = _mm_set_sd(kFarthest), begin = _mm_max_sd(s.begin, _mm_set_sd(-kFarthest)),
+                end = _mm_min_sd(s.end, far), size = _mm_min_sd(_mm_andnot_pd(_mm_set_sd(-0.0), end), far);
+  return _mm_comile_sd(begin, _mm_add_sd(end, _mm_mul_sd(_mm_set_sd(kRounding), size)));
 }
 #else
 inline LineThroughBoxes::LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
@@ -97,7 +100,8 @@ inline bool LineThroughBoxes::may_enter(const Box3& box, const Interval& range) 
 
 inline bool LineThroughBoxes::meets(const Box3& box, const Interval& range) const {
   const Stretch s = inside(box, range);
-  return s.begin <= s.end + kRounding * std::abs(s.end);
+  const double end = std::min(s.end, kFarthest);
+  return std::max(s.begin, -kFarthest) <= end + kRounding * std::min(std::abs(end), kFarthest);
 }
 #endif
 

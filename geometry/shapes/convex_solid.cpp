@@ -196,8 +196,7 @@ LEKALO_FUSED bool ConvexSolid::clip_to_slabs(const Line& line, Stretch& inside) 
     if (inside.in > inside.out) return false;
   }
   const auto refine = [&](const Slab& slab, bool hi, double inverse, double& t) {
-    const Vec3 p(std::fma(t, d.x, o.x), std::fma(t, d.y, o.y), std::fma(t, d.z, o.z));
-    t -= glm::dot(p - (hi ? slab.at_hi : slab.at_lo), slab.normal) * inverse;
+    t -= glm::dot(fused_at(line, t) - (hi ? slab.at_hi : slab.at_lo), slab.normal) * inverse;
     return hi ? slab.face_hi : slab.face_lo;
   };
   if (slab_in) inside.face_in = refine(*slab_in, speed_in < 0, speed_in, inside.in);
@@ -209,7 +208,7 @@ LEKALO_FUSED bool ConvexSolid::clip_to_slabs(const Line& line, Stretch& inside) 
 LEKALO_FUSED bool ConvexSolid::clip_to_ball(const LineOfSolids& line, Stretch& inside) const {
   const Vec3 &o = line.line.origin, &d = line.line.direction;
   const double start = glm::dot(center_ - o, d) * line.inverse_square;
-  const Vec3 p = Vec3(std::fma(start, d.x, o.x), std::fma(start, d.y, o.y), std::fma(start, d.z, o.z)) - center_;
+  const Vec3 p = fused_at(line.line, start) - center_;
   const double room = (radius_ * radius_ - glm::dot(p, p)) * line.inverse_square;
   if (!(room > 0)) return false;
   const double off = glm::dot(p, d) * line.inverse_square, half = std::sqrt(room + off * off);

@@ -204,7 +204,7 @@ struct Csg::Search {
 
   LineOfSolids solids;
   std::optional<LineThroughBoxes> line_through_boxes;  // once it is needed
-  double tolerance_at_zero;                           // in units of the line's direction
+  double tolerance_at_zero;                            // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
 };
 
@@ -288,7 +288,7 @@ Interval Csg::gather(int number, const Interval& range, Search& search) const {
     result = gather(node.operands[0], range, search);
     if (result.empty()) return kNowhere;
   }
-  Interval any{kInfinity, -kInfinity};
+  Interval any = kNowhere;
   const auto visit = [&](int k) {
     const Interval one = gather(node.operands[k], result, search);
     any = {std::min(any.lo, one.lo), std::max(any.hi, one.hi)};

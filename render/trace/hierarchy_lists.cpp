@@ -9,9 +9,8 @@ namespace lekalo::render {
 
 namespace {
 
-// Rays that Embree takes at once, and those whose hits are then computed at once: what these need of the mesh is
-// fetched for all of them before.
-constexpr size_t kPacket = 8, kBatch = 64;
+// Rays that Embree takes at once.
+constexpr size_t kPacket = 8;
 // Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;
@@ -82,26 +81,35 @@ void fetch_corners(const PackedMesh& mesh, int triangle) {
   for (const uint32_t vertex : mesh.triangles[triangle].vertex) __builtin_prefetch(&mesh.vertices[vertex]);
 }
 
-// The nearest triangles of at most kBatch rays.
-void run_batch(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hit> hits) {
-  Met met[kBatch];
-  for (size_t i = 0; i < rays.size(); i += kPacket) {
-    const size_t next = std::min(i + kPacket, rays.size()), last = std::min(next + kPacket, rays.size());
-    for (size_t k = next; k < last; ++k) {
-      __builtin_prefetch(&rays[k]);
-      __builtin_prefetch(&rays[k].t_max);
-    }
-    meet_triangles(p, rays.subspan(i, next - i), met + i);
-  }
-  for (size_t i = 0; i < rays.size(); ++i)
-    if (met[i].record) fetch_corners(*met[i].record->leaf->mesh, met[i].triangle);
+// The nearest triangles of rays. While Embree is at one packet, memory brings the triangles of the packet before, and
+// the corners of the one before that.
+void meet_all(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hit> hits) {
+  constexpr size_t kAtOnce = 3;
+  Met met[kAtOnce][kPacket];
   const double slack = kBoxInflation * p.radius;
-  for (size_t i = 0; i < rays.size(); ++i) {
-    if (met[i].record && triangle_hit(*met[i].record->leaf->mesh, met[i].triangle, rays[i], hits[i]) &&
-        hits[i].t >= rays[i].t_min - slack)
-      hits[i].instance = met[i].record->leaf_number;
-    else
-      hits[i].instance = -1;
+  const size_t packets = (rays.size() + kPacket - 1) / kPacket;
+  const auto begin_of = [&](size_t packet) { return std::min(packet * kPacket, rays.size()); };
+  for (size_t packet = 0; packet < packets + kAtOnce - 1; ++packet) {
+    if (packet < packets) {
+      const size_t begin = begin_of(packet), end = begin_of(packet + 1);
+      for (size_t i = end; i < begin_of(packet + 2); ++i) {
+        __builtin_prefetch(&rays[i]);
+        __builtin_prefetch(&rays[i].t_max);
+      }
+      Met* const now = met[packet % kAtOnce];
+      std::fill_n(now, kPacket, Met());
+      meet_triangles(p, rays.subspan(begin, end - begin), now);
+    }
+    if (packet >= 1 && packet - 1 < packets)
+      for (const Met& m : met[(packet - 1) % kAtOnce])
+        if (m.record) fetch_corners(*m.record->leaf->mesh, m.triangle);
+    if (packet < 2) continue;
+    const Met* m = met[(packet - 2) % kAtOnce];
+    for (size_t i = begin_of(packet - 2); i < begin_of(packet - 1); ++i, ++m) {
+      const bool is_met = m->record && triangle_hit(*m->record->leaf->mesh, m->triangle, rays[i], hits[i]) &&
+                          hits[i].t >= rays[i].t_min - slack;
+      hits[i].instance = is_met ? m->record->leaf_number : -1;
+    }
   }
 }
 
@@ -114,10 +122,7 @@ void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
       if (!nearest(rays[i], hits[i])) hits[i].instance = -1;
     return;
   }
-  for (size_t i = 0; i < rays.size(); i += kBatch) {
-    const size_t count = std::min(kBatch, rays.size() - i);
-    run_batch(p, rays.subspan(i, count), hits.subspan(i, count));
-  }
+  meet_all(p, rays, hits);
   for (size_t i = 0; i < rays.size() && !p.unbounded.empty(); ++i) {
     Query query(rays[i]);
     begin(query, rays[i]);
