@@ -6,13 +6,13 @@
 namespace lekalo::geometry {
 
 BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
-  for (Box3& box : boxes_) box = with_rounding(box);
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     if (!boxes[i].empty()) order_.push_back(i);
   if (order_.empty()) return;
   nodes_.reserve(2 * order_.size());
   nodes_.emplace_back();
   build(0, 0, static_cast<int>(order_.size()));
+  farthest_ = farthest(nodes_[0].box);
 }
 
 void BoxTree::build(int node, int begin, int end) {

@@ -19,7 +19,7 @@ class BoxTree {
   // Calls visit(index) for every box that the line meets with t in the interval.
   template <class Visit>
   void along(const Line& line, const Interval& t, Visit&& visit) const {
-    if (!nodes_.empty()) along(LineThroughBoxes(line), t, visit);
+    if (!nodes_.empty()) along(LineThroughBoxes(line, farthest_), t, visit);
   }
   template <class Visit>
   void along(const LineThroughBoxes& line, const Interval& t, Visit&& visit) const {
@@ -68,17 +68,13 @@ class BoxTree {
       if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
     return true;
   }
-  // A box around this one and the rounding of its sides.
-  static Box3 with_rounding(const Box3& box) {
-    if (box.empty()) return box;
-    Box3 larger = box;
-    for (int k = 0; k < 3; ++k) {
-      const auto [smaller, size] = std::minmax({std::abs(box.lo[k]), std::abs(box.hi[k])});
-      const double by = 4e-16 * (size < kInfinity ? size : smaller);
-      larger.lo[k] -= by;
-      larger.hi[k] += by;
-    }
-    return larger;
+  // The largest of the coordinates that are bounded, 0 without one.
+  static double farthest(const Box3& box) {
+    double result = 0;
+    for (int k = 0; k < 3; ++k)
+      for (const double x : {std::abs(box.lo[k]), std::abs(box.hi[k])})
+        if (x < kInfinity) result = std::max(result, x);
+    return result;
   }
 
  private:
@@ -89,9 +85,10 @@ class BoxTree {
   };
   void build(int node, int begin, int end);
 
-  std::vector<Box3> boxes_;  // with their rounding, as those of the nodes
+  std::vector<Box3> boxes_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
+  double farthest_ = 0;  // coordinate of its boxes
 };
 
 }  // namespace lekalo::geometry

@@ -1,5 +1,8 @@
 // A line on its way through boxes, for hierarchies in double precision.
 //
+// Boxes are taken larger by the rounding of places on the line, which are computed from its origin, and of the boxes'
+// own coordinates: what meets a line knows its hits no better.
+//
 // The extremes are taken in an order in which a NaN, of a line that runs in the plane of a side, changes nothing.
 #pragma once
 
@@ -17,7 +20,8 @@ namespace lekalo::geometry {
 
 class LineThroughBoxes {
  public:
-  explicit LineThroughBoxes(const Line& line);
+  // `farthest`: the largest coordinate of the boxes; 0 for such as are inflated beyond its rounding.
+  explicit LineThroughBoxes(const Line& line, double farthest = 0);
 
   // Whether the line may be in the box at t in the range, for boxes that are inflated beyond the rounding of the test:
   // 4e-16 of the way from the line's origin to the box.
@@ -26,6 +30,8 @@ class LineThroughBoxes {
   bool meets(const Box3& box, const Interval& range) const;
 
  private:
+  // Of a place, as a part of the origin's coordinates and of the boxes'.
+  static constexpr double kPlaceRounding = 4e-16;
   // Of t, where it is compared; each side of it has at most three roundings.
   static constexpr double kRounding = 1e-15;
   // No line is followed further: beside a box, and going neither to it nor from it, it has the box at infinity.
@@ -38,29 +44,37 @@ class LineThroughBoxes {
   };
   Stretch inside(const Box3& box, const Interval& range) const;
 
-  __m128d origin_xy_, origin_z_, inverse_xy_, inverse_z_;
+  // Beyond the origin by its rounding, for the lower and for the upper sides.
+  __m128d above_xy_, above_z_, below_xy_, below_z_, inverse_xy_, inverse_z_;
 #else
   struct Stretch {
     double begin, end;
   };
   Stretch inside(const Box3& box, const Interval& range) const;
 
-  Vec3 origin_, inverse_;
+  Vec3 above_, below_, inverse_;
 #endif
 };
 
 #ifdef __SSE2__
-inline LineThroughBoxes::LineThroughBoxes(const Line& line)
-    : origin_xy_(_mm_loadu_pd(&line.origin.x)),
-      origin_z_(_mm_load_sd(&line.origin.z)),
-      inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
-      inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {}
+inline LineThroughBoxes::LineThroughBoxes(const Line& line, double farthest)
+    : inverse_xy_(_mm_div_pd(_mm_set1_pd(1), _mm_loadu_pd(&line.direction.x))),
+      inverse_z_(_mm_div_sd(_mm_set_sd(1), _mm_load_sd(&line.direction.z))) {
+  const __m128d xy = _mm_loadu_pd(&line.origin.x), z = _mm_load_sd(&line.origin.z), sign = _mm_set1_pd(-0.0),
+                part = _mm_set1_pd(kPlaceRounding), more = _mm_set1_pd(farthest),
+                by_xy = _mm_mul_pd(part, _mm_add_pd(_mm_andnot_pd(sign, xy), more)),
+                by_z = _mm_mul_sd(part, _mm_add_sd(_mm_andnot_pd(sign, z), more));
+  above_xy_ = _mm_add_pd(xy, by_xy);
+  below_xy_ = _mm_sub_pd(xy, by_xy);
+  above_z_ = _mm_add_sd(z, by_z);
+  below_z_ = _mm_sub_sd(z, by_z);
+}
 
 inline LineThroughBoxes::Stretch LineThroughBoxes::inside(const Box3& box, const Interval& range) const {
-  const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), origin_xy_), inverse_xy_),
-                b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), origin_xy_), inverse_xy_),
-                a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), origin_z_), inverse_z_),
-                b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), origin_z_), inverse_z_);
+  const __m128d a = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.lo.x), above_xy_), inverse_xy_),
+                b = _mm_mul_pd(_mm_sub_pd(_mm_loadu_pd(&box.hi.x), below_xy_), inverse_xy_),
+                a_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.lo.z), above_z_), inverse_z_),
+                b_z = _mm_mul_sd(_mm_sub_sd(_mm_load_sd(&box.hi.z), below_z_), inverse_z_);
   const __m128d in = _mm_min_pd(b, a), out = _mm_max_pd(b, a), in_z = _mm_min_sd(b_z, a_z),
                 out_z = _mm_max_sd(b_z, a_z);
   __m128d begin = _mm_max_sd(in, _mm_load_sd(&range.lo)), end = _mm_min_sd(out, _mm_load_sd(&range.hi));
@@ -81,12 +95,15 @@ inline bool LineThroughBoxes::meets(const Box3& box, const Interval& range) cons
   return _mm_comile_sd(begin, _mm_add_sd(end, _mm_mul_sd(_mm_set_sd(kRounding), size)));
 }
 #else
-inline LineThroughBoxes::LineThroughBoxes(const Line& line) : origin_(line.origin), inverse_(1.0 / line.direction) {}
+inline LineThroughBoxes::LineThroughBoxes(const Line& line, double farthest)
+    : above_(line.origin + kPlaceRounding * (glm::abs(line.origin) + farthest)),
+      below_(line.origin - kPlaceRounding * (glm::abs(line.origin) + farthest)),
+      inverse_(1.0 / line.direction) {}
 
 inline LineThroughBoxes::Stretch LineThroughBoxes::inside(const Box3& box, const Interval& range) const {
   Stretch s{range.lo, range.hi};
   for (int k = 0; k < 3; ++k) {
-    const double a = (box.lo[k] - origin_[k]) * inverse_[k], b = (box.hi[k] - origin_[k]) * inverse_[k];
+    const double a = (box.lo[k] - above_[k]) * inverse_[k], b = (box.hi[k] - below_[k]) * inverse_[k];
     s.begin = std::max(s.begin, std::min(a, b));
     s.end = std::min(s.end, std::max(a, b));
   }

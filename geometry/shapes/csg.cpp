@@ -98,6 +98,7 @@ Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands) : operands_
   for (const Leaf& leaf : leaves_)
     if (const Box3 box = leaf.shape->bounds(); box.bounded()) all.include(box);
   if (!all.empty()) size_ = all.diameter();
+  for (const Node& node : nodes_) farthest_ = std::max(farthest_, BoxTree::farthest(node.box));
   outside_.assign(nodes_.size(), 0);
   for (const Node& node : nodes_)
     if (node.taken_away) ++outside_[node.parent];
@@ -191,18 +192,19 @@ struct Csg::Stretch {
 };
 
 struct Csg::Search {
-  explicit Search(const Line& line, double size)
-      : solids(line), tolerance_at_zero(kSameHit * size * root(solids.inverse_square)) {}
+  Search(const Line& line, double size, double farthest_of_boxes)
+      : solids(line), farthest(farthest_of_boxes), tolerance_at_zero(kSameHit * size * root(solids.inverse_square)) {}
   // Of a number that is 1 but for rounding for all rays.
   static double root(double x) { return std::abs(x - 1) < 1e-8 ? 0.5 * (1 + x) : std::sqrt(x); }
   double tolerance(double t) const { return tolerance_at_zero + 4e-16 * std::abs(t); }
   const Line& line() const { return solids.line; }
   const LineThroughBoxes& through_boxes() {
-    if (!line_through_boxes) line_through_boxes.emplace(line());
+    if (!line_through_boxes) line_through_boxes.emplace(line(), farthest);
     return *line_through_boxes;
   }
 
   LineOfSolids solids;
+  double farthest;                                     // coordinate of the nodes' boxes
   std::optional<LineThroughBoxes> line_through_boxes;  // once it is needed
   double tolerance_at_zero;                            // in units of the line's direction
   GrowingRoom<Crossing, 16> crossings;
@@ -314,7 +316,7 @@ void Csg::turn(int number, int* inside) const {
 
 template <class Visit>
 void Csg::walk(const Line& line, const Interval& t, Visit&& visit) const {
-  Search search(line, size_);
+  Search search(line, size_, farthest_);
   const auto hit_of = [&](const Crossing& at) -> SurfaceHit {
     return {at.t, at.u, at.v, at.leaf + leaf_count() * at.face, at.piece};
   };

@@ -104,6 +104,7 @@ class Csg final : public Shape {
   std::vector<Leaf> leaves_;
   std::vector<int> outside_;  // how many operands count, by node, where all leaves are outside
   double size_ = 1;
+  double farthest_ = 0;  // coordinate of the nodes' boxes
 };
 
 }  // namespace lekalo::geometry
