@@ -57,7 +57,7 @@ class Spectrum {
   Lanes lanes_;
 };
 
-// exp of each lane: exp(-mu l) is Bouguer's law (Golovanov 2016, 8.4).
+// exp of each lane.
 inline Spectrum exp(const Spectrum& s) { return {std::exp(s[0]), std::exp(s[1]), std::exp(s[2]), std::exp(s[3])}; }
 
 // Linear Rec.709 colour as a spectrum of RGB rendering.

@@ -395,15 +395,15 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Hit& first, const Media& a
       hit = met(ray);
     }
     if (hit.instance < 0) return share * transmittance(media.current().absorption, ray.t_max);
-    const Boundary met(world_, ray, hit, kYellow, media);
-    if (!met.material->transmits()) return {};
+    const Boundary boundary(world_, ray, hit, kYellow, media);
+    if (!boundary.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);
-    if (met.changes_filling) share *= met.material->classic(met.point, kPrimaries).transmission;
+    if (boundary.changes_filling) share *= boundary.material->classic(boundary.point, kPrimaries).transmission;
     if (share.is_zero()) return {};
-    media = met.behind;
-    mix_place(met.point);
+    media = boundary.behind;
+    mix_place(boundary.point);
     const Vec3 before = ray.origin;
-    world_.leave(met.far_side(), ray.direction, ray);
+    world_.leave(boundary.far_side(), ray.direction, ray);
     ray.t_max -= glm::dot(ray.origin - before, ray.direction);
   }
   return {};

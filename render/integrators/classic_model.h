@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "render/spectrum.h"
@@ -31,10 +32,9 @@ inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& m, double n0, do
 
 // Bouguer: e^(-mu l); without absorption light comes from infinity as well.
 inline Spectrum transmittance(const Spectrum& mu, double length) {
-  Spectrum result(1.0f);
-  if (mu.is_zero()) return result;
-  for (int i = 0; i < 4; ++i) result.set(i, mu[i] == 0 ? 1.0f : static_cast<float>(std::exp(-mu[i] * length)));
-  return result;
+  if (mu.is_zero()) return Spectrum(1.0f);
+  constexpr double kFarthest = std::numeric_limits<float>::max();  // infinity times 0 is no number
+  return exp(-static_cast<float>(std::min(length, kFarthest)) * mu);
 }
 
 // 1 / (1 + k_r (r - r_0)), not above 1 (8.4.3).

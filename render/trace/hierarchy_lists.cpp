@@ -103,9 +103,10 @@ void meet_all(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hi
     if (packet >= 1 && packet - 1 < packets)
       for (const Met& m : met[(packet - 1) % kAtOnce])
         if (m.record) fetch_corners(*m.record->leaf->mesh, m.triangle);
-    if (packet < 2) continue;
-    const Met* m = met[(packet - 2) % kAtOnce];
-    for (size_t i = begin_of(packet - 2); i < begin_of(packet - 1); ++i, ++m) {
+    if (packet < kAtOnce - 1) continue;
+    const size_t ready = packet - (kAtOnce - 1);
+    const Met* m = met[ready % kAtOnce];
+    for (size_t i = begin_of(ready); i < begin_of(ready + 1); ++i, ++m) {
       const bool is_met = m->record && triangle_hit(*m->record->leaf->mesh, m->triangle, rays[i], hits[i]) &&
                           hits[i].t >= rays[i].t_min - slack;
       hits[i].instance = is_met ? m->record->leaf_number : -1;

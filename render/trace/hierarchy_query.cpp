@@ -250,7 +250,7 @@ __attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query
 }
 
 // Unbounded pieces, some of which the line may pass by.
-__attribute__((noinline)) void test_columns(const Hierarchy::Parts& p, Listed& listed, Query& query) {
+__attribute__((noinline)) void test_columns(const Hierarchy::Parts& p, Listed listed, Query& query) {
   const LineThroughBoxes line(query.line());
   for (const Hierarchy::Parts::Piece& piece : p.unbounded) {
     if (!listed.next()) continue;
