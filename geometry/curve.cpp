@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "geometry/curves/blossom.h"
-#include "geometry/curves/knot_spans.h"
-#include "geometry/curves/weights.h"
+#include "geometry/curves/splines/blossom.h"
+#include "geometry/curves/splines/knot_spans.h"
+#include "geometry/curves/splines/weights.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {

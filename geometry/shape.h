@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/queries/line_intersections.h"
+#include "geometry/queries/rays/line_intersections.h"
 
 namespace lekalo::geometry {
 

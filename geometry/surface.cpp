@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "geometry/curves/blossom.h"
-#include "geometry/curves/knot_spans.h"
-#include "geometry/curves/weights.h"
+#include "geometry/curves/splines/blossom.h"
+#include "geometry/curves/splines/knot_spans.h"
+#include "geometry/curves/splines/weights.h"
 
 namespace lekalo::geometry {
 

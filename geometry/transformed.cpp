@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/numerics/instruction_sets.h"
-#include "geometry/surfaces/local_line.h"
+#include "geometry/surfaces/analytic/local_line.h"
 
 namespace lekalo::geometry {
 

@@ -1,6 +1,6 @@
 // A model made in C++, without a scene file: an exact torus, ray-traced without tessellation, written as ring.png.
 
-#include "geometry/surfaces/torus.h"
+#include "geometry/surfaces/analytic/torus.h"
 #include "render/cameras/cameras.h"
 #include "render/film/render.h"
 #include "render/image/display.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "render/cameras/camera.h"
-#include "render/cameras/shown.h"
+#include "render/camera.h"
+#include "render/cameras/framed_content.h"
 
 namespace lekalo::render {
 

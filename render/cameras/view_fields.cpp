@@ -2,8 +2,8 @@
 
 #include <unordered_map>
 
-#include "render/scene/objects.h"
-#include "render/scene/types.h"
+#include "render/model/objects.h"
+#include "render/scene/values/types.h"
 
 namespace lekalo::render {
 

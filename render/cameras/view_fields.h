@@ -5,7 +5,7 @@
 
 #include "geometry/describe.h"
 #include "render/cameras/cameras.h"
-#include "render/scene/model.h"
+#include "render/model/model.h"
 
 namespace lekalo::render {
 

@@ -1,7 +1,7 @@
 // A part of another camera's picture, enlarged or reduced.
 #pragma once
 
-#include "render/cameras/camera.h"
+#include "render/camera.h"
 
 namespace lekalo::render {
 

@@ -9,19 +9,19 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "render/cameras/shown.h"
+#include "render/cameras/framed_content.h"
 #include "render/cameras/window.h"
-#include "render/drawing/annotations.h"
-#include "render/drawing/fills.h"
-#include "render/drawing/graph_axes.h"
-#include "render/drawing/label_placement.h"
-#include "render/drawing/line_groups.h"
-#include "render/drawing/overlaps.h"
-#include "render/drawing/page_edges.h"
-#include "render/drawing/panel_layout.h"
+#include "render/drawing/annotations/annotations.h"
+#include "render/drawing/annotations/label_placement.h"
+#include "render/drawing/areas/fills.h"
+#include "render/drawing/page/graph_axes.h"
+#include "render/drawing/page/line_groups.h"
+#include "render/drawing/page/page_edges.h"
+#include "render/drawing/page/panel_layout.h"
+#include "render/drawing/paths/overlaps.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
-#include "render/scene/placed_objects.h"
+#include "render/model/placed_objects.h"
 
 namespace lekalo::render {
 

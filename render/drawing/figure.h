@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/drawing/sheet.h"
-#include "render/drawing/visible_lines.h"
+#include "render/drawing/visibility/hidden_lines.h"
 
 namespace lekalo::render {
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/drawing/paths.h"
+#include "render/drawing/paths/paths.h"
 #include "render/image/png.h"
 #include "render/lines/strokes.h"
 

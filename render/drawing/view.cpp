@@ -1,6 +1,6 @@
 #include "render/drawing/view.h"
 
-#include "render/drawing/text_layout.h"
+#include "render/drawing/text/text_layout.h"
 
 namespace lekalo::render {
 

@@ -3,7 +3,7 @@
 
 #include "geometry/describe.h"
 #include "render/drawing/sheet.h"
-#include "render/scene/model.h"
+#include "render/model/model.h"
 
 namespace lekalo::render {
 

@@ -1,8 +1,8 @@
 // The scene types whose points come from code outside the program.
 #include <fmt/format.h>
 
-#include "geometry/curves/external_curve.h"
-#include "geometry/surfaces/external_surface.h"
+#include "geometry/external/external_curve.h"
+#include "geometry/external/external_surface.h"
 #include "render/external/library.h"
 #include "render/external/process.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/external_function.h"
+#include "geometry/external/external_function.h"
 
 namespace lekalo::render {
 

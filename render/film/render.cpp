@@ -14,7 +14,7 @@
 
 #include "render/film/tiles.h"
 #include "render/lines/picture_lines.h"
-#include "render/scene/placed_objects.h"
+#include "render/model/placed_objects.h"
 
 namespace lekalo::render {
 

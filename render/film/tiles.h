@@ -15,7 +15,7 @@
 
 #include "render/film/filter.h"
 #include "render/image/image.h"
-#include "render/scene/model.h"
+#include "render/model/model.h"
 #include "render/spectrum.h"
 
 namespace lekalo::render {

@@ -13,7 +13,7 @@
 #include "render/image/display.h"
 #include "render/image/exr.h"
 #include "render/image/image_error.h"
-#include "render/image/oiio_module/oiio_module.h"
+#include "render/image/oiio_module.h"
 
 namespace lekalo::render {
 namespace fs = std::filesystem;

@@ -13,7 +13,7 @@
 
 #include "geometry/describe.h"
 #include "render/integrators/boundary.h"
-#include "render/integrators/classic_model.h"
+#include "render/integrators/phong_model.h"
 #include "render/materials/fresnel.h"
 #include "render/materials/optical_constants.h"
 #include "render/materials/textured_color.h"

@@ -1,7 +1,7 @@
 // Recursive ray tracing with the classic light model (Golovanov 2016, 8.4 and 8.5).
 #pragma once
 
-#include "render/integrators/integrator.h"
+#include "render/integrator.h"
 
 namespace lekalo::render {
 

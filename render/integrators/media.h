@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "render/materials/material.h"
+#include "render/material.h"
 
 namespace lekalo::render {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "geometry/describe.h"
-#include "render/lights/light.h"
+#include "render/light.h"
 
 namespace lekalo::render {
 

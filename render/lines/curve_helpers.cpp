@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/queries/arc_length.h"
-#include "geometry/surfaces/ribbon.h"
+#include "geometry/queries/measures/arc_length.h"
+#include "geometry/surfaces/derived/ribbon.h"
 
 namespace lekalo::render {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/curve.h"
-#include "render/scene/model.h"
+#include "render/model/model.h"
 
 namespace lekalo::render {
 

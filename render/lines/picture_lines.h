@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "render/integrators/integrator.h"
+#include "render/integrator.h"
 #include "render/lines/projected_curve.h"
 #include "render/lines/strokes.h"
 

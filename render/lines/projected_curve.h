@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "geometry/curve.h"
-#include "render/cameras/camera.h"
+#include "render/camera.h"
 
 namespace lekalo::render {
 

@@ -1,22 +1,22 @@
 // How line work is collected (render/lines/strokes.h): object by object, kind by kind. strokes.cpp has objects and
 // looks, stroke_shapes.cpp and stroke_faces.cpp the lines of curves, surfaces, bodies and solids, stroke_sections.cpp
-// where they are cut, stroke_meetings.cpp, stroke_parts.cpp, stroke_tubes.cpp and stroke_meshes.cpp where they meet,
-// stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
+// where they are cut, stroke_intersections.cpp, stroke_parts.cpp, stroke_tubes.cpp and stroke_meshes.cpp where they
+// meet, stroke_cuts.cpp what clip planes leave of lines, stroke_helpers.cpp the helpers.
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <map>
 
-#include "geometry/queries/ball_outlines.h"
-#include "geometry/queries/body_contours.h"
-#include "geometry/queries/creases.h"
-#include "geometry/queries/csg_contours.h"
-#include "geometry/queries/implicit_contours.h"
-#include "geometry/queries/mesh_contours.h"
-#include "geometry/queries/parameter_lines.h"
-#include "geometry/queries/smooth_parts.h"
-#include "geometry/queries/tube_lines.h"
+#include "geometry/curves/operations/creases.h"
+#include "geometry/queries/contours/body_contours.h"
+#include "geometry/queries/contours/mesh_contours.h"
+#include "geometry/queries/contours/parameter_lines.h"
+#include "geometry/queries/implicit_curves/smooth_parts.h"
+#include "geometry/shapes/csg/csg_contours.h"
+#include "geometry/shapes/implicit/implicit_contours.h"
+#include "geometry/shapes/tube/ball_outlines.h"
+#include "geometry/shapes/tube/tube_lines.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/curves/curve_part.h"
-#include "geometry/curves/segment.h"
-#include "geometry/queries/contour_approximation.h"
-#include "geometry/queries/curve_sign_changes.h"
-#include "geometry/queries/line_intersections.h"
-#include "geometry/surfaces/plane.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/operations/curve_part.h"
+#include "geometry/curves/operations/curve_sign_changes.h"
+#include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/queries/rays/line_intersections.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 

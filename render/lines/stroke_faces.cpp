@@ -1,6 +1,6 @@
 // Parameter lines and creases of surfaces, and of bodies' faces as far as these go.
-#include "geometry/curves/surface_curve.h"
-#include "geometry/queries/creases.h"
+#include "geometry/curves/operations/creases.h"
+#include "geometry/curves/operations/surface_curve.h"
 #include "render/lines/stroke_collector.h"
 
 namespace lekalo::render {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <set>
 
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/curves/segment.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/splines/nurbs_curve.h"
 #include "render/lines/curve_helpers.h"
 #include "render/lines/stroke_collector.h"
-#include "render/scene/look.h"
-#include "render/scene/objects.h"
+#include "render/model/look.h"
+#include "render/model/objects.h"
 
 namespace lekalo::render {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/queries/box_tree.h"
+#include "geometry/spatial/box_tree.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 

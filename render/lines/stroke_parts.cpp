@@ -3,11 +3,11 @@
 // spheres, each kept outside of the others.
 #include <cmath>
 
-#include "geometry/queries/box_tree.h"
-#include "geometry/queries/implicit_arcs.h"
-#include "geometry/queries/sight_turns.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
+#include "geometry/queries/contours/silhouette_crossings.h"
+#include "geometry/queries/implicit_curves/implicit_arcs.h"
+#include "geometry/spatial/box_tree.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/curves/curve_part.h"
-#include "geometry/queries/box_tree.h"
-#include "geometry/queries/self_intersections.h"
-#include "geometry/surfaces/plane.h"
+#include "geometry/curves/operations/curve_part.h"
+#include "geometry/queries/intersections/self_intersections.h"
+#include "geometry/spatial/box_tree.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
-#include "render/scene/look.h"
+#include "render/model/look.h"
 
 namespace lekalo::render {
 

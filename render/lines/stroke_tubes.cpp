@@ -1,5 +1,5 @@
-// Lines on tubes: where they meet other shapes (geometry/queries/tube_lines.h).
-#include "geometry/surfaces/plane.h"
+// Lines on tubes: where they meet other shapes (geometry/shapes/tube/tube_lines.h).
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
 

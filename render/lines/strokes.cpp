@@ -6,15 +6,15 @@
 #include <cmath>
 #include <set>
 
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/curves/polyline.h"
-#include "geometry/queries/self_intersections.h"
-#include "geometry/surfaces/plane.h"
+#include "geometry/curves/analytic/polyline.h"
+#include "geometry/curves/splines/nurbs_curve.h"
+#include "geometry/queries/intersections/self_intersections.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "render/lines/stroke_collector.h"
-#include "render/scene/color_names.h"
-#include "render/scene/look.h"
-#include "render/scene/objects.h"
-#include "render/scene/placed_objects.h"
+#include "render/model/look.h"
+#include "render/model/objects.h"
+#include "render/model/placed_objects.h"
+#include "render/scene/values/color_names.h"
 
 namespace lekalo::render {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/scene/look.h"
+#include "render/model/look.h"
 #include "render/trace/world.h"
 
 namespace lekalo::render {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "geometry/describe.h"
-#include "render/trace/ray.h"
+#include "render/ray.h"
 
 namespace lekalo::render {
 

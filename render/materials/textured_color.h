@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "geometry/describe.h"
-#include "render/materials/material.h"
+#include "render/material.h"
 
 namespace lekalo::render {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::render {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/surfaces/plane.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy_parts.h"
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "geometry/queries/line_intersections.h"
+#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/shape.h"
+#include "render/ray.h"
 #include "render/trace/obstacles.h"
 #include "render/trace/packed_mesh.h"
-#include "render/trace/ray.h"
 
 namespace lekalo::render {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/queries/line_through_boxes.h"
+#include "geometry/spatial/line_through_boxes.h"
 #include "geometry/tolerances.h"
 #include "render/trace/hierarchy_rays.h"
 

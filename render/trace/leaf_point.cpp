@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/queries/parameter_lines.h"
+#include "geometry/queries/contours/parameter_lines.h"
 
 namespace lekalo::render {
 

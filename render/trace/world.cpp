@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "geometry/bodies/sew.h"
-#include "geometry/queries/line_intersections.h"
+#include "geometry/bodies/topology/sew.h"
+#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
-#include "render/scene/placed_objects.h"
+#include "render/model/placed_objects.h"
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"

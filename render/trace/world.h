@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/model.h"
+#include "render/model/model.h"
+#include "render/ray.h"
 #include "render/trace/obstacles.h"
-#include "render/trace/ray.h"
 
 namespace lekalo::render {
 

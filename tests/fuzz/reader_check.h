@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "render/scene/include.h"
+#include "render/scene/yaml/include.h"
 
 namespace lekalo::render {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "geometry/external_function.h"
+#include "geometry/external/external_function.h"
 
 namespace lekalo::geometry {
 

@@ -1,8 +1,8 @@
 // Normals at places where r_u x r_v vanishes, against closed forms of the limits (Golovanov 2016, 3.1).
-#include "geometry/curves/bezier_curve.h"
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/revolution.h"
+#include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
 #include "geometry/surfaces/surface_checks.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "support/surface_of_formula.h"
 
 namespace lekalo::geometry::surface_normal_test {

@@ -1,10 +1,10 @@
 #include "geometry/transformed.h"
 
-#include "geometry/curves/ellipse.h"
+#include "geometry/curves/analytic/ellipse.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/analytic_formulas.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
 
 namespace lekalo::geometry::transformed_test {
 namespace {

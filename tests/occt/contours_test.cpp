@@ -12,7 +12,7 @@
 #include <functional>
 #include <set>
 
-#include "geometry/queries/contours.h"
+#include "geometry/queries/contours/contours.h"
 #include "occt/occt_surfaces.h"
 #include "support/tier.h"
 

@@ -19,8 +19,8 @@
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/queries/distance.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/queries/closest/distance.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 

@@ -22,10 +22,10 @@
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 
-#include "geometry/bodies/primitives.h"
+#include "geometry/bodies/primitives/primitives.h"
 #include "occt/occt_shapes.h"
 #include "render/drawing/random_views.h"
-#include "render/drawing/visible_lines.h"
+#include "render/drawing/visibility/hidden_lines.h"
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 

@@ -13,12 +13,12 @@
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
 
-#include "geometry/queries/line_intersections.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/extrusion.h"
-#include "geometry/surfaces/revolution.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/queries/rays/line_intersections.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "occt/occt_shapes.h"
 #include "support/line_oracle.h"
 #include "support/tier.h"

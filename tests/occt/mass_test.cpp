@@ -27,12 +27,12 @@
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/curves/ellipse.h"
-#include "geometry/queries/mass_properties.h"
-#include "geometry/surfaces/extrusion.h"
-#include "geometry/surfaces/revolution.h"
-#include "geometry/surfaces/sphere.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/curves/analytic/ellipse.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 

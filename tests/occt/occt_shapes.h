@@ -11,8 +11,8 @@
 #include <gp_Ax3.hxx>
 #include <random>
 
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/surfaces/nurbs_surface.h"
+#include "geometry/curves/splines/nurbs_curve.h"
+#include "geometry/surfaces/splines/nurbs_surface.h"
 
 namespace lekalo::geometry {
 

@@ -9,9 +9,9 @@
 #include <Geom_ToroidalSurface.hxx>
 #include <string>
 
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
 #include "occt/occt_shapes.h"
 
 namespace lekalo::geometry {

@@ -11,8 +11,8 @@
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <gp_Vec.hxx>
 
-#include "geometry/queries/curve_intersections.h"
-#include "geometry/queries/projection.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/intersections/curve_intersections.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 

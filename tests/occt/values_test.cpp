@@ -18,17 +18,17 @@
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
 
-#include "geometry/curves/bezier_curve.h"
-#include "geometry/curves/circle.h"
-#include "geometry/curves/segment.h"
-#include "geometry/queries/curvature.h"
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/extrusion.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/revolution.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/queries/differential/curvature.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
 
@@ -97,7 +97,7 @@ void OcctValues::expect_same(const Curve& own, const Handle(Geom_Curve) & theirs
 // Derivatives up to the third order by OCCT's D3, the fourth by its DN. DN of 7.6 is wrong for two surfaces, whose own
 // D1 and D3 contradict it: a cone's derivative by v lacks the part along the axis, and a torus' derivatives (3, 1) and
 // (1, 3) have the wrong sign; so a torus goes to the third order here (the fourth has its formula in 113 bits in
-// tests/geometry/surfaces/torus_test.cpp).
+// tests/geometry/surfaces/analytic/torus_test.cpp).
 SurfaceJet jet_of(const Handle(Geom_Surface) & surface, double u, double v, int order) {
   SurfaceJet jet;
   gp_Pnt p;

@@ -15,8 +15,8 @@
 
 #include "render/film/render.h"
 #include "render/image/exr.h"
-#include "render/scene/load.h"
-#include "render/scene/pov_export.h"
+#include "render/pov/pov_export.h"
+#include "render/scene/build/load.h"
 
 namespace lekalo::render::references_test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
 #include "render/cameras/cameras.h"
 #include "render/integrators/classic.h"
 #include "render/lights/lights.h"

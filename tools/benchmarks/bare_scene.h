@@ -6,7 +6,7 @@
 #include <span>
 
 #include "geometry/mesh.h"
-#include "render/trace/ray.h"
+#include "render/ray.h"
 
 namespace lekalo::benchmarks {
 

@@ -4,9 +4,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
 #include "render/cameras/cameras.h"
-#include "render/scene/load.h"
+#include "render/scene/build/load.h"
 
 namespace lekalo::benchmarks {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "render/scene/model.h"
+#include "render/model/model.h"
 
 namespace lekalo::benchmarks {
 

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "bare_scene.h"
-#include "geometry/bodies/sew.h"
+#include "geometry/bodies/topology/sew.h"
 #include "geometry/tessellation/tessellate.h"
 #include "ray_cases.h"
 #include "render/trace/world.h"

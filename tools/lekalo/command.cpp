@@ -9,7 +9,7 @@
 
 #include "geometry/expression/expression.h"
 #include "geometry/expression/nearest_name.h"
-#include "render/scene/include.h"
+#include "render/scene/yaml/include.h"
 
 namespace lekalo::command {
 

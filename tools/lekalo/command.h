@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/load.h"
-#include "render/scene/table.h"
+#include "render/scene/build/load.h"
+#include "render/scene/yaml/table.h"
 
 // Its header takes as long to parse as all of a command: only what declares options includes it.
 namespace CLI {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "render/image/report.h"
+#include "render/suite/report.h"
 
 namespace lekalo::command {
 

@@ -14,10 +14,10 @@
 #include "engine.h"
 #include "picture.h"
 #include "progress.h"
-#include "render/drawing/cairo_output.h"
 #include "render/drawing/figure.h"
-#include "render/drawing/latex.h"
-#include "render/drawing/svg.h"
+#include "render/drawing/output/cairo_output.h"
+#include "render/drawing/output/latex.h"
+#include "render/drawing/output/svg.h"
 #include "render/image/atomic_file.h"
 
 namespace lekalo::command {

@@ -1,7 +1,7 @@
 // From a loaded scene to a drawing file: what draw and make share.
 #pragma once
 
-#include "render/scene/load.h"
+#include "render/scene/build/load.h"
 
 namespace lekalo::command {
 

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "command.h"
-#include "geometry/queries/curvature.h"
+#include "geometry/queries/differential/curvature.h"
 #include "json.h"
 
 namespace lekalo::command {

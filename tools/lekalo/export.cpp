@@ -8,8 +8,8 @@
 #include "command.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/image/atomic_file.h"
-#include "render/scene/mesh_files.h"
-#include "render/scene/pov_export.h"
+#include "render/mesh_files/mesh_files.h"
+#include "render/pov/pov_export.h"
 
 namespace lekalo::command {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/include.h"
+#include "render/scene/yaml/include.h"
 
 namespace lekalo::command {
 

@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/curves/surface_curve.h"
-#include "geometry/queries/curve_intersections.h"
-#include "geometry/queries/mass_properties.h"
-#include "geometry/queries/shape_measures.h"
+#include "geometry/curves/operations/surface_curve.h"
+#include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/queries/measures/shape_measures.h"
 
 namespace lekalo::command {
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "geometry/mesh.h"
-#include "geometry/queries/distance.h"
+#include "geometry/queries/closest/distance.h"
 #include "json.h"
-#include "render/scene/model.h"
-#include "render/scene/table.h"
+#include "render/model/model.h"
+#include "render/scene/yaml/table.h"
 
 namespace lekalo::command {
 
@@ -76,8 +76,8 @@ ordered_json position_of(const std::string& name, const render::Entity& entity, 
 void print_position(const ordered_json& found);
 
 // How smoothly two curves, two surfaces, or with an empty `other_name` the faces of a body, join: the jump of each
-// order. `tolerance`: what passes of each order, see geometry/queries/continuity.h. Throws UsageError for anything
-// else.
+// order. `tolerance`: what passes of each order, see geometry/queries/differential/continuity.h. Throws UsageError for
+// anything else.
 ordered_json continuity_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
                            const render::Entity* other, double tolerance);
 void print_continuity(const ordered_json& found);

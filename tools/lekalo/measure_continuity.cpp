@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/continuity.h"
+#include "geometry/queries/differential/continuity.h"
 #include "measure.h"
 
 namespace lekalo::command {

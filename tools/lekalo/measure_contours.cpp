@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/body_contours.h"
-#include "geometry/queries/mass_properties.h"
-#include "geometry/queries/self_intersections.h"
+#include "geometry/queries/contours/body_contours.h"
+#include "geometry/queries/intersections/self_intersections.h"
+#include "geometry/queries/measures/mass_properties.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/distance.h"
-#include "geometry/queries/projection.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/distance.h"
 #include "measure.h"
 
 namespace lekalo::command {

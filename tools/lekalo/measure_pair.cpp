@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/deviation.h"
+#include "geometry/queries/differential/deviation.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/position.h"
+#include "geometry/queries/closest/position.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "geometry/queries/common_points.h"
-#include "geometry/queries/self_intersections.h"
+#include "geometry/queries/contours/common_points.h"
+#include "geometry/queries/intersections/self_intersections.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/film/render.h"
-#include "render/scene/load.h"
+#include "render/scene/build/load.h"
 
 namespace lekalo::command {
 

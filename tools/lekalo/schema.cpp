@@ -1,5 +1,5 @@
 // lekalo schema: the JSON Schema of scene files and suites, for editors and validators.
-#include "render/scene/schema.h"
+#include "render/scene/manual/schema.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/suite.h"
+#include "render/suite/suite.h"
 
 namespace lekalo::command {
 

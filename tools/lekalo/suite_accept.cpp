@@ -12,7 +12,7 @@
 #include "render/image/exr.h"
 #include "render/image/image_error.h"
 #include "render/image/layers.h"
-#include "render/scene/include.h"
+#include "render/scene/yaml/include.h"
 #include "suite.h"
 
 namespace lekalo::command {

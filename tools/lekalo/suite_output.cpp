@@ -7,8 +7,8 @@
 #include "render/image/atomic_file.h"
 #include "render/image/exr.h"
 #include "render/image/layers.h"
-#include "render/image/report.h"
-#include "render/scene/include.h"
+#include "render/scene/yaml/include.h"
+#include "render/suite/report.h"
 #include "suite.h"
 
 namespace lekalo::command {

@@ -9,7 +9,7 @@
 #include "command.h"
 #include "geometry/expression/nearest_name.h"
 #include "render/image/image_error.h"
-#include "render/scene/manual.h"
+#include "render/scene/manual/manual.h"
 
 namespace lekalo::command {
 

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "geometry/curves/bezier_curve.h"
-#include "geometry/curves/circle.h"
-#include "geometry/curves/ellipse.h"
-#include "geometry/curves/polyline.h"
-#include "geometry/curves/segment.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/ellipse.h"
+#include "geometry/curves/analytic/polyline.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/tessellation/tessellate.h"
 
 namespace lekalo::geometry::curve_polygon_test {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/queries/mass_properties.h"
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/formula_surface.h"
-#include "geometry/surfaces/nurbs_surface.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/formula_surface.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
+#include "geometry/surfaces/splines/nurbs_surface.h"
 #include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/curves/circle.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/csg.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/small_scene.h"
 

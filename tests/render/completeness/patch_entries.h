@@ -6,17 +6,17 @@
 #include <fstream>
 #include <sstream>
 
-#include "geometry/curves/bezier_curve.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/ellipsoid.h"
-#include "geometry/surfaces/extrusion.h"
-#include "geometry/surfaces/hyperboloid.h"
-#include "geometry/surfaces/nurbs_surface.h"
-#include "geometry/surfaces/paraboloid.h"
-#include "geometry/surfaces/patches.h"
-#include "geometry/surfaces/revolution.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/ellipsoid.h"
+#include "geometry/surfaces/analytic/hyperboloid.h"
+#include "geometry/surfaces/analytic/paraboloid.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/splines/nurbs_surface.h"
+#include "geometry/surfaces/splines/patches.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "render/completeness/subject.h"
 
 namespace lekalo::render::completeness {

@@ -1,16 +1,16 @@
 // Subjects without rational pieces, and closed bodies: formulas, implicit surfaces, tubes, balls, CSG, bodies.
 #pragma once
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/curves/formula_curve.h"
-#include "geometry/curves/polyline.h"
-#include "geometry/shapes/balls.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/half_space.h"
-#include "geometry/shapes/implicit_surface.h"
-#include "geometry/shapes/tube.h"
-#include "geometry/surfaces/formula_surface.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/curves/analytic/formula_curve.h"
+#include "geometry/curves/analytic/polyline.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
+#include "geometry/shapes/csg/half_space.h"
+#include "geometry/shapes/implicit/implicit_surface.h"
+#include "geometry/shapes/tube/balls.h"
+#include "geometry/shapes/tube/tube.h"
+#include "geometry/surfaces/analytic/formula_surface.h"
 #include "render/completeness/patch_entries.h"
 #include "support/sweep_oracle.h"
 

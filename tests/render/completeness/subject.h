@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/model.h"
+#include "render/model/model.h"
 #include "support/line_oracle.h"
 #include "support/sign_oracle.h"
 #include "support/solid_oracle.h"

@@ -1,7 +1,7 @@
 // The visible and hidden pieces of all lines of Klein bottles by formulas against the zeros of an implicit function
 // along the way of sight (support/bottle_oracle.h).
 #include "geometry/point_formulas.h"
-#include "geometry/surfaces/formula_surface.h"
+#include "geometry/surfaces/analytic/formula_surface.h"
 #include "render/drawing/line_truth.h"
 #include "support/bottle_oracle.h"
 

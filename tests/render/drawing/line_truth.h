@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/drawing/random_views.h"
-#include "render/drawing/visible_lines.h"
+#include "render/drawing/visibility/hidden_lines.h"
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 

@@ -5,19 +5,19 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/bodies/trimmed_surface.h"
-#include "geometry/curves/circle.h"
-#include "geometry/curves/nurbs_curve.h"
-#include "geometry/curves/polyline.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/bodies/trims/trimmed_surface.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/polyline.h"
+#include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/point_formulas.h"
-#include "geometry/queries/mass_properties.h"
-#include "geometry/shapes/implicit_surface.h"
-#include "geometry/surfaces/formula_surface.h"
-#include "geometry/surfaces/revolution.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/shapes/implicit/implicit_surface.h"
+#include "geometry/surfaces/analytic/formula_surface.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "geometry/transformed.h"
 #include "render/drawing/random_views.h"
-#include "render/drawing/visible_lines.h"
+#include "render/drawing/visibility/hidden_lines.h"
 #include "support/tier.h"
 
 namespace lekalo::render::lines_of_surfaces_test {

@@ -1,7 +1,7 @@
 // Parameter lines of solids that are put together, against an oracle of closed forms (support/sight_oracle.h): what is
 // seen of them; that they lie on the outside of the whole; and that none are missing, at random places of the lines of
 // each part.
-#include "geometry/queries/parameter_lines.h"
+#include "geometry/queries/contours/parameter_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <cmath>
 #include <optional>
 
-#include "geometry/curves/segment.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/tube.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
+#include "geometry/shapes/tube/tube.h"
 #include "render/drawing/line_truth.h"
 #include "render/drawing/random_solids.h"
 #include "support/curve_places.h"

@@ -1,8 +1,8 @@
 // Random solids and sheets for tests of drawings, with their closed forms.
 #pragma once
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
 #include "render/drawing/random_views.h"
 #include "support/sight_oracle.h"
 

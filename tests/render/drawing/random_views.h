@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/look.h"
+#include "render/model/look.h"
 #include "render/small_scene.h"
 
 namespace lekalo::render {

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "render/drawing/picture_places.h"
-#include "render/drawing/visible_lines.h"
-#include "render/scene/load.h"
+#include "render/drawing/visibility/hidden_lines.h"
+#include "render/scene/build/load.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/bodies/primitives.h"
+#include "geometry/bodies/primitives/primitives.h"
 #include "render/drawing/picture_places.h"
 #include "render/drawing/random_views.h"
-#include "render/drawing/visible_lines.h"
+#include "render/drawing/visibility/hidden_lines.h"
 #include "support/tier.h"
 
 namespace lekalo::render::register_test {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/csg.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
 #include "render/small_scene.h"
 
 namespace lekalo::render::boundary_test {

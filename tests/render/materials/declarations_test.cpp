@@ -7,7 +7,7 @@
 #include <set>
 
 #include "render/cameras/cameras.h"
-#include "render/integrators/integrator.h"
+#include "render/integrator.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/materials/textures.h"

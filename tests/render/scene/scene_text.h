@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "render/scene/builder.h"
-#include "render/scene/data_path.h"
+#include "render/scene/build/builder.h"
+#include "render/scene/yaml/data_path.h"
 
 namespace lekalo::render {
 

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/shapes/body_shape.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/surfaces/plane.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "render/trace/world.h"
 
 namespace lekalo::render::clips_test {

@@ -4,13 +4,13 @@
 
 #include <random>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/ellipsoid.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/ellipsoid.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
 

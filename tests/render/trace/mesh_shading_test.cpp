@@ -5,13 +5,13 @@
 #include <functional>
 #include <random>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/bodies/trimmed_surface.h"
-#include "geometry/curves/circle.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/bodies/trims/trimmed_surface.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/world.h"
 

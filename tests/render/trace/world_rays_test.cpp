@@ -11,14 +11,14 @@
 #include <random>
 #include <sstream>
 
-#include "geometry/bodies/primitives.h"
-#include "geometry/surfaces/bezier_surface.h"
-#include "geometry/surfaces/cone.h"
-#include "geometry/surfaces/nurbs_surface.h"
-#include "geometry/surfaces/patches.h"
-#include "geometry/surfaces/plane.h"
-#include "geometry/surfaces/sphere.h"
-#include "geometry/surfaces/torus.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
+#include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
+#include "geometry/surfaces/splines/nurbs_surface.h"
+#include "geometry/surfaces/splines/patches.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/world.h"
 #include "support/line_oracle.h"

@@ -18,10 +18,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "geometry/surfaces/bezier_surface.h"
+#include "geometry/surfaces/splines/bezier_surface.h"
 #include "occt/occt_shapes.h"
-#include "render/drawing/visible_lines.h"
-#include "render/scene/load.h"
+#include "render/drawing/visibility/hidden_lines.h"
+#include "render/scene/build/load.h"
 #include "timed.h"
 
 namespace lekalo::benchmarks {

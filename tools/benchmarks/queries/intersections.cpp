@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "geometry/curves/nurbs_operations.h"
-#include "geometry/queries/contours.h"
-#include "geometry/queries/projection.h"
+#include "geometry/curves/splines/nurbs_operations.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/contours/contours.h"
 #include "occt/occt_surfaces.h"
 #include "queries/rows.h"
 #include "timed.h"

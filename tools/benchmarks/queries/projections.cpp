@@ -2,7 +2,7 @@
 #include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 
-#include "geometry/queries/projection.h"
+#include "geometry/queries/closest/closest_point.h"
 #include "occt/occt_shapes.h"
 #include "queries/rows.h"
 #include "timed.h"

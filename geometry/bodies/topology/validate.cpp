@@ -1,0 +1,322 @@
+// The conditions of a valid body (Golovanov 2016, 5.1, 5.3, 5.5), each by name. Intersections of faces away from their
+// edges are not looked for.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "geometry/body.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/tessellation/triangulation.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Room for rounding in evaluations that should agree, relative to the body's size (several hundred ulps, because
+// parametrisations by angle lose some).
+constexpr double kRounding = 1e-12;
+// The same in a parameter plane, relative to the face's loops.
+constexpr double kParameterRounding = 1e-9;
+// Samples of every smooth piece of an edge.
+constexpr int kSamples = 8;
+
+std::vector<double> samples(const Curve& curve, int count = kSamples) {
+  std::vector<double> result{curve.domain().lo};
+  for (const CurvePiece& piece : curve.pieces())
+    for (int k = 1; k <= count; ++k) result.push_back(piece.domain.lo + piece.domain.width() * k / count);
+  result.back() = curve.domain().hi;
+  return result;
+}
+
+class Validation {
+ public:
+  explicit Validation(const Body& body) : body_(body) {}
+
+  std::vector<Violation> run() {
+    check_links();
+    // The other conditions are meaningless while links lead nowhere.
+    if (!found_.empty()) return std::move(found_);
+    size_ = bounds(body_).diameter();
+    for (size_t i = 0; i < body_.edges.size(); ++i) check_edge(static_cast<int>(i));
+    for (size_t i = 0; i < body_.loops.size(); ++i) check_loop(static_cast<int>(i));
+    for (size_t i = 0; i < body_.faces.size(); ++i) check_face(static_cast<int>(i));
+    check_vertices();
+    if (found_.empty()) check_shells();
+    return std::move(found_);
+  }
+
+ private:
+  void report(std::string condition, std::string entity) {
+    found_.push_back({std::move(condition), std::move(entity)});
+  }
+  std::string edge_name(int edge) const { return entity_name("edge", edge, body_.edges[edge].origin); }
+  std::string face_name(int face) const { return entity_name("face", face, body_.faces[face].origin); }
+  static std::string entity_name(const char* kind, int index, const Origin& origin) {
+    const std::string text = origin.text();
+    return text.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} ({})", kind, index, text);
+  }
+
+  void check_links() {
+    const auto valid = [](int index, size_t count) { return index >= 0 && static_cast<size_t>(index) < count; };
+    for (size_t i = 0; i < body_.edges.size(); ++i) {
+      const Edge& edge = body_.edges[i];
+      if (!edge.curve) report("an edge has a curve", edge_name(i));
+      if (!valid(edge.start, body_.vertices.size()) || !valid(edge.end, body_.vertices.size()))
+        report("an edge runs between vertices", edge_name(i));
+      for (int coedge : edge.coedges)
+        if (!valid(coedge, body_.coedges.size()) || body_.coedges[coedge].edge != static_cast<int>(i))
+          report("an edge and its coedges name each other", edge_name(i));
+    }
+    for (size_t i = 0; i < body_.coedges.size(); ++i) {
+      const Coedge& coedge = body_.coedges[i];
+      const std::string name = fmt::format("coedge {}", i);
+      if (!valid(coedge.edge, body_.edges.size()) || !valid(coedge.loop, body_.loops.size()))
+        report("a coedge belongs to an edge and a loop", name);
+      else if (!coedge.image)
+        report("a coedge has an image in its face's parameter plane", name);
+      else if (std::count(body_.edges[coedge.edge].coedges.begin(), body_.edges[coedge.edge].coedges.end(),
+                          static_cast<int>(i)) != 1)
+        report("an edge and its coedges name each other", name);
+    }
+    for (size_t i = 0; i < body_.loops.size(); ++i) {
+      const Loop& loop = body_.loops[i];
+      const std::string name = fmt::format("loop {}", i);
+      if (!valid(loop.face, body_.faces.size())) report("a loop belongs to a face", name);
+      if (loop.coedges.empty()) report("a loop has coedges", name);
+      for (int coedge : loop.coedges)
+        if (!valid(coedge, body_.coedges.size()) || body_.coedges[coedge].loop != static_cast<int>(i))
+          report("a loop and its coedges name each other", name);
+    }
+    for (size_t i = 0; i < body_.faces.size(); ++i) {
+      const Face& face = body_.faces[i];
+      if (!face.surface) report("a face has a surface", face_name(i));
+      if (face.loops.empty()) report("a face has loops", face_name(i));
+      for (int loop : face.loops)
+        if (!valid(loop, body_.loops.size()) || body_.loops[loop].face != static_cast<int>(i))
+          report("a face and its loops name each other", face_name(i));
+      if (!valid(face.shell, body_.shells.size())) report("a face belongs to a shell", face_name(i));
+    }
+  }
+
+  double edge_tolerance(const Edge& edge) const { return edge.tolerance + kRounding * size_; }
+
+  void check_edge(int index) {
+    const Edge& edge = body_.edges[index];
+    const Interval domain = edge.curve->domain();
+    if (!(domain.lo > -kInfinity && domain.hi < kInfinity)) {
+      report("an edge is bounded", edge_name(index));
+      return;
+    }
+    const Vertex &start = body_.vertices[edge.start], &end = body_.vertices[edge.end];
+    if (glm::length(edge.curve->point(domain.lo) - start.point) > edge_tolerance(edge) + start.tolerance ||
+        glm::length(edge.curve->point(domain.hi) - end.point) > edge_tolerance(edge) + end.tolerance)
+      report("an edge's curve ends at its vertices", edge_name(index));
+    for (int coedge : edge.coedges) check_coincidence(index, body_.coedges[coedge]);
+    check_uses(index);
+  }
+
+  void check_coincidence(int index, const Coedge& coedge) {
+    const Edge& edge = body_.edges[index];
+    const Interval domain = edge.curve->domain(), image = coedge.image->domain();
+    if (std::abs(image.lo - domain.lo) + std::abs(image.hi - domain.hi) > kParameterRounding * domain.width()) {
+      report("an edge's image runs over the edge's own parameters", edge_name(index));
+      return;
+    }
+    const int face = body_.loops[coedge.loop].face;
+    double worst = 0;
+    for (double t : samples(*edge.curve)) {
+      const Vec3 uv = coedge.image->point(t);
+      worst = std::max(worst, glm::length(body_.faces[face].surface->point(uv.x, uv.y) - edge.curve->point(t)));
+    }
+    if (!(worst <= edge_tolerance(edge)))
+      report(fmt::format("an edge's curve and its image on the face coincide (they are {:.3g} apart)", worst),
+             fmt::format("{} on {}", edge_name(index), face_name(face)));
+  }
+
+  void check_uses(int index) {
+    const Edge& edge = body_.edges[index];
+    const size_t uses = edge.coedges.size();
+    if (edge.kind == EdgeKind::pole) {
+      if (uses != 1) report("a pole edge is used once", edge_name(index));
+      if (bounds(*edge.curve).diameter() > edge_tolerance(edge) + 4 * kRounding * size_)
+        report("a pole edge has no length", edge_name(index));
+      return;
+    }
+    if (uses > 2) report("at most two faces meet in an edge", edge_name(index));
+    if (uses == 0) report("an edge belongs to a face", edge_name(index));
+    if (uses != 2) {
+      const bool closed = uses == 1 && shell_of(edge.coedges[0]).closed;
+      if (closed) report("an edge of a closed shell is used twice", edge_name(index));
+      return;
+    }
+    const Coedge &a = body_.coedges[edge.coedges[0]], &b = body_.coedges[edge.coedges[1]];
+    if (a.forward == b.forward)
+      report("two faces run along their common edge in opposite directions", edge_name(index));
+    if ((edge.kind == EdgeKind::seam) != (body_.loops[a.loop].face == body_.loops[b.loop].face))
+      report("a seam edge is used twice by one face", edge_name(index));
+  }
+
+  const Shell& shell_of(int coedge) const {
+    return body_.shells[body_.faces[body_.loops[body_.coedges[coedge].loop].face].shell];
+  }
+  int first_vertex(const Coedge& coedge) const {
+    return coedge.forward ? body_.edges[coedge.edge].start : body_.edges[coedge.edge].end;
+  }
+  int last_vertex(const Coedge& coedge) const {
+    return coedge.forward ? body_.edges[coedge.edge].end : body_.edges[coedge.edge].start;
+  }
+  static Vec2 image_end(const Coedge& coedge, bool last) {
+    const Interval domain = coedge.image->domain();
+    return Vec2(coedge.image->point(coedge.forward == last ? domain.hi : domain.lo));
+  }
+
+  // The loop as a polygon in the parameter plane.
+  std::vector<Vec2> polygon(int loop, int count = kSamples) const {
+    std::vector<Vec2> result;
+    for (int index : body_.loops[loop].coedges) {
+      const Coedge& coedge = body_.coedges[index];
+      std::vector<double> ts = samples(*coedge.image, count);
+      if (!coedge.forward) std::reverse(ts.begin(), ts.end());
+      ts.pop_back();
+      for (double t : ts) result.push_back(Vec2(coedge.image->point(t)));
+    }
+    return result;
+  }
+
+  void check_loop(int index) {
+    const Loop& loop = body_.loops[index];
+    const std::string name = fmt::format("loop {} of {}", index, face_name(loop.face));
+    Box3 box;
+    for (int coedge : loop.coedges) box.include(bounds(*body_.coedges[coedge].image));
+    const double small = kParameterRounding * box.diameter();
+    for (size_t i = 0; i < loop.coedges.size(); ++i) {
+      const Coedge& here = body_.coedges[loop.coedges[i]];
+      const Coedge& next = body_.coedges[loop.coedges[(i + 1) % loop.coedges.size()]];
+      if (last_vertex(here) != first_vertex(next))
+        report("each coedge of a loop begins at the vertex where the one before ends", name);
+      if (glm::length(image_end(here, true) - image_end(next, false)) > small)
+        report("the images of a loop's coedges join in the parameter plane", name);
+    }
+  }
+
+  static double signed_area(const std::vector<Vec2>& polygon) {
+    double sum = 0;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+      sum += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+    return sum;
+  }
+
+  static bool contains(const std::vector<Vec2>& polygon, const Vec2& p) {
+    bool inside = false;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)) inside = !inside;
+    }
+    return inside;
+  }
+
+  void check_face(int index) {
+    const Face& face = body_.faces[index];
+    // Seen against the surface's parametric normal r_u x r_v.
+    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const std::vector<Vec2> outer = polygon(face.loops[0]);
+    if (!(side * signed_area(outer) > 0)) report("an outer loop has its face on the left", face_name(index));
+    for (size_t k = 1; k < face.loops.size(); ++k) {
+      const std::vector<Vec2> hole = polygon(face.loops[k]);
+      if (!(side * signed_area(hole) < 0)) report("an inner loop has its face on the left", face_name(index));
+      if (!contains(outer, hole[0])) report("inner loops lie within the outer loop", face_name(index));
+    }
+    if (loops_cross(face)) report("the loops of a face do not cross", face_name(index));
+  }
+
+  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide.
+  bool loops_cross(const Face& face) const {
+    for (int count : {kSamples, 8 * kSamples, 64 * kSamples}) {
+      std::vector<Vec2> points;
+      std::vector<std::vector<int>> polygons;
+      for (int loop : face.loops) {
+        polygons.emplace_back();
+        for (const Vec2& p : polygon(loop, count)) {
+          polygons.back().push_back(static_cast<int>(points.size()));
+          points.push_back(p);
+        }
+      }
+      try {
+        triangulate(points, polygons);
+        return false;
+      } catch (const std::invalid_argument&) {
+      }
+    }
+    return true;
+  }
+
+  // The face corners at a vertex form one closed fan (one open fan at a border): corners are joined where they share an
+  // edge end.
+  void check_vertices() {
+    struct Corner {
+      int arriving;  // coedge that ends at the vertex
+      int leaving;   // the next one of the loop
+    };
+    std::vector<std::vector<Corner>> corners(body_.vertices.size());
+    for (const Loop& loop : body_.loops)
+      for (size_t i = 0; i < loop.coedges.size(); ++i) {
+        const int arriving = loop.coedges[i], leaving = loop.coedges[(i + 1) % loop.coedges.size()];
+        corners[last_vertex(body_.coedges[arriving])].push_back({arriving, leaving});
+      }
+    for (size_t v = 0; v < corners.size(); ++v) {
+      const std::string name = entity_name("vertex", static_cast<int>(v), body_.vertices[v].origin);
+      if (corners[v].empty()) {
+        report("a vertex belongs to an edge", name);
+        continue;
+      }
+      std::vector<int> parent(corners[v].size());
+      std::iota(parent.begin(), parent.end(), 0);
+      const auto find = [&](int i) {
+        while (parent[i] != i) i = parent[i];
+        return i;
+      };
+      // An end of an edge: (edge, at its start?). Pole edges end twice in the pole's one point.
+      std::map<std::pair<int, bool>, int> ends;
+      for (size_t i = 0; i < corners[v].size(); ++i) {
+        const Coedge &in = body_.coedges[corners[v][i].arriving], &out = body_.coedges[corners[v][i].leaving];
+        for (const auto& end : {std::pair{in.edge, !in.forward}, std::pair{out.edge, out.forward}}) {
+          auto key = end;
+          if (body_.edges[key.first].kind == EdgeKind::pole) key.second = false;
+          const auto [found, is_new] = ends.try_emplace(key, static_cast<int>(i));
+          if (!is_new) parent[find(static_cast<int>(i))] = find(found->second);
+        }
+      }
+      int fans = 0;
+      for (size_t i = 0; i < parent.size(); ++i) fans += parent[i] == static_cast<int>(i);
+      if (fans > 1) report("the faces around a vertex form one fan", name);
+    }
+  }
+
+  void check_shells() {
+    double total = 0;
+    bool all_closed = true;
+    for (size_t i = 0; i < body_.shells.size(); ++i) {
+      const Shell& shell = body_.shells[i];
+      all_closed = all_closed && shell.closed;
+      if (shell.closed) total = std::max(total, signed_volume(body_, static_cast<int>(i), 1e-3));
+    }
+    if (body_.shells.empty()) report("a body has a shell", "body");
+    if (all_closed && !body_.shells.empty() && !(total > 0))
+      report("the faces of the outer shell look outward", "body");
+  }
+
+  const Body& body_;
+  double size_ = 0;
+  std::vector<Violation> found_;
+};
+
+}  // namespace
+
+std::vector<Violation> Body::violations() const { return Validation(*this).run(); }
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,72 @@
+// A curve by its formulas (Golovanov 2016, 2.1): r(t) = point(f(t), g(t), h(t)).
+#include "geometry/curves/analytic/formula_curve.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/describe.h"
+#include "geometry/formula.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Places where the formulas are tried before anything else asks.
+constexpr int kTried = 64;
+// Over a long stretch the bounds of a quotient or a root may be infinite, or enormous beside the curve, where those of
+// its parts are not: stretches down to this part of the domain are taken in halves then.
+constexpr double kLeastHalved = 1.0 / 128;
+constexpr double kEnormous = 8;
+
+const std::vector<std::string> kVariables{"t"};
+
+}  // namespace
+
+FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain, bool closed)
+    : point_(std::move(point_formulas)), domain_(domain) {
+  if (!(domain.width() > 0 && domain.width() < kInfinity))
+    throw FieldError("domain", "the domain of a curve must be finite and not empty");
+  double size = 0;
+  const Vec3 first = point(domain.lo);
+  for (int i = 0; i <= kTried; ++i) {
+    const double t = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried;
+    const Vec3 p = point(t);
+    if (!is_finite(p)) throw FieldError("domain", point_.no_value({{t}}));
+    size = std::max(size, glm::length(p - first));
+  }
+  if (closed && glm::length(point(domain.hi) - first) > kClosedCurve * size)
+    throw FieldError("closed", "the curve is not closed: its ends do not meet");
+  closed_ = closed;
+  size_ = size;
+}
+
+CurveJet FormulaCurve::evaluate(double t, int order) const {
+  return evaluate_curve_formula(point_, closed_ ? wrapped(t, domain_) : t, order);
+}
+
+CurveEnclosure FormulaCurve::enclose(const Interval& t, int order) const {
+  CurveEnclosure whole = enclose_curve_centered(point_, t, order);
+  const auto is_bounded = [&](int k) { return k > order || whole.d[k].bounded(); };
+  const bool is_good = is_bounded(0) && is_bounded(1) && is_bounded(2) && whole.d[0].diameter() <= kEnormous * size_;
+  if (is_good || !(t.width() > kLeastHalved * domain_.width())) return whole;
+  const CurveEnclosure below = enclose({t.lo, t.middle()}, order), above = enclose({t.middle(), t.hi}, order);
+  for (int k = 0; k <= order; ++k) {
+    whole.d[k] = below.d[k];
+    whole.d[k].include(above.d[k]);
+  }
+  return whole;
+}
+
+TypeDeclaration formula_curve_type() {
+  TypeDeclaration type = declare(Category::curve, "formula_curve", "Curve given by formulas of its parameter t.");
+  type.example("point: [cos(t), sin(2*t)], domain: [0, 2*pi], closed: true");
+  declare_formulas(type, kVariables);
+  type.field("domain", range(), "of t, or of x");
+  type.field("closed", boolean(), "the ends meet, and the parameter wraps", "false");
+  return type.built_by([](const Fields& f) {
+    return FormulaCurve(read_formulas(f, kVariables), f.range("domain"), f.boolean("closed"));
+  });
+}
+
+}  // namespace lekalo::geometry

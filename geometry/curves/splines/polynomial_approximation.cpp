@@ -1,0 +1,74 @@
+#include "geometry/curves/splines/polynomial_approximation.h"
+
+#include <cmath>
+
+#include "geometry/numerics/chebyshev.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr int kNodes = static_cast<int>(PolynomialCurve::kTerms);
+constexpr size_t kMostParts = 4096;
+constexpr int kMostHalvings = 24;  // of a piece
+constexpr double kLeftOut = 0.1;   // of the tolerance: terms as small together
+
+class Fitting {
+ public:
+  Fitting(const std::function<Vec3(double)>& point, double tolerance, const OwnPace* pace)
+      : point_(point), tolerance_(tolerance), pace_(pace) {}
+
+  bool add(const Interval& t, int depth) {
+    PolynomialCurve::Part part;
+    std::array<Vec3, kNodes> values;
+    // At a break the curve's own point is that from the right.
+    const double last = next_down(t.hi);
+    const auto place = [&](double x) { return std::min(t.middle() + 0.5 * t.width() * x, last); };
+    const auto point = [&](double x) { return point_(place(x)); };
+    for (int j = 0; j < kNodes; ++j) values[j] = point(chebyshev_point(j, kNodes));
+    auto coefficients = chebyshev_coefficients(values);
+    // A cubic is one again: what is rounding, or as little, is left out.
+    double left_out = 0;
+    int terms = kNodes;
+    while (terms > 1 && left_out + glm::length(coefficients[terms - 1]) <= kLeftOut * tolerance_)
+      left_out += glm::length(coefficients[--terms]), coefficients[terms] = Vec3(0);
+    part = {t, 2 / t.width(), powers_of_chebyshev(coefficients), terms};
+    bool good = true;
+    for (const double x : {-1.0, -0.97, -0.6, -0.1, 0.3, 0.85, 1.0}) {
+      const Vec3 value = part.value(x);
+      const double off = good ? glm::length(value - point(x)) : 0;
+      good = good && (off <= tolerance_ || (pace_ && off <= pace_->tolerance && pace_->is_on_line(place(x), value)));
+    }
+    if (good) {
+      parts.push_back(part);
+      return parts.size() <= kMostParts;
+    }
+    return depth < kMostHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
+  }
+
+  std::vector<PolynomialCurve::Part> parts;
+
+ private:
+  const std::function<Vec3(double)>& point_;
+  double tolerance_;
+  const OwnPace* pace_;
+};
+
+}  // namespace
+
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::function<Vec3(double)>& point,
+                                                                std::span<const Interval> pieces, double tolerance,
+                                                                const OwnPace* pace) {
+  Fitting fitting(point, tolerance, pace);
+  for (const Interval& t : pieces)
+    if (!t.empty() && t.width() > 0 && !fitting.add(t, 0)) return nullptr;
+  return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
+}
+
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
+  std::vector<Interval> pieces;
+  for (const CurvePiece& piece : curve.pieces()) pieces.push_back(intersect(piece.domain, curve.domain()));
+  return polynomial_approximation([&](double t) { return curve.point(t); }, pieces, tolerance);
+}
+
+}  // namespace lekalo::geometry

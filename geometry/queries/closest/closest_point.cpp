@@ -1,0 +1,225 @@
+#include "geometry/queries/closest/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geometry/curves/operations/smooth_pieces.h"
+#include "geometry/numerics/root_search.h"
+#include "geometry/queries/closest/foot_point_polynomials.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Boxes are not halved below this part of the domain: a double foot shows as a few of them.
+constexpr double kLeastBox = 1e-8;
+// A derivative below this part of the size over the width of the domain vanishes: a cusp.
+constexpr double kNoDerivative = 1e-9;
+// Feet nearer than this part of the size are one, seen from both sides of a seam.
+constexpr double kSameFoot = 1e-11;
+
+// f(t) = (p - r) . r' on a smooth piece (Golovanov 2016, (4.1.3)).
+struct CurveSystem {
+  const Vec3& p;
+  const Curve& curve;
+  Interval piece;
+
+  CurveJet jet(double t) const { return evaluate_within(curve, piece, t, 2); }
+  SystemValue<Interval, 1, 1> enclose(const ParameterBox<1>& box) const {
+    const CurveEnclosure r = curve.enclose(box[0], 2);
+    return {{product(p, r.d[0], r.d[1])}, {{{product(p, r.d[0], r.d[2]) - square(r.d[1])}}}};
+  }
+  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& at) const {
+    const CurveJet r = jet(at[0]);
+    const Vec3 way = p - r.d[0];
+    return {{glm::dot(way, r.d[1])}, {{{glm::dot(way, r.d[2]) - glm::dot(r.d[1], r.d[1])}}}};
+  }
+};
+
+// True if all of a piece has the same distance from the point: f vanishes at more places than its numerator has zeros.
+bool is_arc_about(const CurveSystem& system, int degree) {
+  const int places = degree > 0 ? 3 * degree + 2 : 24;
+  for (int k = 0; k <= places; ++k) {
+    const CurveJet r = system.jet(system.piece.lo + system.piece.width() * k / places);
+    const Vec3 way = system.p - r.d[0];
+    if (!(std::abs(glm::dot(way, r.d[1])) <= 1e-13 * glm::length(way) * glm::length(r.d[1]))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+struct CurveProjector::Prepared {
+  // A piece, with its polynomial where it has one, and what stands at its ends.
+  struct Piece {
+    Interval domain;
+    ParameterMap map;
+    int degree;  // 0 for a piece that is not rational
+    std::optional<FootPolynomial> polynomial;
+    CurveJet begin, end;
+  };
+  CurvePtr curve;
+  Interval domain;
+  double size;
+  bool closed;
+  std::vector<Piece> pieces;
+
+  Prepared(CurvePtr given, const std::vector<CurvePiece>& given_pieces)
+      : curve(std::move(given)), domain(curve->domain()), size(std::max(bounds(*curve).diameter(), 1e-300)) {
+    // An arc of a periodic curve has ends.
+    closed = curve->is_closed() ||
+             (curve->period() > 0 && std::abs(curve->period() - domain.width()) <= kDomainSlack * domain.width());
+    for (const CurvePiece& piece : given_pieces) {
+      Piece& own =
+          pieces.emplace_back(Piece{piece.domain, piece.map, piece.is_rational() ? piece.degree() : 0, {}, {}, {}});
+      if (own.degree > 0 && own.degree <= FootPolynomial::kMostDegree)
+        own.polynomial.emplace(piece.points, Vec3(piece.points[0]) / piece.points[0].w);
+      own.begin = evaluate_within(*curve, piece.domain, piece.domain.lo, 1);
+      own.end = evaluate_within(*curve, piece.domain, piece.domain.hi, 1);
+    }
+  }
+};
+
+namespace {
+
+// The feet of one point, gathered.
+template <class Prepared>
+class CurveProjection {
+ public:
+  using Piece = typename Prepared::Piece;
+  CurveProjection(const Vec3& p, const Prepared& on) : p_(p), on_(on), domain_(on.domain), size_(on.size) {}
+
+  CurveFeet run() {
+    for (const Piece& piece : on_.pieces) search(piece);
+    for (const Interval& arc : result_.arcs) add(arc.middle(), FootKind::degenerate);
+    add_joints();
+    std::sort(result_.feet.begin(), result_.feet.end(), [](const CurveFoot& a, const CurveFoot& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.t < b.t;
+    });
+    return std::move(result_);
+  }
+
+ private:
+  void add(double t, FootKind kind) {
+    const Vec3 at = on_.curve->point(t);
+    for (const CurveFoot& other : result_.feet)
+      if (glm::length(other.point - at) <= kSameFoot * size_ &&
+          (std::abs(other.t - t) <= kSameFoot * domain_.width() ||
+           std::abs(other.t - t) >= (1 - kSameFoot) * domain_.width()))
+        return;
+    result_.feet.push_back({t, at, glm::length(p_ - at), kind});
+  }
+
+  CurveSystem system_of(const Piece& piece) const { return {p_, *on_.curve, piece.domain}; }
+
+  void search(const Piece& piece) {
+    CurveFootZeros zeros;
+    if (piece.polynomial && piece.polynomial->isolate(p_, zeros)) {
+      const auto natural = [&](double x) { return piece.domain.clamp(piece.map.natural_of_bezier(x)); };
+      const double beside = kBorderSlack * piece.domain.width();
+      const auto part = [&](const Interval& x) {
+        return intersect(Interval(natural(x.lo) - beside, natural(x.hi) + beside), piece.domain);
+      };
+      for (const CurveFootZeros::Single& zero : zeros.single)
+        if (!polish(piece, natural(zero.near), part(zero.within))) zeros.undecided.push_back(zero.within);
+      std::sort(zeros.undecided.begin(), zeros.undecided.end(),
+                [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+      for (size_t k = 0; k < zeros.undecided.size();) {
+        Interval all = zeros.undecided[k++];
+        while (k < zeros.undecided.size() && zeros.undecided[k].lo <= all.hi) all = hull(all, zeros.undecided[k++]);
+        search(piece, part(all));
+      }
+      return;
+    }
+    if (!is_arc_about(system_of(piece), piece.degree)) return search(piece, piece.domain);
+    if (!result_.arcs.empty() && result_.arcs.back().hi == piece.domain.lo)
+      result_.arcs.back().hi = piece.domain.hi;
+    else
+      result_.arcs.push_back(piece.domain);
+  }
+
+  // The foot near t; false if Newton's iteration leads out of the part that holds one.
+  bool polish(const Piece& piece, double t, const Interval& part) {
+    const CurveSystem system = system_of(piece);
+    double before = kInfinity;
+    for (int step = 0; step < 20; ++step) {
+      const CurveJet r = system.jet(t);
+      const Vec3 way = p_ - r.d[0];
+      const double slope = glm::dot(way, r.d[2]) - glm::dot(r.d[1], r.d[1]), by = glm::dot(way, r.d[1]) / slope;
+      if (!part.contains(t - by)) return false;
+      t -= by;
+      const double length = std::abs(by) / domain_.width();
+      if (length <= 1e-15 || (length <= 1e-8 && length > 0.5 * before)) {
+        keep(t, glm::length(r.d[1]), 0, slope < 0 ? FootKind::minimum : FootKind::maximum);
+        return true;
+      }
+      before = length;
+    }
+    return false;
+  }
+
+  // By intervals.
+  void search(const Piece& piece, const Interval& part) {
+    const CurveSystem system = system_of(piece);
+    RootSearchOptions<1, 1> options;
+    options.least[0] = kLeastBox * domain_.width();
+    options.slack[0] = kBorderSlack * domain_.width();
+    const auto found = search_roots<1, 1>(system, ParameterBox<1>{part}, options);
+    for (const auto& at : found.isolated)
+      keep(at[0], speed(system, at[0]), 0,
+           system.evaluate(at).derivative[0][0] < 0 ? FootKind::minimum : FootKind::maximum);
+    for (const auto& box : found.open)
+      keep(box[0].middle(), speed(system, box[0].middle()), box[0].width(), FootKind::degenerate);
+  }
+  static double speed(const CurveSystem& system, double t) { return glm::length(system.jet(t).d[1]); }
+
+  void keep(double t, double speed, double width, FootKind kind) {
+    if (speed * domain_.width() > kNoDerivative * size_) return add(t, kind);
+    // A cusp: f vanishes whatever the direction.
+    const double beside = std::max(width, 1e-6 * domain_.width());
+    const auto distance = [&](double at) { return glm::length(p_ - on_.curve->point(domain_.clamp(at))); };
+    if (distance(t - beside) > distance(t) && distance(t + beside) > distance(t)) add(t, FootKind::border);
+  }
+
+  // Joints of pieces and ends: f falls from plus to minus there, or the curve ends on the rising side.
+  void add_joints() {
+    const std::vector<Piece>& pieces = on_.pieces;
+    for (size_t k = 0; k <= pieces.size(); ++k) {
+      const bool inner = k > 0 && k < pieces.size();
+      if (on_.closed && k == pieces.size()) break;
+      const Piece* before = k > 0 ? &pieces[k - 1] : on_.closed ? &pieces.back() : nullptr;
+      const Piece* behind = k < pieces.size() ? &pieces[k] : nullptr;
+      const double t = inner || k == 0 ? pieces[k].domain.lo : domain_.hi;
+      const auto falls = [&](const Piece* piece, bool at_end) {
+        if (!piece) return true;
+        const CurveJet& r = at_end ? piece->end : piece->begin;
+        const double f = glm::dot(p_ - r.d[0], r.d[1]);
+        const double rounding = 1e-14 * glm::length(p_ - r.d[0]) * glm::length(r.d[1]);
+        return at_end ? f > rounding : f < -rounding;
+      };
+      if (falls(before, true) && falls(behind, false)) add(t, FootKind::border);
+    }
+  }
+
+  const Vec3 p_;
+  const Prepared& on_;
+  const Interval domain_;
+  const double size_;
+  CurveFeet result_;
+};
+
+}  // namespace
+
+CurveProjector::CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces)
+    : prepared_(std::make_shared<Prepared>(std::move(curve), pieces)) {}
+CurveProjector::CurveProjector(CurvePtr curve) : CurveProjector(curve, curve->pieces()) {}
+
+CurveFeet CurveProjector::feet(const Vec3& point) const { return CurveProjection(point, *prepared_).run(); }
+
+CurveFeet project(const Vec3& point, const Curve& curve) {
+  return CurveProjector(CurvePtr(CurvePtr(), &curve)).feet(point);
+}
+
+}  // namespace lekalo::geometry

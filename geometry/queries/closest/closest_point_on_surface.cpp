@@ -1,0 +1,368 @@
+// Feet of a point on a surface (closest_point.h).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "geometry/curves/operations/parameter_line.h"
+#include "geometry/curves/operations/smooth_pieces.h"
+#include "geometry/numerics/root_search.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/foot_point_polynomials.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Boxes are not halved below this part of the domain: a double foot shows as a few of them.
+constexpr double kLeastBox = 1e-8;
+// A derivative below this part of the size over the width of the domain vanishes: a pole.
+constexpr double kNoDerivative = 1e-9;
+// What is not decided so near to a pole, in parts of the domain, belongs to the pole.
+constexpr double kAtPole = 1e-6;
+// Feet nearer than this part of the size are one, seen from both sides of a seam.
+constexpr double kSameFoot = 1e-11;
+
+// (p - s) . s_u = (p - s) . s_v = 0 (Golovanov 2016, (4.2.5)).
+struct SurfaceSystem {
+  const Vec3& p;
+  const Surface& surface;
+  Rectangle piece;
+
+  SurfaceJet jet(double u, double v) const { return evaluate_within(surface, piece, u, v, 2); }
+  SystemValue<Interval, 2, 2> enclose(const ParameterBox<2>& box) const {
+    const SurfaceEnclosure s = surface.enclose({box[0], box[1]}, 2);
+    const Box3 &r = s.d(0, 0), &u = s.d(1, 0), &v = s.d(0, 1);
+    const Interval mixed = product(p, r, s.d(1, 1)) - product(u, v);
+    return {{product(p, r, u), product(p, r, v)},
+            {{{product(p, r, s.d(2, 0)) - square(u), mixed}, {mixed, product(p, r, s.d(0, 2)) - square(v)}}}};
+  }
+  SystemValue<double, 2, 2> evaluate(const ParameterPlace<2>& at) const { return of(jet(at[0], at[1])); }
+  SystemValue<double, 2, 2> of(const SurfaceJet& s) const {
+    const Vec3 way = p - s.point();
+    const double mixed = glm::dot(way, s.duv()) - glm::dot(s.du(), s.dv());
+    return {{glm::dot(way, s.du()), glm::dot(way, s.dv())},
+            {{{glm::dot(way, s.duu()) - glm::dot(s.du(), s.du()), mixed},
+              {mixed, glm::dot(way, s.dvv()) - glm::dot(s.dv(), s.dv())}}}};
+  }
+};
+
+FootKind kind_of(const SystemValue<double, 2, 2>& at) {
+  const auto& j = at.derivative;  // minus half the second derivatives of the squared distance
+  const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+  const double scale = std::abs(j[0][0] * j[1][1]) + std::abs(j[0][1] * j[1][0]);
+  if (!(std::abs(determinant) > 1e-12 * scale)) return FootKind::degenerate;
+  if (determinant < 0) return FootKind::saddle;
+  return j[0][0] < 0 ? FootKind::minimum : FootKind::maximum;
+}
+
+// Whether an edge of the patch shrinks to a point: both equations vanish along it.
+bool has_collapsed_edge(const SurfacePiece& piece) {
+  const int p = piece.degree_u, q = piece.degree_v;
+  const auto at = [&](int i, int j) {
+    const Vec4& point = piece.points[i * (q + 1) + j];
+    return Vec3(point) / point.w;
+  };
+  Box3 all;
+  std::array<Box3, 4> edges;
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) {
+      const Vec3 point = at(i, j);
+      all.include(point);
+      if (i == 0) edges[0].include(point);
+      if (i == p) edges[1].include(point);
+      if (j == 0) edges[2].include(point);
+      if (j == q) edges[3].include(point);
+    }
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](const Box3& edge) { return edge.diameter() <= kNoDerivative * all.diameter(); });
+}
+
+}  // namespace
+
+struct SurfaceProjector::Prepared {
+  struct Piece {
+    Rectangle domain;
+    ParameterMap map_u, map_v;
+    std::optional<FootPolynomials> polynomials;
+  };
+  // An edge of the domain, or a line inside where the tangent plane jumps.
+  struct Line {
+    bool holds_u;
+    double place, below;  // the same line seen from below: across a seam another parameter
+    bool has_below, has_above;
+    std::optional<CurveProjector> feet;  // none of a pole
+  };
+  SurfacePtr surface;
+  Rectangle domain;
+  DegenerateEdges edges;
+  double size;
+  std::vector<Piece> pieces;
+  std::vector<Line> lines;
+
+  explicit Prepared(SurfacePtr given)
+      : surface(std::move(given)),
+        domain(surface->domain()),
+        edges(surface->degenerate_edges()),
+        size(std::max(bounds(*surface).diameter(), 1e-300)) {
+    const std::vector<SurfacePiece> given_pieces = surface->pieces();
+    for (const SurfacePiece& piece : given_pieces) {
+      Piece& own = pieces.emplace_back(Piece{piece.domain, piece.map_u, piece.map_v, {}});
+      if (piece.is_rational() && std::min(piece.degree_u, piece.degree_v) > 0 &&
+          std::max(piece.degree_u, piece.degree_v) <= FootPolynomials::kMostDegree && !has_collapsed_edge(piece))
+        own.polynomials.emplace(piece, Vec3(piece.points[0]) / piece.points[0].w);
+    }
+    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) add_lines(held, given_pieces);
+  }
+
+  // The derivative across a line, on the side towards less or greater parameters.
+  Vec3 across(bool holds_u, double place, double t, bool below) const {
+    const Interval& range = holds_u ? domain.u : domain.v;
+    const double beside = below ? within({range.lo, place}, place) : place;
+    const SurfaceJet s = holds_u ? surface->evaluate(beside, t, 1) : surface->evaluate(t, beside, 1);
+    return holds_u ? s.du() : s.dv();
+  }
+
+ private:
+  void add_lines(HeldParameter held, const std::vector<SurfacePiece>& given_pieces) {
+    const bool holds_u = held == HeldParameter::u;
+    const Interval& range = holds_u ? domain.u : domain.v;
+    const Interval& other = holds_u ? domain.v : domain.u;
+    const Periods periods = surface->periods();
+    const double period = holds_u ? periods.u : periods.v;
+    const bool periodic = period > 0 && std::abs(period - range.width()) <= kDomainSlack * range.width();
+    std::vector<double> places;
+    for (const Piece& piece : pieces) places.push_back(holds_u ? piece.domain.u.lo : piece.domain.v.lo);
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    places.push_back(range.hi);
+    for (size_t k = 0; k < places.size(); ++k) {
+      const double place = places[k];
+      const bool first = k == 0, last = k + 1 == places.size();
+      if (periodic && last) continue;
+      Line line{holds_u, place, first ? range.hi : place, !first || periodic, !last, {}};
+      const auto jumps = [&](double t) {
+        const Vec3 a = across(holds_u, line.below, t, true), b = across(holds_u, place, t, false);
+        return glm::length(a - b) > 1e-9 * (glm::length(a) + glm::length(b));
+      };
+      if (line.has_below && line.has_above) {
+        bool crease = false;
+        for (int i = 0; i <= 8; ++i) crease = crease || jumps(other.lo + other.width() * i / 8);
+        if (!crease) continue;
+      }
+      const auto curve = std::make_shared<ParameterLine>(surface, held, place);
+      if (bounds(*curve).diameter() > kCollapsedEdge * size)
+        line.feet.emplace(curve, pieces_along(holds_u, place, last, given_pieces, *curve));
+      lines.push_back(std::move(line));
+    }
+  }
+
+  // As rational pieces if the patches beside the line are.
+  static std::vector<CurvePiece> pieces_along(bool holds_u, double place, bool upper,
+                                              const std::vector<SurfacePiece>& patches, const Curve& line) {
+    std::vector<CurvePiece> result;
+    for (const SurfacePiece& patch : patches) {
+      const Interval& across = holds_u ? patch.domain.u : patch.domain.v;
+      if ((upper ? across.hi : across.lo) != place) continue;
+      if (!patch.is_rational()) return line.pieces();
+      CurvePiece piece{holds_u ? patch.domain.v : patch.domain.u, holds_u ? patch.map_v : patch.map_u, {}};
+      const int p = patch.degree_u, q = patch.degree_v, held = !upper ? 0 : holds_u ? p : q;
+      for (int k = 0; k <= (holds_u ? q : p); ++k)
+        piece.points.push_back(patch.points[holds_u ? held * (q + 1) + k : k * (q + 1) + held]);
+      result.push_back(std::move(piece));
+    }
+    std::sort(result.begin(), result.end(),
+              [](const CurvePiece& a, const CurvePiece& b) { return a.domain.lo < b.domain.lo; });
+    return result;
+  }
+};
+
+namespace {
+
+// All feet of one point, gathered.
+template <class Prepared>
+class SurfaceProjection {
+ public:
+  using Piece = typename Prepared::Piece;
+  using Line = typename Prepared::Line;
+  SurfaceProjection(const Vec3& p, const Prepared& on)
+      : p_(p), on_(on), surface_(*on.surface), domain_(on.domain), size_(on.size) {}
+
+  SurfaceFeet run() {
+    for (const Piece& piece : on_.pieces) search(piece);
+    for (const Line& line : on_.lines) add_line(line);
+    std::sort(result_.feet.begin(), result_.feet.end(), [](const SurfaceFoot& a, const SurfaceFoot& b) {
+      if (a.distance != b.distance) return a.distance < b.distance;
+      return a.u != b.u ? a.u < b.u : a.v < b.v;
+    });
+    return std::move(result_);
+  }
+
+ private:
+  void add(double u, double v, FootKind kind) {
+    const Vec3 at = surface_.point(u, v);
+    for (const SurfaceFoot& other : result_.feet)
+      if (glm::length(other.point - at) <= kSameFoot * size_ && are_one(other, u, v)) return;
+    result_.feet.push_back({u, v, at, glm::length(p_ - at), kind});
+  }
+
+  // One place of the parameters, or both sides of a seam: a surface may pass through one point several times.
+  bool are_one(const SurfaceFoot& a, double u, double v) const {
+    const auto near = [](double x, double y, const Interval& range) {
+      const double apart = std::abs(x - y) / range.width();
+      return apart <= 1e-6 || apart >= 1 - 1e-6;
+    };
+    return near(a.u, u, domain_.u) && near(a.v, v, domain_.v);
+  }
+
+  bool is_singular(const SurfaceJet& s) const {
+    return glm::length(s.du()) * domain_.u.width() <= kNoDerivative * size_ ||
+           glm::length(s.dv()) * domain_.v.width() <= kNoDerivative * size_;
+  }
+
+  // Both equations hold all along an edge that is one point: see add_pole.
+  static bool is_at_pole(const Interval& box, const Interval& range, bool pole_below, bool pole_above) {
+    const double near = kAtPole * range.width();
+    return (pole_below && box.hi <= range.lo + near) || (pole_above && box.lo >= range.hi - near);
+  }
+
+  void search(const Piece& piece) {
+    SurfaceFootZeros zeros;
+    if (!piece.polynomials || !piece.polynomials->isolate(p_, zeros)) return search(piece.domain, piece.domain);
+    const auto part = [](const Interval& x, const ParameterMap& map, const Interval& domain) {
+      const double beside = kBorderSlack * domain.width();
+      return intersect(Interval(map.natural_of_bezier(x.lo) - beside, map.natural_of_bezier(x.hi) + beside), domain);
+    };
+    std::vector<ParameterBox<2>> undecided;
+    const auto part_of = [&](const Rectangle& x) {
+      return Rectangle{part(x.u, piece.map_u, piece.domain.u), part(x.v, piece.map_v, piece.domain.v)};
+    };
+    for (const Rectangle& box : zeros.undecided) undecided.push_back({part_of(box).u, part_of(box).v});
+    for (const SurfaceFootZeros::Single& zero : zeros.single) {
+      const Rectangle within = part_of(zero.within);
+      if (!polish(piece.domain, within, piece.map_u.natural_of_bezier(zero.near[0]),
+                  piece.map_v.natural_of_bezier(zero.near[1])))
+        undecided.push_back({within.u, within.v});
+    }
+    for (const ParameterBox<2>& box : joined_boxes<2>(undecided, {0, 0})) search(piece.domain, {box[0], box[1]});
+  }
+
+  // The foot near (u, v); false if Newton's iteration leads out of the part that holds one.
+  bool polish(const Rectangle& piece, const Rectangle& part, double u, double v) {
+    const SurfaceSystem system{p_, surface_, piece};
+    double before = kInfinity;
+    for (int step = 0; step < 20; ++step) {
+      const SurfaceJet s = system.jet(u, v);
+      const SystemValue<double, 2, 2> there = system.of(s);
+      std::array<std::array<double, 2>, 2> inverse;
+      if (!root_search::invert<2>(there.derivative, inverse)) return false;
+      const double du = inverse[0][0] * there.value[0] + inverse[0][1] * there.value[1],
+                   dv = inverse[1][0] * there.value[0] + inverse[1][1] * there.value[1];
+      if (!part.contains(u - du, v - dv)) return false;
+      u -= du, v -= dv;
+      const double length = std::max(std::abs(du) / domain_.u.width(), std::abs(dv) / domain_.v.width());
+      if (length <= 1e-15 || (length <= 1e-8 && length > 0.5 * before)) {
+        if (!is_singular(s)) add(u, v, kind_of(there));
+        return true;
+      }
+      before = length;
+    }
+    return false;
+  }
+
+  // By intervals.
+  void search(const Rectangle& piece, const Rectangle& part) {
+    const SurfaceSystem system{p_, surface_, piece};
+    RootSearchOptions<2, 2> options;
+    options.least = {kLeastBox * domain_.u.width(), kLeastBox * domain_.v.width()};
+    options.slack = {kBorderSlack * domain_.u.width(), kBorderSlack * domain_.v.width()};
+    const auto found = search_roots<2, 2>(system, ParameterBox<2>{part.u, part.v}, options);
+    for (const auto& at : found.isolated)
+      if (!is_singular(system.jet(at[0], at[1]))) add(at[0], at[1], kind_of(system.evaluate(at)));
+    const DegenerateEdges& edges = on_.edges;
+    for (const auto& box : found.open) {
+      const double u = box[0].middle(), v = box[1].middle();
+      if (is_at_pole(box[0], domain_.u, edges.u_min, edges.u_max) ||
+          is_at_pole(box[1], domain_.v, edges.v_min, edges.v_max))
+        continue;
+      if (box[0].width() > 1e3 * options.least[0] || box[1].width() > 1e3 * options.least[1])
+        result_.regions.push_back({box[0], box[1]});
+      add(u, v, FootKind::degenerate);
+    }
+  }
+
+  // Edges of the domain, and lines inside where the tangent plane jumps.
+  void add_line(const Line& line) {
+    if (!line.feet) return add_pole(line.holds_u, line.place, line.holds_u ? domain_.v : domain_.u, line.has_above);
+    for (const CurveFoot& foot : line.feet->feet(p_).feet) {
+      if (foot.kind == FootKind::maximum) continue;
+      const Vec3 way = p_ - foot.point;
+      const double rounding = 1e-14 * glm::length(way);
+      const auto slope = [&](const Vec3& d) { return glm::dot(way, d) / std::max(glm::length(d), 1e-300); };
+      const bool holds_u = line.holds_u;
+      if (line.has_below && !(slope(on_.across(holds_u, line.below, foot.t, true)) > rounding)) continue;
+      if (line.has_above && !(slope(on_.across(holds_u, line.place, foot.t, false)) < -rounding)) continue;
+      holds_u ? add(line.place, foot.t, FootKind::border) : add(foot.t, line.place, FootKind::border);
+    }
+  }
+
+  // All parameters of the edge are one point: a foot where the way to it is normal to the surface, a border where the
+  // distance grows in all directions.
+  void add_pole(bool holds_u, double place, const Interval& other, bool begins) {
+    const auto jet = [&](double t) {
+      return holds_u ? surface_.evaluate(place, t, 2) : surface_.evaluate(t, place, 2);
+    };
+    const Vec3 way = p_ - jet(other.lo).point();
+    double steepest = -kInfinity, flattest = kInfinity;
+    constexpr int kPlaces = 256;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const SurfaceJet s = jet(other.lo + other.width() * k / kPlaces);
+      Vec3 inward = holds_u ? s.du() : s.dv();
+      if (!begins) inward = -inward;
+      const double length = glm::length(inward);
+      if (!(length > 0)) continue;
+      const double slope = glm::dot(way, inward) / length;
+      steepest = std::max(steepest, slope);
+      flattest = std::min(flattest, slope);
+    }
+    const double rounding = 1e-12 * std::max(glm::length(way), size_);
+    const double t = other.lo;
+    const auto keep = [&](FootKind kind) { holds_u ? add(place, t, kind) : add(t, place, kind); };
+    if (std::max(std::abs(steepest), std::abs(flattest)) <= rounding)
+      keep(FootKind::degenerate);
+    else if (steepest < -rounding)
+      keep(FootKind::border);
+  }
+
+  const Vec3 p_;
+  const Prepared& on_;
+  const Surface& surface_;
+  const Rectangle domain_;
+  const double size_;
+  SurfaceFeet result_;
+};
+
+}  // namespace
+
+SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
+  if (surface->bounded())
+    prepared_ = std::make_shared<Prepared>(std::move(surface));
+  else if (const auto plane = std::dynamic_pointer_cast<const Plane>(surface); plane && plane->is_whole())
+    plane_ = plane;
+  else
+    throw std::invalid_argument("the surface is unbounded: give it a domain to project on");
+}
+
+SurfaceFeet SurfaceProjector::feet(const Vec3& point) const {
+  if (!plane_) return SurfaceProjection(point, *prepared_).run();
+  const Vec3 local = plane_->frame().to_local_point(point);
+  return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootKind::minimum}}, {}};
+}
+
+SurfaceFeet project(const Vec3& point, const Surface& surface) {
+  return SurfaceProjector(SurfacePtr(SurfacePtr(), &surface)).feet(point);
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,15 @@
+// Minima that are not isolated: many places that are as near become one minimum with ranges.
+#pragma once
+
+#include "geometry/queries/closest/distance_search.h"
+
+namespace lekalo::geometry {
+
+// `flats`: pairs of parallel elements that are straight or plane, which are not searched: what is nearest on them
+// reaches to their borders. The places found there become one minimum of the pair.
+void absorb_in_flats(std::vector<ElementPair> flats, double size, std::vector<FoundMinimum>& found);
+
+// Parts of one such minimum on neighbouring elements become one; a border of it is not another.
+void join_families(double size, std::vector<FoundMinimum>& found);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,307 @@
+#include "geometry/queries/contours/analytic/profile_sections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/operations/curve_parts.h"
+#include "geometry/formula.h"
+#include "geometry/queries/contours/analytic/canonical_surface.h"
+#include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/surfaces/analytic/parameter_range.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
+#include "geometry/transformed.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
+// Planes that are less than this from parallel to a direction, but not within rounding, are the search's.
+constexpr double kNearlyParallel = 1e-6;
+// Of the size: shorter parts are the search's.
+constexpr double kShort = 1e-6;
+
+// linear c(t) + t rate + offset over a part of c.
+class AffineImage final : public Curve {
+ public:
+  AffineImage(CurvePtr of, const Interval& t, const Affine& map, const Vec3& rate = Vec3(0))
+      : of_(std::move(of)), t_(t), map_(map), rate_(rate) {}
+
+  Interval domain() const override { return t_; }
+  CurveJet evaluate(double t, int order) const override {
+    CurveJet jet = of_->evaluate(t, order);
+    jet.d[0] = map_.point(jet.d[0]) + t * rate_;
+    for (int k = 1; k <= order; ++k) jet.d[k] = map_.direction(jet.d[k]);
+    if (order >= 1) jet.d[1] += rate_;
+    return jet;
+  }
+  CurveEnclosure enclose(const Interval& t, int order) const override {
+    CurveEnclosure result = TransformedCurve(of_, map_).enclose(t, order);
+    result.d[0] = box_of(triple(result.d[0]) + t * triple(rate_));
+    if (order >= 1) result.d[1] = box_of(triple(result.d[1]) + triple(rate_));
+    return result;
+  }
+  std::vector<CurvePiece> pieces() const override {
+    std::vector<CurvePiece> result;
+    for (const Interval& part : parts_of(*of_, t_)) {
+      CurvePiece piece;
+      piece.domain = part;
+      piece.map = {ParameterMap::Kind::affine, part.lo, part.hi};
+      result.push_back(piece);
+    }
+    return result;
+  }
+
+ private:
+  CurvePtr of_;
+  Interval t_;
+  Affine map_;
+  Vec3 rate_;
+};
+
+// p -> (row_x . p + offset.x, row_y . p + offset.y, 0).
+Affine functionals(const Vec3& row_x, const Vec3& row_y, const Vec3& offset) {
+  return {glm::transpose(Mat3(row_x, row_y, Vec3(0))), offset};
+}
+
+// The coordinates of a bounded plane.
+struct PlaneCoordinates {
+  Affine map{Mat3(0.0), Vec3(0)};
+  Rectangle domain;
+  explicit PlaneCoordinates(const CanonicalSurface& plane) : domain(plane.surface->domain()) {
+    const Mat3 rows = glm::transpose(plane.to_local);
+    map = functionals(rows[0], rows[1], -(plane.to_local * plane.origin));
+    map.offset.z = 0;
+  }
+  bool holds(const Vec3& p) const {
+    const Vec3 q = map.point(p);
+    return within(domain.u, q.x) && within(domain.v, q.y);
+  }
+};
+
+class Section {
+ public:
+  // `v_range` of the surface.
+  Section(const CuttingPlane& plane, const Interval& v_range, double size)
+      : plane_(plane), v_range_(v_range), size_(size) {
+    height_ = glm::dot(plane.normal, plane.origin);
+    if (plane.bounded)
+      if (const auto known = canonical(plane.bounded)) coordinates_.emplace(*known);
+  }
+
+  bool of(const ExtrusionSurface& surface, const Affine& map) {
+    const CurvePtr curve = transformed(surface.curve(), map);
+    const Vec3 d = map.direction(surface.along());
+    const Rectangle domain = surface.domain();
+    const double slope = glm::dot(plane_.normal, d), sine = std::abs(slope) / glm::length(d);
+    if (sine <= kRounding)
+      return each_meeting(*curve, domain.u, [&](double u, ContourKind kind) {
+        const Vec3 from = curve->point(u);
+        // The segment's parameter is the share of [v.lo, v.hi].
+        const auto line = std::make_shared<Segment>(from + domain.v.lo * d, from + domain.v.hi * d);
+        return add_parts(line, line->domain(), Affine(), functionals(Vec3(0), Vec3(0), {u, domain.v.lo, 0}),
+                         {0, domain.v.width(), 0}, {}, false, kind);
+      });
+    if (sine < kNearlyParallel) return false;
+    // p - d (n . p - h)/(n . d), and v = (h - n . c)/(n . d).
+    const Vec3 n = plane_.normal;
+    Mat3 linear(1.0);
+    for (int column = 0; column < 3; ++column) linear[column] -= d * (n[column] / slope);
+    const Affine along{linear, d * (height_ / slope)};
+    const std::vector<Limit> limits{{n, height_ - domain.v.lo * slope}, {n, height_ - domain.v.hi * slope}};
+    const bool closed = is_whole(*curve, domain.u);
+    return add_parts(curve, domain.u, along, functionals(Vec3(0), -n / slope, {0, height_ / slope, 0}), {1, 0, 0},
+                     limits, closed, ContourKind::crossing);
+  }
+
+  bool of(const RevolutionSurface& surface, const Affine& map) {
+    if (!keeps_angles(map.linear)) return false;
+    const CurvePtr curve = transformed(surface.curve(), map);
+    const Axis axis = surface.axis();
+    // A mirror turns the other way round.
+    const Vec3 along = glm::normalize(map.direction(axis.along));
+    const Frame frame = frame_about(map.point(axis.through), map.determinant() > 0 ? along : -along);
+    const Rectangle domain = surface.domain();
+    const double cosine = std::abs(glm::dot(plane_.normal, frame.z));
+    const double sine = glm::length(glm::cross(plane_.normal, frame.z));
+    if (sine <= kRounding)
+      return each_meeting(*curve, domain.u, [&](double u, ContourKind kind) {
+        const Vec3 from = curve->point(u) - frame.origin;
+        const Vec3 out = from - glm::dot(from, frame.z) * frame.z;
+        const double radius = glm::length(out);
+        if (!(radius > kShort * size_)) return false;
+        Frame at;
+        at.origin = frame.origin + (from - out);
+        at.x = out / radius;
+        at.z = frame.z;
+        at.y = glm::cross(at.z, at.x);
+        const auto circle = std::make_shared<Circle>(at, radius, domain.v);
+        return add_parts(circle, domain.v, Affine(), functionals(Vec3(0), Vec3(0), {u, 0, 0}), {0, 1, 0}, {},
+                         domain.v.width() >= kTwoPi, kind);
+      });
+    if (cosine > kRounding || std::abs(height_ - glm::dot(plane_.normal, frame.origin)) > kRounding * size_)
+      return false;
+    return turned_profiles(curve, frame, domain);
+  }
+
+  Contours found;
+
+ private:
+  // normal . c(t) = height bounds a part.
+  struct Limit {
+    Vec3 normal;
+    double height;
+  };
+
+  static bool keeps_angles(const Mat3& m) {
+    const Mat3 square = glm::transpose(m) * m;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (std::abs(square[i][j] - (i == j ? square[0][0] : 0)) > kRounding * square[0][0]) return false;
+    return true;
+  }
+  static bool is_whole(const Curve& curve, const Interval& t) {
+    return curve.period() > 0 && t.width() >= curve.period() * (1 - 1e-15);
+  }
+
+  // Where the profile meets the plane.
+  template <class Use>
+  bool each_meeting(const Curve& curve, const Interval& u, Use&& use) {
+    const Plane plane(frame_about(height_ * plane_.normal, plane_.normal));
+    const SurfaceMeetings meetings = intersect(curve, plane);
+    if (!meetings.on_surface.empty()) return false;
+    for (const SurfaceMeeting& meeting : meetings.points) {
+      const auto inside = within(u, meeting.t);
+      if (!inside) continue;
+      if (meeting.contact && meeting.distance > kRounding * size_) return false;
+      if (!use(*inside, meeting.contact ? ContourKind::touching : ContourKind::crossing)) return false;
+    }
+    return true;
+  }
+
+  // The profile is plane with the axis: turned into the plane it is the section, on both sides of the axis.
+  bool turned_profiles(const CurvePtr& curve, const Frame& frame, const Rectangle& domain) {
+    const auto form = curve->as_nurbs();
+    if (!form) return false;
+    Vec3 out(0);
+    for (const Vec4& p : form->points) {
+      const Vec3 off = Vec3(p) / p.w - frame.origin, across = off - glm::dot(off, frame.z) * frame.z;
+      if (glm::length(across) > glm::length(out)) out = across;
+    }
+    const Vec3 x = glm::normalize(out), side = glm::cross(frame.z, x);
+    for (const Vec4& p : form->points) {
+      const Vec3 off = Vec3(p) / p.w - frame.origin;
+      if (std::abs(glm::dot(off, side)) > kRounding * size_) return false;
+      // On the axis both halves would be one.
+      if (!(std::abs(glm::dot(off, x)) > kShort * size_)) return false;
+    }
+    const Vec3 target = glm::normalize(glm::cross(plane_.normal, frame.z));
+    const double angle = std::atan2(glm::dot(target, side), glm::dot(target, x));
+    for (const double turn : {angle, angle > 0 ? angle - kPi : angle + kPi}) {
+      const auto v = angle_within(domain.v, turn);
+      if (!v) continue;
+      const Affine rotation = Affine::rotation(*v, frame.z, frame.origin);
+      if (!add_parts(curve, domain.u, rotation, functionals(Vec3(0), Vec3(0), {0, *v, 0}), {1, 0, 0}, {},
+                     is_whole(*curve, domain.u), ContourKind::crossing))
+        return false;
+    }
+    return true;
+  }
+
+  // Adds the parts of map(curve) between the limits and inside of the bounded plane; `image` and `rate` give u and v
+  // from the curve.
+  bool add_parts(const CurvePtr& curve, const Interval& t, const Affine& map, const Affine& image, const Vec3& rate,
+                 std::vector<Limit> limits, bool closed, ContourKind kind) {
+    if (coordinates_) {
+      const Mat3 rows = glm::transpose(coordinates_->map.linear);
+      for (int axis = 0; axis < 2; ++axis) {
+        // row . (map c) + offset = border.
+        const Vec3 row = glm::transpose(map.linear) * rows[axis];
+        const double fixed = glm::dot(rows[axis], map.offset) + coordinates_->map.offset[axis];
+        const Interval& range = axis == 0 ? coordinates_->domain.u : coordinates_->domain.v;
+        for (const double border : {range.lo, range.hi}) limits.push_back({row, border - fixed});
+      }
+    }
+    const auto parts = between(*curve, t, limits, closed, [&](double at) {
+      const Vec3 place = image.point(curve->point(at)) + at * rate;
+      return within(v_range_, place.y) && (!coordinates_ || coordinates_->holds(map.point(curve->point(at))));
+    });
+    if (!parts) return false;
+    for (const Interval& part : *parts) {
+      const bool whole = part.lo == t.lo && part.hi == t.hi;
+      Contour branch;
+      branch.kind = kind;
+      branch.closed = whole && closed;
+      branch.curve = whole && part.width() == curve->domain().width() ? transformed(curve, map)
+                                                                      : std::make_shared<AffineImage>(curve, part, map);
+      branch.images.push_back(std::make_shared<AffineImage>(curve, part, image, rate));
+      if (coordinates_) branch.images.push_back(std::make_shared<AffineImage>(curve, part, coordinates_->map * map));
+      found.branches.push_back(std::move(branch));
+    }
+    return true;
+  }
+
+  // The parts of t, cut where the limits are met, whose middles are inside.
+  template <class Inside>
+  std::optional<std::vector<Interval>> between(const Curve& curve, const Interval& t, const std::vector<Limit>& limits,
+                                               bool closed, Inside&& inside) const {
+    std::vector<double> cuts{t.lo, t.hi};
+    for (const Limit& limit : limits) {
+      const double length = glm::length(limit.normal);
+      if (!(length > kNearlyParallel)) continue;
+      const Vec3 n = limit.normal / length;
+      const Plane plane(frame_about(limit.height / length * n, n));
+      const SurfaceMeetings meetings = intersect(curve, plane);
+      for (const SurfaceMeeting& meeting : meetings.points) {
+        if (meeting.contact) return std::nullopt;
+        if (meeting.t > t.lo && meeting.t < t.hi) cuts.push_back(meeting.t);
+      }
+      if (!meetings.on_surface.empty()) return std::nullopt;
+    }
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<Interval> kept;
+    for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const Interval part{cuts[k], cuts[k + 1]};
+      if (!(part.width() > 0) || !inside(part.middle())) continue;
+      if (!kept.empty() && kept.back().hi == part.lo)
+        kept.back().hi = part.hi;
+      else
+        kept.push_back(part);
+    }
+    // A branch over the seam of a closed profile.
+    if (closed && kept.size() > 1 && kept.front().lo == t.lo && kept.back().hi == t.hi) return std::nullopt;
+    for (const Interval& part : kept)
+      if (!(glm::length(curve.point(part.hi) - curve.point(part.middle())) > kShort * size_)) return std::nullopt;
+    return kept;
+  }
+
+  const CuttingPlane& plane_;
+  Interval v_range_;
+  double size_, height_ = 0;
+  std::optional<PlaneCoordinates> coordinates_;
+};
+
+}  // namespace
+
+std::optional<Contours> profile_section(const SurfacePtr& surface, const CuttingPlane& plane, double size) {
+  const Surface* original = surface.get();
+  Affine map;
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(original)) {
+    original = moved->original().get();
+    map = moved->map();
+  }
+  Section section(plane, surface->domain().v, size);
+  bool known = false;
+  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(original))
+    known = section.of(*extrusion, map);
+  else if (const auto* revolution = dynamic_cast<const RevolutionSurface*>(original))
+    known = section.of(*revolution, map);
+  if (!known) return std::nullopt;
+  return std::move(section.found);
+}
+
+}  // namespace lekalo::geometry

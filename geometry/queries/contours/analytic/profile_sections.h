@@ -1,0 +1,26 @@
+// Sections of extrusions and surfaces of revolution by planes that need no search but for the roots of the profile
+// (Golovanov 2016, 4.7c):
+//
+//   extrusion along d, plane n . p = h with n . d != 0   the profile moved along d, v(u) = (h - n . c(u)) / (n . d)
+//   extrusion along the plane                           straight lines from the points of the profile in the plane
+//   revolution, plane across the axis                   circles through the points of the profile in the plane
+//   revolution, plane through the axis                  the profile turned into the plane, if it is plane itself
+#pragma once
+
+#include <optional>
+
+#include "geometry/queries/contours/contours.h"
+
+namespace lekalo::geometry {
+
+// The rectangle of a bounded plane that cuts, with the plane's images; without it there is one image.
+struct CuttingPlane {
+  Vec3 origin{0}, normal{0, 0, 1};
+  SurfacePtr bounded;
+};
+
+// Nothing for other surfaces, and where the profile touches the plane's or its own borders, or the plane along a part.
+// `size` is that of both.
+std::optional<Contours> profile_section(const SurfacePtr& surface, const CuttingPlane& plane, double size);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,327 @@
+// Every contour of a face's whole surface is cut where the face's edges cross what makes the contour: the plane, the
+// other surface (by geometry/queries/intersections/curve_intersections.h, none lost). Between two such places it lies
+// in the face altogether or not at all: its middle decides. Silhouettes have no surface to cross: there the edges'
+// images are met in the parameter plane.
+#include "geometry/queries/contours/body_contours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "geometry/bodies/trims/trim.h"
+#include "geometry/queries/contours/contour_curve.h"
+#include "geometry/surfaces/analytic/plane.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Parts of the size.
+constexpr double kSameCut = 1e-9;
+constexpr double kSameJoint = 1e-8;
+// Of the parameters of a face's border.
+constexpr double kOnBorder = 1e-9;
+
+// A contour as a polygon, to look up its points.
+class MeasuredContour {
+ public:
+  explicit MeasuredContour(const Contour& contour) : contour_(contour) {
+    // Pieces of contours that were searched are short and their own parts of the polygon.
+    constexpr int kPartsOfOthers = 16;
+    const int parts = is_searched(*contour.curve) ? 1 : kPartsOfOthers;
+    ends_.push_back(contour.curve->domain().lo);
+    for (const CurvePiece& piece : contour.curve->pieces())
+      for (int k = 1; k <= parts; ++k)
+        ends_.push_back(k == parts ? piece.domain.hi : piece.domain.lo + piece.domain.width() * k / parts);
+    double length = 0;
+    for (const double t : ends_) {
+      corners_.push_back(contour.curve->point(t));
+      if (corners_.size() > 1) length += glm::length(corners_.back() - corners_[corners_.size() - 2]);
+    }
+    speed_ = length / contour.curve->domain().width();
+  }
+  // Length by parameter, in the mean.
+  double speed() const { return speed_; }
+
+  // The parameter of a point on it; nothing where it is farther than `near` from it.
+  std::optional<double> place_of(const Vec3& p, double near) const {
+    double best = kInfinity, t = 0;
+    for (size_t k = 0; k + 1 < corners_.size(); ++k) {
+      const Vec3 chord = corners_[k + 1] - corners_[k];
+      const double length = glm::length(chord);
+      const double height = std::clamp(glm::dot(p - corners_[k], chord) / length, 0.0, length);
+      const double apart = glm::length(corners_[k] + height / length * chord - p);
+      if (apart < best) best = apart, t = ends_[k] + height / length * (ends_[k + 1] - ends_[k]);
+    }
+    // The chord's height is the parameter of what was searched; of others it starts Newton's iteration.
+    const Interval domain = contour_.curve->domain();
+    constexpr int kSteps = 6;
+    CurveJet at = contour_.curve->evaluate(t, 1);
+    for (int step = 0; step < kSteps; ++step) {
+      const double off = glm::dot(p - at.d[0], at.d[1]) / glm::dot(at.d[1], at.d[1]);
+      if (!(std::abs(off) * speed_ > 1e-3 * near)) break;
+      t += off;
+      if (contour_.closed)
+        t -= domain.width() * std::floor((t - domain.lo) / domain.width());
+      else
+        t = domain.clamp(t);
+      at = contour_.curve->evaluate(t, 1);
+    }
+    if (!(glm::length(at.d[0] - p) <= near)) return std::nullopt;
+    return t;
+  }
+
+ private:
+  const Contour& contour_;
+  std::vector<double> ends_;
+  std::vector<Vec3> corners_;
+  double speed_ = 1;
+};
+
+struct FaceOf {
+  const Body* body = nullptr;
+  int face = -1;
+  std::shared_ptr<const TrimRegion> trim;
+
+  FaceOf(const Body& body, int face) : body(&body), face(face), trim(trim_of(body, face)) {}
+  const Face& operator*() const { return body->faces[face]; }
+  const Face* operator->() const { return &body->faces[face]; }
+  bool holds(const Vec3& uv) const { return !trim || trim->contains(uv.x, uv.y, kOnBorder); }
+  // Its edges but for seams and poles.
+  std::vector<int> edges() const {
+    std::vector<int> result;
+    for (const int loop : body->faces[face].loops)
+      for (const int c : body->loops[loop].coedges) {
+        const int edge = body->coedges[c].edge;
+        if (body->edges[edge].kind == EdgeKind::regular &&
+            std::find(result.begin(), result.end(), edge) == result.end())
+          result.push_back(edge);
+      }
+    return result;
+  }
+};
+
+class Joining {
+ public:
+  explicit Joining(double size) : size_(size) {}
+
+  // The stretches of a contour between the cuts that `holds` keeps.
+  void add(const Contour& contour, const std::vector<Vec3>& cuts, int face, int other_face,
+           const std::function<bool(double)>& holds) {
+    const Interval domain = contour.curve->domain();
+    const MeasuredContour measured(contour);
+    const double same = kSameCut * size_ / measured.speed();
+    std::vector<double> places;
+    for (const Vec3& cut : cuts)
+      if (const auto t = measured.place_of(cut, kSameJoint * size_)) places.push_back(*t);
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
+                 places.end());
+    if (!contour.closed) {
+      places.insert(places.begin(), domain.lo);
+      places.push_back(domain.hi);
+    } else if (places.empty()) {
+      if (holds(domain.middle())) {
+        BodyContourPart part{
+            contour, domain, false, face, other_face, contour.curve->point(domain.lo), contour.curve->point(domain.lo)};
+        whole_.push_back({{std::move(part)}, true});
+      }
+      return;
+    } else {
+      places.push_back(places.front() + domain.width());
+    }
+    for (size_t k = 0; k + 1 < places.size(); ++k) {
+      const Interval t{places[k], places[k + 1]};
+      const double middle = t.middle() > domain.hi ? t.middle() - domain.width() : t.middle();
+      if (!(t.width() > same) || !holds(middle)) continue;
+      parts_.push_back({contour, t, false, face, other_face, contour.curve->point(t.lo), contour.curve->point(t.hi)});
+    }
+  }
+
+  BodyContours joined() {
+    BodyContours result;
+    result.branches = std::move(whole_);
+    result.points = std::move(points);
+    result.complete = complete;
+    result.coincident = coincident;
+    drop_doubles();
+    std::vector<bool> used(parts_.size(), false);
+    // Open branches from an end that no other part has, then loops.
+    for (const bool open : {true, false})
+      for (size_t k = 0; k < parts_.size(); ++k) {
+        if (used[k]) continue;
+        const bool from_begin = neighbour(k, parts_[k].begin, used) < 0,
+                   from_end = neighbour(k, parts_[k].end, used) < 0;
+        if (open && !from_begin && !from_end) continue;
+        result.branches.push_back(chain(k, open && !from_begin, used));
+      }
+    return result;
+  }
+
+  std::vector<ContourPoint> points;
+  bool complete = true, coincident = false;
+
+ private:
+  bool same(const Vec3& a, const Vec3& b) const { return glm::length(a - b) <= kSameJoint * size_; }
+
+  // Along a common edge both faces have the contour.
+  void drop_doubles() {
+    for (size_t k = 0; k < parts_.size(); ++k)
+      for (size_t i = k + 1; i < parts_.size();) {
+        const BodyContourPart &a = parts_[k], &b = parts_[i];
+        const bool ends =
+            (same(a.begin, b.begin) && same(a.end, b.end)) || (same(a.begin, b.end) && same(a.end, b.begin));
+        bool doubled = false;
+        if (ends && a.face != b.face) {
+          const MeasuredContour other(a.contour);
+          doubled = other.place_of(b.contour.curve->point(b.t.middle()), kSameJoint * size_).has_value();
+        }
+        if (doubled)
+          parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
+        else
+          ++i;
+      }
+  }
+
+  int neighbour(size_t of, const Vec3& p, const std::vector<bool>& used) const {
+    for (size_t k = 0; k < parts_.size(); ++k)
+      if (k != of && !used[k] && (same(parts_[k].begin, p) || same(parts_[k].end, p))) return static_cast<int>(k);
+    return -1;
+  }
+
+  BodyContour chain(size_t first, bool backwards, std::vector<bool>& used) const {
+    BodyContour branch;
+    int k = static_cast<int>(first);
+    while (k >= 0) {
+      used[k] = true;
+      BodyContourPart part = parts_[k];
+      part.backwards = backwards;
+      if (backwards) std::swap(part.begin, part.end);
+      branch.parts.push_back(part);
+      if (same(part.end, branch.parts.front().begin)) {
+        branch.closed = true;
+        break;
+      }
+      k = neighbour(k, part.end, used);
+      if (k >= 0) backwards = same(parts_[k].end, part.end) && !same(parts_[k].begin, part.end);
+    }
+    return branch;
+  }
+
+  double size_;
+  std::vector<BodyContourPart> parts_;
+  std::vector<BodyContour> whole_;
+};
+
+// Singular points inside of the faces; where contours of whole surfaces end those of bodies may go on.
+void keep_points(Joining& joining, const Contours& found, const FaceOf& face, const FaceOf* other) {
+  joining.complete = joining.complete && found.complete;
+  joining.coincident = joining.coincident || found.coincident;
+  for (const ContourPoint& point : found.points) {
+    if (point.kind == ContourPointKind::end) continue;
+    if (point.parameters.size() < 2 || !face.holds({point.parameters[0], point.parameters[1], 0})) continue;
+    if (other && point.parameters.size() == 4 && !other->holds({point.parameters[2], point.parameters[3], 0})) continue;
+    joining.points.push_back(point);
+  }
+}
+
+void add_cuts(std::vector<Vec3>& cuts, const FaceOf& face, const Surface& surface, double tolerance) {
+  for (const int edge : face.edges()) {
+    const SurfaceMeetings found = intersect(*face.body->edges[edge].curve, surface, tolerance);
+    for (const SurfaceMeeting& meeting : found.points) cuts.push_back(meeting.point);
+    // Where an edge lies in the surface its ends are cuts.
+    for (const Interval& part : found.on_surface)
+      for (const double t : {part.lo, part.hi}) cuts.push_back(face.body->edges[edge].curve->point(t));
+  }
+}
+
+void meet_faces(Joining& joining, const FaceOf& a, const FaceOf& b, double tolerance) {
+  const Contours found = intersect(a->surface, b->surface, tolerance);
+  keep_points(joining, found, a, &b);
+  std::vector<Vec3> cuts;
+  if (!found.branches.empty()) {
+    add_cuts(cuts, a, *b->surface, tolerance);
+    add_cuts(cuts, b, *a->surface, tolerance);
+  }
+  for (const Contour& contour : found.branches)
+    joining.add(contour, cuts, a.face, b.face,
+                [&](double t) { return a.holds(contour.images[0]->point(t)) && b.holds(contour.images[1]->point(t)); });
+}
+
+bool boxes_meet(const Box3& a, const Box3& b, double by) {
+  for (int k = 0; k < 3; ++k)
+    if (a.lo[k] - by > b.hi[k] || b.lo[k] - by > a.hi[k]) return false;
+  return true;
+}
+
+double size_of(const Box3& box) { return std::max(box.diameter(), 1e-300); }
+
+int count_of(const Body& body) { return static_cast<int>(body.faces.size()); }
+
+}  // namespace
+
+BodyContours plane_section(const Body& body, const Vec3& origin, const Vec3& normal) {
+  Joining joining(size_of(bounds(body)));
+  const Plane plane(frame_about(origin, glm::normalize(normal)));
+  for (int k = 0; k < count_of(body); ++k) {
+    const FaceOf face(body, k);
+    const Contours found = plane_section(face->surface, origin, normal);
+    keep_points(joining, found, face, nullptr);
+    std::vector<Vec3> cuts;
+    if (!found.branches.empty()) add_cuts(cuts, face, plane, kSamePoint);
+    for (const Contour& contour : found.branches)
+      joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
+  }
+  return joining.joined();
+}
+
+BodyContours silhouette(const Body& body, const ViewOf& view) {
+  const double size = size_of(bounds(body));
+  Joining joining(size);
+  for (int k = 0; k < count_of(body); ++k) {
+    const FaceOf face(body, k);
+    // A plane has none, or is one where it is seen edge-on: its edges show that.
+    if (dynamic_cast<const Plane*>(face->surface.get())) continue;
+    const Contours found = silhouette(face->surface, view);
+    keep_points(joining, found, face, nullptr);
+    for (const Contour& contour : found.branches) {
+      std::vector<Vec3> cuts;
+      for (const int edge : face.edges())
+        for (const CurveMeeting& meeting : intersect(*contour.curve, *body.edges[edge].curve).points)
+          cuts.push_back(meeting.point);
+      joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
+    }
+  }
+  return joining.joined();
+}
+
+BodyContours intersect(const Body& a, const Body& b, double tolerance) {
+  Box3 all = bounds(a);
+  all.include(bounds(b));
+  const double size = size_of(all);
+  Joining joining(size);
+  std::vector<FaceOf> faces_b;
+  std::vector<Box3> boxes_b;
+  for (int k = 0; k < count_of(b); ++k) {
+    faces_b.emplace_back(b, k);
+    boxes_b.push_back(bounds(*b.faces[k].surface));
+  }
+  for (int i = 0; i < count_of(a); ++i) {
+    const FaceOf face(a, i);
+    const Box3 box = bounds(*face->surface);
+    for (int k = 0; k < count_of(b); ++k)
+      if (boxes_meet(box, boxes_b[k], tolerance * size)) meet_faces(joining, face, faces_b[k], tolerance);
+  }
+  return joining.joined();
+}
+
+BodyContours intersect(const Body& a, const SurfacePtr& b, double tolerance) {
+  const auto* plane = dynamic_cast<const Plane*>(b.get());
+  if (plane && !plane->bounded()) return plane_section(a, plane->frame().origin, plane->frame().z);
+  // A body of one face without edges.
+  Body sheet;
+  sheet.add_face(b, true, {}, false);
+  return intersect(a, sheet, tolerance);
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,48 @@
+#include "geometry/queries/contours/contour_approximation.h"
+
+#include <algorithm>
+
+#include "geometry/curves/operations/curve_part.h"
+#include "geometry/curves/operations/parameter_line.h"
+#include "geometry/curves/operations/surface_curve.h"
+#include "geometry/curves/splines/polynomial_approximation.h"
+#include "geometry/queries/contours/contour_curve.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kAgree = 1e-13;
+constexpr double kRounding = 4e-15;  // of coordinates: points of searched contours are no better
+
+// Of contours that are searched, and of curves on surfaces, each point takes long.
+bool takes_long(const Curve& curve) {
+  const auto* part = dynamic_cast<const CurvePart*>(&curve);
+  const Curve& whole = part ? *part->of() : curve;
+  return is_searched(whole) || dynamic_cast<const SurfaceCurve*>(&whole);
+}
+
+}  // namespace
+
+CurvePtr contour_approximation(const CurvePtr& curve) {
+  if (!dynamic_cast<const ParameterLine*>(curve.get()) && !takes_long(*curve)) return curve;
+  // Its box from a few points: bounds of a searched curve take as long as all else.
+  Box3 box;
+  constexpr int kPlaces = 8;
+  for (int k = 0; k <= kPlaces; ++k)
+    box.include(curve->point(curve->domain().lo + curve->domain().width() * k / kPlaces));
+  const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
+  const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
+  auto simple = polynomial_approximation(*curve, std::max(kAgree * box.diameter(), rounding));
+  return simple ? simple : curve;
+}
+
+Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {
+  const Rectangle domain = surface.domain();
+  const double size = std::max(domain.u.width(), domain.v.width());
+  if (!takes_long(*curve) || !(size < kInfinity)) return image;
+  auto simple = polynomial_approximation(CurvePart(image, curve->domain()), kAgree * size);
+  return simple ? simple : image;
+}
+
+}  // namespace lekalo::geometry

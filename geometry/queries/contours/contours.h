@@ -1,0 +1,90 @@
+// Curves on surfaces that are given by equations: where two surfaces meet (Golovanov 2016, 4.7 and 4.8), silhouettes
+// (4.6), isophotes, reflection lines, sections by planes. Capabilities 4.6e, 4.7a-d, 4.8a-c.
+//
+// All of them are found, by one search (geometry/numerics/solution_curves.h) over each smooth piece of the surface or
+// each pair of pieces that can meet, then joined over the borders of pieces into branches that are as long as they can
+// be. Where branches cross, each goes straight on.
+#pragma once
+
+#include <vector>
+
+#include "geometry/curve.h"
+#include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+class ImplicitFormula;
+
+enum class ContourKind {
+  crossing,  // the surfaces cross, the function changes its sign
+  touching,  // the surfaces, or the surface and the plane, touch along it
+  border     // of a region where they coincide
+};
+
+struct Contour {
+  CurvePtr curve;                 // in space
+  std::vector<Curve2Ptr> images;  // on the surface, or on both, with the same parameter
+  bool closed = false;
+  ContourKind kind = ContourKind::crossing;
+  // Of silhouettes: where the curve runs along the way of sight, so that its picture has a cusp; by t.
+  std::vector<double> cusps;
+  double error = 0;  // the largest distance from the surfaces or from the true contour seen along it
+};
+
+enum class ContourPointKind {
+  contact,   // isolated: the surfaces touch, the silhouette shrinks to a point
+  crossing,  // branches cross here
+  end        // branches end here, or turn back
+};
+struct ContourPoint {
+  ContourPointKind kind = ContourPointKind::contact;
+  Vec3 point{0};
+  std::vector<double> parameters;  // u, v of the surface, or of both
+  double distance = 0;             // between the surfaces
+};
+
+struct Contours {
+  std::vector<Contour> branches;
+  std::vector<ContourPoint> points;  // singular ones
+  // There are regions where the surfaces coincide. Their borders are among the branches; a surface that coincides as a
+  // whole, and is closed, has none.
+  bool coincident = false;
+  // False where something is left out: surfaces that nearly touch along a curve or nearly coincide, that touch in a way
+  // that is not followed (through poles, to a higher order), a plane seen edge-on, a branch that stops inside.
+  bool complete = true;
+  // The branches are conics and straight lines, found without a search
+  // (geometry/queries/contours/analytic/closed_contours.h).
+  bool closed_form = false;
+};
+
+// The length of a part of a contour that was searched: by Gauss's rule on each of its pieces, which are short arcs.
+// Other rules for curves ask for more digits than a tiny loop between large surfaces has. A part of a closed contour
+// may go on past the end of its domain.
+Measured contour_length(const Contour& contour, const Interval& t);
+inline Measured contour_length(const Contour& contour) { return contour_length(contour, contour.curve->domain()); }
+
+// How a scene is seen: along a direction, or from an eye.
+struct ViewOf {
+  bool central = false;
+  Vec3 direction_or_eye{0, 0, -1};
+};
+
+// `tolerance` is relative to the size of both: surfaces that come so near to each other touch. Throws
+// std::invalid_argument for unbounded surfaces other than planes, and for two unbounded planes.
+Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance = kSamePoint);
+
+// These take one surface, which must be bounded (std::invalid_argument).
+Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal);
+// Where F of a point has the value of its level, the surface's points taken to F's coordinates by an affine map: the
+// line in which an implicit surface meets this one. Not complete where F has jumps.
+Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula = {});
+// Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5).
+Contours silhouette(const SurfacePtr& surface, const ViewOf& view);
+// Where the normal (that of the surface) stands at `angle` to `direction`; pi/2 is the silhouette. In (0, pi).
+Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle);
+// Where the mirrored way of sight meets the straight line `lamp`: how stylists judge a surface.
+Contours reflection_line(const SurfacePtr& surface, const ViewOf& view, const Line& lamp);
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,226 @@
+#include "render/drawing/annotations/annotations.h"
+
+#include <array>
+#include <memory>
+
+#include "render/drawing/annotations/annotation_work.h"
+#include "render/drawing/annotations/dimensions.h"
+#include "render/drawing/annotations/light_path.h"
+#include "render/drawing/annotations/page_shapes.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// Millimetres.
+constexpr double kTextOff = 0.7;   // between a brace and the text at its tip
+constexpr double kEndOn = 0.5;     // arrows shorter than this have no room for a name
+constexpr double kLastPart = 0.4;  // of a light path, of the scene's radius
+
+// What is drawn on the page from the pictures of its points has none where these are behind the eye; lines in space are
+// cut before it.
+bool is_behind_eye(const AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const std::string& type = work.kind();
+  const auto hides = [&](const char* field) {
+    return f.holds<Anchor>(field) && !f.get<Anchor>(field).on_page && !work.is_seen(f.get<Anchor>(field).point);
+  };
+  if (type == "angle") return hides("at");
+  if (type == "angle_dimension") return hides("at") || hides("from") || hides("to");
+  if (type == "leader") return hides("at") || hides("to");
+  if (type == "brace" || type == "linear_dimension") return hides("from") || hides("to");
+  if (type == "arrow" && f.has("to") && (f.get<Anchor>("from").on_page || f.get<Anchor>("to").on_page))
+    return hides("from") || hides("to");
+  return false;
+}
+
+void add_label(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const Anchor& at = f.get<Anchor>("at");
+  const double distance = f.has("distance") ? f.number("distance") : at.on_page ? 0.0 : 1.2;
+  if (!at.on_page)
+    return work.text(at.point, work.words("text"), work.side(), distance, work.hidden(), f.boolean("leader"));
+  Label label = work.page_label(work.words("text"), work.place(at));
+  label.on_page = true;
+  label.side = f.has("side") ? f.text("side") : "center";
+  label.distance = distance;
+  work.add(std::move(label));
+}
+
+void add_point(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const Style& style = work.style();
+  const Anchor& at = f.get<Anchor>("at");
+  Mark mark;
+  mark.point = at.point;
+  mark.sign = *mark_sign(f.text("marker"));
+  mark.radius = 0.5 * style.marker_size;
+  mark.line = work.look();
+  if (style.fill) mark.fill = rgb(*style.fill);
+  mark.object = -1;
+  const double distance = 0.6 + mark.radius;
+  if (!at.on_page) {
+    work.mark(mark, work.hidden());
+    if (f.has("label")) work.text(at.point, work.words("label"), work.side(), distance, work.hidden());
+    return;
+  }
+  work.shape(drawn_mark(mark, work.place(at), style.opacity, work.view()));
+  if (!f.has("label")) return;
+  Label label = work.page_label(work.words("label"), work.place(at));
+  label.on_page = true;
+  label.side = work.side(), label.distance = distance;
+  work.add(std::move(label));
+}
+
+void add_arrow(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const Anchor& from = f.get<Anchor>("from");
+  const std::string words = work.words("label");
+  const auto [start, end] = work.heads();
+  Anchor to;
+  if (f.has("to"))
+    to = f.get<Anchor>("to");
+  else
+    to.point = from.point + f.number("length") * f.vec3("along");
+  if (from.on_page || to.on_page) {
+    const Vec2 a = work.place(from), b = work.place(to);
+    work.page_line(a, b, start, end);
+    if (words.empty()) return;
+    Label label = work.page_label(words, b);
+    label.on_page = to.on_page;
+    label.side = work.side();
+    return work.add(std::move(label));
+  }
+  if (to.point == from.point) return;
+  work.segment(from.point, to.point, work.hidden(), start, end);
+  if (!words.empty()) work.text(to.point, words, work.side(), 0.8, work.hidden());
+}
+
+void add_triad(AnnotationWork& work, const Vec3& origin, const std::array<Vec3, 3>& axes) {
+  const Fields& f = work.fields();
+  const auto [start, end] = work.heads();
+  const auto& labels = f.get<std::vector<TextTemplate>>("labels");
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 tip = origin + f.number("length") * axes[k];
+    work.segment(origin, tip, work.hidden(), start, end);
+    const bool end_on = !(glm::length(work.view().place(tip) - work.view().place(origin)) > kEndOn);
+    if (k < labels.size() && !end_on) work.text(tip, labels[k].text(), "", 0.6, work.hidden());
+  }
+}
+
+void add_axes(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const View& view = work.view();
+  const Anchor& at = f.get<Anchor>("at");
+  constexpr std::array<Vec3, 3> kAxes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  if (!at.on_page) return add_triad(work, at.point, kAxes);
+  // As they would be seen in the middle of the picture.
+  const auto [start, end] = work.heads();
+  const Ray middle = view.camera.ray(0.5 * view.camera.width(), 0.5 * view.camera.height());
+  const double depth = view.camera.is_parallel() ? 0 : glm::length(bounds(view.model).center() - middle.origin);
+  const Vec3 origin = middle.origin + depth * middle.direction;
+  const Vec2 corner = work.place(at);
+  const auto& labels = f.get<std::vector<TextTemplate>>("labels");
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec2 tip = corner + view.place(origin + f.number("length") * kAxes[k]) - view.place(origin);
+    if (glm::length(tip - corner) < kEndOn) continue;
+    work.page_line(corner, tip, start, end);
+    if (k < labels.size()) work.add(work.page_label(labels[k].text(), tip));
+  }
+}
+
+void add_light_path(AnnotationWork& work, const World& world) {
+  const Fields& f = work.fields();
+  LightPath path;
+  path.from = f.vec3("from");
+  const Vec3 way = f.has("to") ? f.vec3("to") - path.from : f.vec3("along");
+  if (!(glm::length(way) > 0)) return;
+  path.direction = glm::normalize(way);
+  path.wavelength = f.number("wavelength");
+  path.bounces = f.integer("bounces");
+  path.reflection = f.text("follow") == "reflection";
+  path.length = f.has("length") ? f.number("length") : kLastPart * world.radius();
+  const std::vector<Vec3> corners = light_path(world, path);
+  HiddenLines ways;
+  ways.way = HiddenLines::Way::show;  // inside of glass, behind its surface
+  const auto [start, end] = work.heads();
+  for (size_t k = 0; k + 1 < corners.size(); ++k)
+    if (corners[k] != corners[k + 1])
+      work.segment(corners[k], corners[k + 1], ways, start && k == 0, end && k + 2 == corners.size());
+}
+
+void add_leader(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const Vec2 at = work.place(f.get<Anchor>("at")), to = work.place(f.get<Anchor>("to"));
+  const std::string& head = f.text("head");
+  work.page_line(to, at, false, head == "arrow");
+  if (head == "dot") {
+    Mark dot;
+    dot.radius = 0.5 * work.style().marker_size;
+    dot.line = work.look();
+    work.shape(drawn_mark(dot, at, work.style().opacity, work.view()));
+  }
+  Label label = work.page_label(work.words("text"), to);
+  label.side = f.has("side") ? f.text("side") : to.x >= at.x ? "right" : "left";
+  work.add(std::move(label));
+}
+
+void add_brace(AnnotationWork& work) {
+  const Fields& f = work.fields();
+  const Vec2 from = work.place(f.get<Anchor>("from")), to = work.place(f.get<Anchor>("to"));
+  if (from == to) return;
+  const double offset = f.number("offset"), depth = (offset < 0 ? -1 : 1) * f.number("depth");
+  const Brace brace = brace_along(from, to, offset, depth);
+  work.shape({drawn(brace.path, work.look())});
+  if (!f.has("label")) return;
+  Label label = work.page_label(work.words("label"), brace.tip);
+  label.side = side_towards(brace.out);
+  label.distance = kTextOff;
+  work.add(std::move(label));
+}
+
+}  // namespace
+
+void add_annotations(const View& view, LineWork& lines, PageWork& page) {
+  std::unique_ptr<const World> world;  // one for all light paths
+  for (const Annotation& annotation : view.model.drawing.annotations) {
+    AnnotationWork work(view, annotation, lines, page);
+    const std::string& type = annotation.type;
+    if (is_behind_eye(work)) {
+      work.leave_out_behind();
+    } else if (lack_of_size(type, annotation.values)) {
+      work.leave_out("of no size");
+    } else if (type == "label") {
+      add_label(work);
+    } else if (type == "point") {
+      add_point(work);
+    } else if (type == "arrow") {
+      add_arrow(work);
+    } else if (type == "frame") {
+      const Frame& frame = annotation.values.frame();
+      add_triad(work, frame.origin, {frame.x, frame.y, frame.z});
+    } else if (type == "axes") {
+      add_axes(work);
+    } else if (type == "angle") {
+      add_angle(work);
+    } else if (type == "angle_dimension") {
+      add_angle_dimension(work);
+    } else if (type == "leader") {
+      add_leader(work);
+    } else if (type == "brace") {
+      add_brace(work);
+    } else if (type == "linear_dimension") {
+      add_linear_dimension(work);
+    } else if (type == "radius_dimension" || type == "diameter_dimension") {
+      add_round_dimension(work, type == "diameter_dimension");
+    } else if (type == "light_path") {  // knots are a graph's axis'
+      if (!world) world = std::make_unique<const World>(std::make_shared<const Model>(view.model), false);
+      add_light_path(work, *world);
+    }
+    work.finish();
+  }
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,81 @@
+// What a surface does to light. The `classic` integrator reads every material as the coefficients of Golovanov
+// 2016, 8.4.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "render/ray.h"
+#include "render/spectrum.h"
+
+namespace lekalo::render {
+
+// How Fresnel's reflectance F of the boundary enters mirror and transmission.
+enum class Fresnel {
+  none,
+  boundary,  // of the media on both sides: mirror + transmission F and transmission (1 - F)
+  coat,      // of a clear coat of the given index over an opaque body: mirror F
+  conductor  // of the complex index (index, extinction): mirror F
+};
+
+// Coefficients of the classic light model at a point (Golovanov 2016, 8.4.2-8.4.5). Reflectances are in [0, 1].
+struct ClassicCoefficients {
+  Spectrum emission;      // radiance added whatever the light
+  Spectrum ambient;       // k_a, multiplies the ambient light
+  Spectrum diffuse;       // k_d (Lambert)
+  Spectrum specular;      // k_s of the Phong lobe
+  float exponent = 1;     // n of the Phong lobe
+  Spectrum mirror;        // share of the traced mirror reflection
+  Spectrum transmission;  // k_t, share of the traced refracted ray
+  Fresnel fresnel = Fresnel::none;
+  Spectrum index{1.0f};          // of coats and conductors, at the wavelengths asked for
+  Spectrum extinction;           // of conductors: imaginary part of the index
+  bool two_sided = true;         // false: the back shows only emission and ambient light
+  bool catches_shadows = false;  // shows the background, darkened where lights do not reach; not seen from behind
+};
+
+// Substance behind a surface, for refraction and absorption.
+struct Medium {
+  float index = 1;      // refractive index at the first of the wavelengths asked for
+  Spectrum absorption;  // mu of Bouguer's law, 1/length
+  int priority = 0;     // of overlapping media the highest one counts; of equal ones the one entered last
+};
+
+class Material {
+ public:
+  virtual ~Material() = default;
+  virtual ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths& wavelengths) const = 0;
+  // The medium behind the surface; opaque materials have none.
+  virtual std::optional<Medium> interior(const Wavelengths&) const { return std::nullopt; }
+  // True when light passes, so that shadow rays may be tinted instead of stopped.
+  virtual bool transmits() const { return false; }
+  // True if anything depends on the surface's parameters, or the directions in which they grow: textures, bumps.
+  virtual bool uses_parameters() const { return true; }
+  // Unit shading normal after bumps (random normal deviation of rough surfaces); the given one by default.
+  virtual Vec3 shading_normal(const SurfacePoint& point) const { return point.normal; }
+  // Diffuse reflectance for the albedo layer.
+  virtual Spectrum albedo(const SurfacePoint& point, const Wavelengths& wavelengths) const {
+    return classic(point, wavelengths).diffuse;
+  }
+  // Number of the texture cell (square of a checker, line or ground of a grid) at the point, so that comparisons can
+  // leave out pixels on cell borders; 0 without textures.
+  virtual uint64_t cell(const SurfacePoint&) const { return 0; }
+  // The plain value of materials.h that it was made from, for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
+};
+using MaterialPtr = std::shared_ptr<const Material>;
+
+// Colour that varies over a surface: checker, grid lines, image.
+class Texture {
+ public:
+  virtual ~Texture() = default;
+  virtual Spectrum at(const SurfacePoint& point) const = 0;
+  virtual uint64_t cell(const SurfacePoint&) const { return 0; }
+  // The plain value of textures.h that it was made from, for exporters; empty for other classes.
+  virtual std::any made_from() const { return {}; }
+};
+using TexturePtr = std::shared_ptr<const Texture>;
+
+}  // namespace lekalo::render

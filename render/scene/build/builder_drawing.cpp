@@ -1,0 +1,166 @@
+// What belongs to drawings: styles, the sections drawing, panels and layout.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/cameras/cameras.h"
+#include "render/scene/build/builder.h"
+#include "render/scene/types/panels.h"
+#include "render/scene/types/sections.h"
+#include "render/scene/values/scalars.h"
+#include "render/scene/values/words.h"
+
+namespace lekalo::render {
+
+// The built-in styles with the scene's own: a built-in name given under `styles` changes it field by field, unless it
+// says what it is like. The same in included files, for what they hold.
+void Builder::merge_styles() {
+  Diagnostics own;
+  styles_ = read_document(make_source("(built-in styles)", std::string(built_in_styles())), own);
+  if (own.has_errors()) throw SceneError(own);
+  const Value* given = scene_.root.find("styles");
+  if (!given) return;
+  if (!given->is_map()) {
+    if (!given->invalid)
+      diagnostics_.error(given->place, "'styles' is a map of named things", "write name: { like: thin, ... }");
+    return;
+  }
+  styles_.place = given->place;
+  // A style of a file included as `left` is called left.thin: it changes the `thin` of the file that includes, which
+  // therefore comes first.
+  std::vector<const Entry*> outside_in;
+  for (const Entry& entry : given->entries) outside_in.push_back(&entry);
+  const auto depth = [](const Entry* e) { return std::count(e->key.name.begin(), e->key.name.end(), '.'); };
+  std::stable_sort(outside_in.begin(), outside_in.end(),
+                   [&](const Entry* a, const Entry* b) { return depth(a) < depth(b); });
+  for (const Entry* entry : outside_in) {
+    const size_t dot = entry->key.name.rfind('.');
+    const std::string scope = dot == std::string::npos ? "" : entry->key.name.substr(0, dot);
+    const std::string own = entry->key.name.substr(dot + 1);  // npos + 1 is 0
+    Entry changed = *entry;
+    if (is_built_in_style(own) && changed.value.is_map() && !changed.value.find("like"))
+      for (const Entry& field : find_named(styles_, own, scope).entry->value.entries)
+        if (!changed.value.find(field.key.name)) changed.value.entries.push_back(field);
+    std::erase_if(styles_.entries, [&](const Entry& e) { return e.key.name == changed.key.name; });
+    styles_.entries.push_back(std::move(changed));
+  }
+}
+
+void Builder::build_drawing(Model& model) {
+  const Value* given = section("drawing");
+  static const Value nothing = [] {
+    Value map;
+    map.kind = Value::Kind::map;
+    return map;
+  }();
+  const Value& map = given && given->is_map() ? *given : nothing;
+  const auto fields = read_fields(section_declaration("drawing").fields, map, {}, "'drawing'");
+  if (fields)
+    if (auto drawing = attempt(map, "'drawing'", [&] { return drawing_of(*fields); }))
+      model.drawing = *std::move(drawing);
+  build_panels(fields, model);
+  // Axes of the page are those of its graphs.
+  if (model.camera && !section("panels")) check_axes(given, model.camera->is_graph());
+  if (!model.panels.empty() &&
+      std::all_of(model.panels.begin(), model.panels.end(), [](const Panel& one) { return one.camera != nullptr; }))
+    check_axes(given, std::any_of(model.panels.begin(), model.panels.end(),
+                                  [](const Panel& one) { return one.camera->is_graph(); }));
+  build_layout(model);
+}
+
+// Axes that a drawing asks for, of a view or views none of which is a graph.
+void Builder::check_axes(const Value* drawing, bool graph) {
+  if (graph || !drawing || !drawing->is_map()) return;
+  for (const Entry& entry : drawing->entries)
+    if (entry.key.name == "axes")
+      diagnostics_.error(entry.key.place, "'axes' belong to a graph, and this camera shows none",
+                         "camera: { type: graph }; arrows along the directions of space are an annotation: "
+                         "{ type: axes, at: [0, 0, 0] }");
+}
+
+void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
+  visit_named("panels", Category::panel, [&](const std::string& name, const Built& built) {
+    auto read = std::any_cast<PanelAsRead>(built.value);
+    const Value* entry = section("panels")->find(name);
+    const Value& place = entry ? *entry : scene_.root;
+    Panel panel;
+    panel.name = name;
+    if (name == "empty") {
+      diagnostics_.error(place.place, "a panel may not be called 'empty'", "in a layout this word leaves a place free");
+      return;
+    }
+    if (read.objects) {
+      fill_materials(*read.objects);
+      panel.objects = std::move(read.objects);
+    }
+    panel.make_camera = model.make_camera;
+    panel.camera_frames = model.camera_frames;
+    // A view that frames all frames what the panel shows.
+    Shown all(panel.objects ? *panel.objects : model.objects);
+    all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
+    if (panel.objects && scene_view_)
+      panel.make_camera = [make = scene_view_, all](int w, int h) { return make(w, h, all); };
+    if (read.camera) {
+      const Value* camera = place.find("camera");
+      panel.camera_frames = camera && camera->is_map() && !camera->find("from");
+      panel.make_camera = [make = *read.camera, all](int w, int h) { return make(w, h, all); };
+    }
+    if (panel.make_camera)
+      attempt(place, "the panel's camera", [&] {
+        panel.camera = panel.make_camera(model.film.width, model.film.height);
+        return true;
+      });
+    if (drawing) {
+      Fields merged = *drawing;
+      if (read.drawing) merged.override_by(*read.drawing);
+      const Value* own = place.find("drawing");
+      if (auto made = attempt(own ? *own : place, "'drawing'", [&] { return drawing_of(merged); }))
+        panel.drawing = *std::move(made);
+      if (panel.camera && !panel.camera->is_graph()) {
+        check_axes(own, false);
+        panel.drawing.axes.reset();  // those of the page's graphs
+      }
+    }
+    model.panels.push_back(std::move(panel));
+  });
+}
+
+bool Builder::check_panel(const Value& name) {
+  std::vector<std::string> known;
+  for (const auto& [panel, thing] : sections_["panels"])
+    for (const NamedThing::Member& one : thing.members)
+      known.push_back(one.name.empty() ? panel : panel + "." + one.name);
+  if (std::find(known.begin(), known.end(), name.text) != known.end()) return true;
+  diagnostics_.error(name.place,
+                     fmt::format("there is no panel called '{}'{}", name.text, suggestion(name.text, known)),
+                     known.empty() ? "the scene has no panels" : "there are " + listed(known, 20));
+  return false;
+}
+
+void Builder::build_layout(Model& model) {
+  const Value* given = section("layout");
+  if (!given) {
+    if (!model.panels.empty()) {
+      model.layout.rows.emplace_back();
+      for (const Panel& panel : model.panels) model.layout.rows.back().push_back(panel.name);
+    }
+    return;
+  }
+  if (!given->is_map()) return;  // check_sections() speaks of it
+  const auto fields = read_fields(section_declaration("layout").fields, *given, {}, "'layout'");
+  if (!fields) return;
+  model.layout = layout_of(*fields);
+  if (const Value* scale = given->find("scale")) model.layout.scale_place = scale->place;
+  if (const Value* gap = given->find("gap")) model.layout.gap_place = gap->place;
+  const Value& rows = *given->find("rows");
+  std::set<std::string> seen;
+  for (const Value& row : rows.items)
+    for (const Value& item : row.items) {
+      if (item.text == "empty") continue;
+      if (check_panel(item) && !seen.insert(item.text).second)
+        diagnostics_.error(item.place, fmt::format("the panel '{}' stands here twice", item.text));
+    }
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,303 @@
+// References to named things, families and their members, `like`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/scene/build/builder.h"
+#include "render/scene/values/scalars.h"
+#include "render/scene/values/words.h"
+
+namespace lekalo::render {
+
+using geometry::BodyPtr;
+
+namespace {
+
+bool contains(std::span<const Category> categories, Category category) {
+  return std::find(categories.begin(), categories.end(), category) != categories.end();
+}
+
+}  // namespace
+
+const Value* Builder::section(const char* name) const {
+  if (std::string_view(name) == "styles" && styles_.is_map()) return &styles_;
+  if (const Value* written = scene_.root.find(name)) return written;
+  const auto meant = misspelt_sections_.find(name);
+  return meant == misspelt_sections_.end() ? nullptr : meant->second;
+}
+
+std::map<std::string, NamedThing, std::less<>>* Builder::things_of(Category category) {
+  const char* name = section_of(category);
+  const auto found = name ? sections_.find(name) : sections_.end();
+  return found == sections_.end() ? nullptr : &found->second;
+}
+
+void Builder::declare_section(const char* name) {
+  auto& things = sections_[name];
+  const Value* values = section(name);
+  if (!values) return;
+  if (!values->is_map()) {
+    if (!values->invalid)
+      diagnostics_.error(values->place, fmt::format("'{}' is a map of named things", name),
+                         std::string_view(name) == "lights" ? "write name: { type: ..., ... }; lights: {} means none"
+                                                            : "write name: { type: ..., ... }");
+    return;
+  }
+  for (const Entry& entry : values->entries) {
+    NamedThing& thing = things[entry.key.name];
+    thing.entry = &entry;
+    if (entry.value.is_map() && entry.value.find("repeat")) {
+      thing.is_family = true;
+      repeat(entry.value, {}, [&](const Counters& counters, const std::string& member) {
+        thing.members.push_back({member, {&entry.value, counters}, NamedThing::Member::State::unknown, {}});
+      });
+    } else {
+      thing.members.push_back({"", {&entry.value, {}}, NamedThing::Member::State::unknown, {}});
+    }
+  }
+}
+
+// `like: NAME` copies all fields of a thing of the same section; the map's own fields override them. Null after an
+// error.
+const Value* Builder::with_like(const Value& map, const Value* section) {
+  const Value* like = map.find("like");
+  if (!like) return &map;
+  if (const auto found = liked_.find(&map); found != liked_.end()) return found->second;
+  const auto fail = [&](const std::string& message, const std::string& hint = {}) {
+    diagnostics_.error(like->place, message, hint);
+    return liked_[&map] = nullptr;
+  };
+  if (!like->is_scalar()) return fail("'like' names one thing");
+  const std::string scope = like->place.file ? like->place.file->scope : "";
+  const Named named = section ? find_named(*section, like->text, scope) : Named{};
+  if (!named.entry || !named.member.empty()) {
+    std::vector<std::string> names;
+    if (section)
+      for (const Entry& entry : section->entries) names.push_back(entry.key.name);
+    return fail(fmt::format("there is nothing called '{}' to be like{}", like->text, suggestion(like->text, names)));
+  }
+  if (&named.entry->value == &map || !like_in_work_.insert(named.entry->key.name).second)
+    return fail(fmt::format("'{}' is like itself in the end", like->text));
+  const Value* parent = with_like(named.entry->value, section);
+  like_in_work_.erase(named.entry->key.name);
+  if (!parent) return liked_[&map] = nullptr;
+  if (!parent->is_map()) return fail(fmt::format("'{}' is no map of fields", like->text));
+  if (named.entry->value.find("repeat") && !map.find("repeat"))
+    return fail(fmt::format("'{}' is a family: its fields need its counters", like->text), "give 'repeat' here too");
+  Value merged = *parent;
+  merged.place = map.place;
+  std::erase_if(merged.entries, [](const Entry& e) { return e.key.name == "like" || e.key.name == "repeat"; });
+  for (const Entry& entry : map.entries) {
+    if (entry.key.name == "like") continue;
+    std::erase_if(merged.entries, [&](const Entry& e) { return e.key.name == entry.key.name; });
+    merged.entries.push_back(entry);
+  }
+  made_.push_back(std::move(merged));
+  liked_[&map] = &made_.back();
+  return &made_.back();
+}
+
+const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted) {
+  using State = NamedThing::Member::State;
+  const Value& value = *member.scoped.value;
+  if (member.state == State::in_work) {
+    diagnostics_.error(value.place, fmt::format("'{}' is built from itself", thing.entry->key.name),
+                       "entities may refer to each other in any order, but not in a circle");
+    member.state = State::wrong;
+  }
+  if (member.state == State::unknown) {
+    member.state = State::in_work;
+    std::optional<Built> built;
+    if (is_geometry(wanted.front()) && value.is_sequence()) {
+      if (const auto point = read_coordinates(value, member.scoped.counters)) built = Built{Category::point, *point};
+    } else if (is_geometry(wanted.front())) {
+      built = build_typed(value, member.scoped.counters, geometry_categories());
+    } else {
+      built = build_typed(value, member.scoped.counters, wanted.first(1));
+    }
+    if (built) {
+      member.built = *std::move(built);
+      if (member.state == State::in_work) member.state = State::known;
+    } else {
+      member.state = State::wrong;
+    }
+  }
+  return member.state == State::known ? &member.built : nullptr;
+}
+
+std::optional<Built> Builder::part_of(const Built& whole, std::string_view part, const Value& asked) {
+  if (const auto* set = std::any_cast<SurfaceSet>(&whole.value)) {
+    const auto index = render::read_number(part);
+    if (index && *index >= 0 && *index < static_cast<double>(set->size()) && *index == std::floor(*index))
+      return Built{Category::surface, (*set)[static_cast<size_t>(*index)]};
+    diagnostics_.error(asked.place, fmt::format("'{}' has no member '{}'", asked.text, part),
+                       fmt::format("its members are numbered 0 to {}", set->size() - 1));
+    return std::nullopt;
+  }
+  if (const auto* body = std::any_cast<BodyPtr>(&whole.value)) {
+    std::vector<std::string> names;
+    for (const geometry::Face& face : (*body)->faces) {
+      names.push_back(face.origin.text());
+      if (face.origin.text() == part) return Built{Category::surface, face.surface};
+    }
+    diagnostics_.error(asked.place,
+                       fmt::format("'{}' has no face '{}'{}", asked.text.substr(0, asked.text.size() - part.size() - 1),
+                                   part, suggestion(part, names)),
+                       "its faces are " + listed(names, 30));
+    return std::nullopt;
+  }
+  diagnostics_.error(asked.place, fmt::format("'{}' has no member '{}'", asked.text, part));
+  return std::nullopt;
+}
+
+// The things that a name stands for: one, or all members of a family.
+std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<const Category> wanted) {
+  if (value.is_scalar() && read_number(value)) {
+    diagnostics_.error(value.place, fmt::format("expected {}, found the number {}", describe(wanted), value.text),
+                       contains(wanted, Category::point)
+                           ? "write [x, y, z], the name of a point, or a place such as { of: curve, t: 0.5 }"
+                           : "write the name of one, or a map with its fields");
+    return std::nullopt;
+  }
+  const auto text = read_reference(value);
+  if (!text) {
+    Slip slip = text.slip();
+    if (const std::string meant = maps_with_word(value.text, wanted); !meant.empty()) slip.hint = "write " + meant;
+    report(diagnostics_, value, slip);
+    return std::nullopt;
+  }
+  auto* things = things_of(wanted.front());
+  const char* section_text = section_of(wanted.front());
+  const Value* values = section_text ? section(section_text) : nullptr;
+  const std::string scope = value.place.file ? value.place.file->scope : "";
+  const Named found = values && values->is_map() ? find_named(*values, *text, scope) : Named{};
+  if (!found.entry || !things) {
+    std::vector<std::string> names;
+    if (values)
+      for (const Entry& entry : values->entries) names.push_back(entry.key.name);
+    const char* elsewhere = nullptr;
+    for (const auto& [other, known] : sections_)
+      if (known.contains(*text)) elsewhere = other.c_str();
+    const std::string nearest = elsewhere ? "" : suggestion(*text, names), meant = maps_with_word(*text, wanted);
+    diagnostics_.error(
+        value.place,
+        fmt::format("there is no {} called '{}'{}",
+                    is_geometry(wanted.front()) ? "geometry" : geometry::name(wanted.front()), *text, nearest),
+        elsewhere                           ? fmt::format("'{}' stands under '{}'", *text, elsewhere)
+        : !meant.empty()                    ? "write " + meant
+        : !nearest.empty() || names.empty() ? ""
+                                            : "there are " + listed(names, 20));
+    return std::nullopt;
+  }
+  NamedThing& thing = things->find(found.entry->key.name)->second;
+  thing.used = true;
+  std::vector<Built> result;
+  std::string_view rest = found.member;
+  bool matched = thing.is_family && rest.empty();  // a family may be empty
+  for (NamedThing::Member& one : thing.members) {
+    if (thing.is_family && !rest.empty()) {
+      const bool exact = rest == one.name;
+      const bool below = one.name.starts_with(std::string(rest) + ".");
+      const bool part = rest.starts_with(one.name + ".");
+      if (!exact && !below && !part) continue;
+      matched = true;
+      const Built* built = member(thing, one, wanted);
+      if (!built) return std::nullopt;
+      if (part) {
+        const auto inner = part_of(*built, rest.substr(one.name.size() + 1), value);
+        if (!inner) return std::nullopt;
+        result.push_back(*inner);
+      } else {
+        result.push_back(*built);
+      }
+      continue;
+    }
+    matched = true;
+    const Built* built = member(thing, one, wanted);
+    if (!built) return std::nullopt;
+    if (rest.empty()) {
+      result.push_back(*built);
+    } else {
+      const auto inner = part_of(*built, rest, value);
+      if (!inner) return std::nullopt;
+      result.push_back(*inner);
+    }
+  }
+  if (!matched) {
+    diagnostics_.error(value.place, fmt::format("'{}' has no member '{}'", found.entry->key.name, rest),
+                       thing.members.empty() ? "the family is empty"
+                                             : fmt::format("its members are {} to {}", thing.members.front().name,
+                                                           thing.members.back().name));
+    return std::nullopt;
+  }
+  for (const Built& built : result)
+    if (!contains(wanted, built.category)) {
+      diagnostics_.error(value.place, fmt::format("'{}' is {}, but {} is wanted here", *text,
+                                                  describe({&built.category, 1}), describe(wanted)));
+      return std::nullopt;
+    }
+  return result;
+}
+
+std::optional<Built> Builder::refer(const Value& value, const Counters& counters, std::span<const Category> wanted) {
+  if (value.invalid) return std::nullopt;
+  if (value.is_map() || !section_of(wanted.front())) return build_typed(value, counters, wanted);
+  if (value.is_sequence()) {
+    if (contains(wanted, Category::point)) {
+      const auto point = read_coordinates(value, counters);
+      return point ? std::optional(Built{Category::point, *point}) : std::nullopt;
+    }
+    diagnostics_.error(value.place, fmt::format("expected {}, found a list", describe(wanted)));
+    return std::nullopt;
+  }
+  auto all = named(value, wanted);
+  if (!all) return std::nullopt;
+  if (all->size() != 1) {
+    diagnostics_.error(value.place,
+                       fmt::format("'{}' is a family of {}; one thing is wanted here", value.text, all->size()),
+                       fmt::format("name a member, for example {}.0", value.text));
+    return std::nullopt;
+  }
+  if (auto* style = std::any_cast<StyleChanges>(&all->front().value)) style->name = value.text;
+  return std::move(all->front());
+}
+
+std::optional<std::vector<std::any>> Builder::refer_all(const Value& value, const Counters& counters,
+                                                        std::span<const Category> wanted) {
+  std::vector<std::any> all;
+  const bool good = refer_each(value, counters, wanted, [&](std::any one) { all.push_back(std::move(one)); });
+  return good ? std::optional(std::move(all)) : std::nullopt;
+}
+
+bool Builder::refer_each(const Value& value, const Counters& counters, std::span<const Category> wanted,
+                         const std::function<void(std::any)>& take) {
+  bool good = true;
+  each_item(value, counters, [&](const Value& item, const Counters& inner) {
+    if (item.is_scalar() && section_of(wanted.front())) {
+      auto some = named(item, wanted);
+      good = good && some;
+      if (some)
+        for (Built& built : *some) take(std::move(built.value));
+    } else {
+      auto one = refer(item, inner, wanted);
+      good = good && one;
+      if (one) take(std::move(one->value));
+    }
+  });
+  return good;
+}
+
+// One for each that refer_all() finds.
+std::vector<std::string> Builder::names_of_references(const Value& value, const Counters& counters,
+                                                      std::span<const Category> wanted) {
+  std::vector<std::string> names;
+  for (const Scoped& item : items(value, counters)) {
+    const bool is_name = item.value->is_scalar() && section_of(wanted.front());
+    const auto some = is_name ? named(*item.value, wanted) : std::nullopt;
+    names.insert(names.end(), some ? some->size() : 1, is_name ? item.value->text : std::string());
+  }
+  return names;
+}
+
+}  // namespace lekalo::render

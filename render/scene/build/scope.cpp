@@ -1,0 +1,179 @@
+#include "render/scene/build/scope.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/expression/nearest_name.h"
+#include "render/scene/values/scalars.h"
+#include "render/scene/yaml/include.h"
+
+namespace lekalo::render {
+
+using geometry::ExpressionError;
+using geometry::Measure;
+
+Counters Counters::with(std::string name, double value, Measure measure) const {
+  Counters inner = *this;
+  std::erase_if(inner.values, [&](const Expression::Constant& c) { return c.name == name; });
+  inner.values.push_back({std::move(name), value, measure, false});
+  return inner;
+}
+
+Parameters::Parameters(const Value* section, Diagnostics& diagnostics) : section_(section), diagnostics_(diagnostics) {
+  if (!section_) return;
+  for (const Entry& entry : section_->entries) parameters_[entry.key.name].entry = &entry;
+}
+
+const Expression::Constant* Parameters::lookup(const std::string& name, std::string_view scope, const Value& asked) {
+  if (!section_) return nullptr;
+  const Named named = find_named(*section_, name, scope);
+  if (!named.entry || !named.member.empty()) return nullptr;
+  Parameter& parameter = parameters_.find(named.entry->key.name)->second;
+  if (parameter.state == State::in_work) {
+    diagnostics_.error(asked.place, fmt::format("the parameter '{}' is defined by itself", name),
+                       "parameters may use each other in any order, but not in a circle");
+    parameter.state = State::wrong;
+  }
+  if (parameter.state == State::unknown) {
+    parameter.state = State::in_work;
+    const Value& value = parameter.entry->value;
+    parameter.constant = {name, std::numeric_limits<double>::quiet_NaN(), Measure::plain, false};
+    if (const std::optional<Expression> expression = bind(value, {})) {
+      const std::optional<double> result = finish(value, *expression, (*expression)());
+      if (result) {
+        parameter.constant = {name, *result, expression->measure(), expression->holds_pi()};
+        if (parameter.state == State::in_work) parameter.state = State::known;
+      }
+    }
+    if (parameter.state == State::in_work) parameter.state = State::wrong;
+  }
+  parameter.constant.name = name;
+  return &parameter.constant;
+}
+
+std::optional<Expression> Parameters::bind(const Value& value, const Counters& counters,
+                                           std::span<const Expression::Variable> variables) {
+  if (value.invalid) return std::nullopt;
+  if (!value.is_scalar()) {
+    diagnostics_.error(value.place, fmt::format("expected a number or a formula, found {}", kind_name(value)));
+    return std::nullopt;
+  }
+  return bind(value, value.text, 0, counters, variables);
+}
+
+std::optional<Expression> Parameters::bind(const Value& value, std::string_view text, std::size_t start,
+                                           const Counters& counters, std::span<const Expression::Variable> variables) {
+  if (value.invalid) return std::nullopt;
+  const auto report = [&](const ExpressionError& error) {
+    diagnostics_.error(value.place_of(start + error.offset, 1), error.message, error.hint);
+  };
+  if (const std::optional<Slip> slip = number_slip(text)) {
+    diagnostics_.error(value.place, slip->message, slip->hint);
+    return std::nullopt;
+  }
+  auto parsed = Expression::parse(text);
+  if (const auto* error = std::get_if<ExpressionError>(&parsed)) {
+    report(*error);
+    return std::nullopt;
+  }
+  Expression expression = std::move(std::get<Expression>(parsed));
+  std::vector<Expression::Constant> constants = counters.values;
+  const std::string_view scope = value.place.file ? std::string_view(value.place.file->scope) : std::string_view();
+  for (const std::string& name : expression.names()) {
+    bool known = false;
+    for (const Expression::Variable& variable : variables) known = known || variable.name == name;
+    for (const Expression::Constant& constant : counters.values) known = known || constant.name == name;
+    if (known) continue;
+    if (const Expression::Constant* parameter = lookup(name, scope, value)) {
+      if (std::isnan(parameter->value)) return std::nullopt;  // its own error has been reported
+      constants.push_back(*parameter);
+    }
+  }
+  // The names not asked for stand behind, with no value, so that "did you mean" knows them.
+  const bool unknown = [&] {
+    for (const std::string& name : expression.names()) {
+      bool known = false;
+      for (const auto& variable : variables) known = known || variable.name == name;
+      for (const auto& constant : constants) known = known || constant.name == name;
+      if (!known) return true;
+    }
+    return false;
+  }();
+  if (unknown && section_)
+    for (const Entry& entry : section_->entries) constants.push_back({entry.key.name, 0, Measure::plain, false});
+  if (const std::optional<ExpressionError> error = expression.bind(variables, constants)) {
+    report(*error);
+    return std::nullopt;
+  }
+  return expression;
+}
+
+std::optional<double> Parameters::finish(const Value& value, const Expression& expression, double result) {
+  if (expression.measure() == Measure::truth) {
+    diagnostics_.error(value.place, "expected a number, found a condition", "write for example: 1 if n > 2 else 0");
+    return std::nullopt;
+  }
+  if (!std::isfinite(result)) {
+    diagnostics_.error(
+        value.place,
+        fmt::format("the formula has no finite value ({})", std::isnan(result) ? "not a number" : "infinite"),
+        "division by zero, or the root or logarithm of a negative number");
+    return std::nullopt;
+  }
+  return result;
+}
+
+std::optional<double> Parameters::number(const Value& value, const Counters& counters) {
+  const std::optional<Expression> expression = bind(value, counters);
+  if (!expression) return std::nullopt;
+  return finish(value, *expression, (*expression)());
+}
+
+std::optional<double> Parameters::angle(const Value& value, const Counters& counters) {
+  std::optional<Expression> expression = bind(value, counters);
+  if (!expression) return std::nullopt;
+  if (const std::optional<ExpressionError> error = expression->convert_to_angle()) {
+    diagnostics_.error(value.place_of(error->offset, 1), error->message, error->hint);
+    return std::nullopt;
+  }
+  return finish(value, *expression, (*expression)());
+}
+
+std::optional<int> Parameters::integer(const Value& value, const Counters& counters) {
+  const std::optional<double> x = number(value, counters);
+  if (!x) return std::nullopt;
+  if (*x != std::nearbyint(*x) || std::abs(*x) > 2e9) {
+    diagnostics_.error(value.place, fmt::format("expected a whole number, found {:.12g}", *x));
+    return std::nullopt;
+  }
+  return static_cast<int>(*x);
+}
+
+bool Parameters::may_be_called(std::string_view name) {
+  return !geometry::is_reserved_word(name) &&
+         !(name.size() == 1 && std::string_view("tuvsxyz").find(name[0]) != std::string_view::npos);
+}
+
+std::map<std::string, double> Parameters::all() {
+  std::map<std::string, double> values;
+  for (auto& [name, parameter] : parameters_) {
+    if (!may_be_called(name)) {
+      diagnostics_.error(parameter.entry->key.place, fmt::format("a parameter may not be called '{}'", name),
+                         "it is a variable, function or unit of formulas");
+      continue;
+    }
+    const std::string_view scope =
+        parameter.entry->value.place.file ? std::string_view(parameter.entry->value.place.file->scope) : "";
+    // A prefixed name is looked up in the scope that defines it.
+    const std::string_view bare = !scope.empty() && name.starts_with(std::string(scope) + ".")
+                                      ? std::string_view(name).substr(scope.size() + 1)
+                                      : std::string_view(name);
+    const Expression::Constant* constant = lookup(std::string(bare), scope, parameter.entry->value);
+    if (constant && std::isfinite(constant->value)) values[name] = constant->value;
+  }
+  return values;
+}
+
+}  // namespace lekalo::render

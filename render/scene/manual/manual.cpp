@@ -1,0 +1,441 @@
+#include "render/scene/manual/manual.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/scene/types/sections.h"
+#include "render/scene/values/words.h"
+#include "render/suite/suite.h"
+
+namespace lekalo::render {
+
+using geometry::Dimension;
+using geometry::Field;
+using geometry::FieldType;
+using geometry::Kind;
+
+namespace {
+
+// Angles are declared in radians and written in degrees.
+std::string limits(const FieldType& type) {
+  const double scale = type.dimension == Dimension::angle ? 180 / geometry::kPi : 1;
+  std::string text;
+  if (std::isfinite(type.minimum))
+    text += fmt::format(" {} {:.9g}", type.minimum_excluded ? "greater than" : "at least", type.minimum * scale);
+  if (std::isfinite(type.maximum))
+    text += fmt::format("{} {} {:.9g}", text.empty() ? "" : " and", type.maximum_excluded ? "less than" : "at most",
+                        type.maximum * scale);
+  return text;
+}
+
+std::string number_text(const FieldType& type) {
+  switch (type.dimension) {
+    case Dimension::length:
+      return "length" + limits(type);
+    case Dimension::angle:
+      return "angle in degrees" + limits(type);
+    case Dimension::wavelength:
+      return "wavelength in nm" + limits(type);
+    case Dimension::plain:
+      break;
+  }
+  return "number" + limits(type);
+}
+
+std::string count_text(const FieldType& type) {
+  const bool upper = type.maximum_count < (1 << 30);
+  if (upper && type.minimum_count == type.maximum_count) return fmt::format(" ({} of them)", type.minimum_count);
+  if (upper) return fmt::format(" ({} to {})", type.minimum_count, type.maximum_count);
+  if (type.minimum_count > 1) return fmt::format(" (at least {})", type.minimum_count);
+  return "";
+}
+
+std::string plain_value_text(const FieldType& type) {
+  switch (type.kind) {
+    case Kind::number:
+      return number_text(type);
+    case Kind::integer:
+      return "whole number" + limits(type);
+    case Kind::boolean:
+      return "true or false";
+    case Kind::choice:
+      return "one of " + listed(type.choices);
+    case Kind::text:
+      return "text";
+    case Kind::file:
+      return "name of a file";
+    case Kind::name:
+      return "a name";
+    case Kind::point:
+      return "point: coordinates, name or place";
+    case Kind::direction:
+      return "direction: x, -z, [a, b, c]";
+    case Kind::vector:
+      return "vector: [a, b, c]";
+    case Kind::axis:
+      return "axis: z, { through, along }";
+    case Kind::frame:
+      return "frame: { origin, z, x }, or center and normal (or axis) beside it";
+    case Kind::range:
+      return type.dimension == Dimension::angle ? "range of angles [from, to] in degrees" : "range [from, to]";
+    case Kind::rectangle:
+      return "part { u: [from, to], v: [from, to] }";
+    case Kind::points:
+      return "points" + count_text(type);
+    case Kind::points2:
+      return "points of the parameter plane" + count_text(type);
+    case Kind::net:
+      return "rows of points";
+    case Kind::numbers:
+      return "list of numbers" + limits(type) + count_text(type);
+    case Kind::number_grid:
+      return "rows of numbers" + limits(type);
+    case Kind::indices:
+      return "lists of point numbers, from 0";
+    case Kind::knots:
+      return "list of knots, or " +
+             (type.choices.empty() ? "clamped, uniform, chord_length, centripetal" : listed(type.choices));
+    case Kind::color:
+      return std::find(type.categories.begin(), type.categories.end(), Category::texture) == type.categories.end()
+                 ? "color"
+                 : "color or texture";
+    case Kind::formula:
+      return "formula of " + listed(type.variables);
+    case Kind::formulas:
+      return "formulas of " + listed(type.variables) + count_text(type);
+    case Kind::reference:
+      return describe(type.categories) + ": name or map";
+    case Kind::references:
+      return "names or maps of " + describe(type.categories);
+    case Kind::group:
+    case Kind::groups: {
+      std::vector<std::string> names;
+      for (const Field& field : *type.fields) names.push_back(field.name);
+      return fmt::format("{}{{ {} }}", type.kind == Kind::groups ? "list of " : "", listed(names));
+    }
+    case Kind::transform:
+      return "step or list of steps: translate, rotate, scale, mirror, matrix";
+    case Kind::page_length:
+      return "length on the page, with unit: mm, pt, px";
+    case Kind::picture_size:
+      return "[width, height]";
+    case Kind::words:
+      return "list of words: " + listed(type.choices);
+    case Kind::texts:
+      return "list of texts in quotes";
+    case Kind::command:
+      return "list of words: a program and its arguments";
+    case Kind::page_lengths:
+      return "lengths on the page, with units" + count_text(type);
+    case Kind::anchor:
+      return "point, or { page: [5 mm, 8 mm] } from the lower left corner";
+    case Kind::counts:
+      return "count, list, or range 0..6";
+    case Kind::label:
+      return type.variables.empty() ? "TeX text"
+                                    : "TeX text with %" + fmt::format("{}", fmt::join(type.variables, ", %"));
+    case Kind::labels:
+      return "TeX texts" + count_text(type);
+    case Kind::name_rows:
+      return "rows of names: [[a, b], [c, empty]]";
+    case Kind::helpers:
+      return "map of helpers: { control_polygon: { style: thin } }, or names";
+  }
+  return "";
+}
+
+// A value that the field accepts, as short as possible. Points differ from those before them, which `places` counts.
+std::string sample(const FieldType& type, int& places) {
+  const auto list = [&](int least, const auto& item) {
+    std::string text;
+    for (int k = 0; k < std::max(least, type.minimum_count); ++k) text += (k ? ", " : "") + item(k);
+    return fmt::format("[{}]", text);
+  };
+  const auto point = [](int k) { return fmt::format("[{}, {}]", k, k * k); };
+  switch (type.kind) {
+    case Kind::number:
+      if (type.dimension == Dimension::angle) return "30";
+      return type.minimum <= 1 && type.maximum >= 1 ? "1" : fmt::format("{:.9g}", std::max(type.minimum, -1e9));
+    case Kind::integer:
+      return fmt::format("{}", static_cast<int>(std::clamp(3.0, type.minimum, type.maximum)));
+    case Kind::boolean:
+      return "true";
+    case Kind::choice:
+    case Kind::words:
+      return type.choices.front();
+    case Kind::text:
+    case Kind::texts:
+      return "'text'";
+    case Kind::command:
+      return "[program]";
+    case Kind::file:
+      return "file.txt";
+    case Kind::name:
+      return "name";
+    case Kind::point:
+    case Kind::anchor: {
+      constexpr const char* kCorners[] = {"[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]"};
+      return kCorners[places++ % 3];
+    }
+    case Kind::vector:
+      return "[0, 0, 1]";
+    case Kind::direction:
+    case Kind::axis:
+      return "z";
+    case Kind::frame:
+      return "{ origin: [0, 0, 0], z: z }";
+    case Kind::range:
+      return "[0, 1]";
+    case Kind::rectangle:
+      return "{ u: [0, 1], v: [0, 1] }";
+    case Kind::points:
+    case Kind::points2:
+      return list(3, point);
+    case Kind::net:
+      return "[[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]]";
+    case Kind::numbers:
+      return list(1, [](int) { return std::string("1"); });
+    case Kind::number_grid:
+      return "[[1, 1], [1, 1]]";
+    case Kind::indices:
+      return "[[0, 1, 2]]";
+    case Kind::knots:
+      return "clamped";
+    case Kind::color:
+      return "steelblue";
+    case Kind::formula:
+      return type.variables.front();
+    case Kind::formulas:
+      return list(1, [&](int) { return type.variables.front(); });
+    case Kind::reference:
+    case Kind::references:
+      // Objects have no names to refer to: they are written out.
+      return type.categories.front() == geometry::Category::object
+                 ? "[{ shape: my_body }]"
+                 : fmt::format("my_{}", geometry::name(type.categories.front()));
+    case Kind::group:
+    case Kind::groups: {
+      std::string text;
+      for (const Field& field : *type.fields)
+        if (field.required)
+          text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", field.name, sample(field.type, places));
+      return fmt::format("{{ {} }}", text);
+    }
+    case Kind::transform:
+      return "{ rotate: 30, axis: z }";
+    case Kind::page_length:
+      return "5 mm";
+    case Kind::picture_size:
+      return "[960, 720]";
+    case Kind::page_lengths:
+      return "[2 mm, 1 mm]";
+    case Kind::counts:
+      return "9";
+    case Kind::label:
+      return "'$p$'";
+    case Kind::labels:
+      return "['$x$', '$y$']";
+    case Kind::name_rows:
+      return "[[front, top]]";
+    case Kind::helpers:
+      return "{ control_polygon: {} }";
+  }
+  return "";
+}
+
+const char* need(const Field& field) { return field.required && field.default_text.empty() ? "needed" : "optional"; }
+
+// In a table of Markdown a bar ends the cell.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string table(const std::vector<Field>& fields, const std::string& prefix = "") {
+  std::string text;
+  if (prefix.empty()) text = "| field | value | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const Field& field : fields) {
+    const std::string value = !field.default_text.empty() ? fmt::format("`{}`", field.default_text)
+                              : field.required            ? "needed"
+                                                          : "";
+    text += fmt::format("| `{}{}` | {} | {} | {} |\n", prefix, field.name, cell(value_text(field.type)), cell(value),
+                        cell(field.description));
+    if (field.type.fields) text += table(*field.type.fields, prefix + field.name + ".");
+  }
+  return text;
+}
+
+std::string lines_of(const std::vector<Field>& fields, const std::string& indent) {
+  std::string text;
+  for (const Field& field : fields) {
+    text += fmt::format("{}{:<16} {}; {}\n", indent, field.name, value_text(field.type),
+                        field.default_text.empty() ? need(field) : "default " + field.default_text);
+    text += fmt::format("{}{:<16}   {}\n", indent, "", field.description);
+    if (field.type.fields) text += lines_of(*field.type.fields, indent + "    ");
+  }
+  return text;
+}
+
+std::string page_of(Category category) {
+  const std::string title = plural(category);
+  std::string text =
+      fmt::format("# {}{}\n\nMade by `lekalo types --markdown`; the same text for one type: `lekalo types NAME`.\n",
+                  static_cast<char>(std::toupper(title[0])), title.substr(1));
+  if (const auto common = common_fields(category); !common.empty())
+    text += "\nEvery type here also takes:\n\n" + table(common);
+  for (const TypeDeclaration& type : all_types()) {
+    if (type.category != category) continue;
+    text += fmt::format("\n## {}\n\n{}\n\n    {}\n\n", type.name, type.description, example_of(type));
+    text += table(type.fields);
+    if (!type.checks.empty()) text += "\n";
+    for (const auto& check : type.checks) text += fmt::format("Must hold: `{}`.\n", check.condition);
+    if (const auto helpers = helpers_of(type); !helpers.empty())
+      text += fmt::format("\nHelpers for `show`: {}.\n", listed(helpers));
+  }
+  return text;
+}
+
+std::string page_of_sections() {
+  std::string text =
+      "# Sections of a scene file\n\nMade by `lekalo types --markdown`. A scene file is a map of these sections; "
+      "only `lekalo` is needed.\n";
+  for (const SectionDeclaration& section : sections()) {
+    text += fmt::format("\n## {}\n\n{}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
+                        section.description.substr(1));
+    using Shape = SectionDeclaration::Shape;
+    if (section.shape == Shape::named || section.shape == Shape::one_of || section.shape == Shape::things) {
+      std::string pages;
+      for (const Category category : section.categories) {
+        if (type_names({&category, 1}).empty()) continue;
+        pages += fmt::format("{}[{}]({}.md)", pages.empty() ? "" : ", ", plural(category), plural(category));
+      }
+      text += fmt::format("\n{}: {}.\n",
+                          section.shape == Shape::named    ? "A map of names to things"
+                          : section.shape == Shape::things ? "A list of"
+                                                           : "One of",
+                          pages);
+    }
+    if (section.shape == Shape::list) text += "\nA list of maps, or one:\n";
+    if (!section.fields.empty()) text += fmt::format("\n{}", table(section.fields));
+  }
+  return text;
+}
+
+std::string page_of_suites() {
+  std::string text =
+      "# Regression suites\n\nMade by `lekalo types --markdown`. A suite is a map of these sections, run by `lekalo "
+      "test`; "
+      "its first key is `lekalo_suite: 1`. [Regression](../regression.md) tells how to work with it.\n";
+  for (const SuiteSection& section : suite_sections()) {
+    text += fmt::format("\n## {}\n\n{}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
+                        section.description.substr(1));
+    if (section.name == "tests")
+      text +=
+          "\nA list of maps. `repeat` makes many of one; `%k`, `%02k`, `%(k+1)` in texts stand for its counters. "
+          "`set` is a map of parameters of the scene, formulas may use the counters.\n";
+    if (!section.fields.empty()) text += fmt::format("\n{}", table(section.fields));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string value_text(const FieldType& type) {
+  std::string text = plain_value_text(type);
+  if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots)
+    text += ", or " + listed(type.choices);
+  if (type.per_direction) text += "; or { u: ..., v: ... }";
+  return text;
+}
+
+std::string example_of(const TypeDeclaration& type) {
+  std::string text;
+  int places = 0;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("{} {}: {}", text.empty() ? "{" : ",", name, value);
+  };
+  if (!is_implicit(type.category) && type.category != Category::helper) add("type", type.name);
+  if (!type.example_fields.empty())
+    text += (text.empty() ? "{ " : ", ") + type.example_fields;
+  else
+    for (const Field& field : type.fields)
+      if (field.required && field.default_text.empty() && field.type.kind != Kind::frame)
+        add(field.name, sample(field.type, places));
+  text += text.empty() ? "{}" : " }";
+  return type.category == Category::helper ? type.name + ": " + text : text;
+}
+
+const std::vector<Category>& categories_of_manual() {
+  static const std::vector<Category> categories = [] {
+    std::vector<Category> some;
+    for (int k = 0; k <= static_cast<int>(Category::panel); ++k) {
+      const auto category = static_cast<Category>(k);
+      if (!type_names({&category, 1}).empty()) some.push_back(category);
+    }
+    return some;
+  }();
+  return categories;
+}
+
+std::string plural(Category category) {
+  const std::string name(geometry::name(category));
+  if (category == Category::body) return "bodies";
+  if (category == Category::mesh) return "meshes";
+  return name + "s";
+}
+
+std::string list_of_types() {
+  std::string text;
+  for (const Category category : categories_of_manual()) {
+    text += fmt::format("{}{}\n", text.empty() ? "" : "\n", plural(category));
+    for (const TypeDeclaration& type : all_types())
+      if (type.category == category) {
+        // The first sentence.
+        const size_t end = type.description.find(". ");
+        text += fmt::format("  {:<24} {}\n", type.name, type.description.substr(0, end));
+      }
+  }
+  return text;
+}
+
+std::string description_of(const TypeDeclaration& type) {
+  std::string text = fmt::format("{} ({})\n  {}\n\n  {}\n", type.name, geometry::name(type.category), type.description,
+                                 example_of(type));
+  if (!type.fields.empty()) text += "\nfields\n" + lines_of(type.fields, "  ");
+  if (const auto common = common_fields(type.category); !common.empty())
+    text += fmt::format("\nfields of every {}\n{}", geometry::name(type.category), lines_of(common, "  "));
+  for (const auto& check : type.checks) text += fmt::format("\nmust hold: {}\n", check.condition);
+  if (const auto helpers = helpers_of(type); !helpers.empty())
+    text += fmt::format("\nhelpers for show: {}\n", listed(helpers));
+  return text;
+}
+
+std::string description_of_section(std::string_view name) {
+  for (const SectionDeclaration& section : sections()) {
+    if (section.name != name) continue;
+    std::string text =
+        fmt::format("{} (section)\n  {}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
+                    section.description.substr(1));
+    std::vector<std::string> types = type_names(section.categories);
+    if (!types.empty()) text += fmt::format("\ntypes\n  {}\n", listed(types));
+    if (!section.fields.empty()) text += "\nfields\n" + lines_of(section.fields, "  ");
+    return text;
+  }
+  return {};
+}
+
+std::vector<std::pair<std::string, std::string>> reference_pages() {
+  std::vector<std::pair<std::string, std::string>> pages{{"sections.md", page_of_sections()},
+                                                         {"suites.md", page_of_suites()}};
+  for (const Category category : categories_of_manual()) pages.push_back({plural(category) + ".md", page_of(category)});
+  return pages;
+}
+
+}  // namespace lekalo::render

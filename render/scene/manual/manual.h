@@ -1,0 +1,33 @@
+// What scene files may say, in words: made from the declarations of types and sections, for `lekalo types`, the
+// schema's descriptions and the pages of docs/reference.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/scene/values/types.h"
+
+namespace lekalo::render {
+
+// "length greater than 0", "angle in degrees", "one of box, gaussian", "a curve: name or map".
+std::string value_text(const geometry::FieldType& type);
+
+// A map of this type with all that it needs, in one line: "{ type: circle, radius: 1 }".
+std::string example_of(const TypeDeclaration& type);
+
+// Categories that have types, in the order of the manual, and the name of a category's page ("curves").
+const std::vector<Category>& categories_of_manual();
+std::string plural(Category category);
+
+// All types by category, one line each; all about one type.
+std::string list_of_types();
+std::string description_of(const TypeDeclaration& type);
+
+// All about one section of scene files; empty if there is none of this name.
+std::string description_of_section(std::string_view name);
+
+// The pages of the reference: file name and Markdown text.
+std::vector<std::pair<std::string, std::string>> reference_pages();
+
+}  // namespace lekalo::render

@@ -1,0 +1,124 @@
+// Helpers that geometry types offer to drawings (`show` of an object): their fields. Which type offers which says the
+// type itself (TypeDeclaration::shows); combs, frames and normals belong to every curve or surface.
+#include <cmath>
+
+#include "render/model/look.h"
+#include "render/scene/values/types.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+const char* kMarkers[] = {"none", "dot", "circle", "ball", "cross", "plus", "square", "triangle", "diamond"};
+
+FieldType marker() { return choice({std::begin(kMarkers), std::end(kMarkers)}); }
+
+TypeDeclaration helper(const char* name, const char* description, const char* default_style) {
+  return declare(Category::helper, name, description)
+      .field("style", reference({Category::style}), "of its lines and texts", default_style)
+      .field("hidden", hidden_lines(), "what becomes of what lies behind something", "drop");
+}
+
+TypeDeclaration& finish(TypeDeclaration& type) {
+  return type.built_by([name = type.name](const Fields& f) {
+    Helper result;
+    result.type = name;
+    result.style = style_of(f, "style");
+    result.hidden = hidden_of(f);
+    result.values = f;
+    return result;
+  });
+}
+
+TypeDeclaration control_polygon() {
+  TypeDeclaration type = helper("control_polygon", "The control points of a curve, joined.", "construction");
+  type.field("marker", marker(), "sign at the points", "dot")
+      .optional("label", label({"i"}), "text at each point; %i is its index")
+      .field("label_points", choice({"all", "ends"}), "which points have the label", "all");
+  return finish(type);
+}
+
+TypeDeclaration control_net() {
+  TypeDeclaration type =
+      helper("control_net", "The control points of a surface, joined in rows and columns.", "construction");
+  type.field("marker", marker(), "sign at the points", "dot")
+      .optional("label", label({"i", "j"}), "text at each point; %i is its index along u, %j along v")
+      .field("label_points", choice({"all", "corners"}), "which points have the label", "all");
+  return finish(type);
+}
+
+// The points of de Casteljau's and de Boor's triangles; the levels count from 1.
+TypeDeclaration triangle(const char* name, const char* description, bool of_surfaces_too) {
+  TypeDeclaration type = helper(name, description, "construction");
+  if (of_surfaces_too)
+    type.example("t: 0.4")
+        .optional("t", number(), "where a curve is divided")
+        .optional("u", number(), "where a surface is divided")
+        .optional("v", number(), "where a surface is divided");
+  else
+    type.field("t", number(), "parameter of the point");
+  type.optional("levels", numbers().at_least(1), "which levels: 1..2, [1, 3]; all without it")
+      .field("marker", marker(), "sign at the points", "circle")
+      .optional("label", label({"i", "k"}), "text at each point; %i is its index, %k its level");
+  finish(type);
+  return type.built_by([build = type.build](const Fields& f) -> std::any {
+    if (f.has("levels"))
+      for (const double level : f.numbers("levels"))
+        if (level != std::nearbyint(level)) throw FieldError("levels", "levels are whole numbers", "for example 1..2");
+    return build(f);
+  });
+}
+
+TypeDeclaration comb() {
+  TypeDeclaration type = helper("comb", "The curvature of a curve as teeth across it.", "hairline");
+  type.field("count", integer().between(2, 10000), "number of teeth", "60")
+      .field("scale", number(), "length of a tooth for curvature 1, in scene units", "1")
+      .field("envelope", boolean(), "join the ends of the teeth", "true");
+  return finish(type);
+}
+
+TypeDeclaration frames() {
+  TypeDeclaration type = helper("frames", "Moving frames along a curve: tangent, normal, binormal.", "thin");
+  type.field("kind", choice({"frenet", "rotation_minimizing"}), "how the frame turns along the curve", "frenet")
+      .field("count", integer().between(1, 10000), "how many, evenly spaced in arc length", "9")
+      .optional("at", numbers(), "at these parameters t instead")
+      .field("length", length().positive(), "of the vectors, in scene units", "1")
+      .field("label", choice({"none", "first", "last", "all"}), "which frames have names at their vectors", "none");
+  finish(type);
+  return type.built_by([build = type.build](const Fields& f) -> std::any {
+    if (f.given("count") && f.given("at")) throw FieldError("count", "'at' and 'count' say the same: leave one out");
+    return build(f);
+  });
+}
+
+TypeDeclaration normals() {
+  TypeDeclaration type = helper("normals", "Unit normals of a surface.", "thin");
+  type.field("at_u", counts(), "parameters u: how many, or where", "5")
+      .field("at_v", counts(), "parameters v: how many, or where", "5")
+      .field("length", length().positive(), "in scene units", "1");
+  return finish(type);
+}
+
+TypeDeclaration knots_helper() {
+  TypeDeclaration type = helper("knots", "The knots of a curve as points on it, of a surface as lines on it.", "thin");
+  type.field("marker", marker(), "sign at the points of a curve", "cross")
+      .optional("label", label({"i"}), "text at each knot of a curve; %i is its index");
+  return finish(type);
+}
+
+}  // namespace
+
+std::vector<TypeDeclaration> helper_types() {
+  return {control_polygon(),
+          control_net(),
+          triangle("de_casteljau", "De Casteljau's construction of a point (Golovanov 2016, 2.4).", true),
+          triangle("de_boor", "De Boor's construction of a point (Golovanov 2016, 2.9).", false),
+          comb(),
+          frames(),
+          normals(),
+          knots_helper()};
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,111 @@
+#include "render/scene/types/sections.h"
+
+#include <stdexcept>
+
+#include "render/film/filter.h"
+#include "render/film/render.h"
+#include "render/model/page.h"
+#include "render/scene/types/panels.h"
+#include "render/scene/values/types.h"
+
+namespace lekalo::render {
+
+using geometry::Category;
+using geometry::Field;
+using Shape = SectionDeclaration::Shape;
+
+namespace {
+
+std::vector<Field> info_fields() {
+  using namespace geometry;
+  return {{"title", text(), "what the scene shows, for the file's metadata", false, {}},
+          {"figure", text(), "number of the figure it stands for, in quotes: '2.10'", false, {}},
+          {"shows", texts(), "capabilities that it shows, in quotes", false, {}},
+          {"source", text(), "book and section that it comes from", false, {}},
+          {"unit", text(), "what one scene unit is: mm, m, ...", false, {}}};
+}
+
+std::vector<Field> image_fields() {
+  using namespace geometry;
+  return {
+      {"size", picture_size(), "width and height: pixels, or paper (84 mm); one side may be auto", false, "[960, 720]"},
+      {"dpi", number().between(10, 2400), "pixels per inch of paper", false, "300"},
+      {"margin",
+       page_length().non_negative().at_most(1000),
+       "free border of a drawing; an automatic side of the page has it beside the content",
+       false,
+       {}},
+      {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
+      {"contrast", number().between(0, 1),
+       "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "
+       "0: "
+       "all pixels take all samples",
+       false, "0.03"},
+      {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
+      {"filter_radius", number().non_negative().at_most(kMostFilterRadius),
+       "in pixels, at least 0.5; 0: the filter's own", false, "0"},
+      {"seed", integer().non_negative(), "of the sample positions", false, "0"},
+      {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
+      {"color_precision", choice({"half", "float"}),
+       "of R G B A in OpenEXR files; half: 11 bits and much smaller files", false, "float"},
+      {"layers", words(film_layers()), "layers of OpenEXR files; all by default", false, {}},
+      {"background", color().non_negative(), "behind everything", false, "white"}};
+}
+
+std::vector<Field> output_fields() {
+  using namespace geometry;
+  return {{"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg (drawings)", true, {}},
+          {"kind", choice({"render", "drawing"}), "of a png: the picture or the drawing", false, "render"},
+          {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
+          {"tone", choice({"none", "filmic"}), "display curve of a png", false, "none"},
+          {"panel", text(), "only this panel of a drawing", false, {}},
+          {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
+}
+
+}  // namespace
+
+const std::vector<SectionDeclaration>& sections() {
+  static const std::vector<SectionDeclaration> all = {
+      {"lekalo", "version of the scene language: 1; the first key of every scene file", Shape::free, {}, {}},
+      {"info", "title, figure number and source of the scene", Shape::fields, info_fields(), {}},
+      {"include",
+       "files read before this one: a name, or { file, as: prefix, set: { parameter: value } }",
+       Shape::free,
+       {},
+       {}},
+      {"parameters", "named numbers and angles that every formula may use", Shape::numbers, {}, {}},
+      {"geometry",
+       "named points, curves, surfaces, bodies and meshes, in any order",
+       Shape::named,
+       {},
+       {geometry_categories().begin(), geometry_categories().end()}},
+      {"materials", "named materials", Shape::named, {}, {Category::material}},
+      {"lights", "named lights; {} means none; a studio by default", Shape::named, {}, {Category::light}},
+      {"camera", "from where the scene is seen; everything, framed, by default", Shape::one_of, {}, {Category::camera}},
+      {"image", "size and sampling of the picture", Shape::fields, image_fields(), {}},
+      {"integrator", "how light is computed", Shape::one_of, {}, {Category::integrator}},
+      {"objects",
+       "what is shown and how; every entity that nothing else uses by default",
+       Shape::things,
+       {},
+       {Category::object}},
+      {"styles",
+       "named styles of lines, markers and text of drawings; built-in: thick thin hairline hidden axis construction "
+       "dimension label ray",
+       Shape::named,
+       {},
+       {Category::style}},
+      {"drawing", "page-wide choices of drawings", Shape::fields, drawing_fields(), {}},
+      {"panels", "several views on one page", Shape::named, {}, {Category::panel}},
+      {"layout", "arrangement of the panels; one row by default", Shape::fields, layout_fields(), {}},
+      {"outputs", "files to write", Shape::list, output_fields(), {}}};
+  return all;
+}
+
+const SectionDeclaration& section_declaration(std::string_view name) {
+  for (const SectionDeclaration& section : sections())
+    if (section.name == name) return section;
+  throw std::logic_error("there is no section '" + std::string(name) + "'");
+}
+
+}  // namespace lekalo::render

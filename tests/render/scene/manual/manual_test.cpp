@@ -1,0 +1,71 @@
+// Every example of the manual is a scene that the program takes.
+#include "render/scene/manual/manual.h"
+
+#include <gtest/gtest.h>
+
+#include "render/scene/scene_text.h"
+
+namespace lekalo::render::manual_test {
+namespace {
+
+// The things that examples name.
+const std::string kNamed =
+    "geometry:\n"
+    "  my_curve: { type: nurbs_curve, degree: 1, points: [[1, 0], [2, 0, 1], [3, 0]] }\n"
+    "  my_body: { type: ball, radius: 1 }\n"
+    "  round: { type: circle, radius: 1 }\n";
+
+// A scene with the example where things of its category stand.
+std::string scene_of(const TypeDeclaration& type, const std::string& example) {
+  const bool curve = type.helpers.empty() && (type.name == "de_casteljau" || type.name == "control_polygon");
+  switch (type.category) {
+    case Category::object:
+      return kNamed + "objects: [" + example + "]\n";
+    case Category::material:
+      return "materials: { a: " + example + " }\n";
+    case Category::texture:
+      return "materials: { a: { type: diffuse, color: " + example + " } }\n";
+    case Category::light:
+      return "lights: { a: " + example + " }\n";
+    case Category::camera:
+      return kNamed + "camera: " + example + "\n";
+    case Category::integrator:
+      return "integrator: " + example + "\n";
+    case Category::style:
+      return "styles: { a: " + example + " }\n";
+    case Category::panel:
+      return kNamed + "panels: { a: " + example + " }\n";
+    case Category::annotation:
+      return kNamed + "drawing: { annotations: [" + example + "] }\n";
+    case Category::helper:
+      return std::string("geometry:\n  c: ") +
+             (curve ? "{ type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }"
+              : type.name == "de_boor" || type.name == "comb" || type.name == "frames"
+                  ? "{ type: nurbs_curve, points: [[0, 0], [1, 1], [2, 0], [3, 1]] }"
+                  : "{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }") +
+             "\nobjects: { shape: c, show: { " + example + " } }\n";
+    default:
+      return kNamed + "  a: " + example + "\n";
+  }
+}
+
+TEST(Manual, ExamplesAreScenes) {
+  for (const TypeDeclaration& type : all_types()) {
+    const std::string example = example_of(type);
+    if (example.find("file:") != std::string::npos || type.runs_foreign_code) continue;  // the reader's own file
+    std::string scene = scene_of(type, example);
+    // A radius is that of something round.
+    if (type.name.ends_with("s_dimension") || type.name.ends_with("r_dimension"))
+      if (const size_t at = scene.find("of: my_curve"); at != std::string::npos) scene.replace(at, 12, "of: round");
+    EXPECT_EQ(build_text(scene).said, "") << type.name << "\n" << scene;
+  }
+}
+
+// Ranges of angles are declared in radians and read in degrees.
+TEST(Manual, RangesOfAnglesAreInDegrees) {
+  for (const TypeDeclaration& type : all_types())
+    EXPECT_EQ(description_of(type).find("-5156"), std::string::npos) << type.name;
+}
+
+}  // namespace
+}  // namespace lekalo::render::manual_test
