@@ -5,11 +5,28 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "geometry/queries/rays/line_intersections.h"
+#include "geometry/surface.h"
 
 namespace lekalo::geometry {
+
+// A hit of a line with a set of surfaces or a body.
+struct SurfaceHit {
+  double t = 0;
+  double u = 0;
+  double v = 0;
+  int face = 0;  // of a body; 0 for a surface
+  int piece = 0;
+};
+
+// How lines are met, for statistics: a name ("closed form", "Bezier pieces"), the pieces prepared and their memory.
+struct LineMethod {
+  std::string_view name = "closed form";
+  size_t pieces = 1;
+  size_t bytes = 0;
+};
 
 // What a shape shows at a hit: point, outward unit normal, parameters and the derivatives by them (zero where it has
 // none). Aligned as Foot.

@@ -63,4 +63,8 @@ inline constexpr double kNormalLimit = 1e-8;
 // Taylor coefficients of r_u x r_v below this part of their largest possible terms are rounding errors.
 inline constexpr double kNormalNoise = 1e-15;
 
+// Points nearer than this part of the operands' size are one, where nothing else is asked for: what is left of decimals
+// in a file after a few operations.
+inline constexpr double kSamePoint = 1e-9;
+
 }  // namespace lekalo::geometry

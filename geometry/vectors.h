@@ -116,4 +116,11 @@ struct Affine {
 Affine operator*(const Affine& then, const Affine& first);
 Box3 transformed(const Box3& box, const Affine& map);
 
+// a P + b Q with a + b = 1; exact at a = 0 and b = 0 and where P = Q, so that collapsed edges stay collapsed and
+// neighbouring pieces share their points.
+template <class Point>
+Point affine_mix(double a, const Point& p, double b, const Point& q) {
+  return b < a ? p + b * (q - p) : q + a * (p - q);
+}
+
 }  // namespace lekalo::geometry

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/shapes/csg/body_shape.h"
 #include "geometry/shapes/csg/half_space.h"

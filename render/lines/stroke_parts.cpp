@@ -3,7 +3,9 @@
 // spheres, each kept outside of the others.
 #include <cmath>
 
+#include "geometry/queries/contours/level_section.h"
 #include "geometry/queries/contours/silhouette_crossings.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/implicit_curves/implicit_arcs.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/analytic/plane.h"

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "geometry/curves/operations/curve_part.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/self_intersections.h"
+#include "geometry/shapes/tube/ball_parameter_lines.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"

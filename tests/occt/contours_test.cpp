@@ -12,7 +12,8 @@
 #include <functional>
 #include <set>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "occt/occt_surfaces.h"
 #include "support/tier.h"
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/surface.h"
 #include "geometry/vectors.h"
 
 namespace lekalo::oracle::implicit {

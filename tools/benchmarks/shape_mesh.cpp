@@ -4,6 +4,8 @@
 #include <array>
 #include <unordered_map>
 
+#include "geometry/shape.h"
+
 namespace lekalo::benchmarks {
 
 using geometry::Line;

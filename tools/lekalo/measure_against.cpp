@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "command.h"
+#include "geometry/surface.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -5,6 +5,8 @@
 
 #include "command.h"
 #include "geometry/queries/contours/body_contours.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "measure.h"

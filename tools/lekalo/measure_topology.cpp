@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "command.h"
+#include "geometry/body.h"
 #include "measure.h"
 
 namespace lekalo::command {

@@ -1,9 +1,14 @@
 // Scene types of contours: curves given by surfaces rather than by points.
 #include <fmt/format.h>
 
+#include "geometry/contour.h"
 #include "geometry/describe.h"
 #include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/isophote.h"
+#include "geometry/queries/contours/plane_section.h"
+#include "geometry/queries/contours/silhouette.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/self_intersections.h"
 
 namespace lekalo::geometry {

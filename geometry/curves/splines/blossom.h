@@ -13,13 +13,6 @@
 
 namespace lekalo::geometry {
 
-// a P + b Q with a + b = 1; exact at a = 0 and b = 0 and where P = Q, so that collapsed edges stay collapsed and
-// neighbouring pieces share their points.
-template <class Point>
-Point affine_mix(double a, const Point& p, double b, const Point& q) {
-  return b < a ? p + b * (q - p) : q + a * (p - q);
-}
-
 // Writes the degree + 1 Bezier points over [a, b] of the span i (t_i < t_{i+1}, degree <= i) to result[0],
 // result[stride],
 // ...; reads the control points points[(i - degree) * stride], ... [a, b] need not lie inside the span.

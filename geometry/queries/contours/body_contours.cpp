@@ -10,6 +10,8 @@
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/contours/contour_curve.h"
+#include "geometry/queries/contours/surface_intersection.h"
+#include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
 
 namespace lekalo::geometry {

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "geometry/body.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/plane_section.h"
+#include "geometry/queries/contours/silhouette.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 

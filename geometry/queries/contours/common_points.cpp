@@ -8,6 +8,8 @@
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/contours/surface_intersection.h"
+#include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/surfaces/analytic/plane.h"
 

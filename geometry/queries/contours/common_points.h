@@ -1,6 +1,6 @@
 // Where three surfaces or bodies meet: all common points (Golovanov 2016, 4.5; capability 4.5b).
 //
-// The curves of two of them (geometry/queries/contours/contours.h), none of which is lost, meet the third
+// The curves of two of them (geometry/queries/contours), none of which is lost, meet the third
 // (geometry/queries/intersections/curve_intersections.h). Where enclosures of such a curve are too wide, next to poles,
 // that search goes on from the middle of a stretch: a second crossing of it could be lost there. Three planes have one
 // point in closed form (4.5.2).
@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "geometry/body.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 

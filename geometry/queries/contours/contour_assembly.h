@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "geometry/contour.h"
 #include "geometry/numerics/solution_curves.h"
 #include "geometry/queries/contours/contour_curve.h"
-#include "geometry/queries/contours/contours.h"
 
 namespace lekalo::geometry {
 

@@ -1,6 +1,6 @@
 // Equations whose solutions are curves on surfaces: where two surfaces meet, r(u, v) = s(a, b) (Golovanov 2016,
 // (4.7.2)), and where a function of one surface's point and tangents vanishes: silhouettes (4.6.5), isophotes,
-// reflection lines, sections. N unknowns, N - 1 equations; geometry/queries/contours/contours.h finds the curves.
+// reflection lines, sections. N unknowns, N - 1 equations; geometry/queries/contours finds the curves.
 #pragma once
 
 #include <functional>

@@ -4,8 +4,9 @@
 
 #include <vector>
 
+#include "geometry/contour.h"
 #include "geometry/mesh.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/queries/contours/plane_section.h"
 #include "geometry/spatial/box_tree.h"
 
 namespace lekalo::geometry {

@@ -1,6 +1,6 @@
 // The parameter lines that pictures show: u and then v held at so many values, or at listed ones, on surfaces, on the
-// faces of bodies as far as these go, and on balls as far as the lines are on the outside of all. (Those of tubes:
-// tube_lines.h; of solids that are put together: csg_contours.h.)
+// faces of bodies as far as these go. (Those of balls and tubes: shapes/tube; of solids that are put together:
+// shapes/csg.)
 #pragma once
 
 #include <functional>
@@ -11,7 +11,6 @@
 #include "geometry/body.h"
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/describe.h"
-#include "geometry/shapes/tube/ball_outlines.h"
 
 namespace lekalo::geometry {
 
@@ -42,9 +41,6 @@ NetLine whole_line(const SurfacePtr& surface, HeldParameter held, double at);
 // None of an unbounded surface, and none that is a point.
 std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net);
 std::vector<NetLine> parameter_lines(const Body& body, const ParameterNet& net);
-
-// Meridians and parallels of each ball, z up; `view` is that of the turns.
-ShapeOutlines parameter_lines(const Balls& balls, const ParameterNet& net, const ViewOf& view);
 
 // A face; without a region it fills its surface's domain.
 struct FaceRegion {

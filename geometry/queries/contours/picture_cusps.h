@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/silhouette.h"
 
 namespace lekalo::geometry {
 

@@ -7,9 +7,12 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/surface.h"
 
 namespace lekalo::geometry {
+
+class ImplicitFormula;
 
 // Adds the parameters of the line at such places to `turns`, in no order, and one in the middle of a piece perhaps
 // twice. The line, whose pieces these are, and its image have one parameter; the view is that of the surface's own

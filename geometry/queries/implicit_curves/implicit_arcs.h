@@ -16,7 +16,7 @@
 
 #include "geometry/queries/implicit_curves/implicit_branches.h"
 #include "geometry/queries/implicit_curves/implicit_equations.h"
-#include "geometry/shapes/implicit/implicit_surface.h"
+#include "geometry/queries/implicit_curves/implicit_region.h"
 
 namespace lekalo::geometry {
 

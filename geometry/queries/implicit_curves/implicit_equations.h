@@ -13,9 +13,9 @@
 // whose excess falls with the square of the size, that of the formula's own only with the size.
 #pragma once
 
+#include "geometry/contour.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/numerics/triple.h"
-#include "geometry/queries/contours/contours.h"
 #include "geometry/queries/implicit_curves/implicit_formula.h"
 
 namespace lekalo::geometry {

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
 #include "geometry/queries/implicit_curves/implicit_formula.h"
 
 namespace lekalo::geometry {

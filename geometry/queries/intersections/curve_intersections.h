@@ -11,12 +11,9 @@
 
 #include "geometry/curve.h"
 #include "geometry/surface.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
-
-// Points nearer than this part of the operands' size are one, where nothing else is asked for: what is left of decimals
-// in a file after a few operations.
-inline constexpr double kSamePoint = 1e-9;
 
 struct CurveMeeting {
   double s = 0, t = 0;   // on the first and on the second curve

@@ -7,7 +7,8 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/intersections/curve_intersections.h"
 
 namespace lekalo::geometry {
 

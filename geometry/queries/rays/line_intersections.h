@@ -14,27 +14,12 @@
 
 #include "geometry/body.h"
 #include "geometry/queries/rays/line_basis.h"
+#include "geometry/shape.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
 
-// A hit of a line with a set of surfaces or a body.
-struct SurfaceHit {
-  double t = 0;
-  double u = 0;
-  double v = 0;
-  int face = 0;  // of a body; 0 for a surface
-  int piece = 0;
-};
-
 class TrimRegion;
-
-// How lines are met, for statistics: a name ("closed form", "Bezier pieces"), the pieces prepared and their memory.
-struct LineMethod {
-  std::string_view name = "closed form";
-  size_t pieces = 1;
-  size_t bytes = 0;
-};
 
 // A surface prepared for lines. Pieces are independent of each other; hits of a line on a border shared by two pieces
 // may be reported by both (merge_hits removes the second).

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/body.h"
+#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/shape.h"
 
 namespace lekalo::geometry {

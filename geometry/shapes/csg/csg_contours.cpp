@@ -11,6 +11,7 @@
 #include "geometry/queries/contours/analytic/canonical_surface.h"
 #include "geometry/queries/contours/body_contours.h"
 #include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/queries/contours/level_section.h"
 #include "geometry/queries/contours/silhouette_crossings.h"
 #include "geometry/queries/implicit_curves/implicit_arcs.h"
 #include "geometry/queries/intersections/curve_entries.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
 #include "geometry/queries/contours/parameter_lines.h"
 #include "geometry/shapes/csg/csg.h"
 

@@ -8,7 +8,9 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/plane_section.h"
+#include "geometry/queries/contours/silhouette.h"
 #include "geometry/shapes/implicit/implicit_surface.h"
 
 namespace lekalo::geometry {

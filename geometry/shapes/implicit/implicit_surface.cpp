@@ -86,12 +86,6 @@ void require_values(const ImplicitFormula& formula, const ImplicitRegion& region
 
 }  // namespace
 
-bool ImplicitRegion::misses(const Box3& other) const {
-  if (!is_ball) return glm::any(glm::lessThan(other.hi, box.lo)) || glm::any(glm::greaterThan(other.lo, box.hi));
-  const Vec3 off = glm::max(glm::max(other.lo - box.center(), box.center() - other.hi), Vec3(0));
-  return glm::dot(off, off) > radius() * radius() * (1 + 1e-12);
-}
-
 ImplicitSurface::ImplicitSurface(Expression expression, double level, const ImplicitRegion& region, bool closed)
     : formula_(std::move(expression), level), region_(region), size_(glm::length(region.box.size())), closed_(closed) {
   const Box3& box = region.box;

@@ -10,23 +10,11 @@
 
 #include "geometry/describe.h"
 #include "geometry/expression/line_polynomial.h"
+#include "geometry/queries/implicit_curves/implicit_region.h"
 #include "geometry/shape.h"
 #include "geometry/shapes/implicit/implicit_cells.h"
 
 namespace lekalo::geometry {
-
-// A box, or the ball inside it.
-struct ImplicitRegion {
-  Box3 box;
-  bool is_ball = false;
-
-  static ImplicitRegion ball(const Vec3& center, double radius) {
-    return {{center - Vec3(radius), center + Vec3(radius)}, true};
-  }
-  double radius() const { return 0.5 * (box.hi.x - box.lo.x); }
-  // Whether a box holds nothing of the region.
-  bool misses(const Box3& other) const;
-};
 
 class ImplicitSurface final : public Shape {
  public:

@@ -13,7 +13,8 @@
 
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/plane_section.h"
 #include "geometry/shapes/tube/balls.h"
 #include "geometry/shapes/tube/tube.h"
 

@@ -15,6 +15,7 @@
 
 #include "geometry/point_formulas.h"
 #include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/shapes/tube/ball_circles.h"
 #include "geometry/shapes/tube/cuspidal_edges.h"

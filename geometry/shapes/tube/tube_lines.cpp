@@ -5,6 +5,8 @@
 
 #include "geometry/describe.h"
 #include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/queries/contours/level_section.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/implicit_curves/implicit_formula.h"
 #include "geometry/shapes/tube/ball_circles.h"
 #include "geometry/shapes/tube/tube_cutting.h"

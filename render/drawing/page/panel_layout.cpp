@@ -79,7 +79,7 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
   extent.half = 0.5 * extent.shown.size();
   const SheetBox all = annotated_box(model, shown, *extent.camera, extent.millimetres);
   extent.before = extent.shown.lo - all.lo + Vec2(kFree);
-  extent.after = all.hi - extent.framed_content.hi + Vec2(kFree);
+  extent.after = all.hi - extent.shown.hi + Vec2(kFree);
   return extent;
 }
 
@@ -203,7 +203,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
     const bool fits = all.lo.x >= -kRounding && all.lo.y >= -kRounding && all.hi.x <= size.x + kRounding &&
                       all.hi.y <= size.y + kRounding;
     if (round == 0 && fits && shows_objects) break;
-    const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - framed_content.hi + Vec2(kFree);
+    const Vec2 before = shown.lo - all.lo + Vec2(kFree), after = all.hi - shown.hi + Vec2(kFree);
     const Vec2 content = shown.size();
     Vec2 room = size - before - after;
     if (auto_height) room.y = std::max(kTallest * size.x, size.y) - before.y - after.y;
@@ -216,7 +216,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
     if (shows_objects) grow = std::min(grow, 1 / zoom);
     if (auto_height) size.y = before.y + after.y + grow * content.y;
     // The middle of what is shown comes to the middle of its room.
-    const Vec2 middle = corner + 0.5 * (shown.lo + framed_content.hi) / (millimetres * zoom);
+    const Vec2 middle = corner + 0.5 * (shown.lo + shown.hi) / (millimetres * zoom);
     zoom *= grow;
     corner = middle - (before + 0.5 * (size - before - after)) / (millimetres * zoom);
     camera = window_of(model.camera, corner.x, corner.y, zoom, static_cast<int>(std::lround(size.x / millimetres)),
@@ -313,7 +313,7 @@ void add_scaled(const Model& page, const Rows& rows, const PanelsByName& panels,
         Model model = model_of(page, *panels.at(rows[i][j]));
         // A window of the trial's picture, its middle on the lines of row and column.
         const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
-        const Vec2 middle = 0.5 * (extent.shown.lo + extent.framed_content.hi);
+        const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
         const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
         model.camera_frames = false;  // all has its room
         model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {

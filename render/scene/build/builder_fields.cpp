@@ -7,8 +7,8 @@
 
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/build/builder.h"
-#include "render/scene/manual/manual.h"
 #include "render/scene/values/scalars.h"
+#include "render/scene/values/value_text.h"
 #include "render/scene/values/words.h"
 
 namespace lekalo::render {

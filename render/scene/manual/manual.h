@@ -10,9 +10,6 @@
 
 namespace lekalo::render {
 
-// "length greater than 0", "angle in degrees", "one of box, gaussian", "a curve: name or map".
-std::string value_text(const geometry::FieldType& type);
-
 // A map of this type with all that it needs, in one line: "{ type: circle, radius: 1 }".
 std::string example_of(const TypeDeclaration& type);
 

@@ -8,6 +8,7 @@
 
 #include "render/scene/manual/manual.h"
 #include "render/scene/types/sections.h"
+#include "render/scene/values/value_text.h"
 #include "render/suite/suite.h"
 
 namespace lekalo::render {

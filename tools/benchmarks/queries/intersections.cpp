@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
+#include "geometry/contour.h"
 #include "geometry/curves/splines/nurbs_operations.h"
 #include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "occt/occt_surfaces.h"
 #include "queries/rows.h"
 #include "timed.h"

@@ -12,12 +12,13 @@
 //
 // Nothing is returned for other pairs, and wherever rounding or the tolerance would have to decide: nearly tangent,
 // nearly coincident, borders that touch, singular points at ends. There the search of
-// geometry/queries/contours/contours.h decides. What is returned lies within 1e-14 of the size on both surfaces.
+// geometry/queries/contours decides. What is returned lies within 1e-14 of the size on both surfaces.
 #pragma once
 
 #include <optional>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/surface.h"
 
 namespace lekalo::geometry {
 

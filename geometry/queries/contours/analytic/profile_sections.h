@@ -9,7 +9,8 @@
 
 #include <optional>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/surface.h"
 
 namespace lekalo::geometry {
 

@@ -9,8 +9,8 @@
 
 #include <optional>
 
+#include "geometry/contour.h"
 #include "geometry/queries/contours/analytic/canonical_surface.h"
-#include "geometry/queries/contours/contours.h"
 
 namespace lekalo::geometry {
 

@@ -15,6 +15,7 @@
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/queries/contours/body_contours.h"
+#include "geometry/queries/contours/contour_length.h"
 #include "geometry/queries/contours/parameter_lines.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/queries/rays/line_intersections.h"

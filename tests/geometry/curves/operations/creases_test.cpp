@@ -5,9 +5,10 @@
 
 #include <cmath>
 
+#include "geometry/contour.h"
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/splines/nurbs_curve.h"
-#include "geometry/queries/contours/contours.h"
+#include "geometry/queries/contours/silhouette.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/splines/nurbs_surface.h"
 #include "geometry/surfaces/swept/extrusion.h"

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "geometry/bodies/primitives/primitives.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry::body_contours_test {

@@ -1,6 +1,11 @@
 // Contours on surfaces: the checks of Golovanov 2016, 4.6 to 4.8, singular and nearly singular cases whose truth is
 // known, and random pairs against counts on a grid of Bernstein forms (support/level_oracle.h).
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/isophote.h"
+#include "geometry/queries/contours/plane_section.h"
+#include "geometry/queries/contours/silhouette.h"
+#include "geometry/queries/contours/surface_intersection.h"
 
 #include <gtest/gtest.h>
 

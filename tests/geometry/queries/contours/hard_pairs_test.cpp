@@ -7,7 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"

@@ -2,7 +2,10 @@
 // ellipsoids by formulas of every form, and a lemon, whose poles are tips.
 #include <gtest/gtest.h>
 
-#include "geometry/queries/contours/contours.h"
+#include "geometry/contour.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/isophote.h"
+#include "geometry/queries/contours/silhouette.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "geometry/transformed.h"
 

@@ -12,6 +12,7 @@
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/queries/contours/contour_length.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"

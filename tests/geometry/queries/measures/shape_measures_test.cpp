@@ -13,7 +13,7 @@
 #include "geometry/shapes/csg/half_space.h"
 #include "geometry/shapes/tube/balls.h"
 #include "geometry/shapes/tube/tube.h"
-#include "geometry/shapes/tube_cases.h"
+#include "geometry/shapes/tube/tube_cases.h"
 
 namespace lekalo::geometry::shape_measures_test {
 namespace {

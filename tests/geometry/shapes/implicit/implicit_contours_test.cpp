@@ -78,7 +78,7 @@ TEST(ImplicitContours, OutlineOfASphere) {
       EXPECT_NEAR(glm::length(p), 1.5, 1e-12);
       EXPECT_NEAR(glm::dot(p, axis), height, 1e-12);
     });
-    EXPECT_NEAR(checks::chord_length(*line.curve, kChords), kTwoPi * radius, 1e-4);
+    EXPECT_NEAR(lekalo::checks::chord_length(*line.curve, kChords), kTwoPi * radius, 1e-4);
     // Aside is away from the centre.
     ASSERT_TRUE(line.aside);
     for (const double share : {0.1, 0.4, 0.9}) {
@@ -106,7 +106,7 @@ TEST(ImplicitContours, OutlineOfATorusAsOfTheParametricOne) {
     double found_length = 0, true_length = 0;
     for (const ImplicitContour& line : found.lines) {
       EXPECT_TRUE(line.closed);
-      found_length += checks::chord_length(*line.curve, kChords);
+      found_length += lekalo::checks::chord_length(*line.curve, kChords);
       for (const double t : line.turns) found_cusps.push_back(line.curve->point(t));
       each_place(line, 100, [&](const Vec3& p) {
         const double rho = std::hypot(p.x, p.y);
@@ -116,7 +116,7 @@ TEST(ImplicitContours, OutlineOfATorusAsOfTheParametricOne) {
       });
     }
     for (const Contour& branch : truth.branches) {
-      true_length += checks::chord_length(*branch.curve, kChords);
+      true_length += lekalo::checks::chord_length(*branch.curve, kChords);
       for (const double t : branch.cusps) true_cusps.push_back(branch.curve->point(t));
     }
     EXPECT_NEAR(found_length, true_length, 1e-4 * true_length) << k;
@@ -143,7 +143,7 @@ TEST(ImplicitContours, CylinderInABox) {
         EXPECT_NEAR(std::abs(p.x), 0.8, 1e-12);
         EXPECT_NEAR(p.x * 3 + p.y * 4, 0, 1e-12);
       });
-      EXPECT_NEAR(checks::chord_length(*line.curve, kChords), 4, 1e-11);
+      EXPECT_NEAR(lekalo::checks::chord_length(*line.curve, kChords), 4, 1e-11);
     }
     ASSERT_EQ(rim.lines.size(), 2u);
     for (const ImplicitContour& line : rim.lines) {
@@ -176,7 +176,7 @@ TEST(ImplicitContours, EdgesOfABoxThatEndABall) {
       each_place(line, 20, [](const Vec3& p) { EXPECT_NEAR(glm::length(p), 1, 1e-12); });
     } else {
       ++straight;
-      EXPECT_NEAR(checks::chord_length(*line.curve, kChords), 2 * reach, 1e-12);
+      EXPECT_NEAR(lekalo::checks::chord_length(*line.curve, kChords), 2 * reach, 1e-12);
     }
   }
   EXPECT_EQ(arcs, 24);
@@ -202,7 +202,7 @@ TEST(ImplicitContours, BallThatEndsAHalfSpace) {
     const Vec3 axis = glm::normalize(view.direction_or_eye);
     double length = 0;
     for (const ImplicitContour& line : outline.lines) {
-      length += checks::chord_length(*line.curve, kChords);
+      length += lekalo::checks::chord_length(*line.curve, kChords);
       each_place(line, 50, [&](const Vec3& p) {
         EXPECT_LE(p.z, 0.2 + 1e-9);
         EXPECT_NEAR(glm::length(p), 1, 1e-12);
@@ -234,7 +234,7 @@ TEST(ImplicitContours, SectionsOfATorus) {
   const ImplicitSurface ball(formula("x^2 + y^2 + z^2 - 1"), 0, cube(0.8), true);
   double straight = 0, round = 0;
   for (const ImplicitContour& line : plane_section(ball, {0, 0, 0}, {0, 0, 1}, view).lines) {
-    const double length = checks::chord_length(*line.curve, kChords);
+    const double length = lekalo::checks::chord_length(*line.curve, kChords);
     (glm::length(line.curve->point(line.curve->domain().middle())) > 1 - 1e-9 ? round : straight) += length;
   }
   EXPECT_NEAR(straight, 4 * 2 * 0.6, 1e-9);

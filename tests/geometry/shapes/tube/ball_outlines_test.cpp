@@ -14,6 +14,7 @@
 #include "geometry/point_formulas.h"
 #include "geometry/queries/contours/parameter_lines.h"
 #include "geometry/queries/measures/mass_properties.h"
+#include "geometry/shapes/tube/ball_parameter_lines.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry::ball_outlines_test {

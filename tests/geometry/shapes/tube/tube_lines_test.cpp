@@ -13,6 +13,7 @@
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/point_formulas.h"
 #include "geometry/queries/measures/arc_length.h"
+#include "geometry/queries/measures/mass_properties.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "support/curve_places.h"

@@ -15,6 +15,10 @@
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/contours/analytic/conic_image.h"
+#include "geometry/queries/contours/contour_length.h"
+#include "geometry/queries/contours/plane_section.h"
+#include "geometry/queries/contours/surface_intersection.h"
+#include "geometry/queries/measures/mass_properties.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/ellipsoid.h"
 #include "geometry/surfaces/analytic/hyperboloid.h"
@@ -25,6 +29,7 @@
 #include "geometry/surfaces/splines/nurbs_surface.h"
 #include "geometry/surfaces/swept/extrusion.h"
 #include "geometry/surfaces/swept/revolution.h"
+#include "geometry/tolerances.h"
 #include "geometry/transformed.h"
 #include "support/tier.h"
 

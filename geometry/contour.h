@@ -1,5 +1,6 @@
-// Curves on surfaces that are given by equations: where two surfaces meet (Golovanov 2016, 4.7 and 4.8), silhouettes
-// (4.6), isophotes, reflection lines, sections by planes. Capabilities 4.6e, 4.7a-d, 4.8a-c.
+// Curves on surfaces that are given by equations, and what is known of each: intersections of two surfaces (Golovanov
+// 2016, 4.7 and 4.8), silhouettes (4.6), isophotes, reflection lines, sections by planes. Capabilities 4.6e, 4.7a-d,
+// 4.8a-c. They are found in geometry/queries/contours.
 //
 // All of them are found, by one search (geometry/numerics/solution_curves.h) over each smooth piece of the surface or
 // each pair of pieces that can meet, then joined over the borders of pieces into branches that are as long as they can
@@ -9,13 +10,9 @@
 #include <vector>
 
 #include "geometry/curve.h"
-#include "geometry/queries/intersections/curve_intersections.h"
-#include "geometry/queries/measures/mass_properties.h"
-#include "geometry/surface.h"
+#include "geometry/vectors.h"
 
 namespace lekalo::geometry {
-
-class ImplicitFormula;
 
 enum class ContourKind {
   crossing,  // the surfaces cross, the function changes its sign
@@ -59,32 +56,10 @@ struct Contours {
   bool closed_form = false;
 };
 
-// The length of a part of a contour that was searched: by Gauss's rule on each of its pieces, which are short arcs.
-// Other rules for curves ask for more digits than a tiny loop between large surfaces has. A part of a closed contour
-// may go on past the end of its domain.
-Measured contour_length(const Contour& contour, const Interval& t);
-inline Measured contour_length(const Contour& contour) { return contour_length(contour, contour.curve->domain()); }
-
 // How a scene is seen: along a direction, or from an eye.
 struct ViewOf {
   bool central = false;
   Vec3 direction_or_eye{0, 0, -1};
 };
-
-// `tolerance` is relative to the size of both: surfaces that come so near to each other touch. Throws
-// std::invalid_argument for unbounded surfaces other than planes, and for two unbounded planes.
-Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance = kSamePoint);
-
-// These take one surface, which must be bounded (std::invalid_argument).
-Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal);
-// Where F of a point has the value of its level, the surface's points taken to F's coordinates by an affine map: the
-// line in which an implicit surface meets this one. Not complete where F has jumps.
-Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula, const Affine& to_formula = {});
-// Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5).
-Contours silhouette(const SurfacePtr& surface, const ViewOf& view);
-// Where the normal (that of the surface) stands at `angle` to `direction`; pi/2 is the silhouette. In (0, pi).
-Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle);
-// Where the mirrored way of sight meets the straight line `lamp`: how stylists judge a surface.
-Contours reflection_line(const SurfacePtr& surface, const ViewOf& view, const Line& lamp);
 
 }  // namespace lekalo::geometry
