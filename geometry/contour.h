@@ -25,7 +25,7 @@ struct Contour {
   std::vector<Curve2Ptr> images;  // on the surface, or on both, with the same parameter
   bool closed = false;
   ContourKind kind = ContourKind::crossing;
-  // Of silhouettes: where the curve runs along the way of sight, so that its picture has a cusp; by t.
+  // Of silhouettes: where the curve runs along the line of sight, so that its picture has a cusp; by t.
   std::vector<double> cusps;
   double error = 0;  // the largest distance from the surfaces or from the true contour seen along it
 };

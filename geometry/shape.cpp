@@ -25,11 +25,11 @@ ShapePoint TransformedShape::point(const SurfaceHit& hit, const Vec3& near) cons
   at.normal = glm::normalize(glm::transpose(inverse_.linear) * at.normal);
   at.du = map_.direction(at.du);
   at.dv = map_.direction(at.dv);
-  at.error *= largest_stretch(map_);
+  at.error *= operator_norm_bound(map_);
   return at;
 }
 
-double largest_stretch(const Affine& map) {
+double operator_norm_bound(const Affine& map) {
   double square = 0;
   for (int k = 0; k < 3; ++k) square += glm::dot(map.linear[k], map.linear[k]);
   return std::sqrt(square);

@@ -29,7 +29,7 @@ struct LineMethod {
 };
 
 // What a shape shows at a hit: point, outward unit normal, parameters and the derivatives by them (zero where it has
-// none). Aligned as Foot.
+// none). Aligned as FootPoint.
 struct ShapePoint {
   alignas(16) Vec3 position{0};
   alignas(16) Vec3 normal{0, 0, 1};
@@ -128,7 +128,7 @@ class TransformedShape final : public Shape {
 };
 
 // A bound on how much longer the map makes a vector.
-double largest_stretch(const Affine& map);
+double operator_norm_bound(const Affine& map);
 
 // The image under an affine map; the identity gives the shape itself, maps of maps are multiplied out. Throws
 // std::invalid_argument for a singular map.

@@ -25,7 +25,7 @@ std::vector<SurfacePiece> Surface::pieces() const {
   return {piece};
 }
 
-Foot Surface::foot(const Vec3&) const { throw std::logic_error("this surface does not know its feet"); }
+FootPoint Surface::foot_point(const Vec3&) const { throw std::logic_error("this surface does not know its feet"); }
 
 void Surface::line_hits(const Line&, const Interval&, LineHits&) const {
   throw std::logic_error("this surface has no formula for lines");

@@ -85,7 +85,7 @@ struct NurbsSurfaceForm {
 
 // The nearest point of a surface, and the unit normal there. (Aligned: read in the pairs of numbers that it was written
 // in. Of two that were written one at a time, and are read as one, a processor waits for both.)
-struct Foot {
+struct FootPoint {
   alignas(16) Vec3 point;
   alignas(16) Vec3 normal;
 };
@@ -101,7 +101,7 @@ struct Sides {
   Sides turned() const { return {back, front}; }
 };
 
-// One meeting of a line with a surface.
+// One intersection of a line with a surface.
 struct LineHit {
   double t;  // along the line, in units of its direction
   double u;
@@ -161,10 +161,10 @@ class Surface {
     return evaluate(u, v, order);
   }
 
-  // Where nothing shows parameters, a hit on a surface that knows its feet needs none: line_hits finds the same hits
-  // without, and free_sides does not look at them. `near` is a point of the surface but for rounding.
-  virtual bool knows_feet() const { return false; }
-  virtual Foot foot(const Vec3& near) const;
+  // Where nothing shows parameters, a hit on a surface that knows its foot points needs none: line_hits finds the same
+  // hits without, and convex_sides does not look at them. `near` is a point of the surface but for rounding.
+  virtual bool has_closest_point() const { return false; }
+  virtual FootPoint foot_point(const Vec3& near) const;
 
   // Certified enclosure of point and derivatives up to `order` (0..enclosure_order()) over a rectangle inside the
   // domain.
@@ -181,7 +181,7 @@ class Surface {
   // The sides of the tangent plane at a point on which there is nothing of the surface: a ray that leaves the point to
   // such a side does not meet the surface again. A plane has both, a convex surface one; a surface that does not know
   // has none.
-  virtual Sides free_sides(double /*u*/, double /*v*/) const { return {}; }
+  virtual Sides convex_sides(double /*u*/, double /*v*/) const { return {}; }
 
   // A surface with a closed form for lines says so and adds all hits with t in the interval and (u, v) in the domain
   // (natural parameters); a tangent hit counts twice or not at all, so that crossings of closed surfaces stay even.

@@ -16,7 +16,7 @@ class TransformedCurve final : public Curve {
   double period() const override { return original_->period(); }
   bool is_closed() const override { return original_->is_closed(); }
   CurveJet evaluate(double t, int order) const override;
-  double fit_distance() const override { return map_.most_stretch() * original_->fit_distance(); }
+  double fit_distance() const override { return map_.operator_norm_bound() * original_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
   std::optional<NurbsCurveForm> as_nurbs() const override;
@@ -38,15 +38,15 @@ class TransformedSurface final : public Surface {
   Rectangle domain() const override { return original_->domain(); }
   Periods periods() const override { return original_->periods(); }
   SurfaceJet evaluate(double u, double v, int order) const override;
-  double fit_distance() const override { return map_.most_stretch() * original_->fit_distance(); }
+  double fit_distance() const override { return map_.operator_norm_bound() * original_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return original_->enclosure_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   DegenerateEdges degenerate_edges() const override { return original_->degenerate_edges(); }
   bool bounded() const override { return original_->bounded(); }
-  Sides free_sides(double u, double v) const override {
-    const Sides sides = original_->free_sides(u, v);
+  Sides convex_sides(double u, double v) const override {
+    const Sides sides = original_->convex_sides(u, v);
     return orientation_ < 0 ? sides.turned() : sides;
   }
   bool has_line_formula() const override { return original_->has_line_formula(); }

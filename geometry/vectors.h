@@ -93,7 +93,7 @@ struct Affine {
   bool is_identity() const { return linear == Mat3(1.0) && offset == Vec3(0); }
   double determinant() const { return glm::determinant(linear); }
   // No vector gets longer by more than this factor (Frobenius's norm: at most sqrt(3) times the least such).
-  double most_stretch() const {
+  double operator_norm_bound() const {
     return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
   }
   Affine inverse() const {

@@ -17,7 +17,7 @@ struct Ray : geometry::Line {
   double t_min = 0;
   double t_max = geometry::kInfinity;
   // The piece of a face that the ray left; instance -1: none. `left_for_good`: to a side from which it does not meet
-  // any of the face again (Surface::free_sides).
+  // any of the face again (Surface::convex_sides).
   int64_t left_instance = -1;
   RayKind kind = RayKind::camera;
   int32_t left_face = 0;
@@ -56,7 +56,7 @@ struct SurfacePoint {
   int32_t object = 0;  // number in the Model's objects, those of groups counted where they stand
   int32_t face = 0;
   int32_t piece = 0;
-  geometry::Sides free_sides;  // of the face that was hit; front is where geometric_normal points to
+  geometry::Sides convex_sides;  // of the face that was hit; front is where geometric_normal points to
 };
 
 }  // namespace lekalo::render

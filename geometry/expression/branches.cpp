@@ -9,7 +9,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr size_t kMostBranches = 256;
+constexpr size_t kMaxBranches = 256;
 constexpr double kNoStep = 1e-9;  // of a step's height
 
 bool is_step(Operation operation) {
@@ -35,7 +35,7 @@ class ExpressionBrancher {
           both.programs = a.programs;
           both.programs.push_back(b.programs[0]);
         });
-      if (too_many_ || branches.size() + all.size() > kMostBranches) return std::nullopt;
+      if (too_many_ || branches.size() + all.size() > kMaxBranches) return std::nullopt;
       for (const Choice& choice : all) {
         ExpressionBranch& branch = branches.emplace_back();
         for (const Program& program : choice.programs) branch.formulas.push_back(expression(program));
@@ -116,7 +116,7 @@ class ExpressionBrancher {
           continue;
         put(one, other, both);
         all.push_back(std::move(both));
-        if (all.size() > kMostBranches) {
+        if (all.size() > kMaxBranches) {
           too_many_ = true;
           return all;
         }
@@ -127,7 +127,7 @@ class ExpressionBrancher {
   void add_side(Choice choice, const Program& of, const Program& height, bool positive, std::vector<Choice>& choices) {
     if (is_constant(height) ? (value(height) >= 0) == positive : choose(choice.sides, {of, height, positive}))
       choices.push_back(std::move(choice));
-    too_many_ = too_many_ || choices.size() > kMostBranches;
+    too_many_ = too_many_ || choices.size() > kMaxBranches;
   }
 
   // Where the program of the last operand before `end` begins.
@@ -158,7 +158,7 @@ class ExpressionBrancher {
       const std::optional<Program> step = first_step(choice.programs);
       if (!step)
         done.push_back(choice);
-      else if (!add_steps(choice, *step, waiting) || waiting.size() + done.size() > kMostBranches)
+      else if (!add_steps(choice, *step, waiting) || waiting.size() + done.size() > kMaxBranches)
         return {given};
     }
     return done;
@@ -180,7 +180,7 @@ class ExpressionBrancher {
     const Program q = is_mod ? made(Operation::divide, {&a, &b}) : a;
     if (ranges_.empty()) return false;
     const Interval range = expression(q).evaluate(ranges_);
-    if (!(range.width() <= kMostBranches)) return false;
+    if (!(range.width() <= kMaxBranches)) return false;
     // A step that begins where the range ends is one no more.
     const double first = std::floor(range.lo - shift + kNoStep),
                  last = std::max(first, std::ceil(range.hi - shift - kNoStep) - 1);

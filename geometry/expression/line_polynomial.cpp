@@ -10,7 +10,7 @@
 namespace lekalo::geometry {
 namespace {
 
-constexpr int kMost = LinePolynomial::kMostDegree;
+constexpr int kMost = LinePolynomial::kMaxDegree;
 constexpr double kUnitRoundoff = 0x1p-53;
 
 using Row = std::array<double, kMost + 1>;
@@ -92,7 +92,7 @@ std::optional<LinePolynomial> LinePolynomial::of(const Expression& formula) {
   const auto emit = [&](Step step, int variable = 0, double value = 0) { program.push_back({step, variable, value}); };
   // A power of the form on top: squares, and a product with the form itself for each further bit.
   const auto power = [&](double exponent) {
-    if (!(exponent >= 1 && exponent <= kMostDegree) || exponent != std::floor(exponent)) return false;
+    if (!(exponent >= 1 && exponent <= kMaxDegree) || exponent != std::floor(exponent)) return false;
     const auto bits = static_cast<unsigned>(exponent);
     for (int i = 1; i < std::popcount(bits); ++i) emit(Step::copy);
     for (unsigned bit = std::bit_floor(bits) / 2; bit > 0; bit /= 2) {
@@ -195,14 +195,14 @@ bool LinePolynomial::finish() {
       default:
         break;
     }
-    if (degrees.back() > kMostDegree || degrees.size() > kMostForms || !std::isfinite(in.value)) return false;
+    if (degrees.back() > kMaxDegree || degrees.size() > kMaxForms || !std::isfinite(in.value)) return false;
   }
   degree_ = degrees.back();
   return true;
 }
 
 Vec4 LinePolynomial::at(const Vec3& p) const {
-  Vec4 values[kMostForms];
+  Vec4 values[kMaxForms];
   Vec4* top = values - 1;
   for (const Instruction& in : program_) {
     switch (in.step) {
@@ -254,10 +254,10 @@ Vec4 LinePolynomial::at(const Vec3& p) const {
 
 void LinePolynomial::along(const Vec3& p, const Vec3& q, double* b) const {
   // Results are written beside the stack and take their operand's place in it.
-  Form room[kMostForms + 1];
-  Form* stack[kMostForms];
-  for (int i = 0; i < kMostForms; ++i) stack[i] = &room[i];
-  Form* spare = &room[kMostForms];
+  Form room[kMaxForms + 1];
+  Form* stack[kMaxForms];
+  for (int i = 0; i < kMaxForms; ++i) stack[i] = &room[i];
+  Form* spare = &room[kMaxForms];
   Form** top = stack - 1;
   for (const Instruction& in : program_) {
     switch (in.step) {
@@ -322,7 +322,7 @@ void LinePolynomial::along(const Vec3& p, const Vec3& q, double* b) const {
 }
 
 double LinePolynomial::rounding(const Box3& box) const {
-  Bound stack[kMostForms];
+  Bound stack[kMaxForms];
   Bound* top = stack - 1;
   for (const Instruction& in : program_) {
     switch (in.step) {

@@ -20,7 +20,7 @@ namespace lekalo::geometry {
 
 class LinePolynomial {
  public:
-  static constexpr int kMostDegree = BernsteinSource::kMostDegree;
+  static constexpr int kMaxDegree = BernsteinSource::kMaxDegree;
 
   // Of a formula bound to three variables: + - * and powers with whole exponents, division by constants. Anything else
   // of the variables, and a degree above the limit, gives none.
@@ -41,7 +41,7 @@ class LinePolynomial {
     int variable = 0;
     double value = 0;  // of constant, scale (times it) and shift (plus it)
   };
-  static constexpr int kMostForms = 12;  // held at a time
+  static constexpr int kMaxForms = 12;  // held at a time
 
   bool finish();
 

@@ -22,7 +22,7 @@ constexpr double kLines[] = {0, 0.13, 0.29, 0.5, 0.61, 0.83, 1};
 // Room for what the other direction adds to the distance.
 constexpr double kShareOfLines = 0.25;
 
-constexpr int kMostRounds = 8;
+constexpr int kMaxRounds = 8;
 
 double at(const Interval& range, double part) { return part == 1 ? range.hi : range.lo + range.width() * part; }
 
@@ -111,7 +111,7 @@ void ExternalSurface::fit() {
   const auto patches = [](const std::vector<double>& u, const std::vector<double>& v) {
     return (u.size() - 1) * (v.size() - 1);
   };
-  if (patches(breaks_u, breaks_v) > kMostFitPatches)
+  if (patches(breaks_u, breaks_v) > kMaxFitPatches)
     throw FieldError(
         "tolerance",
         fmt::format("a spline so near to the function needs more than {} x {} pieces", breaks_u.size() - 1,
@@ -140,7 +140,7 @@ void ExternalSurface::fit() {
         mark(breaks_v, uv[i].y, wrong_v);
       }
     std::vector<double> finer_u = halved(breaks_u, wrong_u), finer_v = halved(breaks_v, wrong_v);
-    if (round == kMostRounds || patches(finer_u, finer_v) > kMostFitPatches ||
+    if (round == kMaxRounds || patches(finer_u, finer_v) > kMaxFitPatches ||
         finer_u.size() + finer_v.size() == breaks_u.size() + breaks_v.size())
       break;
     breaks_u = std::move(finer_u);

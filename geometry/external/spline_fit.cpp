@@ -110,7 +110,7 @@ std::vector<double> fitting_breaks(const CurveSamples& samples, size_t curves, c
       }
     }
     std::vector<double> finer = halved(breaks, wrong);
-    if (finer.size() == breaks.size() || finer.size() > kMostFitSpans + 1) return breaks;
+    if (finer.size() == breaks.size() || finer.size() > kMaxFitSpans + 1) return breaks;
     breaks = std::move(finer);
   }
 }

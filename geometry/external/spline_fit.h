@@ -16,8 +16,8 @@ namespace lekalo::geometry {
 inline constexpr int kFitDegree = 7;
 
 // More pieces in one direction, or of a surface, mean a function that is not smooth, or noise.
-inline constexpr size_t kMostFitSpans = 512;
-inline constexpr size_t kMostFitPatches = 1 << 15;
+inline constexpr size_t kMaxFitSpans = 512;
+inline constexpr size_t kMaxFitPatches = 1 << 15;
 
 // The points of several curves at the same parameters: that of curve k at t[i] stands at [i * curves + k].
 using CurveSamples = std::function<std::vector<Vec3>(std::span<const double> t)>;

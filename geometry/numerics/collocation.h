@@ -76,7 +76,7 @@ const std::array<std::array<double, N>, N + 1>& integrals() {
 template <int N, class Rates>
 std::optional<CollocationStep<N>> collocate(const std::array<double, N>& y0, double h, const Rates& rates) {
   constexpr std::size_t kNodes = CollocationStep<N>::kNodes;
-  constexpr int kMostTimes = 60;
+  constexpr int kMaxTimes = 60;
   constexpr double kSettled = 4e-16, kNearlySettled = 1e-13;  // changes, of the size of the component
   const auto& table = collocation::integrals<kNodes>();
   CollocationStep<N> step;
@@ -111,7 +111,7 @@ std::optional<CollocationStep<N>> collocate(const std::array<double, N>& y0, dou
       step.end[i] = moved(i, kNodes);
     }
     if (change <= kSettled || (change <= kNearlySettled && change >= 0.5 * before)) break;
-    if (!(change < 1e3) || time == kMostTimes) return std::nullopt;
+    if (!(change < 1e3) || time == kMaxTimes) return std::nullopt;
     before = change;
   }
   for (int i = 0; i < N; ++i) {

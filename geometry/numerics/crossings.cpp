@@ -6,7 +6,7 @@
 namespace lekalo::geometry {
 namespace {
 
-constexpr int kMostCoefficients = BernsteinSource::kMostDegree + 1;
+constexpr int kMaxCoefficients = BernsteinSource::kMaxDegree + 1;
 constexpr int kDeepest = 48;  // halvings: cells of 2^-48 are at the resolution of s
 
 // A crossing in a cell whose coefficients are so much smaller than those of the whole is computed from its own, which
@@ -28,7 +28,7 @@ void halve(double* b, double* left, int n) {
 // polynomial is (1 - s)^n g(r) with g(r) = sum C(n, i) b_i r^i, r = s / (1 - s) in [0, 1]: Newton's iteration on g,
 // kept in a bracket.
 double crossing(const double* b, int n, double noise, double precision) {
-  double c[kMostCoefficients];
+  double c[kMaxCoefficients];
   double binomial = 1, middle = 0;
   for (int i = 0; i <= n; ++i) {
     c[i] = binomial * b[i];
@@ -71,7 +71,7 @@ class Search {
       : polynomial_(polynomial), n_(degree), first_only_(first_only), found_(found) {}
 
   void run() {
-    double cells[kDeepest + 1][kMostCoefficients];
+    double cells[kDeepest + 1][kMaxCoefficients];
     const double noise = polynomial_.coefficients(0, 1, cells[0]);
     positive_ = found_.begins_positive = is_positive(cells[0][0]);
     found_.ends_positive = is_positive(cells[0][n_]);
@@ -80,11 +80,11 @@ class Search {
   }
 
  private:
-  using Cells = double[kDeepest + 1][kMostCoefficients];
+  using Cells = double[kDeepest + 1][kMaxCoefficients];
 
   // A part of [0, 1] on its own, `beside` it what the coefficients over the whole say.
   void run_again(double s0, double s1, const Slopes& beside) {
-    double cells[kDeepest + 1][kMostCoefficients];
+    double cells[kDeepest + 1][kMaxCoefficients];
     const double noise = polynomial_.coefficients(s0, s1, cells[0]);
     search(cells, s0, s1, noise, true, beside);
   }

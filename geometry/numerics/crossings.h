@@ -18,7 +18,7 @@ namespace lekalo::geometry {
 // A polynomial of s that can be had in Bernstein form on parts of [0, 1].
 class BernsteinSource {
  public:
-  static constexpr int kMostDegree = 24;
+  static constexpr int kMaxDegree = 24;
   // Writes the coefficients over [s0, s1]; the result bounds their errors.
   virtual double coefficients(double s0, double s1, double* b) const = 0;
   // Whether a touch at s counts; the sign beside it.

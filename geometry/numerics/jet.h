@@ -116,7 +116,7 @@ struct Jet : JetOperations<Jet<S, N>, S, N + 1> {
     using std::atan2;
     const S angle = atan2(y.value(), x.value());
     if (y.is_constant() && x.is_constant()) return Jet(angle);
-    // Seen from the direction of the value, the angle turns by the arctangent of a quotient that starts at zero.
+    // Interaction from the direction of the value, the angle turns by the arctangent of a quotient that starts at zero.
     Jet across = x.value() * y - y.value() * x;
     across.c[0] = S(0);
     Jet r = atan(across / (x.value() * x + y.value() * y));

@@ -180,7 +180,7 @@ class Adaptive {
         {goal_.absolute, goal_.relative * size_[k], goal_.noise * size_[0], std::numeric_limits<double>::min()});
   }
   // Also when an integrand is not finite in many places, or the sums are not: nothing can mend that.
-  bool is_lost() const { return is_hopeless_ || unknown_ > kMostUnknown; }
+  bool is_lost() const { return is_hopeless_ || unknown_ > kMaxUnknown; }
   bool done() const {
     if (is_lost() || unknown_ > 0) return is_lost();
     for (int k = 0; k < count_; ++k) {
@@ -222,7 +222,7 @@ class Adaptive {
   }
 
   // More such cells at a time are no single places.
-  static constexpr int kMostUnknown = 256;
+  static constexpr int kMaxUnknown = 256;
 
   Evaluate evaluate_;
   int count_, rows_;

@@ -26,7 +26,7 @@
 namespace lekalo::geometry {
 
 template <int N>
-using ParameterPlace = std::array<double, N>;
+using ParameterPoint = std::array<double, N>;
 template <int N>
 using ParameterBox = std::array<Interval, N>;
 
@@ -46,14 +46,14 @@ struct RootSearchOptions {
   // An equation holds where it is no larger than this. Zero unless there are more equations than unknowns.
   std::array<double, M> tolerance{};
   // Where more boxes of one size than that may hold solutions these are not isolated, and the boxes are left open.
-  int most_boxes = 4096;
+  int max_boxes = 4096;
 };
 
 template <int N>
 struct RootSearchResult {
-  std::vector<ParameterPlace<N>> isolated;  // one-to-one around each, so simple
+  std::vector<ParameterPoint<N>> isolated;  // one-to-one around each, so simple
   std::vector<ParameterBox<N>> open;        // hulls of what is not decided
-  bool complete = true;                     // false where there were more than most_boxes
+  bool complete = true;                     // false where there were more than max_boxes
 };
 
 // Hulls of boxes that touch, or nearly (`by`).
@@ -161,7 +161,7 @@ class Search {
     // Level by level: what is isolated stays few, what is not shows soon.
     std::vector<ParameterBox<N>> level{domain_};
     while (!level.empty()) {
-      if (static_cast<int>(level.size()) > options_.most_boxes) {
+      if (static_cast<int>(level.size()) > options_.max_boxes) {
         result_.complete = false;
         result_.open.insert(result_.open.end(), level.begin(), level.end());
         break;
@@ -178,12 +178,12 @@ class Search {
   using Inverse = std::array<std::array<double, M>, N>;
 
   void visit(ParameterBox<N> box) {
-    for (int again = 0; again < kMostCuts; ++again) {
+    for (int again = 0; again < kMaxCuts; ++again) {
       const SystemValue<Interval, N, M> range = system_.enclose(box);
       for (int k = 0; k < M; ++k)
         if (range.value[k].lo > options_.tolerance[k] || range.value[k].hi < -options_.tolerance[k]) return;
       Inverse c;
-      ParameterPlace<N> middle;
+      ParameterPoint<N> middle;
       for (int i = 0; i < N; ++i) middle[i] = box[i].middle();
       const SystemValue<double, N, M> there = system_.evaluate(middle);
       if (!solve_for<N, M>(there.derivative, c)) return divide(box, range);
@@ -232,17 +232,17 @@ class Search {
   }
 
   static double half(const Interval& x) { return next_up(0.5 * x.width()); }
-  static ParameterBox<N> thin(const ParameterPlace<N>& place) {
+  static ParameterBox<N> thin(const ParameterPoint<N>& place) {
     ParameterBox<N> box;
     for (int i = 0; i < N; ++i) box[i] = Interval(place[i]);
     return box;
   }
 
   // F is one-to-one on the box: keeps the solution that it has, if any. False where no iteration converges.
-  bool follow(const ParameterBox<N>& box, ParameterPlace<N> x, const Inverse& c) {
+  bool follow(const ParameterBox<N>& box, ParameterPoint<N> x, const Inverse& c) {
     // Newton's iteration is soon there if there is a solution: until its steps are rounding and no longer get shorter.
     double before = kInfinity;
-    for (int step = 0; step < kMostNewtonSteps; ++step) {
+    for (int step = 0; step < kMaxNewtonSteps; ++step) {
       Inverse own;
       const SystemValue<double, N, M> there = system_.evaluate(x);
       if (!solve_for<N, M>(there.derivative, own)) break;
@@ -258,7 +258,7 @@ class Search {
     // With C kept the step, moved back to the box, is a contraction: after so many it stands at the solution, or there
     // is none.
     Step last;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       last = stepped(box, x, c, system_.evaluate(x));
       x = last.to;
       if (last.length <= kSettled) break;
@@ -269,12 +269,12 @@ class Search {
   }
 
   struct Step {
-    ParameterPlace<N> to;
+    ParameterPoint<N> to;
     double length = 0;      // the longest of all parameters, of the domain's sides
     double moved_back = 0;  // to the box, likewise
     bool leads_out = false;
   };
-  Step stepped(const ParameterBox<N>& box, const ParameterPlace<N>& x, const Inverse& c,
+  Step stepped(const ParameterBox<N>& box, const ParameterPoint<N>& x, const Inverse& c,
                const SystemValue<double, N, M>& there) const {
     Step step;
     for (int i = 0; i < N; ++i) {
@@ -288,7 +288,7 @@ class Search {
     return step;
   }
 
-  bool holds(const ParameterPlace<N>& x) const {
+  bool holds(const ParameterPoint<N>& x) const {
     if constexpr (N == M) return true;
     const SystemValue<double, N, M> there = system_.evaluate(x);
     for (int k = 0; k < M; ++k)
@@ -297,9 +297,9 @@ class Search {
   }
 
   // Neighbouring boxes both find what lies on their border or next to it: that counts in whose box it lies.
-  void keep(const ParameterPlace<N>& x, double moved_back) {
+  void keep(const ParameterPoint<N>& x, double moved_back) {
     for (size_t k = 0; k < result_.isolated.size(); ++k) {
-      ParameterPlace<N>& other = result_.isolated[k];
+      ParameterPoint<N>& other = result_.isolated[k];
       bool same = true;
       for (int i = 0; i < N; ++i) same = same && std::abs(other[i] - x[i]) <= 2 * options_.slack[i];
       if (!same) continue;
@@ -342,7 +342,7 @@ class Search {
   // Isolated solutions inside of an open box belong to it.
   void join_open() {
     std::vector<ParameterBox<N>> joined = joined_boxes<N>(result_.open, options_.least);
-    std::erase_if(result_.isolated, [&](const ParameterPlace<N>& x) {
+    std::erase_if(result_.isolated, [&](const ParameterPoint<N>& x) {
       return std::any_of(joined.begin(), joined.end(), [&](const ParameterBox<N>& box) {
         for (int i = 0; i < N; ++i)
           if (x[i] < box[i].lo - options_.least[i] || x[i] > box[i].hi + options_.least[i]) return false;
@@ -356,9 +356,9 @@ class Search {
   static constexpr double kSettled = 1e-15, kNearlySettled = 1e-8;
   static constexpr double kOneToOne = 0.9;      // rows that sum up to less, so that rounding does not matter
   static constexpr double kWorthCutting = 0.5;  // of the volume: a cut that leaves more is followed by a halving
-  static constexpr int kMostCuts = 20;
-  static constexpr int kMostNewtonSteps = 20;
-  static constexpr int kMostSteps = 400;  // 0.9^400 is less than the rounding of a double
+  static constexpr int kMaxCuts = 20;
+  static constexpr int kMaxNewtonSteps = 20;
+  static constexpr int kMaxSteps = 400;  // 0.9^400 is less than the rounding of a double
 
   const System& system_;
   const ParameterBox<N> domain_;
@@ -372,7 +372,7 @@ class Search {
 
 // `system` has the members
 //   SystemValue<Interval, N, M> enclose(const ParameterBox<N>&) const      certified ranges over a box in the domain
-//   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const     the same at a place, to rounding
+//   SystemValue<double, N, M> evaluate(const ParameterPoint<N>&) const     the same at a place, to rounding
 // and where the values of enclose() alone are had for less
 //   std::array<Interval, M> values(const ParameterBox<N>&) const
 template <int N, int M, class System>

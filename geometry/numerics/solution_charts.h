@@ -60,13 +60,13 @@ bool weakest_direction(root_search::Matrix<K> gram, std::array<double, K>& vecto
 // The direction in which all equations stay, of unit length in units of `scale`; zero where the rank is lost. With
 // N - 1 equations its sign is that of the minors, so that it does not jump along a curve.
 template <int N, int M = N - 1>
-ParameterPlace<N> direction_of(const Derivatives<N, M>& j, const std::array<double, N>& scale) {
+ParameterPoint<N> direction_of(const Derivatives<N, M>& j, const std::array<double, N>& scale) {
   if constexpr (M > N - 1) {
     root_search::Matrix<N> gram{};
     for (int a = 0; a < N; ++a)
       for (int b = 0; b < N; ++b)
         for (int k = 0; k < M; ++k) gram[a][b] += j[k][a] * scale[a] * j[k][b] * scale[b];
-    ParameterPlace<N> direction;
+    ParameterPoint<N> direction;
     for (int i = 0; i < N; ++i) direction[i] = 1 + 0.1 * i;
     if (!weakest_direction<N>(gram, direction)) return {};
     double square = 0;
@@ -74,7 +74,7 @@ ParameterPlace<N> direction_of(const Derivatives<N, M>& j, const std::array<doub
     for (double& x : direction) x /= std::sqrt(square);
     return direction;
   } else {
-    ParameterPlace<N> result{};
+    ParameterPoint<N> result{};
     double square = 0;
     for (int left_out = 0; left_out < N; ++left_out) {
       root_search::Matrix<N - 1> minor;
@@ -113,7 +113,7 @@ std::optional<Chart<N, M>> chart_of(const Derivatives<N, M>& j, int along) {
 }
 
 template <int N>
-int largest(const ParameterPlace<N>& direction) {
+int largest(const ParameterPoint<N>& direction) {
   int best = 0;
   for (int i = 1; i < N; ++i)
     if (std::abs(direction[i]) > std::abs(direction[best])) best = i;
@@ -163,7 +163,7 @@ struct ChartBox {
   bool is_one_to_one() const { return shrinks < 0.7; }
 
   // About where the solution near x goes on to.
-  ParameterPlace<N> along_slope(ParameterPlace<N> x, double to) const {
+  ParameterPoint<N> along_slope(ParameterPoint<N> x, double to) const {
     const double by = to - x[chart.along];
     for (int i = 0; i < kOthers; ++i) {
       double& y = x[chart.others[i]];
@@ -174,7 +174,7 @@ struct ChartBox {
   }
 
   // Where solutions in the box with the parameter in `slice` can lie, seen from the place x with the values f.
-  ParameterBox<N> reachable(const Interval& slice, const ParameterPlace<N>& x, const std::array<Interval, M>& f,
+  ParameterBox<N> reachable(const Interval& slice, const ParameterPoint<N>& x, const std::array<Interval, M>& f,
                             const ParameterBox<N>& within, int times) const {
     ParameterBox<N> y = within;
     y[chart.along] = slice;

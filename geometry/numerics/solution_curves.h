@@ -29,7 +29,7 @@ namespace lekalo::geometry {
 // A curve of solutions from one place to another.
 template <int N>
 struct SolutionArc {
-  std::vector<ParameterPlace<N>> nodes;  // solutions to rounding, in order; a closed arc repeats the first at the end
+  std::vector<ParameterPoint<N>> nodes;  // solutions to rounding, in order; a closed arc repeats the first at the end
   // tubes[i] contains the arc from nodes[i] to nodes[i + 1] and nothing of another, hulls[i] too, more tightly.
   std::vector<ParameterBox<N>> tubes, hulls;
   bool closed = false;
@@ -41,7 +41,7 @@ template <int N>
 struct SolutionCurves {
   std::vector<SolutionArc<N>> arcs;
   std::vector<ParameterBox<N>> open;  // hulls of what is not decided: singular solutions
-  bool complete = true;               // false where there were more than most_boxes: the solutions are no curves
+  bool complete = true;               // false where there were more than max_boxes: the solutions are no curves
 };
 
 template <int N, int M = N - 1>
@@ -63,8 +63,8 @@ struct SolutionCurveOptions {
   double rounding_of_places = 1e-12;
   // Direction of the curve in space and in the parameters (of the domain's sides) changes by no more in one step;
   // radians.
-  double most_turn = 0.3;
-  int most_boxes = 8000;
+  double max_turn = 0.3;
+  int max_boxes = 8000;
 };
 
 namespace solution_curves {
@@ -93,7 +93,7 @@ bool meet(const ParameterBox<N>& a, const ParameterBox<N>& b) {
 template <int N, int M, class System>
 class Search {
  public:
-  using Place = ParameterPlace<N>;
+  using Place = ParameterPoint<N>;
   using Box = ParameterBox<N>;
 
   Search(const System& system, const Box& domain, const SolutionCurveOptions<N, M>& options)
@@ -104,7 +104,7 @@ class Search {
   SolutionCurves<N> run() {
     std::vector<Box> level{domain_};
     while (!level.empty()) {
-      if (static_cast<int>(level.size()) > options_.most_boxes) {
+      if (static_cast<int>(level.size()) > options_.max_boxes) {
         result_.complete = false;
         result_.open.insert(result_.open.end(), level.begin(), level.end());
         break;
@@ -249,7 +249,7 @@ class Search {
       }
       SystemValue<double, N, M> there;
       const bool found = solve_in(over, wide, x, there);
-      if (++slices_seen > kMostSlices) {
+      if (++slices_seen > kMaxSlices) {
         if (options_.divides_hard_boxes) return divide(over.box);
         result_.open.push_back(over.box);
         return;
@@ -275,7 +275,7 @@ class Search {
           continue;
         }
       }
-      if (slice.width() <= kLeastSlice * scale_[along]) continue;
+      if (slice.width() <= kMinSlice * scale_[along]) continue;
       halve(over, slice, x, slices);
     }
   }
@@ -382,7 +382,7 @@ class Search {
     const Chart<N, M>& chart = over.chart;
     double length = 0;
     bool leads_out = false;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       there = system_.evaluate(x);
       // Newton's steps first; the fixed inverse always contracts.
       std::optional<Chart<N, M>> own;
@@ -473,13 +473,13 @@ class Search {
   bool follow(SolutionArc<N>& arc, Place direction, const Place& start) {
     double step = kFirstStep;
     const size_t known = arc.nodes.size();
-    while (arc.nodes.size() < known + kMostNodes) {
+    while (arc.nodes.size() < known + kMaxNodes) {
       const Place x = arc.nodes.back();
       Ahead ahead;
       for (;;) {
         if (advance(x, direction, step, ahead)) break;
         step *= 0.5;
-        if (step < kLeastStep || (step < kShortStep && too_short(x, direction, step))) return true;
+        if (step < kMinStep || (step < kShortStep && too_short(x, direction, step))) return true;
       }
       if (ahead.to == x) return false;  // the curve leaves the domain here
       if (arc.nodes.size() > known && passes(ahead, x, direction, start)) {
@@ -628,7 +628,7 @@ class Search {
   bool settle(Place& x, int held, double step, Place& near) const {
     const Place start = x;
     double before = kInfinity;
-    for (int time = 0; time < kMostHeldSteps; ++time) {
+    for (int time = 0; time < kMaxHeldSteps; ++time) {
       const SystemValue<double, N, M> there = system_.evaluate(x);
       const std::optional<Chart<N, M>> chart = chart_of<N, M>(there.derivative, held);
       if (!chart) return false;
@@ -654,7 +654,7 @@ class Search {
   bool turns_too_much(const Place& x, const Place& direction, const Ahead& ahead) const {
     double with = 0;
     for (int i = 0; i < N; ++i) with += ahead.direction[i] * direction[i];
-    const double cosine = std::cos(options_.most_turn);
+    const double cosine = std::cos(options_.max_turn);
     if (!(with >= cosine)) return true;
     const Vec3 here = system_.motion(x, scaled(direction)), there = system_.motion(ahead.to, scaled(ahead.direction));
     const double lengths = glm::length(here) * glm::length(there);
@@ -720,11 +720,11 @@ class Search {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSettled = 4e-16, kNearlySettled = 1e-9;
   static constexpr double kFirstStep = 0.05, kLongestStep = 0.25, kNarrowStep = 0.01, kShortStep = 1e-3,
-                          kLeastStep = 1e-10;
+                          kMinStep = 1e-10;
   static constexpr double kWorthCutting = 0.25;  // of the volume: a box that keeps more is halved instead
-  static constexpr double kLeastSlice = 1e-12, kWideSlice = 1e-4;
-  static constexpr int kTimes = 400, kCuts = 3, kBisections = 30, kLooks = 10, kNewtonSteps = 10, kMostHeldSteps = 20,
-                       kMostSteps = 150, kMostNodes = 200000, kMostSlices = 250, kPatience = 12;
+  static constexpr double kMinSlice = 1e-12, kWideSlice = 1e-4;
+  static constexpr int kTimes = 400, kCuts = 3, kBisections = 30, kLooks = 10, kNewtonSteps = 10, kMaxHeldSteps = 20,
+                       kMaxSteps = 150, kMaxNodes = 200000, kMaxSlices = 250, kPatience = 12;
 
   const System& system_;
   const Box domain_;
@@ -742,13 +742,13 @@ class Search {
 // `system` has these members:
 //   SystemValue<Interval, N, M> enclose(const ParameterBox<N>&) const
 //     certified ranges over a box in the domain
-//   SystemValue<double, N, M> evaluate(const ParameterPlace<N>&) const
+//   SystemValue<double, N, M> evaluate(const ParameterPoint<N>&) const
 //     the same at a place, to rounding; a little outside of the domain too
 //   SystemValue<double, N, M> evaluate_middle(const ParameterBox<N>&) const
 //     the same in the middle of a box
 //   std::array<double, N> extents(const ParameterBox<N>&) const
 //     bounds of how far each parameter moves the image in space, over a box
-//   Vec3 motion(const ParameterPlace<N>&, const ParameterPlace<N>&) const
+//   Vec3 motion(const ParameterPoint<N>&, const ParameterPoint<N>&) const
 //     velocity in space: at a place, moving so
 template <int N, int M = N - 1, class System>
 SolutionCurves<N> search_solution_curves(const System& system, const ParameterBox<N>& domain,

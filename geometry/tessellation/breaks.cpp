@@ -253,7 +253,7 @@ class BreakSplitter {
   }
 
   void add_split(const Piece& piece, int k, double at) {
-    if (static_cast<double>(mesh_.triangles.size() + done_.size()) > kMostTriangles) refuse_mesh(kMostTriangles);
+    if (static_cast<double>(mesh_.triangles.size() + done_.size()) > kMaxTriangles) refuse_mesh(kMaxTriangles);
     const int32_t a = piece.point[k], b = piece.point[(k + 1) % 3];
     const auto [from, to] = side(piece, k);
     const Vec2 uv = mix(from, to, at);

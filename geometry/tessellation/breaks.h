@@ -35,7 +35,7 @@ struct BrokenMesh {
 // Splits triangles until those over breaks keep the sag as well: sides where the surface breaks on them, others in
 // their middle; neighbours with them, so that no cracks open. Points on a crease have a normal for each side, points on
 // a step a point, so that the mesh ends on both sides of it. Smooth triangles keep the angle too; across a crease no
-// triangle is small enough for that, and the sag decides alone. Throws std::invalid_argument beyond kMostTriangles.
+// triangle is small enough for that, and the sag decides alone. Throws std::invalid_argument beyond kMaxTriangles.
 void split_at_breaks(Mesh& mesh, const BrokenMesh& part, const TessellationTolerance& tolerance);
 
 }  // namespace lekalo::geometry

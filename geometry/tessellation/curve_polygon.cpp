@@ -19,7 +19,7 @@ namespace lekalo::geometry {
 namespace {
 
 // The largest number of chords of one curve; a tolerance that needs more is a mistake.
-constexpr double kMostChords = 4e6;
+constexpr double kMaxChords = 4e6;
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
@@ -108,7 +108,7 @@ std::vector<double> smooth_polygon(const Curve& curve, double a, double b, const
   // A chord of a closed curve must not fall on another one.
   const bool round = curve.is_closed() && b - a >= curve.domain().width();
   for (int round_number = 0; round_number < 12; ++round_number) {
-    if (density.total() > kMostChords)
+    if (density.total() > kMaxChords)
       throw std::invalid_argument("the sag is too small: a curve would need more than 4 million chords");
     std::vector<double> result = density.lines(round ? 3 : 1);
     std::vector<double> excess;

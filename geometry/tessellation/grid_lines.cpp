@@ -443,7 +443,7 @@ void refuse_mesh(double triangles) {
   throw std::invalid_argument(
       fmt::format("a mesh that keeps its sag and angle would need about {:.0e} triangles (at most {:.0e}): give a "
                   "larger sag, or leave the surface exact",
-                  triangles, kMostTriangles));
+                  triangles, kMaxTriangles));
 }
 
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& given) {
@@ -454,10 +454,10 @@ SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const Tessel
   Densities densities = make_densities(surface, box, tolerance, fewest_u, fewest_v);
   SurfaceGrid grid;
   // Each makes steps that are too long up to half as long: after so many they are nothing but rounding.
-  constexpr int kMostRounds = 40;
-  for (int round = 0; round < kMostRounds; ++round) {
+  constexpr int kMaxRounds = 40;
+  for (int round = 0; round < kMaxRounds; ++round) {
     const double triangles = 2 * densities.u.total() * densities.v.total();
-    if (!(triangles < kMostTriangles)) refuse_mesh(triangles);
+    if (!(triangles < kMaxTriangles)) refuse_mesh(triangles);
     grid.u = densities.u.lines(fewest_u);
     grid.v = densities.v.lines(fewest_v);
     GridCheck check(surface, tolerance, grid);

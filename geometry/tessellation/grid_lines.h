@@ -36,14 +36,14 @@ struct SurfaceGrid {
 // The grid over a bounded rectangle whose cells, each split along its better diagonal, deviate from the surface by at
 // most the sag and turn its normal along a side by at most the angle: measured in the middle of every side and cell,
 // and made denser until they do, but for broken cells (breaks.h). Throws std::invalid_argument when that would take
-// more than kMostTriangles.
+// more than kMaxTriangles.
 SurfaceGrid make_grid(const Surface& surface, const Rectangle& box, const TessellationTolerance& tolerance);
 
 // The grid on given lines, increasing, each at most twice; the tolerance decides diagonals only.
 SurfaceGrid grid_on(const Surface& surface, std::vector<double> u, std::vector<double> v,
                     const TessellationTolerance& tolerance);
 
-inline constexpr double kMostTriangles = 6.4e7;
+inline constexpr double kMaxTriangles = 6.4e7;
 // Throws std::invalid_argument for a mesh that would need so many.
 [[noreturn]] void refuse_mesh(double triangles);
 

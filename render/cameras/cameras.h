@@ -66,7 +66,7 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
                                    std::span<const Vec3> points, double margin);
 
 // What a scene file's camera is until the size of the picture and what it shall show are known.
-using CameraFactory = std::function<CameraPtr(int width, int height, const Shown& shown)>;
+using CameraFactory = std::function<CameraPtr(int width, int height, const FramedContent& shown)>;
 
 // Right and up of the picture for a unit view direction: up projected; the y axis where up is parallel to the view.
 struct PictureAxes {

@@ -20,7 +20,7 @@ namespace {
 constexpr int kSteps = 32;        // of a grid in each direction: (1 - cos(pi / 32)) / 2 = 0.24 % of a circle's diameter
 constexpr int kStepsOfParts = 8;  // of surfaces that are cut: lines find what is between
 constexpr int kNarrowings = 80;   // by golden section: 0.618^80 of a step is below rounding
-constexpr size_t kMostObjects = 500;  // and parts of a solid, with grids of their own
+constexpr size_t kMaxObjects = 500;  // and parts of a solid, with grids of their own
 
 double between(const Interval& range, int i, int steps = kSteps) {
   return range.lo + (range.hi - range.lo) * i / steps;
@@ -250,7 +250,7 @@ void add(const Entity& entity, const Affine& map, Kept points) {
   } else if (const auto* shape = std::get_if<ShapePtr>(&entity)) {
     if (const Csg* solid = put_together(**shape); solid && bounds(**shape).bounded()) {
       std::vector<Vec3> whole;
-      add_solid(**shape, map, whole, solid->leaf_count() <= static_cast<int>(kMostObjects) ? kSteps : 0);
+      add_solid(**shape, map, whole, solid->leaf_count() <= static_cast<int>(kMaxObjects) ? kSteps : 0);
       for (const Vec3& p : whole) points.add(p);
     } else {
       add_corners(bounds(entity), map, points);
@@ -330,19 +330,19 @@ void include_farthest(const std::vector<Object>& objects, const Affine& map, Box
 
 }  // namespace
 
-struct Shown::Points {
+struct FramedContent::Points {
   std::once_flag once, box_once;
   std::vector<Object> objects;  // that are looked at closely
   std::vector<Vec3> list;
   Box3 tight;
 };
 
-Shown::Shown(const Box3& box) : box(box), points_(std::make_shared<Points>()) {}
+FramedContent::FramedContent(const Box3& box) : box(box), points_(std::make_shared<Points>()) {}
 
-Shown::Shown(const std::vector<Object>& objects) : points_(std::make_shared<Points>()) {
+FramedContent::FramedContent(const std::vector<Object>& objects) : points_(std::make_shared<Points>()) {
   Boxes boxes;
   box = boxes.of(objects);
-  if (PlacedObjects(objects).count() <= kMostObjects) {
+  if (PlacedObjects(objects).count() <= kMaxObjects) {
     points_->objects = objects;
     return;
   }
@@ -351,7 +351,7 @@ Shown::Shown(const std::vector<Object>& objects) : points_(std::make_shared<Poin
     add_corners(boxes.of(object.shape), object.transform, Kept(points_->list, object.clips));
 }
 
-const std::vector<Vec3>& Shown::points() const {
+const std::vector<Vec3>& FramedContent::points() const {
   Points& p = *points_;
   std::call_once(p.once, [&] {
     add(p.objects, Affine(), p.list);
@@ -362,7 +362,7 @@ const std::vector<Vec3>& Shown::points() const {
   return p.list;
 }
 
-const Box3& Shown::tight_box() const {
+const Box3& FramedContent::tight_box() const {
   Points& p = *points_;
   std::call_once(p.box_once, [&] {
     for (const Vec3& point : points()) p.tight.include(point);

@@ -10,15 +10,15 @@ namespace lekalo::render {
 
 struct Object;
 
-class Shown {
+class FramedContent {
  public:
   geometry::Box3 box;
   std::shared_ptr<const std::vector<Object>> objects;  // of the scene, where a camera frames some by name; else null
 
   // The corners of the box stand for it; of an empty or unbounded box those of the unit cube about the origin.
-  explicit Shown(const geometry::Box3& box = {});
+  explicit FramedContent(const geometry::Box3& box = {});
   // Everything that the objects show.
-  explicit Shown(const std::vector<Object>& objects);
+  explicit FramedContent(const std::vector<Object>& objects);
 
   // Points on the shapes, dense enough to stand for them in the picture: grids on surfaces and faces, points along
   // edges and curves; of solids that are put together where lines in a grid meet them. A silhouette between them may

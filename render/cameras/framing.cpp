@@ -55,7 +55,7 @@ ViewDirection view_from_angles(double azimuth, double elevation) {
 namespace {
 
 // Between the eye and the nearest point, of the extent of all.
-constexpr double kLeastDistance = 1e-3;
+constexpr double kMinDistance = 1e-3;
 
 struct Range {
   double lo = kInfinity, hi = -kInfinity;
@@ -147,11 +147,11 @@ PerspectiveView framed_perspective(const ViewDirection& view, double field_of_vi
   for (const Vec3& p : seen) sides.include(p.x - seen[0].x), sides.include(p.y - seen[0].y);
   double size = std::max(depth.width(), sides.width());
   if (!(size > 0)) size = std::max({1.0, std::abs(depth.lo), std::abs(seen[0].x), std::abs(seen[0].y)});
-  distance = std::max(distance, -depth.lo + kLeastDistance * size);
+  distance = std::max(distance, -depth.lo + kMinDistance * size);
   const double x = centred(seen, 0, distance), y = centred(seen, 1, distance);
   PerspectiveView result;
   result.from = x * axes.right + y * axes.up - distance * forward;
-  result.at = result.from + std::max(depth.middle() + distance, kLeastDistance * size) * forward;
+  result.at = result.from + std::max(depth.middle() + distance, kMinDistance * size) * forward;
   result.up = view.up;
   result.field_of_view = field_of_view;
   return result;

@@ -66,7 +66,7 @@ TypeDeclaration graph_type() {
         std::optional<Interval> x, y;
         if (f.has("x")) x = f.range("x");
         if (f.has("y")) y = f.range("y");
-        return [x, y](int width, int height, const Shown& shown) -> CameraPtr {
+        return [x, y](int width, int height, const FramedContent& shown) -> CameraPtr {
           const Box3& box = shown.tight_box();
           return std::make_shared<GraphCamera>(shown_range(x, box.lo.x, box.hi.x), shown_range(y, box.lo.y, box.hi.y),
                                                box.hi.z + std::max(1.0, box.size().z), width, height);

@@ -84,7 +84,7 @@ TypeDeclaration parallel_type() {
         if (f.has(name))
           throw FieldError(name, "'" + std::string(name) + "' needs 'from'",
                            "or leave both out to have everything framed");
-      return [=](int width, int height, const Shown& shown) {
+      return [=](int width, int height, const FramedContent& shown) {
         return make_view_camera(fields.view, width, height, fields.shown(shown).points(), fields.margin);
       };
     }
@@ -100,7 +100,7 @@ TypeDeclaration parallel_type() {
     if (has_at) view.at = f.vec3("at");
     if (has_at && view.at == view.from)
       throw FieldError("at", "the camera stands at the point that it looks at", "move 'from' or 'at'");
-    return [=](int width, int height, const Shown& shown) mutable {
+    return [=](int width, int height, const FramedContent& shown) mutable {
       if (!has_at) view.at = middle(fields.shown(shown).box);
       return make_camera(view, width, height);
     };

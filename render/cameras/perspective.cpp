@@ -85,7 +85,7 @@ TypeDeclaration perspective_type() {
       throw FieldError("view", "oblique views exist only in parallel projection", "use type: parallel");
     if (!f.has("from")) {
       if (f.has("at")) throw FieldError("at", "'at' needs 'from'", "give both, or none to have everything framed");
-      return [=](int width, int height, const Shown& shown) {
+      return [=](int width, int height, const FramedContent& shown) {
         return make_camera(
             framed_perspective(fields.view, field_of_view, width, height, fields.shown(shown).points(), fields.margin),
             width, height);
@@ -97,7 +97,7 @@ TypeDeclaration perspective_type() {
     if (has_at) view.at = f.vec3("at");
     if (has_at && view.at == view.from)
       throw FieldError("at", "the camera stands at the point that it looks at", "move 'from' or 'at'");
-    return [=](int width, int height, const Shown& shown) mutable {
+    return [=](int width, int height, const FramedContent& shown) mutable {
       if (!has_at) view.at = middle(fields.shown(shown).box);
       return make_camera(view, width, height);
     };

@@ -12,7 +12,7 @@ using namespace geometry;
 namespace {
 
 // More copies of a thing stay in the groups that they stand in: their boxes are a little wider.
-constexpr double kMostApart = 1e5;
+constexpr double kMaxApart = 1e5;
 
 // Those of some objects that show a thing, also inside groups.
 class Showing {
@@ -21,7 +21,7 @@ class Showing {
 
   void add(const std::vector<Object>& objects, std::vector<Object>& found) {
     const Part part = part_of(objects);
-    if (part.copies > kMostApart)
+    if (part.copies > kMaxApart)
       found.insert(found.end(), part.objects.begin(), part.objects.end());
     else
       add_apart(part.objects, Affine(), found);
@@ -113,7 +113,7 @@ ViewFields view_fields(const Fields& fields) {
   return result;
 }
 
-Shown ViewFields::shown(const Shown& all) const {
+FramedContent ViewFields::shown(const FramedContent& all) const {
   if (frame_all) return all;
   std::vector<Object> part;
   for (const Entity& entity : framed) {
@@ -122,7 +122,7 @@ Shown ViewFields::shown(const Shown& all) const {
     if (shape && all.objects) Showing(shape).add(*all.objects, part);
     if (part.size() == before) part.emplace_back().shape = entity;
   }
-  return Shown(part);
+  return FramedContent(part);
 }
 
 void check_placed(const Fields& fields) {

@@ -17,7 +17,7 @@ struct ViewFields {
 
   // The part of all that is shown which must be in the picture: named things where objects show them, or where they
   // are themselves if no object does.
-  Shown shown(const Shown& all) const;
+  FramedContent shown(const FramedContent& all) const;
 };
 
 // Adds the fields view, frame, margin.

@@ -215,7 +215,7 @@ class ViewDrawing {
     for (auto line = lines.lines.rbegin(); line != lines.lines.rend(); ++line) {
       if (!line->stroke.drawn || (hidden && !line->stroke.hidden)) continue;
       for (const VisiblePiece& piece : line->pieces)
-        if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.most_layers)
+        if ((piece.layers > 0) == hidden && piece.layers <= line->stroke.max_layers)
           all.push_back({&*line,
                          piece,
                          line_rank(line->stroke.kind),

@@ -8,7 +8,7 @@ namespace {
 
 // Half the width of an arrow's head for its length: 20 degrees between its sides (ISO 129-1).
 constexpr double kHeadSlope = 0.176;
-constexpr double kLeastHead = 3;  // half widths of its line: heads of thick lines are to be seen
+constexpr double kMinHead = 3;  // half widths of its line: heads of thick lines are to be seen
 
 }  // namespace
 
@@ -29,7 +29,7 @@ SheetPath drawn(Path path, const LineLook& pen) {
 
 SheetPath arrow_head(const Vec2& tip, const Vec2& way, double length, const LineLook& pen) {
   const Vec2 across(-way.y, way.x), back = tip - length * way;
-  const double half = std::max(kHeadSlope * length, kLeastHead * pen.half_width);
+  const double half = std::max(kHeadSlope * length, kMinHead * pen.half_width);
   SheetPath head;
   head.parts.push_back(straight_path({tip, back + half * across, back - half * across}, true));
   head.brush = Brush{pen.color, pen.opacity};

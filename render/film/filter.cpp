@@ -40,7 +40,7 @@ class Mitchell final : public Filter {
 }  // namespace
 
 std::unique_ptr<const Filter> make_filter(const std::string& name, double radius) {
-  if (radius != 0 && !(radius >= kLeastFilterRadius && radius <= kMostFilterRadius))
+  if (radius != 0 && !(radius >= kMinFilterRadius && radius <= kMaxFilterRadius))
     throw std::invalid_argument("the filter's radius must lie between 0.5 and 16 pixels");
   if (name == "box") return std::make_unique<Box>(radius == 0 ? 0.5 : radius);
   if (name == "gaussian") return std::make_unique<Gaussian>(radius == 0 ? 1.5 : radius);

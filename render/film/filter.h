@@ -8,7 +8,7 @@
 namespace lekalo::render {
 
 // Of the radius, in pixels.
-inline constexpr double kLeastFilterRadius = 0.5, kMostFilterRadius = 16;
+inline constexpr double kMinFilterRadius = 0.5, kMaxFilterRadius = 16;
 
 class Filter {
  public:

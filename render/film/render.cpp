@@ -43,14 +43,14 @@ class MaterialNumbers {
 };
 
 // A sample as displayed.
-struct Shown {
+struct PixelContent {
   float lanes[4];
-  explicit Shown(const RaySample& s) {
+  explicit PixelContent(const RaySample& s) {
     for (int i = 0; i < 3; ++i) lanes[i] = s.radiance[i] > 0 ? std::sqrt(s.radiance[i]) : 0;
     lanes[3] = s.alpha;
   }
 };
-bool differ(const Shown& a, const Shown& b, float contrast) {
+bool differ(const PixelContent& a, const PixelContent& b, float contrast) {
   bool result = false;
   for (int i = 0; i < 4; ++i) result = result || !(std::fabs(a.lanes[i] - b.lanes[i]) <= contrast);
   return result;
@@ -264,16 +264,16 @@ class TileTracer {
     const auto index = [&](int x, int y) {
       return static_cast<size_t>(y - around.y0) * around.width() + (x - around.x0);
     };
-    std::vector<Shown> shown(centers.begin(), centers.end());
-    struct Taken {
+    std::vector<PixelContent> shown(centers.begin(), centers.end());
+    struct LightContribution {
       Vec2 place;
       RaySample sample;
     };
-    std::vector<Taken> taken;
+    std::vector<LightContribution> taken;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const RaySample& own = centers[index(x, y)];
-        const Shown& own_shown = shown[index(x, y)];
+        const PixelContent& own_shown = shown[index(x, y)];
         if (is_finite(own) && film_.crop().contains(x, y)) store(x, y, own);
         const bool parted = !lines_.empty() && lines_.may_part(x, y);
         bool even = is_finite(own) && !parted;
@@ -303,14 +303,14 @@ class TileTracer {
           for (const int end = alike && s < kFewSamples ? kFewSamples : all; s < end; ++s)
             add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
           take(shots, exposure, [&](const Shot& shot, RaySample&& sample, bool) {
-            alike = alike && !sample.noisy && !differ(own_shown, Shown(sample), contrast);
+            alike = alike && !sample.noisy && !differ(own_shown, PixelContent(sample), contrast);
             taken.push_back({shot.place, std::move(sample)});
           });
           if (exposure.given_up) return;
         }
         int counted = 0;
-        for (const Taken& one : taken) counted += is_finite(one.sample);
-        for (const Taken& one : taken)
+        for (const LightContribution& one : taken) counted += is_finite(one.sample);
+        for (const LightContribution& one : taken)
           if (is_finite(one.sample)) exposure.add(x, y, one.place, one.sample, static_cast<double>(all) / counted);
         exposure.finish(x, y);
         count(x, y, counted);

@@ -14,8 +14,9 @@ Image read_exr(const std::filesystem::path& path);
 
 // Writes all channels with their pixel types; finite values beyond half's largest (65504) become that. Text metadata
 // become string attributes, integers int, numbers float where that is exact and else double. The same image gives
-// the same bytes: no clock, host or program name. Atomic (AtomicFile). Throws ImageError; among the reasons: metadata
-// under a name that OpenEXR itself uses (channels, dataWindow, ...), no channels, the same channel twice.
+// the same bytes: no clock, supporting surface or program name. Atomic (AtomicFile). Throws ImageError; among the
+// reasons: metadata under a name that OpenEXR itself uses (channels, dataWindow, ...), no channels, the same channel
+// twice.
 void write_exr(const std::filesystem::path& path, const Image& image);
 
 }  // namespace lekalo::render

@@ -111,7 +111,7 @@ bool Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
     behind_edges.position = behind_edges.smooth_position = ray.origin + end * ray.direction;
     behind_edges.geometric_normal = ray.direction;
     behind_edges.instance = -1;
-    behind_edges.free_sides = {};
+    behind_edges.convex_sides = {};
   }
   if (!shown) return true;
   point = shown->point;

@@ -26,7 +26,7 @@ using namespace geometry;
 namespace {
 
 // Boundaries in a row that are no boundaries for light; more can only be a broken scene.
-constexpr int kMostPasses = 1000;
+constexpr int kMaxPasses = 1000;
 // Light of a highlight below which its grain is not seen.
 constexpr float kGrain = 0.004f;
 constexpr float kOverPi = static_cast<float>(1 / kPi);
@@ -42,8 +42,8 @@ struct Illumination {
 };
 
 // What a ray sees, all normals on the viewer's side.
-struct Seen : Boundary {
-  Seen(const World& world, const Ray& ray, const Hit& hit, double way, Media& media)
+struct Interaction : Boundary {
+  Interaction(const World& world, const Ray& ray, const Hit& hit, double way, Media& media)
       : Boundary(world, ray, hit, kYellow, media),
         length(way + hit.t),
         geometric_normal(front ? point.geometric_normal : -point.geometric_normal),
@@ -55,7 +55,7 @@ struct Seen : Boundary {
 };
 
 // A sample of a light at a surface point.
-struct Taken {
+struct LightContribution {
   double cosine = 0;
   double lobe = 0;
   float highlight = 0;
@@ -65,7 +65,7 @@ struct Taken {
 };
 
 // Samples of one light whose shadow rays are asked together.
-constexpr int kMostTogether = 16;
+constexpr int kMaxTogether = 16;
 
 class Tracer {
  public:
@@ -87,9 +87,9 @@ class Tracer {
                     double length);
 
  private:
-  Spectrum shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
+  Spectrum shade(const Ray& ray, const Interaction& seen, ClassicCoefficients& c, const Media& media, int depth,
                  const Spectrum& weight);
-  Illumination illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media);
+  Illumination illuminate(const Ray& ray, const Interaction& seen, const ClassicCoefficients& c, const Media& media);
   // The share of light that arrives along a ray, and the same of one that meets `first` (instance -1: nothing).
   Spectrum visible_share(const Ray& shadow_ray, const Obstacles& among, const Media& media) {
     if (!tinted_) return world_.occluded(shadow_ray, among) ? Spectrum() : kWhite;
@@ -102,7 +102,7 @@ class Tracer {
   }
   Spectrum passing(const Ray& shadow_ray, const Hit& first, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
-  void record(const Seen& seen);
+  void record(const Interaction& seen);
   Hit met(const Ray& ray) const {
     Hit hit;
     if (!world_.nearest(ray, hit)) hit.instance = -1;
@@ -140,7 +140,7 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
       Hit hit;
     };
   } beyond;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0) beyond.hit = met(beyond.ray);
     const Ray& ray = pass > 0 ? beyond.ray : first_ray;
     const Hit& hit = pass > 0 ? beyond.hit : first_hit;
@@ -149,7 +149,7 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
       if (!media.is_air()) through *= transmittance(media.current().absorption, kInfinity);
       return through * world_.model().background;
     }
-    Seen seen(world_, ray, hit, length, media);
+    Interaction seen(world_, ray, hit, length, media);
     if (!media.is_air()) through *= transmittance(media.current().absorption, hit.t);
     ClassicCoefficients c = seen.material->classic(seen.point, kPrimaries);
     // Pieces of the same substance that touch or overlap are one.
@@ -168,7 +168,7 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
   return {};
 }
 
-Spectrum Tracer::shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c, const Media& media, int depth,
+Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficients& c, const Media& media, int depth,
                        const Spectrum& weight) {
   if (!seen.front && !c.two_sided) c.diffuse = c.specular = c.mirror = {};
   mix_place(seen.point);
@@ -244,7 +244,8 @@ Spectrum Tracer::shade(const Ray& ray, const Seen& seen, ClassicCoefficients& c,
   return sum;
 }
 
-Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicCoefficients& c, const Media& media) {
+Illumination Tracer::illuminate(const Ray& ray, const Interaction& seen, const ClassicCoefficients& c,
+                                const Media& media) {
   Illumination sum;
   const bool diffuse = !c.diffuse.is_zero(), specular = !c.specular.is_zero();
   if (!diffuse && !specular) return sum;
@@ -292,15 +293,15 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       continue;
     }
     // A sample, whose ray shadow_ray becomes; none if it matters to nothing. (Inline: twice called, it would not be.)
-    const auto take = [&](int i) __attribute__((always_inline))->std::optional<Taken> {
-      Taken taken;
+    const auto take = [&](int i) __attribute__((always_inline))->std::optional<LightContribution> {
+      LightContribution taken;
       Vec3 direction;
       double distance;
       if (cone) {
         direction = cone->direction(seen.normal, i, random_);
         distance = cone->distance_along(direction);
         taken.cosine = glm::dot(seen.normal, direction);
-        if (!(taken.cosine > 0)) return Taken();
+        if (!(taken.cosine > 0)) return LightContribution();
         taken.light_per_pi = static_cast<float>(1 / (count * taken.cosine)) * all_of_cone;
       } else {
         const Vec2 r = jittered ? random_.next_pair() : Vec2(0.5);
@@ -309,7 +310,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
         distance = sample.distance;
         taken.cosine = glm::dot(seen.normal, direction);
         if (taken.cosine <= 0 || glm::dot(seen.smooth_normal, direction) <= 0 || sample.irradiance.is_zero())
-          return Taken();
+          return LightContribution();
         taken.light_per_pi = static_cast<float>(sample.weight) * kOverPi * sample.irradiance;
       }
       // R.V with R = 2 (m.L) m - L and V = -d
@@ -328,7 +329,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
       return taken;
     };
     // What a sample brings, of which the share `visible` arrives.
-    const auto add = [&](const Taken& taken, const Spectrum& visible) __attribute__((always_inline)) {
+    const auto add = [&](const LightContribution& taken, const Spectrum& visible) __attribute__((always_inline)) {
       if (taken.is_dark()) {
         mix(4);
         return;
@@ -346,25 +347,25 @@ Illumination Tracer::illuminate(const Ray& ray, const Seen& seen, const ClassicC
     };
     if (count == 1 || clear || !asks_first || !world_.gains_by_lists()) {
       for (int i = 0; i < count; ++i) {
-        const std::optional<Taken> taken = take(i);
+        const std::optional<LightContribution> taken = take(i);
         if (!taken) continue;
         add(*taken, clear || taken->is_dark() ? kWhite : visible_share(shadow_ray, obstacles, media));
       }
     } else {
-      static thread_local std::vector<Taken> samples;  // their room is kept
+      static thread_local std::vector<LightContribution> samples;  // their room is kept
       static thread_local std::vector<Ray> shadow_rays;
-      for (int begin = 0; begin < count; begin += kMostTogether) {
+      for (int begin = 0; begin < count; begin += kMaxTogether) {
         samples.clear();
         shadow_rays.clear();
-        for (int i = begin; i < std::min(begin + kMostTogether, count); ++i)
-          if (const std::optional<Taken> taken = take(i)) {
+        for (int i = begin; i < std::min(begin + kMaxTogether, count); ++i)
+          if (const std::optional<LightContribution> taken = take(i)) {
             samples.push_back(*taken);
             if (!taken->is_dark()) shadow_rays.push_back(shadow_ray);
           }
-        bool hidden[kMostTogether] = {};
+        bool hidden[kMaxTogether] = {};
         world_.occluded(shadow_rays, obstacles, {hidden, shadow_rays.size()});
         size_t next = 0;
-        for (const Taken& taken : samples) {
+        for (const LightContribution& taken : samples) {
           if (taken.is_dark()) {
             add(taken, kWhite);
             continue;
@@ -389,7 +390,7 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Hit& first, const Media& a
   Media media = around;
   Spectrum share = kWhite;
   Hit hit = first;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0) {
       ++sample_.shadow_rays;
       hit = met(ray);
@@ -419,7 +420,7 @@ Spectrum Tracer::caught_shadow(const Illumination& light, const ClassicCoefficie
   return (kWhite - missing) * world_.model().background;
 }
 
-void Tracer::record(const Seen& seen) {
+void Tracer::record(const Interaction& seen) {
   sample_.alpha = 1;
   if (!whole_) return;
   sample_.point = seen.point;

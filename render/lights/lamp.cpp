@@ -108,9 +108,9 @@ Vec3 ConeLight::direction(const Vec3& normal, int index, SampleStream& random) c
   const double half =
       height > 0 ? (sine < slant ? std::asin(sine / slant) : kPi) : std::acos(std::min(1.0, cosine / slant));
   const double least = height > 0 && sine >= slant ? 0 : slant * cosine - height * sine, inner = least * least;
-  constexpr int kMostTries = 100;  // half of them succeed
+  constexpr int kMaxTries = 100;  // half of them succeed
   Vec3 direction = axis;
-  for (int i = 0; i < kMostTries; ++i, square = others.next_pair()) {
+  for (int i = 0; i < kMaxTries; ++i, square = others.next_pair()) {
     const double angle = (2 * square.x - 1) * half, radius = std::sqrt(inner + square.y * (1 - inner));
     direction = at(radius * std::cos(angle), radius * std::sin(angle));
     if (glm::dot(direction, axis) >= cosine) break;

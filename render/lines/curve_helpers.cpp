@@ -31,7 +31,7 @@ CurvatureComb curvature_comb(const Curve& curve, int count, double scale) {
   for (int k = 0; k < count; ++k) {
     const CurveJet at = curve.evaluate(domain.clamp(domain.lo + domain.width() * k / (count - 1)), 2);
     if (!(glm::length(at.d[1]) > 0)) continue;
-    comb.feet.push_back(at.d[0]);
+    comb.foot_points.push_back(at.d[0]);
     comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
   }
   return comb;

@@ -11,7 +11,7 @@ namespace lekalo::render {
 // Teeth r - scale k n across the curve, on the side away from the centre of curvature (k n the vector of curvature), at
 // `count` even parameters; where the curve rests there are none.
 struct CurvatureComb {
-  std::vector<geometry::Vec3> feet, tips;
+  std::vector<geometry::Vec3> foot_points, tips;
 };
 CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale);
 

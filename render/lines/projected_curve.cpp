@@ -21,9 +21,9 @@ constexpr double kPlace = 0.01;
 constexpr double kNarrowest = 1e-13;
 // At depths that are a smaller part of the numbers of which they are the sum, places in the picture are told by
 // rounding.
-constexpr double kLeastDepth = 1e-10;
+constexpr double kMinDepth = 1e-10;
 // Enough for any curve that can be told from a blot; what is left then are chords.
-constexpr size_t kMostCells = size_t{1} << 20;
+constexpr size_t kMaxCells = size_t{1} << 20;
 // Cells are joined where they meet, in pixels.
 constexpr double kMeet = 1e-6;
 
@@ -99,7 +99,7 @@ void ProjectedCurve::cut(const Interval& t) {
   const CurveEnclosure boxes = curve_->enclose(t, 2);
   const auto& [row_x, row_y, row_w] = map_.row;
   const Interval w = over(row_w, boxes.d[0], 1);
-  const double least = kLeastDepth * largest_term(row_w, boxes.d[0]);
+  const double least = kMinDepth * largest_term(row_w, boxes.d[0]);
   if (w.hi <= least) return;
   // Outside: x < -reach w, x > (width + reach) w, and the same of y, for points before the eye.
   const auto is_beyond = [&](const Vec4& row, double size) {
@@ -107,7 +107,7 @@ void ProjectedCurve::cut(const Interval& t) {
            over(row - (size + reach_) * row_w, boxes.d[0], 1).lo > 0;
   };
   if (is_beyond(row_x, picture_.x) || is_beyond(row_y, picture_.y)) return;
-  const bool is_narrow = t.width() <= narrowest_ || cells_.size() >= kMostCells;
+  const bool is_narrow = t.width() <= narrowest_ || cells_.size() >= kMaxCells;
   const double middle = t.middle(), h = 0.5 * t.width();
   const auto halve = [&] {
     cut({t.lo, middle});

@@ -144,7 +144,7 @@ class StrokeCollector {
   void add_borders_of_fill(const Fill& fill);
 
   // Where different objects go through one another.
-  void add_meetings();
+  void add_intersections();
 
   // A view in the coordinates to which the map leads.
   static geometry::ViewOf seen_through(geometry::ViewOf view, const geometry::Affine& map);
@@ -162,18 +162,19 @@ class StrokeCollector {
     int placement = 0;
   };
   std::vector<PlacedShape> placements_of(const Entity& shape) const;
-  void add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
+  void add_intersection(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden);
   // Of two of which one at most is made of faces.
-  void add_meeting_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
+  void add_intersection_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                  const HiddenLines& hidden);
   // Of a mesh, and one that is no solid put together of others and no body.
-  void add_meeting_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
-                           const HiddenLines& hidden);
+  void add_intersection_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
+                                const HiddenLines& hidden);
   // Of a solid that is put together: the lines in which its leaves meet another shape, as far as they lie on it.
-  void add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
-                             const HiddenLines& hidden);
+  void add_intersection_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                                  const HiddenLines& hidden);
   // Of a surface, or a body's face, with a shape that is not made of faces, both in the world.
-  void add_meeting_of_face(const geometry::FaceRegion& face, const geometry::Affine& to_world, const PlacedShape& solid,
-                           const Style& style, const HiddenLines& hidden);
+  void add_intersection_of_face(const geometry::FaceRegion& face, const geometry::Affine& to_world,
+                                const PlacedShape& solid, const Style& style, const HiddenLines& hidden);
   // How something meets a part of an implicit surface or of balls, given in that shape's coordinates: adds the lines.
   struct Meets {
     geometry::Box3 box;  // what holds it there
@@ -197,9 +198,11 @@ class StrokeCollector {
   void each_part(const PlacedShape& solid, const geometry::Box3& near, const std::function<void(const Part&)>& visit);
   void meets_parts(const Meets& meets, const PlacedShape& solid);
   // Of two such; false if they are none.
-  bool add_meeting_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
+  bool add_intersection_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                 const HiddenLines& hidden);
   // Of two shapes without faces; false if that is not known.
-  bool add_meeting_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style, const HiddenLines& hidden);
+  bool add_intersection_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                const HiddenLines& hidden);
   const geometry::TubeBoundary& boundary_of(const geometry::Tube& tube);
   // Lines on a tube that meet a surface, if one is given.
   void add_on_tube(const geometry::ShapeOutlines& lines, const geometry::SurfacePtr& met, const Style& style,
@@ -253,8 +256,8 @@ class StrokeCollector {
 
   const Model& model_;
   bool drawing_;
-  double pixels_ = 1;       // of a millimetre on the page
-  double least_width_ = 1;  // of lines
+  double pixels_ = 1;     // of a millimetre on the page
+  double min_width_ = 1;  // of lines
   geometry::ViewOf view_;
   std::map<const Object*, int> numbers_;
   std::map<std::string, std::map<const Object*, size_t>> cycles_;
@@ -267,13 +270,13 @@ class StrokeCollector {
   std::vector<ClipPlane> planes_;  // that cut it, in the world
   std::string kind_;
   bool undrawn_ = false, outlines_ = false, borders_ = false;
-  std::vector<Stroke::Host> hosts_;   // of the next stroke
-  std::vector<double> cusps_;         // likewise
-  geometry::CurvePtr aside_;          // likewise
-  geometry::SurfacePtr cap_;          // on which strokes lie, if any
-  std::vector<Cutter> cutters_;       // of strokes
-  int met_ = -2, met_placement_ = 0;  // Stroke::met
-  geometry::ShapePtr solid_;          // the last one, and its lines as seen so
+  std::vector<Stroke::SupportingSurface> supporting_surfaces_;  // of the next stroke
+  std::vector<double> cusps_;                                   // likewise
+  geometry::CurvePtr outward_offset_;                           // likewise
+  geometry::SurfacePtr cap_;                                    // on which strokes lie, if any
+  std::vector<Cutter> cutters_;                                 // of strokes
+  int met_ = -2, met_placement_ = 0;                            // Stroke::met
+  geometry::ShapePtr solid_;                                    // the last one, and its lines as seen so
   Vec3 solid_view_{0};
   geometry::CsgLines solid_lines_;
   std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met

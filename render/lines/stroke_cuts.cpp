@@ -20,7 +20,7 @@ namespace {
 // What lies so near to a plane, of its own size, lies in it.
 constexpr double kInPlane = 1e-9;
 // Parts of a curve that are shorter, of its domain, are none.
-constexpr double kLeastPart = 1e-9;
+constexpr double kMinPart = 1e-9;
 
 // Interval arithmetic for n . (p - o).
 Interval height(const Vec3& normal, const Vec3& origin, const Box3& box) {
@@ -69,8 +69,8 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const SmoothPart& part) {
   };
   const SurfacePtr surface = original(part.surface);
   const auto image_in = [=](const Stroke& stroke) -> const Curve* {
-    for (const Stroke::Host& host : stroke.hosts)
-      if (original(host.surface) == surface) return host.image.get();
+    for (const Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
+      if (original(supporting_surface.surface) == surface) return supporting_surface.image.get();
     return nullptr;
   };
   Cutter cutter;
@@ -111,7 +111,9 @@ std::vector<Interval> StrokeCollector::kept_parts(const Stroke& whole) const {
   if (cutters_.empty()) return {domain};
   // Contours that solve their equations at every point are asked too often for that.
   Stroke stroke = whole;
-  for (Stroke::Host& host : stroke.hosts) host.image = contour_approximation(stroke.curve, *host.surface, host.image);
+  for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
+    supporting_surface.image =
+        contour_approximation(stroke.curve, *supporting_surface.surface, supporting_surface.image);
   stroke.curve = contour_approximation(stroke.curve);
   const double size = bounds(*transformed(stroke.curve, stroke.to_world)).diameter();
   std::vector<double> cuts{domain.lo, domain.hi};
@@ -120,11 +122,11 @@ std::vector<Interval> StrokeCollector::kept_parts(const Stroke& whole) const {
   std::vector<Interval> parts;
   for (size_t k = 0; k + 1 < cuts.size(); ++k) {
     const Interval t{cuts[k], cuts[k + 1]};
-    if (!(t.width() > kLeastPart * domain.width())) continue;
+    if (!(t.width() > kMinPart * domain.width())) continue;
     if (!std::all_of(cutters_.begin(), cutters_.end(),
                      [&](const Cutter& cutter) { return cutter.keeps(stroke, place_inside(t), size); }))
       continue;
-    if (!parts.empty() && parts.back().hi >= t.lo - kLeastPart * domain.width())
+    if (!parts.empty() && parts.back().hi >= t.lo - kMinPart * domain.width())
       parts.back().hi = t.hi;
     else
       parts.push_back(t);
@@ -157,7 +159,7 @@ void StrokeCollector::lies_on_cap(const CurvePtr& curve, const SurfacePtr& cap) 
   Affine to_plane;
   to_plane.linear = glm::transpose(Mat3(frame.x, frame.y, Vec3(0)));
   to_plane.offset = -(to_plane.linear * frame.origin);
-  hosts_.push_back({cap, transformed(curve, to_plane)});
+  supporting_surfaces_.push_back({cap, transformed(curve, to_plane)});
 }
 
 void StrokeCollector::add_cut_edges(std::string_view kind, const Style& style, const HiddenLines& hidden) {

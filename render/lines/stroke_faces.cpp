@@ -11,10 +11,10 @@ void StrokeCollector::add_crease(const SurfacePtr& surface, const Crease& crease
                                  const Style& style, const HiddenLines& hidden) {
   // So far beside a crease its sides are asked for derivatives, of the domain: bounds on it hold those of both.
   constexpr double kAside = 1e-13;
-  const Interval range = crease.held == HeldParameter::u ? surface->domain().u : surface->domain().v;
-  const double aside = kAside * range.width();
-  lies_on({surface, crease.held, crease.at + aside, along});
-  lies_on({surface, crease.held, (crease.seam ? range.hi : crease.at) - aside, along});
+  const Interval range = crease.held == IsoDirection::u ? surface->domain().u : surface->domain().v;
+  const double outward_offset = kAside * range.width();
+  lies_on({surface, crease.held, crease.at + outward_offset, along});
+  lies_on({surface, crease.held, (crease.seam ? range.hi : crease.at) - outward_offset, along});
   stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, along), style, hidden);
 }
 
@@ -27,7 +27,7 @@ void StrokeCollector::add(const NetLine& line, const Style& style, const HiddenL
 }
 
 void StrokeCollector::lies_on(const NetLine& line) {
-  if (drawing_) hosts_.push_back({line.surface, line.image()});
+  if (drawing_) supporting_surfaces_.push_back({line.surface, line.image()});
 }
 
 void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
@@ -38,7 +38,7 @@ void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style,
   for (const FreeCrease& crease : found.lines) {
     const auto lies_on_part = [&](int k) {
       const SurfacePtr& part = parts[static_cast<size_t>(crease.parts[k])].surface;
-      if (drawing_) hosts_.push_back({part, crease.image});
+      if (drawing_) supporting_surfaces_.push_back({part, crease.image});
       return part;
     };
     const SurfacePtr on = lies_on_part(0);
@@ -53,20 +53,20 @@ void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style,
 }
 
 void StrokeCollector::add_creases(const Body& body, const Style& style, const HiddenLines& hidden) {
-  constexpr double kLeastPart = 1e-9;  // of a line
+  constexpr double kMinPart = 1e-9;  // of a line
   for (const FaceRegion& face : face_regions(body)) {
     if (!face.region) {
       add_creases(face.surface, style, hidden);
       continue;
     }
     for (const Crease& crease : creases(*face.surface)) {
-      const bool u = crease.held == HeldParameter::u;
+      const bool u = crease.held == IsoDirection::u;
       const Interval range = u ? face.region->u_range() : face.region->v_range();
       const double at =
           crease.at + shift_into(range, crease.at, u ? face.surface->periods().u : face.surface->periods().v);
       each_line_of_face(face, crease.held, at, [&](const NetLine& line) {
         const Interval both = intersect(line.along, crease.along);
-        if (both.width() > kLeastPart * line.along.width()) add_crease(face.surface, crease, both, style, hidden);
+        if (both.width() > kMinPart * line.along.width()) add_crease(face.surface, crease, both, style, hidden);
       });
     }
   }

@@ -135,9 +135,9 @@ void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& perio
 
 void StrokeCollector::add_comb(const Curve& curve, const Helper& helper) {
   const CurvatureComb comb = curvature_comb(curve, helper.values.integer("count"), helper.values.number("scale"));
-  for (size_t k = 0; k < comb.feet.size(); ++k)
-    if (comb.tips[k] != comb.feet[k])
-      stroke(std::make_shared<Segment>(comb.feet[k], comb.tips[k]), helper.style, helper.hidden);
+  for (size_t k = 0; k < comb.foot_points.size(); ++k)
+    if (comb.tips[k] != comb.foot_points[k])
+      stroke(std::make_shared<Segment>(comb.foot_points[k], comb.tips[k]), helper.style, helper.hidden);
   if (helper.values.boolean("envelope")) polygon(comb.tips, false, helper.style, helper.hidden);
 }
 
@@ -164,11 +164,12 @@ void StrokeCollector::add_normals(const Surface& surface, const Helper& helper) 
   const Rectangle domain = surface.domain();
   const double length = helper.values.number("length");
   for (const double u :
-       values_in(helper.values.get<ParameterValues>("at_u"), domain.u, is_closed_in(surface, HeldParameter::u)))
+       values_in(helper.values.get<ParameterValues>("at_u"), domain.u, is_closed_in(surface, IsoDirection::u)))
     for (const double v :
-         values_in(helper.values.get<ParameterValues>("at_v"), domain.v, is_closed_in(surface, HeldParameter::v))) {
-      const Vec3 foot = surface.point(u, v);
-      stroke(std::make_shared<Segment>(foot, foot + length * surface.normal(u, v)), helper.style, helper.hidden);
+         values_in(helper.values.get<ParameterValues>("at_v"), domain.v, is_closed_in(surface, IsoDirection::v))) {
+      const Vec3 foot_point = surface.point(u, v);
+      stroke(std::make_shared<Segment>(foot_point, foot_point + length * surface.normal(u, v)), helper.style,
+             helper.hidden);
     }
 }
 

@@ -90,12 +90,12 @@ std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const E
 void StrokeCollector::add_intersections(const Entity& other, const Style& style, const HiddenLines& hidden) {
   const Affine to_world = to_world_;
   for (const PlacedShape& placed : placements_of(other)) {
-    add_meeting({object_->shape, to_world, object_number_, placement_}, placed, style, hidden);
+    add_intersection({object_->shape, to_world, object_number_, placement_}, placed, style, hidden);
     to_world_ = to_world;
   }
 }
 
-void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden) {
+void StrokeCollector::add_intersection(PlacedShape a, PlacedShape b, const Style& style, const HiddenLines& hidden) {
   for (PlacedShape* one : {&a, &b}) {
     const auto* moved = solid_of<TransformedShape>(one->shape);
     if (!moved) continue;
@@ -111,7 +111,7 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
   }
   for (const bool swapped : {false, true}) {
     const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
-    if (solid_of<Csg>(one.shape)) return add_meeting_of_leaves(one, other, style, hidden);
+    if (solid_of<Csg>(one.shape)) return add_intersection_of_leaves(one, other, style, hidden);
   }
   for (const PlacedShape* one : {&a, &b})
     each_surface(one->shape, [&](const SurfacePtr& surface) {
@@ -140,36 +140,37 @@ void StrokeCollector::add_meeting(PlacedShape a, PlacedShape b, const Style& sty
   const bool is_object = a.object == object_number_ && a.placement == placement_;
   const PlacedShape& met = is_object ? b : a;
   met_ = met.object, met_placement_ = met.placement;
-  add_meeting_of_solids(a, b, style, hidden);
+  add_intersection_of_solids(a, b, style, hidden);
   met_ = -2;
 }
 
-void StrokeCollector::add_meeting_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style,
-                                            const HiddenLines& hidden) {
+void StrokeCollector::add_intersection_of_solids(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                                 const HiddenLines& hidden) {
   if (!has_faces(a.shape) && !has_faces(b.shape)) {
     for (const bool swapped : {false, true}) {
       const PlacedShape &one = swapped ? b : a, &other = swapped ? a : b;
       if (!std::holds_alternative<MeshPtr>(one.shape) ||
           !(std::holds_alternative<MeshPtr>(other.shape) || std::holds_alternative<ShapePtr>(other.shape)))
         continue;
-      return add_meeting_of_mesh(one, other, style, hidden);
+      return add_intersection_of_mesh(one, other, style, hidden);
     }
-    if (!add_meeting_of_parts(a, b, style, hidden) && !add_meeting_of_tube(a, b, style, hidden) &&
-        !add_meeting_of_tube(b, a, style, hidden))
+    if (!add_intersection_of_parts(a, b, style, hidden) && !add_intersection_of_tube(a, b, style, hidden) &&
+        !add_intersection_of_tube(b, a, style, hidden))
       leave_out("intersections of " + words_of(a.shape) + " and " + words_of(b.shape) + " (" + name_of_object() + ")");
     return;
   }
   const bool a_has_faces = has_faces(a.shape);
   const PlacedShape &faces = a_has_faces ? a : b, &solid = a_has_faces ? b : a;
   each_bounded_part(faces.shape, [&](const SurfacePtr& surface) {
-    add_meeting_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
+    add_intersection_of_face({surface, nullptr, {}}, faces.to_world, solid, style, hidden);
   });
   if (const auto* body = std::get_if<BodyPtr>(&faces.shape))
-    for (const FaceRegion& face : face_regions(**body)) add_meeting_of_face(face, faces.to_world, solid, style, hidden);
+    for (const FaceRegion& face : face_regions(**body))
+      add_intersection_of_face(face, faces.to_world, solid, style, hidden);
 }
 
-void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& to_world, const PlacedShape& solid,
-                                          const Style& style, const HiddenLines& hidden) {
+void StrokeCollector::add_intersection_of_face(const FaceRegion& face, const Affine& to_world, const PlacedShape& solid,
+                                               const Style& style, const HiddenLines& hidden) {
   to_world_ = to_world;
   const size_t before = cutters_.size();
   const auto* plane = dynamic_cast<const Plane*>(face.surface.get());
@@ -187,22 +188,22 @@ void StrokeCollector::add_meeting_of_face(const FaceRegion& face, const Affine& 
     meets_of_tube(*tube, solid.to_world, to_world, style, hidden).surface(face.surface);
   } else if (std::holds_alternative<MeshPtr>(solid.shape)) {
     if (face.region) cutters_.push_back(cutter_of(face, to_world));
-    add_meeting_of_mesh(solid, {face.surface, to_world, -1}, style, hidden);
+    add_intersection_of_mesh(solid, {face.surface, to_world, -1}, style, hidden);
   } else {
     leave_out("intersections of curved faces and " + words_of(solid.shape) + " (" + name_of_object() + ")");
   }
   cutters_.resize(before);
 }
 
-void StrokeCollector::add_meeting_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
-                                            const HiddenLines& hidden) {
+void StrokeCollector::add_intersection_of_leaves(const PlacedShape& whole, const PlacedShape& other, const Style& style,
+                                                 const HiddenLines& hidden) {
   const auto& solid = std::get<ShapePtr>(whole.shape);
   std::vector<PlacedShape> leaves;
   add_leaves(solid, whole.to_world, whole.object, leaves);
   const ShapePtr placed = transformed(solid, whole.to_world);
   for (size_t k = 0; k < leaves.size(); ++k) {
     cutters_.push_back(cutter_of(leaves, k, placed));
-    add_meeting(leaves[k], other, style, hidden);
+    add_intersection(leaves[k], other, style, hidden);
     cutters_.pop_back();
   }
 }
@@ -214,23 +215,23 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const FaceRegion& face, const
   const Rectangle domain = face.surface->domain();
   if (!face.region) {
     for (const double at : {domain.u.lo, domain.u.hi})
-      borders.push_back(std::make_shared<ParameterLine>(face.surface, HeldParameter::u, at));
+      borders.push_back(std::make_shared<ParameterLine>(face.surface, IsoDirection::u, at));
     for (const double at : {domain.v.lo, domain.v.hi})
-      borders.push_back(std::make_shared<ParameterLine>(face.surface, HeldParameter::v, at));
+      borders.push_back(std::make_shared<ParameterLine>(face.surface, IsoDirection::v, at));
   }
   Cutter cutter;
   cutter.add_cuts = [=](const Stroke& stroke, std::vector<double>& cuts) {
     const CurvePtr curve = transformed(stroke.curve, back * stroke.to_world);
     for (const CurvePtr& border : borders)
-      for (const CurveMeeting& meeting : intersect(*curve, *border).points) cuts.push_back(meeting.s);
+      for (const CurveIntersection& intersection : intersect(*curve, *border).points) cuts.push_back(intersection.s);
   };
   cutter.keeps = [=](const Stroke& stroke, double t, double) {
     Vec3 uv;
     if (const auto* plane = dynamic_cast<const Plane*>(face.surface.get())) {
       const Vec3 off = back.point(stroke.to_world.point(stroke.curve->point(t))) - plane->frame().origin;
       uv = {glm::dot(off, plane->frame().x), glm::dot(off, plane->frame().y), 0};
-    } else if (!stroke.hosts.empty()) {
-      uv = stroke.hosts[0].image->point(t);  // the first is the face that meets something
+    } else if (!stroke.supporting_surfaces.empty()) {
+      uv = stroke.supporting_surfaces[0].image->point(t);  // the first is the face that meets something
     }
     return face.region ? face.region->contains(uv.x, uv.y) : domain.contains(uv.x, uv.y);
   };
@@ -261,7 +262,7 @@ StrokeCollector::Cutter StrokeCollector::cutter_of(const std::vector<PlacedShape
   cutter.add_cuts = [=](const Stroke& stroke, std::vector<double>& cuts) {
     const CurvePtr curve = transformed(stroke.curve, stroke.to_world);
     for (const SurfacePtr& face : faces)
-      for (const SurfaceMeeting& meeting : intersect(*curve, *face).points) cuts.push_back(meeting.t);
+      for (const SurfaceIntersection& intersection : intersect(*curve, *face).points) cuts.push_back(intersection.t);
     for (const Cutter& other : others) other.add_cuts(stroke, cuts);
   };
   const double reach = kBesideSolid * bounds(*placed_solid).diameter();

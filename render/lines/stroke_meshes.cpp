@@ -15,7 +15,7 @@ using namespace geometry;
 namespace {
 
 // Each of them asks for a section of the other shape.
-constexpr size_t kMostTriangles = 4000;
+constexpr size_t kMaxTriangles = 4000;
 // Cells of a surface, by which triangles that are not near it are left out.
 constexpr int kCells = 400;
 
@@ -35,7 +35,7 @@ std::vector<Box3> cells_of(const Surface& surface) {
 }
 
 // Whether a shape may come into a box, in its own coordinates.
-std::function<bool(const Box3&)> meeting_boxes(const Entity& shape) {
+std::function<bool(const Box3&)> intersection_boxes(const Entity& shape) {
   if (const auto* implicit = solid_of<ImplicitSurface>(shape))
     return [implicit](const Box3& box) {
       const ImplicitRegion& region = implicit->region();
@@ -67,12 +67,12 @@ std::function<bool(const Box3&)> meeting_boxes(const Entity& shape) {
 
 }  // namespace
 
-void StrokeCollector::add_meeting_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
-                                          const HiddenLines& hidden) {
+void StrokeCollector::add_intersection_of_mesh(const PlacedShape& mesh, const PlacedShape& other, const Style& style,
+                                               const HiddenLines& hidden) {
   to_world_ = other.to_world;
   const Mesh& triangles = *std::get<MeshPtr>(mesh.shape);
   const Affine to_other = other.to_world.inverse() * mesh.to_world;
-  const auto may_meet = meeting_boxes(other.shape);
+  const auto may_meet = intersection_boxes(other.shape);
   std::vector<std::array<Vec3, 3>> near;
   for (const Mesh::Triangle& triangle : triangles.triangles) {
     std::array<Vec3, 3> corners;
@@ -84,7 +84,7 @@ void StrokeCollector::add_meeting_of_mesh(const PlacedShape& mesh, const PlacedS
     }
     if (may_meet(box)) near.push_back(corners);
   }
-  if (near.size() > kMostTriangles)
+  if (near.size() > kMaxTriangles)
     return leave_out("intersections of a mesh, " + std::to_string(near.size()) +
                      " triangles of which come near what it meets (" + name_of_object() + ")");
   const size_t before = cutters_.size();

@@ -150,9 +150,9 @@ StrokeCollector::Meets StrokeCollector::meets_of_formula(const ImplicitSurface& 
                 implicit_arcs(one->formula(), one->region(), ImplicitCondition::other(other.formula(), to_solid), box);
             if (!found.complete) is_incomplete();
             for (const ImplicitArc& arc : found.arcs) {
-              cusps_ = sight_turns(*arc.curve, arc.closed, *arc.formula, view);
+              cusps_ = silhouette_crossings(*arc.curve, arc.closed, *arc.formula, view);
               const std::vector<double> turns =
-                  sight_turns(*transformed(arc.curve, to_solid), arc.closed, other.formula(), view_of_solid);
+                  silhouette_crossings(*transformed(arc.curve, to_solid), arc.closed, other.formula(), view_of_solid);
               cusps_.insert(cusps_.end(), turns.begin(), turns.end());
               stroke(arc.curve, style, hidden);
             }
@@ -163,8 +163,8 @@ StrokeCollector::Meets StrokeCollector::meets_of_formula(const ImplicitSurface& 
           }};
 }
 
-bool StrokeCollector::add_meeting_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style,
-                                           const HiddenLines& hidden) {
+bool StrokeCollector::add_intersection_of_parts(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                                const HiddenLines& hidden) {
   if (!has_parts(a.shape) || !has_parts(b.shape)) return false;
   const Box3 near = transformed(bounds(b.shape), a.to_world.inverse() * b.to_world);
   each_part(a, near, [&](const Part& part) {

@@ -19,14 +19,14 @@ void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style
   if (!surface->bounded()) return;
   const Rectangle domain = surface->domain();
   const DegenerateEdges edges = surface->degenerate_edges();
-  const auto edge = [&](HeldParameter held, double at) { add(whole_line(surface, held, at), style, hidden); };
-  if (!is_closed_in(*surface, HeldParameter::u)) {
-    if (!edges.u_min) edge(HeldParameter::u, domain.u.lo);
-    if (!edges.u_max) edge(HeldParameter::u, domain.u.hi);
+  const auto edge = [&](IsoDirection held, double at) { add(whole_line(surface, held, at), style, hidden); };
+  if (!is_closed_in(*surface, IsoDirection::u)) {
+    if (!edges.u_min) edge(IsoDirection::u, domain.u.lo);
+    if (!edges.u_max) edge(IsoDirection::u, domain.u.hi);
   }
-  if (!is_closed_in(*surface, HeldParameter::v)) {
-    if (!edges.v_min) edge(HeldParameter::v, domain.v.lo);
-    if (!edges.v_max) edge(HeldParameter::v, domain.v.hi);
+  if (!is_closed_in(*surface, IsoDirection::v)) {
+    if (!edges.v_min) edge(IsoDirection::v, domain.v.lo);
+    if (!edges.v_max) edge(IsoDirection::v, domain.v.hi);
   }
 }
 
@@ -37,7 +37,7 @@ void StrokeCollector::add_edges(const Body& body, std::string_view kind, const S
       if (drawing_)
         for (const int c : edge.coedges) {
           const Coedge& coedge = body.coedges[c];
-          hosts_.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
+          supporting_surfaces_.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
         }
       stroke(edge.curve, style, hidden);
     }
@@ -48,7 +48,7 @@ void StrokeCollector::add(const Contours& contours, const std::vector<SurfacePtr
   if (!contours.complete) is_incomplete();
   for (const Contour& contour : contours.branches) {
     for (size_t k = 0; k < contour.images.size() && k < surfaces.size(); ++k)
-      hosts_.push_back({surfaces[k], contour.images[k]});
+      supporting_surfaces_.push_back({surfaces[k], contour.images[k]});
     cusps_ = contour.cusps;
     stroke(contour.curve, style, hidden);
   }
@@ -62,7 +62,7 @@ void StrokeCollector::add(const BodyContours& contours, const Body& body, const 
       const Interval all = part.contour.curve->domain();
       const auto add_part = [&](const Interval& t) {
         if (!(t.width() > 0)) return;
-        hosts_.push_back({body.faces[part.face].surface, part.contour.images[0]});
+        supporting_surfaces_.push_back({body.faces[part.face].surface, part.contour.images[0]});
         for (const double cusp : part.contour.cusps)
           if (t.contains(cusp)) cusps_.push_back(cusp);
         stroke(t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t),
@@ -148,7 +148,7 @@ void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style
   if (!outlines.complete && (!edges || kind_ == "section")) is_incomplete();
   for (const ShapeOutline& line : outlines.lines) {
     if (line.edge != edges) continue;
-    aside_ = line.aside, cusps_ = line.turns;
+    outward_offset_ = line.outward_offset, cusps_ = line.turns;
     stroke(line.curve, style, hidden);
   }
 }
@@ -156,14 +156,15 @@ void StrokeCollector::add(const ShapeOutlines& outlines, bool edges, const Style
 void StrokeCollector::add(const ImplicitContours& contours, const Style& style, const HiddenLines& hidden) {
   if (!contours.complete) is_incomplete();
   for (const ImplicitContour& line : contours.lines) {
-    aside_ = line.aside, cusps_ = line.turns;
+    outward_offset_ = line.outward_offset, cusps_ = line.turns;
     stroke(line.curve, style, hidden);
   }
 }
 
 void StrokeCollector::add(const CsgLine& line, const Style& style, const HiddenLines& hidden) {
-  for (const CsgLine::Host& host : line.hosts) hosts_.push_back({host.surface, host.image});
-  cusps_ = line.turns, aside_ = line.aside;
+  for (const CsgLine::SupportingSurface& supporting_surface : line.supporting_surfaces)
+    supporting_surfaces_.push_back({supporting_surface.surface, supporting_surface.image});
+  cusps_ = line.turns, outward_offset_ = line.outward_offset;
   stroke(line.curve, style, hidden);
 }
 
@@ -205,7 +206,7 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
     if (plane.cap) faces_.push_back({transformed(cap_of(plane), to_world_), object_number_, placement_});
 }
 
-void StrokeCollector::add_meetings() {
+void StrokeCollector::add_intersections() {
   undrawn_ = borders_ = true;
   kind_ = "intersection";
   to_world_ = Affine();
@@ -219,7 +220,7 @@ void StrokeCollector::add_meetings() {
       object_number_ = a.object, placement_ = a.placement;
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });
-  // What has no faces of its own, as far as its meetings are known: areas that stay open are told of later.
+  // What has no faces of its own, as far as its intersections are known: areas that stay open are told of later.
   const std::vector<std::string> left_out = work_.left_out;
   std::vector<Box3> boxes_of_all;
   for (const auto& [object, placed] : filled_)
@@ -230,7 +231,7 @@ void StrokeCollector::add_meetings() {
       if (has_faces(a.shape) && has_faces(b.shape)) continue;
       if (!BoxTree::meets(boxes_of_all[k], boxes_of_all[j])) continue;
       object_ = filled_[k].first, object_number_ = a.object, placement_ = a.placement;
-      add_meeting(a, b, Style(), {});
+      add_intersection(a, b, Style(), {});
     }
   work_.left_out = left_out;
   undrawn_ = borders_ = false;

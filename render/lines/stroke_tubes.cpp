@@ -15,7 +15,7 @@ void StrokeCollector::add_on_tube(const ShapeOutlines& lines, const SurfacePtr& 
                                   const HiddenLines& hidden) {
   if (!lines.complete) is_incomplete();
   for (const ShapeOutline& line : lines.lines) {
-    if (met && line.image) hosts_.push_back({met, line.image});
+    if (met && line.image) supporting_surfaces_.push_back({met, line.image});
     cusps_ = line.turns;
     stroke(line.curve, style, hidden);
   }
@@ -30,7 +30,7 @@ StrokeCollector::Meets StrokeCollector::meets_of_tube(const Tube& tube, const Af
   const ViewOf view = view_from(to_world.inverse());
   return {transformed(tube.bounds(), to_solid),
           [=, this](const ImplicitSurface& other) {
-            add_on_tube(boundary->meeting(other.formula(), to_solid, view), nullptr, style, hidden);
+            add_on_tube(boundary->intersection(other.formula(), to_solid, view), nullptr, style, hidden);
           },
           [=, this](const SurfacePtr& surface) {
             const SurfacePtr moved = transformed(surface, from_solid);
@@ -39,18 +39,18 @@ StrokeCollector::Meets StrokeCollector::meets_of_tube(const Tube& tube, const Af
                                         glm::transpose(to_solid.linear) * plane->frame().z, view),
                           nullptr, style, hidden);
             else
-              add_on_tube(boundary->meeting(moved, view), moved, style, hidden);
+              add_on_tube(boundary->intersection(moved, view), moved, style, hidden);
           }};
 }
 
-bool StrokeCollector::add_meeting_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style,
-                                          const HiddenLines& hidden) {
+bool StrokeCollector::add_intersection_of_tube(const PlacedShape& a, const PlacedShape& b, const Style& style,
+                                               const HiddenLines& hidden) {
   const auto* tube = solid_of<Tube>(a.shape);
   if (!tube) return false;
   const Meets meets = meets_of_tube(*tube, a.to_world, b.to_world, style, hidden);
   if (const auto* other = solid_of<Tube>(b.shape))
-    add_on_tube(boundary_of(*tube).meeting(boundary_of(*other), a.to_world.inverse() * b.to_world,
-                                           view_from(a.to_world.inverse())),
+    add_on_tube(boundary_of(*tube).intersection(boundary_of(*other), a.to_world.inverse() * b.to_world,
+                                                view_from(a.to_world.inverse())),
                 nullptr, style, hidden);
   else if (has_parts(b.shape))
     meets_parts(meets, b);

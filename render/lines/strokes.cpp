@@ -62,11 +62,11 @@ bool has_lines_in_pictures(const Object& object) {
                                     [](const auto& kind) { return shows(kLinesShown, kind.first); }));
 }
 
-LineLook look_of_style(const Style& style, double pixels, double least_width) {
+LineLook look_of_style(const Style& style, double pixels, double min_width) {
   LineLook look;
   const double width = style.width * pixels;
-  look.half_width = 0.5 * std::max(width, least_width);
-  look.opacity = style.opacity * (least_width > 0 ? std::min(width / least_width, 1.0) : 1.0);
+  look.half_width = 0.5 * std::max(width, min_width);
+  look.opacity = style.opacity * (min_width > 0 ? std::min(width / min_width, 1.0) : 1.0);
   look.color = rgb(style.color);
   for (const double length : style.dash) look.dash.push_back(length * pixels);
   look.cap = style.cap == "round"    ? LineLook::Cap::round
@@ -79,7 +79,7 @@ LineLook look_of_style(const Style& style, double pixels, double least_width) {
 }
 
 std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, const HiddenLines& hidden, double pixels,
-                                    double least_width) {
+                                    double min_width) {
   LineLook look = seen;
   switch (hidden.way) {
     case HiddenLines::Way::show:
@@ -92,14 +92,14 @@ std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, co
         for (const double length : style->second.dash) look.dash.push_back(length * pixels);
       return look;
     case HiddenLines::Way::thin:
-      if (least_width > 0) look.opacity *= std::min(1.0, seen.half_width);
-      look.half_width = std::max(0.5 * least_width, 0.5 * seen.half_width);
+      if (min_width > 0) look.opacity *= std::min(1.0, seen.half_width);
+      look.half_width = std::max(0.5 * min_width, 0.5 * seen.half_width);
       return look;
     case HiddenLines::Way::faded:
       look.opacity /= 3;
       return look;
     case HiddenLines::Way::styled:
-      return look_of_style(hidden.style, pixels, least_width);
+      return look_of_style(hidden.style, pixels, min_width);
   }
   return std::nullopt;
 }
@@ -109,7 +109,7 @@ std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, co
 StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop)
     : model_(world.model()), drawing_(drawing) {
   pixels_ = drawing ? 1 : 1 / millimetres_of_pixel(model_);
-  least_width_ = drawing ? 0 : 1;
+  min_width_ = drawing ? 0 : 1;
   if (model_.camera) {
     const Camera& camera = *model_.camera;
     view_.central = !camera.is_parallel();
@@ -124,7 +124,7 @@ StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::at
       .visit(
           [&](const Object& object, const Affine& to_world, int placement) { add_object(object, to_world, placement); },
           stop);
-  if (work_.fills) add_meetings();
+  if (work_.fills) add_intersections();
 }
 
 void StrokeCollector::add_object(const Object& object, const Affine& to_world, int placement) {
@@ -195,7 +195,7 @@ void StrokeCollector::add_legend(const Object& object) {
 }
 
 LineLook StrokeCollector::look_of(const Style& style) {
-  LineLook look = look_of_style(style, pixels_, least_width_);
+  LineLook look = look_of_style(style, pixels_, min_width_);
   look.color = rgb(color_of(style));
   return look;
 }
@@ -213,9 +213,9 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   stroke.curve = std::move(curve);
   stroke.to_world = to_world_;
   stroke.look = look_of(style);
-  stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, least_width_);
+  stroke.hidden = hidden_look(model_, stroke.look, hidden, pixels_, min_width_);
   if (hidden.way == HiddenLines::Way::faded) stroke.fade = kFadeOfLayer;
-  stroke.most_layers = hidden.most_layers;
+  stroke.max_layers = hidden.max_layers;
   stroke.object = object_number_, stroke.placement = placement_;
   stroke.met = met_, stroke.met_placement = met_placement_;
   stroke.order = order_++;
@@ -223,18 +223,18 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   stroke.drawn = !undrawn_;
   stroke.outlines = outlines_;
   stroke.borders = borders_;
-  stroke.hosts = std::move(hosts_);
+  stroke.supporting_surfaces = std::move(supporting_surfaces_);
   stroke.cusps = std::move(cusps_);
-  stroke.aside = std::move(aside_);
-  hosts_.clear(), cusps_.clear();
+  stroke.outward_offset = std::move(outward_offset_);
+  supporting_surfaces_.clear(), cusps_.clear();
   stroke.arrow_at_start = style.arrows == "start" || style.arrows == "both";
   stroke.arrow_at_end = style.arrows == "end" || style.arrows == "both";
   stroke.arrow_size = style.arrow_size;
   if (cap_) {
-    hosts_ = std::move(stroke.hosts);
+    supporting_surfaces_ = std::move(stroke.supporting_surfaces);
     lies_on_cap(stroke.curve, cap_);
-    stroke.hosts = std::move(hosts_);
-    hosts_.clear();
+    stroke.supporting_surfaces = std::move(supporting_surfaces_);
+    supporting_surfaces_.clear();
   }
   for (const Interval& t : kept_parts(stroke)) add_part(stroke, t);
 }
@@ -254,7 +254,7 @@ void StrokeCollector::mark(const Vec3& point, const std::string& sign, const Sty
   for (const ClipPlane& plane : planes_)
     if (glm::dot(mark.point - plane.through, plane.normal) > 0) return;
   mark.sign = *found;
-  mark.radius = std::max(0.5 * least_width_, 0.5 * style.marker_size * pixels_);
+  mark.radius = std::max(0.5 * min_width_, 0.5 * style.marker_size * pixels_);
   mark.line = look_of(style);
   mark.line.opacity = style.opacity;
   if (style.fill) mark.fill = rgb(*style.fill);

@@ -31,24 +31,26 @@ struct LineLook {
 
 struct Stroke {
   // A surface on which the curve lies, with its image there; in the coordinates of the curve.
-  struct Host {
+  struct SupportingSurface {
     geometry::SurfacePtr surface;
     geometry::Curve2Ptr image;
   };
   geometry::CurvePtr curve;
   geometry::Affine to_world;
-  std::string kind;         // boundary, sharp, ...; control_polygon, ... of helpers
-  std::vector<Host> hosts;  // of drawings
-  // By t: of silhouettes where the picture turns back, of edges without hosts where a surface there turns away.
+  std::string kind;                                    // boundary, sharp, ...; control_polygon, ... of helpers
+  std::vector<SupportingSurface> supporting_surfaces;  // of drawings
+  // By t: of silhouettes where the picture turns back, of edges without supporting surfaces where a surface there turns
+  // away.
   std::vector<double> cusps;
-  geometry::CurvePtr aside;  // of silhouettes without hosts: vectors along which rays beside them miss their shape
-  bool drawn = true;         // else it is only there for what it hides: the outlines of all surfaces
-  bool outlines = false;     // where surfaces end as seen: what others are hidden by ends there
-  bool borders = false;      // where areas of fills may end, as they do at outlines
+  geometry::CurvePtr outward_offset;  // of silhouettes without supporting surfaces: vectors along which rays beside
+                                      // them miss their shape
+  bool drawn = true;                  // else it is only there for what it hides: the outlines of all surfaces
+  bool outlines = false;              // where surfaces end as seen: what others are hidden by ends there
+  bool borders = false;               // where areas of fills may end, as they do at outlines
   LineLook look;
   std::optional<LineLook> hidden;  // of what lies behind something; none: not drawn
   double fade = 1;                 // of drawings: of its opacity for each layer beyond the first
-  int most_layers = 1 << 30;       // of drawings: what lies behind more is not drawn
+  int max_layers = 1 << 30;        // of drawings: what lies behind more is not drawn
   int object = 0;                  // its number in World::objects(); -1: none of them, an annotation's
   int placement = 0;               // of the object's (placed_objects.h)
   int met = -2;                    // likewise of a shape without surfaces that it runs along, not exactly; -2: none

@@ -100,7 +100,7 @@ Lines lines_of(const Fields& fields) {
     lines.with = given.references("with");
   }
   lines.hidden = hidden_of(fields);
-  if (fields.has("hidden_layers")) lines.hidden.most_layers = fields.integer("hidden_layers");
+  if (fields.has("hidden_layers")) lines.hidden.max_layers = fields.integer("hidden_layers");
   return lines;
 }
 

@@ -24,8 +24,8 @@ struct HiddenLines {
     styled   // in `style`
   };
   Way way = Way::drop;
-  Style style;                // of the way styled
-  int most_layers = 1 << 30;  // of drawings: what lies behind more is dropped
+  Style style;               // of the way styled
+  int max_layers = 1 << 30;  // of drawings: what lies behind more is dropped
 };
 
 // Where the object is cut by a plane.

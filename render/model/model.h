@@ -64,8 +64,8 @@ struct Group {
 };
 
 struct Film {
-  static constexpr int kMostSide = 65536;  // pixels
-  static constexpr double kMostPixels = 1e8;
+  static constexpr int kMaxSide = 65536;  // pixels
+  static constexpr double kMaxPixels = 1e8;
   int width = 960;
   int height = 720;
   int samples = 16;

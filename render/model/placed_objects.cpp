@@ -2,7 +2,7 @@
 
 namespace lekalo::render {
 
-PlacedObjects::PlacedObjects(const std::vector<Object>& objects, Wanted wanted)
+PlacedObjects::PlacedObjects(const std::vector<Object>& objects, CellBudget wanted)
     : objects_(objects), wanted_(std::move(wanted)), count_(count_in(objects)) {}
 
 double PlacedObjects::count_in(const std::vector<Object>& objects) {

@@ -34,13 +34,13 @@ void each_object(const std::vector<Object>& objects, const Visit& visit) {
 // The placements of those objects, no groups, that are wanted.
 class PlacedObjects {
  public:
-  using Wanted = std::function<bool(const Object&)>;
+  using CellBudget = std::function<bool(const Object&)>;
   // `placement`: which of its placements an object stands in, in their order.
   using Visit = std::function<void(const Object& object, const geometry::Affine& to_world, int placement)>;
 
   // The objects must stay.
   explicit PlacedObjects(
-      const std::vector<Object>& objects, Wanted wanted = [](const Object&) { return true; });
+      const std::vector<Object>& objects, CellBudget wanted = [](const Object&) { return true; });
 
   // May be more than integers hold.
   double count() const { return count_; }
@@ -52,7 +52,7 @@ class PlacedObjects {
   double count_of(const Object& object);
 
   const std::vector<Object>& objects_;
-  Wanted wanted_;
+  CellBudget wanted_;
   std::unordered_map<const Group*, double> in_groups_;
   double count_ = 0;
 };

@@ -26,7 +26,7 @@ constexpr double kFadeDistance = 1e-4;
 
 // Area lights of up to this many samples become point lights: POV-Ray's own area_light multiplies the mean light of the
 // samples with the share of them that is seen, which is not the mean of the light that is seen.
-constexpr int kMostPointLights = 256;
+constexpr int kMaxPointLights = 256;
 
 std::string camera(const Model& model) {
   const Camera& camera = *model.camera;
@@ -134,9 +134,9 @@ std::string Writer::lamp(const Light& light) {
     notes_.add("a light without shadows: POV-Ray gives it no highlights");
   }
   const int count = light.sample_count();
-  if (count > kMostPointLights)
-    notes_.add(fmt::format("an area light of {} samples: only the first {} are written", count, kMostPointLights));
-  const int used = std::min(count, kMostPointLights);
+  if (count > kMaxPointLights)
+    notes_.add(fmt::format("an area light of {} samples: only the first {} are written", count, kMaxPointLights));
+  const int used = std::min(count, kMaxPointLights);
   double brightness = lamp.intensity / used;
   if (lamp.inverse_square) {
     brightness /= 2 * kFadeDistance * kFadeDistance;

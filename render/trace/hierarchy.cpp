@@ -20,7 +20,7 @@ float round_down(double x) {
 float round_up(double x) { return -round_down(-x); }
 
 // Copies of leaves in a hierarchy; numbers of lines and sums with them must not overflow.
-constexpr int64_t kMostLeaves = int64_t{1} << 62;
+constexpr int64_t kMaxLeaves = int64_t{1} << 62;
 
 // Pieces that are tested one after the other; an Embree scene of as many takes longer.
 constexpr size_t kFew = 6;
@@ -83,7 +83,8 @@ void Hierarchy::add(Leaf given) {
   for (const auto& target : given.targets)
     for (int piece = 0; piece < target->piece_count(); ++piece) include(target->piece_bounds(piece));
   for (const auto& target : given.targets)
-    given.feet.push_back(!given.parameters && target->surface().knows_feet() ? &target->surface() : nullptr);
+    given.foot_points.push_back(!given.parameters && target->surface().has_closest_point() ? &target->surface()
+                                                                                           : nullptr);
   given.size = bounded.empty() ? 1.0 : bounded.diameter();
   p.leaves.push_back(std::make_unique<Leaf>(std::move(given)));
   const Leaf& leaf = *p.leaves.back();
@@ -108,7 +109,7 @@ void Hierarchy::add(Leaf given) {
       r.face = static_cast<int>(face);
       r.target = leaf.targets[face].get();
       r.count = r.target->piece_count();
-      r.bare = leaf.feet[face] != nullptr;
+      r.bare = leaf.foot_points[face] != nullptr;
       r.whole = leaf.clips.empty() && leaf.visible_to == kVisibleToAll;
     }
     if (leaf.targets.empty()) throw std::logic_error("a leaf without surfaces, mesh or shape");
@@ -122,7 +123,7 @@ void Hierarchy::add_instance(std::shared_ptr<const Hierarchy> child, const Affin
   Parts& p = *parts_;
   const int64_t leaves = child->leaf_count(), first = p.leaf_count;
   if (leaves == 0) return;
-  if (leaves > kMostLeaves - first)
+  if (leaves > kMaxLeaves - first)
     throw std::invalid_argument("groups in groups place more shapes than can be numbered");
   p.leaf_count += leaves;
   p.added.push_back({std::move(child), to_parent, to_parent.inverse(), first, object});
@@ -306,7 +307,7 @@ Hierarchy::Place Hierarchy::place(int64_t instance) const {
   const Instance& copy = *at.instance;
   result = copy.child->place(instance - copy.first_leaf);
   result.to_world = result.to_world ? copy.to_parent * *result.to_world : copy.to_parent;
-  result.error *= geometry::largest_stretch(copy.to_parent);
+  result.error *= geometry::operator_norm_bound(copy.to_parent);
   if (copy.object >= 0) result.object = copy.object;
   return result;
 }

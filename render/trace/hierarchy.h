@@ -40,8 +40,9 @@ struct Leaf {
   // Set by Hierarchy::add.
   Box3 box;
   double size = 0;  // diameter of what of it is bounded; 1 if nothing is
-  // By target: its surface if the nearest hits on it come without parameters and its foot tells all that is shown.
-  std::vector<const geometry::Surface*> feet;
+  // By target: its surface if the nearest hits on it come without parameters and its foot point tells all that is
+  // shown.
+  std::vector<const geometry::Surface*> foot_points;
 };
 
 class Hierarchy {

@@ -60,11 +60,11 @@ inline __attribute__((always_inline)) Stretch stretch_in(const Hierarchy::Parts&
   const bool unit = std::abs(a - 1) < 1e-12;
   Stretch s{t_min, t_max, origin + t_min * d, kBoxInflation * p.radius / (unit ? 1 : std::sqrt(a)), false};
   if (!(glm::dot(s.from, s.from) <= r2)) {
-    const double foot = -glm::dot(origin, d) / a;
-    const Vec3 nearest = origin + foot * d;
+    const double foot_point = -glm::dot(origin, d) / a;
+    const Vec3 nearest = origin + foot_point * d;
     const double half = std::sqrt((r2 - glm::dot(nearest, nearest)) / a);  // NaN for a line that passes by
-    s.start = std::max(t_min, foot - half);
-    s.end = std::min(t_max, foot + half);
+    s.start = std::max(t_min, foot_point - half);
+    s.end = std::min(t_max, foot_point + half);
     s.from = origin + s.start * d;
     s.empty = !(half > 0);
   }

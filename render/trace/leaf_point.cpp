@@ -12,20 +12,20 @@ using geometry::Vec2;
 
 namespace {
 
-// The foot of a facet's point on the surface that the facet stands for: one Gauss-Newton step from the interpolated
-// parameters, within the triangle's own, so that it stays on its side of a crease or pole.
-Vec2 foot_on(const Surface& surface, const Vec3& point, const Vec2& start, const Vec2 (&corner)[3]) {
+// The foot point of a facet's point on the surface that the facet stands for: one Gauss-Newton step from the
+// interpolated parameters, within the triangle's own, so that it stays on its side of a crease or pole.
+Vec2 foot_point_on(const Surface& surface, const Vec3& point, const Vec2& start, const Vec2 (&corner)[3]) {
   const geometry::SurfaceJet at = surface.evaluate(start.x, start.y, 1);
   const Vec3 off = point - at.point();
   const double e = glm::dot(at.du(), at.du()), f = glm::dot(at.du(), at.dv()), g = glm::dot(at.dv(), at.dv());
   const double det = e * g - f * f;
   if (!(det > 1e-14 * e * g)) return start;
   const double a = glm::dot(at.du(), off), b = glm::dot(at.dv(), off);
-  const Vec2 foot = start + Vec2(g * a - f * b, e * b - f * a) / det;
+  const Vec2 foot_point = start + Vec2(g * a - f * b, e * b - f * a) / det;
   const Vec2 lo = glm::min(glm::min(corner[0], corner[1]), corner[2]),
              hi = glm::max(glm::max(corner[0], corner[1]), corner[2]);
   const Vec2 inside = 1e-9 * (hi - lo);
-  return glm::clamp(foot, lo + inside, hi - inside);
+  return glm::clamp(foot_point, lo + inside, hi - inside);
 }
 
 // Triangles are interpolated across the seam of a closed surface and whole periods away: a trim moves the cut to where
@@ -40,7 +40,7 @@ Vec2 in_domain(const Surface& surface, const Vec2& at) {
 
 // A point of a surface or shape in the space of its leaf. All members are written at once: this runs for every hit of
 // every ray.
-SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides& free_sides, const Hit& hit,
+SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides& convex_sides, const Hit& hit,
                            const Vec3& incoming, int object, double error) {
   return {.position = at.position,
           .smooth_position = at.position,
@@ -56,7 +56,7 @@ SurfacePoint point_as_seen(const geometry::ShapePoint& at, const geometry::Sides
           .object = object,
           .face = hit.face,
           .piece = hit.piece,
-          .free_sides = free_sides};
+          .convex_sides = convex_sides};
 }
 
 // What a hit on a surface shows; `near` is its place on the line that found it.
@@ -64,12 +64,12 @@ SurfacePoint point_of_surface(const Leaf& leaf, const Hit& hit, const Vec3& near
                               double error) {
   const double sign = leaf.signs[hit.face];
   const auto sides_of = [&](const Surface& surface) {
-    const geometry::Sides sides = surface.free_sides(hit.u, hit.v);
+    const geometry::Sides sides = surface.convex_sides(hit.u, hit.v);
     return sign * surface.normal_sign() < 0 ? sides.turned() : sides;
   };
-  if (const Surface* bare = leaf.feet[hit.face]) {
-    const geometry::Foot foot = bare->foot(near);
-    return point_as_seen({foot.point, sign * foot.normal}, sides_of(*bare), hit, incoming, object, error);
+  if (const Surface* bare = leaf.foot_points[hit.face]) {
+    const geometry::FootPoint foot_point = bare->foot_point(near);
+    return point_as_seen({foot_point.point, sign * foot_point.normal}, sides_of(*bare), hit, incoming, object, error);
   }
   const geometry::LineTarget& target = *leaf.targets[hit.face];
   const Surface& surface = target.surface();
@@ -91,9 +91,9 @@ SurfacePoint point_of_mesh(const Leaf& leaf, const Hit& hit, const Vec3& incomin
   Vec2 at(hit.u, hit.v);
   const Vec2 q[3] = {v0.parameter, v1.parameter, v2.parameter};
   if (!leaf.mesh_surfaces.empty() && !leaf.flat) {
-    // The surface is known: its own normal, derivatives and parameters at the foot of the facet's point.
+    // The surface is known: its own normal, derivatives and parameters at the foot point of the facet's point.
     const Surface& surface = *leaf.mesh_surfaces[hit.face];
-    at = foot_on(surface, position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
+    at = foot_point_on(surface, position, w[0] * q[0] + w[1] * q[1] + w[2] * q[2], q);
     const geometry::SurfaceJet jet = surface.evaluate(at.x, at.y, 1);
     du = jet.du();
     dv = jet.dv();

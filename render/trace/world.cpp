@@ -34,9 +34,9 @@ namespace {
 // apart: more than the clearance of rays that leave a mesh.
 constexpr double kContact = 1e-5;
 // Pairs of boxes that are compared: more would be felt; rays look for themselves then.
-constexpr double kMostPairs = 1e7;
+constexpr double kMaxPairs = 1e7;
 // Boxes of clear bodies that are asked for every ray of the eye.
-constexpr size_t kMostMedia = 32;
+constexpr size_t kMaxMedia = 32;
 
 // Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
 // this only keeps shapes of some pixels round and the way from a facet to its surface short enough for one step.
@@ -80,7 +80,7 @@ ShareKey key_of(const Object& object) {
 
 // Cells that cover less of the picture, in pixels, are not cut any further: they are halved along the rays that meet
 // them.
-constexpr double kLeastCell = 4;
+constexpr double kMinCell = 4;
 
 // Bytes of an object, without its shape and what objects have in common.
 size_t memory_of(const Object& object) {
@@ -144,7 +144,7 @@ struct World::Compiled {
   SurfacePoint point_of_instance(const Hierarchy::Place& place, const Ray& ray, const Hit& hit) const {
     const Affine &map = *place.to_world, to_leaf = map.inverse();
     SurfacePoint point = point_in_leaf(*place.leaf, hit, to_leaf.point(ray.at(hit.t)), ray.direction, place.object,
-                                       place.error, geometry::largest_stretch(map));
+                                       place.error, geometry::operator_norm_bound(map));
     const geometry::Mat3 normals = glm::transpose(to_leaf.linear);
     point.position = map.point(point.position);
     point.smooth_position = map.point(point.smooth_position);
@@ -184,7 +184,7 @@ struct World::Compiled {
   }
 
   // The area below which cells of a surface with these bounds are not cut, in the space of its leaf.
-  double least_cell(const geometry::Box3& box, const Affine& to_world) const {
+  double min_cell(const geometry::Box3& box, const Affine& to_world) const {
     if (!camera || box.empty() || !box.bounded()) return 0;
     double pixel = camera->pixel_size(to_world.point(box.center()));
     for (int corner = 0; corner < 8; ++corner) {
@@ -192,7 +192,7 @@ struct World::Compiled {
                     corner & 4 ? box.hi.z : box.lo.z);
       pixel = std::min(pixel, camera->pixel_size(to_world.point(at)));
     }
-    const double side = std::sqrt(kLeastCell) * pixel / geometry::largest_stretch(to_world);
+    const double side = std::sqrt(kMinCell) * pixel / geometry::operator_norm_bound(to_world);
     return side > 0 ? side * side : 0;
   }
 
@@ -294,7 +294,7 @@ struct World::Compiled {
             leaf.targets.resize(set.size());
             tbb::parallel_for(tbb::blocked_range<size_t>(0, set.size()), [&](const tbb::blocked_range<size_t>& part) {
               for (size_t i = part.begin(); i < part.end(); ++i)
-                leaf.targets[i] = geometry::make_line_target(set[i], nullptr, least_cell(bounds(*set[i]), to_world));
+                leaf.targets[i] = geometry::make_line_target(set[i], nullptr, min_cell(bounds(*set[i]), to_world));
             });
             leaf.signs.assign(set.size(), 1);
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
@@ -304,7 +304,7 @@ struct World::Compiled {
               leaf.clips.clear();
               leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object), false);
             } else {
-              leaf.targets = geometry::make_line_targets(*shape, least_cell(bounds(*shape), to_world));
+              leaf.targets = geometry::make_line_targets(*shape, min_cell(bounds(*shape), to_world));
               for (const geometry::Face& face : shape->faces) leaf.signs.push_back(face.forward ? 1 : -1);
             }
           } else if constexpr (std::is_same_v<T, MeshPtr>) {
@@ -400,7 +400,7 @@ void World::list_contacts() {
   };
   const double placed = PlacedObjects(model_->objects, has_medium).count();
   if (placed == 0) return;
-  if (placed * static_cast<double>(top.leaf_count()) > kMostPairs) {
+  if (placed * static_cast<double>(top.leaf_count()) > kMaxPairs) {
     media_ = {Box3::everything()};
     return;
   }
@@ -420,7 +420,7 @@ void World::list_contacts() {
       if (!common.empty()) contacts_[i].include(common.inflated(margin));
     }
   }
-  if (media_.size() <= kMostMedia) return;
+  if (media_.size() <= kMaxMedia) return;
   Box3 all;
   for (const Box3& box : media_) all.include(box);
   media_ = {all};
@@ -471,7 +471,7 @@ void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {
   ray.left_instance = point.instance;
   ray.left_face = point.face;
   ray.left_piece = point.piece;
-  ray.left_for_good = outward ? point.free_sides.front : point.free_sides.back;
+  ray.left_for_good = outward ? point.convex_sides.front : point.convex_sides.back;
 }
 
 const Object& World::object(const SurfacePoint& point) const { return *compiled_->objects[point.object]; }

@@ -92,8 +92,8 @@ Stray stray(const std::vector<Track>& from, const std::vector<Track>& to, double
 }
 
 bool lies_on(const Vec3& p, const OcctTwin& twin, double near) {
-  GeomAPI_ProjectPointOnSurf foot(occt_point(p), twin.theirs);
-  return foot.NbPoints() > 0 && foot.LowerDistance() <= near;
+  GeomAPI_ProjectPointOnSurf foot_point(occt_point(p), twin.theirs);
+  return foot_point.NbPoints() > 0 && foot_point.LowerDistance() <= near;
 }
 
 class OcctContours : public testing::Test {
@@ -124,7 +124,7 @@ class OcctContours : public testing::Test {
         const Vec3 p = occt_tracks[i].at(share);
         return lies_on(p, pair.a, kOnSurface * size) && lies_on(p, pair.b, kOnSurface * size);
       };
-      // Splines have the same parameters: OCCT's values need no projection, which may end at a farther foot.
+      // Splines have the same parameters: OCCT's values need no projection, which may end at a farther foot point.
       const auto ours_on_both = [&](size_t i, double share) {
         const Contour& one = ours.branches[i];
         const Interval t = one.curve->domain();

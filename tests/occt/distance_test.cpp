@@ -92,7 +92,7 @@ TEST(OcctDistance, OfBodiesIsNoLarger) {
     return frame_about({number(half), number(half), number(half)},
                        glm::normalize(Vec3(number(1), number(1), number(1) + 1.5)));
   };
-  int compared = 0, agree = 0, meeting = 0;
+  int compared = 0, agree = 0, intersection = 0;
   const int pairs = tests::tier_count(500, 20);
   for (int trial = 0; trial < pairs; ++trial) {
     const Pair a = make(trial % 4, frame(1), 1), b = make(trial / 4 % 4, frame(3), 1.3);
@@ -100,7 +100,7 @@ TEST(OcctDistance, OfBodiesIsNoLarger) {
     BRepExtrema_DistShapeShape theirs(a.theirs, b.theirs);
     ASSERT_TRUE(theirs.IsDone());
     ++compared;
-    meeting += own.meet;
+    intersection += own.meet;
     EXPECT_LE(own.distance, theirs.Value() * (1 + kAgrees) + 1e-7) << "trial " << trial;
     agree += std::abs(own.distance - theirs.Value()) <= kAgrees * std::max(1.0, theirs.Value());
     // Points of ours are points of theirs.
@@ -113,7 +113,7 @@ TEST(OcctDistance, OfBodiesIsNoLarger) {
   EXPECT_GE(agree, compared * 9 / 10);
   tests::report_figure("pairs", compared);
   tests::report_figure("agree", agree);
-  tests::report_figure("meeting", meeting);
+  tests::report_figure("meeting", intersection);
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ void add_edges(const TopoDS_Shape& shape, Lines& lines) {
 TEST(OcctHiddenLines, RandomSolids) {
   Views views(97);
   int places = 0, differ = 0, ours_wrong = 0, unclear = 0, occt_lines = 0, lost = 0, failed = 0;
-  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(20)); ++k) {
+  for (int k = 0; k < tests::tier_count(100, tests::min_of_slow(20)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> truth;
     const Handle(HLRBRep_Algo) algorithm = new HLRBRep_Algo();
@@ -215,7 +215,7 @@ TEST(OcctHiddenLines, RandomSolids) {
             ++ours_wrong;
         }
       }
-    // Lines that only OCCT has: does what a way of sight meets change there?
+    // Lines that only OCCT has: does what a line of sight meets change there?
     for (const Vec2& q : seen.places) {
       ++occt_lines;
       // One of ours as near as that would explain a change, where OCCT's is not as exact.

@@ -1,4 +1,4 @@
-// Feet of points on curves and surfaces, and meetings of curves with curves and surfaces, against OCCT: its
+// FootPoints of points on curves and surfaces, and intersections of curves with curves and surfaces, against OCCT: its
 // GeomAPI_ProjectPointOnCurve and -OnSurf, GeomAPI_ExtremaCurveCurve and GeomAPI_IntCS, on random rational B-splines.
 //
 // OCCT samples before it iterates and may lose solutions that lie near to each other: those are counted. What only OCCT
@@ -54,7 +54,7 @@ std::shared_ptr<NurbsCurve> random_curve(RandomNet& net, int degree, bool plane 
   return std::make_shared<NurbsCurve>(clamped_axis(degree, degree + 4), points, net.weights(degree + 4));
 }
 
-TEST(OcctFeet, OnCurves) {
+TEST(OcctFootPoints, OnCurves) {
   Counts counts;
   for (int k = 0; k < tests::tier_count(2000); ++k) {
     RandomNet net(4000 + k);
@@ -65,24 +65,24 @@ TEST(OcctFeet, OnCurves) {
       GeomAPI_ProjectPointOnCurve occt(occt_point(p), spline);
       std::vector<Vec3> own, other;
       for (int i = 1; i <= occt.NbPoints(); ++i) other.push_back(from_occt(occt.Point(i).XYZ()));
-      for (const CurveFoot& foot : projector.feet(p).feet) {
-        own.push_back(foot.point);
-        if (foot.kind == FootKind::border) continue;
+      for (const CurveFootPoint& foot_point : projector.foot_points(p).foot_points) {
+        own.push_back(foot_point.point);
+        if (foot_point.kind == FootPointKind::border) continue;
         ++counts.ours;
         gp_Pnt point;
         gp_Vec tangent;
-        spline->D1(foot.t, point, tangent);
+        spline->D1(foot_point.t, point, tangent);
         const Vec3 way = p - from_occt(point.XYZ()), along = from_occt(tangent.XYZ());
         EXPECT_LT(std::abs(glm::dot(way, along)), 1e-12 * (1 + glm::length(along)));
-        counts.missed_by_occt += !has(other, foot.point);
+        counts.missed_by_occt += !has(other, foot_point.point);
       }
-      for (const Vec3& foot : other) counts.wrong += !has(own, foot);
+      for (const Vec3& foot_point : other) counts.wrong += !has(own, foot_point);
     }
   }
   counts.report(100);
 }
 
-TEST(OcctFeet, OnSurfaces) {
+TEST(OcctFootPoints, OnSurfaces) {
   Counts counts;
   int invented = 0;
   for (int k = 0; k < tests::tier_count(500); ++k) {
@@ -96,17 +96,17 @@ TEST(OcctFeet, OnSurfaces) {
       GeomAPI_ProjectPointOnSurf occt(occt_point(p), spline);
       std::vector<Vec3> own, other;
       for (int i = 1; i <= occt.NbPoints(); ++i) other.push_back(from_occt(occt.Point(i).XYZ()));
-      for (const SurfaceFoot& foot : projector.feet(p).feet) {
-        own.push_back(foot.point);
-        if (foot.kind == FootKind::border) continue;
+      for (const SurfaceFootPoint& foot_point : projector.foot_points(p).foot_points) {
+        own.push_back(foot_point.point);
+        if (foot_point.kind == FootPointKind::border) continue;
         ++counts.ours;
         gp_Pnt point;
         gp_Vec du, dv;
-        spline->D1(foot.u, foot.v, point, du, dv);
+        spline->D1(foot_point.u, foot_point.v, point, du, dv);
         const Vec3 way = p - from_occt(point.XYZ());
         for (const gp_Vec& along : {du, dv})
           EXPECT_LT(std::abs(glm::dot(way, from_occt(along.XYZ()))), 1e-12 * (1 + along.Magnitude()));
-        counts.missed_by_occt += !has(other, foot.point);
+        counts.missed_by_occt += !has(other, foot_point.point);
       }
       for (int i = 1; i <= occt.NbPoints(); ++i) {
         double u, v;
@@ -134,7 +134,7 @@ TEST(OcctFeet, OnSurfaces) {
 }
 
 // In the plane, where curves cross; OCCT by the least distances.
-TEST(OcctMeetings, OfCurves) {
+TEST(OcctIntersections, OfCurves) {
   Counts counts;
   for (int k = 0; k < tests::tier_count(2000); ++k) {
     RandomNet net(7000 + k);
@@ -147,7 +147,7 @@ TEST(OcctMeetings, OfCurves) {
       occt.Points(i, p, q);
       if (occt.Distance(i) < 1e-9) other.push_back(from_occt(p.XYZ()));
     }
-    for (const CurveMeeting& one : intersect(*a, *b).points) {
+    for (const CurveIntersection& one : intersect(*a, *b).points) {
       own.push_back(one.point);
       ++counts.ours;
       EXPECT_LT(spline_a->Value(one.s).Distance(spline_b->Value(one.t)), 1e-12);
@@ -158,7 +158,7 @@ TEST(OcctMeetings, OfCurves) {
   counts.report(20);
 }
 
-TEST(OcctMeetings, OfCurvesAndSurfaces) {
+TEST(OcctIntersections, OfCurvesAndSurfaces) {
   Counts counts;
   for (int k = 0; k < tests::tier_count(2000); ++k) {
     RandomNet net(9000 + k);
@@ -170,7 +170,7 @@ TEST(OcctMeetings, OfCurvesAndSurfaces) {
     GeomAPI_IntCS occt(spline, surface);
     std::vector<Vec3> own, other;
     for (int i = 1; occt.IsDone() && i <= occt.NbPoints(); ++i) other.push_back(from_occt(occt.Point(i).XYZ()));
-    for (const SurfaceMeeting& one : intersect(*curve, *sheet).points) {
+    for (const SurfaceIntersection& one : intersect(*curve, *sheet).points) {
       own.push_back(one.point);
       ++counts.ours;
       EXPECT_LT(spline->Value(one.t).Distance(surface->Value(one.u, one.v)), 1e-12);

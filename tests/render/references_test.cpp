@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 const fs::path kReferences = fs::path(LEKALO_SOURCE_DIR) / "references";
 constexpr double kDifference = 0.002, kRelativeDifference = 0.001;
 constexpr double kMeshDifference = 0.01, kMeshSagInPixels = 0.05;
-constexpr double kMostExcluded = 0.1;
+constexpr double kMaxExcluded = 0.1;
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
@@ -90,7 +90,7 @@ void compare(const std::string& name, const Image& ours, const Image& exact, dou
   std::printf("%s: largest difference %.3f of the allowed one, %.2f%% of the pixels excluded\n", name.c_str(), worst,
               100 * share);
   EXPECT_EQ(wrong, 0) << "worst at " << where.str();
-  EXPECT_LE(share, kMostExcluded);
+  EXPECT_LE(share, kMaxExcluded);
 }
 
 class Reference : public testing::TestWithParam<std::string> {

@@ -8,8 +8,8 @@ namespace lekalo::oracle {
 
 namespace {
 
-constexpr int kMostDegree = 15;
-constexpr size_t kMostCells = 4096;
+constexpr int kMaxDegree = 15;
+constexpr size_t kMaxCells = 4096;
 constexpr double kPlace = 1e-6;  // of the size: what is longer is no place
 
 Vec4 casteljau(std::vector<Vec4> c, double t) {
@@ -22,7 +22,7 @@ Vec4 casteljau(std::vector<Vec4> c, double t) {
 
 PatchOracle::PatchOracle(std::vector<Vec4> points, int degree_u, int degree_v)
     : points_(std::move(points)), p_(degree_u), q_(degree_v) {
-  if (points_.size() > kMostPoints || p_ > kMostDegree || q_ > kMostDegree)
+  if (points_.size() > kMaxPoints || p_ > kMaxDegree || q_ > kMaxDegree)
     throw std::invalid_argument("the oracle has no room for such degrees");
   bool convex = true;
   for (const Vec4& h : points_) {
@@ -38,16 +38,16 @@ PatchOracle::PatchOracle(std::vector<Vec4> points, int degree_u, int degree_v)
 }
 
 std::vector<Root> PatchOracle::roots(const Line& given, bool* undecided) const {
-  // The line with its origin at its foot near the patch.
+  // The line with its origin at its foot point near the patch.
   long double along = 0, square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     along += (static_cast<long double>(center_[axis]) - given.origin[axis]) * given.direction[axis];
     square += static_cast<long double>(given.direction[axis]) * given.direction[axis];
   }
-  const long double foot = along / square;
+  const long double foot_point = along / square;
   Line line{Vec3(0), given.direction};
   for (int axis = 0; axis < 3; ++axis)
-    line.origin[axis] = static_cast<double>(given.origin[axis] + foot * given.direction[axis] -
+    line.origin[axis] = static_cast<double>(given.origin[axis] + foot_point * given.direction[axis] -
                                             static_cast<long double>(center_[axis]));
   if (glm::length(line.origin) > radius_ * (1 + 1e-9)) return {};
 
@@ -70,7 +70,7 @@ std::vector<Root> PatchOracle::roots(const Line& given, bool* undecided) const {
   bool runs_along = false;
   std::vector<Root> found = cluster(std::move(search.cells), line, runs_along);
   if (undecided) *undecided = runs_along;
-  for (Root& root : found) root.t = static_cast<double>(foot + root.t);
+  for (Root& root : found) root.t = static_cast<double>(foot_point + root.t);
   return found;
 }
 
@@ -96,7 +96,7 @@ void PatchOracle::split(const Net& net, bool along_u, Net& a, Net& b) const {
   const int n = along_u ? p_ : q_, rows = along_u ? q_ + 1 : p_ + 1, stride = along_u ? q_ + 1 : 1;
   for (int r = 0; r < rows; ++r) {
     const int base = along_u ? r : r * (q_ + 1);
-    std::array<Vec2, kMostDegree + 1> work;
+    std::array<Vec2, kMaxDegree + 1> work;
     for (int i = 0; i <= n; ++i) work[i] = net[base + i * stride];
     for (int k = 0; k <= n; ++k) {
       a[base + k * stride] = work[0];
@@ -132,7 +132,7 @@ void PatchOracle::halve(const Net& net, double u, double v, double hu, double hv
   const bool done_u = hu < 5e-12 || extent_u <= search.slack, done_v = hv < 5e-12 || extent_v <= search.slack;
   if (done_u && done_v) {
     search.cells.push_back({u, v, hu, hv});
-    search.full = search.cells.size() >= kMostCells;
+    search.full = search.cells.size() >= kMaxCells;
     return;
   }
   const bool along_u = done_v || (!done_u && extent_u >= extent_v);

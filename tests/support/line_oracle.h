@@ -1,4 +1,4 @@
-// The ray oracle: all meetings of a line with a rational Bezier patch, found by halving alone.
+// The ray oracle: all intersections of a line with a rational Bezier patch, found by halving alone.
 //
 // It shares nothing with the product's solver. The two plane equations of the line are put in Bernstein form over the
 // patch; a rectangle is discarded only if all coefficients of one of them, or of a sum of multiples of the two, have
@@ -37,8 +37,8 @@ class PatchOracle {
   Vec3 point(double u, double v) const { return local_point(u, v) + center_; }
 
  private:
-  static constexpr size_t kMostPoints = 64;
-  using Net = std::array<Vec2, kMostPoints>;  // of both plane equations: two coefficients a point
+  static constexpr size_t kMaxPoints = 64;
+  using Net = std::array<Vec2, kMaxPoints>;  // of both plane equations: two coefficients a point
   struct Cell {
     double u, v;    // the middle
     double hu, hv;  // half widths

@@ -21,7 +21,7 @@ inline int tier_count(int full, int least = 1) {
 }
 
 // Sanitizers look for faults of memory, which need no statistics: of slow tests a few cases are enough for them.
-inline int least_of_slow(int least) {
+inline int min_of_slow(int least) {
 #ifdef __SANITIZE_ADDRESS__
   return std::min(4, std::max(1, least / 5));
 #else

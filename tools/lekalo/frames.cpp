@@ -13,7 +13,7 @@ namespace lekalo::command {
 
 namespace {
 
-constexpr int kMostFrames = 1000000;
+constexpr int kMaxFrames = 1000000;
 
 void check_formula(const std::string& text, const std::string& option) {
   auto parsed = geometry::Expression::parse(text);
@@ -35,9 +35,9 @@ std::vector<Frame> parse_frames(const std::string& text) {
   int count = 0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, count);
-  if (error != std::errc() || rest != end || count < 1 || count > kMostFrames)
+  if (error != std::errc() || rest != end || count < 1 || count > kMaxFrames)
     throw UsageError(fmt::format("--frames {}: the number of frames, '{}', is no whole number between 1 and {}", text,
-                                 text.substr(colon + 1), kMostFrames));
+                                 text.substr(colon + 1), kMaxFrames));
   check_formula(first, text);
   check_formula(last, text);
   const int digits = std::max(4, static_cast<int>(std::to_string(count).size()));

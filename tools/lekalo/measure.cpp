@@ -188,10 +188,10 @@ int run(const Options& options) {
     else if (!options.silhouette.empty())
       out = silhouette_seen(options.name, entity, options.silhouette, scene.model->camera.get(), samples);
     else if (options.self_intersection)
-      out = surface_self_meetings(options.name, entity, same_point, samples);
+      out = surface_self_intersections(options.name, entity, same_point, samples);
     else
-      out = surface_meetings(options.name, entity, options.intersect[0], find_geometry(scene, options.intersect[0]),
-                             same_point, samples);
+      out = surface_intersections(options.name, entity, options.intersect[0],
+                                  find_geometry(scene, options.intersect[0]), same_point, samples);
     print = print_contours;
   } else if (!options.section.empty() || !options.silhouette.empty()) {
     throw UsageError(
@@ -199,8 +199,8 @@ int run(const Options& options) {
   } else if (options.self_intersection) {
     const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
     if (!curve) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
-    out = self_meetings(options.name, *curve, same_point);
-    print = print_self_meetings;
+    out = self_intersections(options.name, *curve, same_point);
+    print = print_self_intersections;
   } else if (options.intersect.size() == 2) {
     out = common_points_of(
         {options.name, options.intersect[0], options.intersect[1]},

@@ -34,8 +34,9 @@ ordered_json compare_pair(const std::string& name, const render::Entity& entity,
                           const render::Entity& other, int samples, int order, std::optional<double> tolerance);
 void print_pair(const ordered_json& compared);
 
-// The distance of a curve or surface from a point with all feet of the point on it; of a body from a point, and between
-// two of all these, with all local minima, or with `nearest` the nearest ones. Throws UsageError for anything else.
+// The distance of a curve or surface from a point with all foot points of the point on it; of a body from a point, and
+// between two of all these, with all local minima, or with `nearest` the nearest ones. Throws UsageError for anything
+// else.
 ordered_json distance_to(const std::string& name, const render::Entity& entity, const std::string& to,
                          const render::Entity& other, bool nearest);
 void print_distance(const ordered_json& found);
@@ -47,8 +48,8 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
 void print_intersections(const ordered_json& found);
 
 // Where a curve meets itself. Throws UsageError for anything else.
-ordered_json self_meetings(const std::string& name, const geometry::CurvePtr& curve, double tolerance);
-void print_self_meetings(const ordered_json& found);
+ordered_json self_intersections(const std::string& name, const geometry::CurvePtr& curve, double tolerance);
+void print_self_intersections(const ordered_json& found);
 
 // All common points of three surfaces or bodies. Throws UsageError for anything else.
 ordered_json common_points_of(const std::array<std::string, 3>& names,
@@ -57,11 +58,11 @@ void print_common_points(const ordered_json& found);
 
 // Where two surfaces or bodies meet, with `samples` points along each branch (0 or at least 2). Throws UsageError for
 // anything else.
-ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
-                              const render::Entity& other, double tolerance, int samples);
+ordered_json surface_intersections(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                                   const render::Entity& other, double tolerance, int samples);
 // The curves along which a surface meets itself. Throws UsageError for anything but a surface.
-ordered_json surface_self_meetings(const std::string& name, const render::Entity& entity, double tolerance,
-                                   int samples);
+ordered_json surface_self_intersections(const std::string& name, const render::Entity& entity, double tolerance,
+                                        int samples);
 // Where the plane "X,Y,Z,NX,NY,NZ" cuts a surface or body.
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples);
 // The silhouette of a surface or body: `view` is "camera", a direction of sight "DX,DY,DZ", or "eye:X,Y,Z".
@@ -82,8 +83,8 @@ ordered_json continuity_of(const std::string& name, const render::Entity& entity
                            const render::Entity* other, double tolerance);
 void print_continuity(const ordered_json& found);
 
-// Parts of these outputs: what keeps a mesh from being closed, as free_sides, turned_sides, crowded_sides; a range of a
-// parameter; a point back from JSON; the row's parameters as text.
+// Parts of these outputs: what keeps a mesh from being closed, as convex_sides, turned_sides, crowded_sides; a range of
+// a parameter; a point back from JSON; the row's parameters as text.
 void put_open_sides(ordered_json& out, const geometry::MeshSides& sides);
 ordered_json range(const geometry::Interval& x);
 geometry::Vec3 vector_of(const ordered_json& v);

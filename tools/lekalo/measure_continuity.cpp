@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Continuity;
 using geometry::ContinuityTolerances;
-using geometry::HeldParameter;
+using geometry::IsoDirection;
 
 constexpr const char* kJumps[] = {"gap", "angle", "curvature", "curvature_derivative"};
 
@@ -28,7 +28,7 @@ void put(ordered_json& row, const Continuity& continuity) {
 }
 
 ordered_json edge_row(const geometry::DomainEdge& edge) {
-  const bool holds_u = edge.held == HeldParameter::u;
+  const bool holds_u = edge.held == IsoDirection::u;
   return {{holds_u ? "u" : "v", edge.at}, {holds_u ? "v_range" : "u_range", range(edge.range)}};
 }
 

@@ -158,8 +158,8 @@ void print_row(const char* label, const ordered_json& row) {
 
 }  // namespace
 
-ordered_json surface_meetings(const std::string& name, const render::Entity& entity, const std::string& other_name,
-                              const render::Entity& other, double tolerance, int samples) {
+ordered_json surface_intersections(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                                   const render::Entity& other, double tolerance, int samples) {
   return asked(name, "with", other_name, [&] {
     const BodyPtr* a = std::get_if<BodyPtr>(&entity);
     const BodyPtr* b = std::get_if<BodyPtr>(&other);
@@ -170,8 +170,8 @@ ordered_json surface_meetings(const std::string& name, const render::Entity& ent
   });
 }
 
-ordered_json surface_self_meetings(const std::string& name, const render::Entity& entity, double tolerance,
-                                   int samples) {
+ordered_json surface_self_intersections(const std::string& name, const render::Entity& entity, double tolerance,
+                                        int samples) {
   if (!std::holds_alternative<SurfacePtr>(entity))
     throw UsageError(fmt::format("'{}' is a body: self-intersections are found of curves and surfaces", name));
   return asked(name, "with", name,

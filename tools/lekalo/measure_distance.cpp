@@ -17,55 +17,56 @@ using geometry::BodyPtr;
 using geometry::CurvePtr;
 using geometry::DistanceMinimum;
 using geometry::DistancePlace;
-using geometry::FootKind;
+using geometry::FootPointKind;
 using geometry::Interval;
 using geometry::SurfacePtr;
 using geometry::Vec3;
 
-const char* word(FootKind kind) {
+const char* word(FootPointKind kind) {
   switch (kind) {
-    case FootKind::minimum:
+    case FootPointKind::minimum:
       return "minimum";
-    case FootKind::maximum:
+    case FootPointKind::maximum:
       return "maximum";
-    case FootKind::saddle:
+    case FootPointKind::saddle:
       return "saddle";
-    case FootKind::degenerate:
+    case FootPointKind::degenerate:
       return "degenerate";
-    case FootKind::border:
+    case FootPointKind::border:
       return "border";
   }
   return "";
 }
 
-template <class Foot>
-ordered_json foot_row(ordered_json row, const Foot& foot) {
-  row["point"] = to_json(foot.point);
-  row["distance"] = foot.distance;
-  row["kind"] = word(foot.kind);
+template <class FootPoint>
+ordered_json foot_point_row(ordered_json row, const FootPoint& foot_point) {
+  row["point"] = to_json(foot_point.point);
+  row["distance"] = foot_point.distance;
+  row["kind"] = word(foot_point.kind);
   return row;
 }
 
 // Of formulas that are not bounded: everything else has a nearest place.
-constexpr const char* kNoFeet = "no foot was found: its formulas have no finite bounds";
+constexpr const char* kNoFootPoints = "no foot was found: its formulas have no finite bounds";
 
-ordered_json feet(const geometry::Curve& curve, const Vec3& point) {
+ordered_json foot_points(const geometry::Curve& curve, const Vec3& point) {
   ordered_json out;
-  const geometry::CurveFeet found = project(point, curve);
-  if (found.feet.empty()) throw std::invalid_argument(kNoFeet);
-  out["distance"] = found.feet.front().distance;
-  for (const geometry::CurveFoot& foot : found.feet) out["feet"].push_back(foot_row({{"t", foot.t}}, foot));
+  const geometry::CurveFootPoints found = project(point, curve);
+  if (found.foot_points.empty()) throw std::invalid_argument(kNoFootPoints);
+  out["distance"] = found.foot_points.front().distance;
+  for (const geometry::CurveFootPoint& foot_point : found.foot_points)
+    out["feet"].push_back(foot_point_row({{"t", foot_point.t}}, foot_point));
   for (const Interval& arc : found.arcs) out["arcs"].push_back(range(arc));
   return out;
 }
 
-ordered_json feet(const geometry::Surface& surface, const Vec3& point) {
+ordered_json foot_points(const geometry::Surface& surface, const Vec3& point) {
   ordered_json out;
-  const geometry::SurfaceFeet found = project(point, surface);
-  if (found.feet.empty()) throw std::invalid_argument(kNoFeet);
-  out["distance"] = found.feet.front().distance;
-  for (const geometry::SurfaceFoot& foot : found.feet)
-    out["feet"].push_back(foot_row({{"u", foot.u}, {"v", foot.v}}, foot));
+  const geometry::SurfaceFootPoints found = project(point, surface);
+  if (found.foot_points.empty()) throw std::invalid_argument(kNoFootPoints);
+  out["distance"] = found.foot_points.front().distance;
+  for (const geometry::SurfaceFootPoint& foot_point : found.foot_points)
+    out["feet"].push_back(foot_point_row({{"u", foot_point.u}, {"v", foot_point.v}}, foot_point));
   for (const geometry::Rectangle& region : found.regions)
     out["regions"].push_back({{"u", range(region.u)}, {"v", range(region.v)}});
   return out;
@@ -182,11 +183,11 @@ ordered_json distance_to(const std::string& name, const render::Entity& entity, 
     out["kind"] = kind_of(entity);
     out["to"] = to;
     const auto* point = std::get_if<Vec3>(&other);
-    const bool feet_wanted = point && !nearest && !std::holds_alternative<BodyPtr>(entity);
-    if (feet_wanted && std::holds_alternative<CurvePtr>(entity))
-      out.update(feet(*std::get<CurvePtr>(entity), *point));
-    else if (feet_wanted)
-      out.update(feet(*std::get<SurfacePtr>(entity), *point));
+    const bool foot_points_wanted = point && !nearest && !std::holds_alternative<BodyPtr>(entity);
+    if (foot_points_wanted && std::holds_alternative<CurvePtr>(entity))
+      out.update(foot_points(*std::get<CurvePtr>(entity), *point));
+    else if (foot_points_wanted)
+      out.update(foot_points(*std::get<SurfacePtr>(entity), *point));
     else
       out.update(minima(*a, *b, nearest));
   } catch (const std::invalid_argument& error) {
@@ -199,9 +200,10 @@ void print_distance(const ordered_json& found) {
   if (found.contains("minima")) return print_minima(found);
   fmt::print("{} '{}' to {}: distance {}\n", found["kind"].get<std::string>(), found["name"].get<std::string>(),
              found["to"].get<std::string>(), digits(found["distance"].get<double>()));
-  for (const ordered_json& foot : found["feet"])
-    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot["kind"].get<std::string>(), parameter_text(foot),
-               foot["distance"].get<double>(), digits(vector_of(foot["point"])));
+  for (const ordered_json& foot_point : found["feet"])
+    fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot_point["kind"].get<std::string>(),
+               parameter_text(foot_point), foot_point["distance"].get<double>(),
+               digits(vector_of(foot_point["point"])));
   if (found.contains("arcs"))
     for (const ordered_json& arc : found["arcs"])
       fmt::print("  all points from t {} to {} are as far\n", digits(arc[0].get<double>()),

@@ -17,29 +17,29 @@ using geometry::Interval;
 using geometry::SurfacePtr;
 using geometry::Vec3;
 
-template <class Meeting>
-ordered_json meeting_row(ordered_json row, const Meeting& one) {
+template <class Intersection>
+ordered_json intersection_row(ordered_json row, const Intersection& one) {
   row["point"] = to_json(one.point);
   row["distance"] = one.distance;
   row["contact"] = one.contact;
   return row;
 }
 
-ordered_json meetings(const geometry::Curve& a, const geometry::Curve& b, double tolerance) {
-  const geometry::CurveMeetings found = intersect(a, b, tolerance);
+ordered_json intersections(const geometry::Curve& a, const geometry::Curve& b, double tolerance) {
+  const geometry::CurveIntersections found = intersect(a, b, tolerance);
   ordered_json points = ordered_json::array(), common = ordered_json::array();
-  for (const geometry::CurveMeeting& one : found.points)
-    points.push_back(meeting_row({{"t", one.s}, {"t_other", one.t}}, one));
+  for (const geometry::CurveIntersection& one : found.points)
+    points.push_back(intersection_row({{"t", one.s}, {"t_other", one.t}}, one));
   for (const geometry::CommonPart& part : found.common)
     common.push_back({{"t", range(part.s)}, {"t_other", {part.begin, part.end}}});
   return {{"points", points}, {"common", common}};
 }
 
-ordered_json meetings(const geometry::Curve& curve, const geometry::Surface& surface, double tolerance) {
-  const geometry::SurfaceMeetings found = intersect(curve, surface, tolerance);
+ordered_json intersections(const geometry::Curve& curve, const geometry::Surface& surface, double tolerance) {
+  const geometry::SurfaceIntersections found = intersect(curve, surface, tolerance);
   ordered_json points = ordered_json::array(), common = ordered_json::array();
-  for (const geometry::SurfaceMeeting& one : found.points)
-    points.push_back(meeting_row({{"t", one.t}, {"u", one.u}, {"v", one.v}}, one));
+  for (const geometry::SurfaceIntersection& one : found.points)
+    points.push_back(intersection_row({{"t", one.t}, {"u", one.u}, {"v", one.v}}, one));
   for (const Interval& part : found.on_surface) common.push_back({{"t", range(part)}});
   return {{"points", points}, {"common", common}};
 }
@@ -56,11 +56,11 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
   try {
     ordered_json found;
     if (curve && other_curve)
-      found = meetings(**curve, **other_curve, tolerance);
+      found = intersections(**curve, **other_curve, tolerance);
     else if (curve && other_surface)
-      found = meetings(**curve, **other_surface, tolerance);
+      found = intersections(**curve, **other_surface, tolerance);
     else if (surface && other_curve)
-      found = meetings(**other_curve, **surface, tolerance);
+      found = intersections(**other_curve, **surface, tolerance);
     else
       throw UsageError(fmt::format("'{}' and '{}': meetings are found of curves and surfaces", name, other_name));
     out.update(found);
@@ -72,13 +72,13 @@ ordered_json intersections(const std::string& name, const render::Entity& entity
 
 namespace {
 
-const char* word(geometry::SelfMeetingKind kind) {
+const char* word(geometry::SelfIntersectionKind kind) {
   switch (kind) {
-    case geometry::SelfMeetingKind::crossing:
+    case geometry::SelfIntersectionKind::crossing:
       return "crossing";
-    case geometry::SelfMeetingKind::contact:
+    case geometry::SelfIntersectionKind::contact:
       return "contact";
-    case geometry::SelfMeetingKind::cusp:
+    case geometry::SelfIntersectionKind::cusp:
       return "cusp";
   }
   return "";
@@ -98,10 +98,10 @@ std::string count_text(size_t count, const char* what) {
 
 }  // namespace
 
-ordered_json self_meetings(const std::string& name, const CurvePtr& curve, double tolerance) {
+ordered_json self_intersections(const std::string& name, const CurvePtr& curve, double tolerance) {
   ordered_json points = ordered_json::array(), common = ordered_json::array();
-  const geometry::CurveSelfMeetings found = geometry::self_intersections(*curve, tolerance);
-  for (const geometry::CurveSelfMeeting& one : found.points)
+  const geometry::CurveSelfIntersections found = geometry::self_intersections(*curve, tolerance);
+  for (const geometry::CurveSelfIntersection& one : found.points)
     points.push_back({{"kind", word(one.kind)},
                       {"t", one.s},
                       {"t_other", one.t},
@@ -112,7 +112,7 @@ ordered_json self_meetings(const std::string& name, const CurvePtr& curve, doubl
   return {{"name", name}, {"with", name}, {"points", points}, {"common", common}};
 }
 
-void print_self_meetings(const ordered_json& found) {
+void print_self_intersections(const ordered_json& found) {
   const size_t parts = found["common"].size();
   fmt::print("'{}' with itself: {}{}\n", found["name"].get<std::string>(), count_text(found["points"].size(), "point"),
              parts == 0 ? "" : ", " + count_text(parts, "part") + " run twice");

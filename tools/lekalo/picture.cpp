@@ -50,9 +50,9 @@ std::pair<int, int> parse_size(const std::string& text) {
       width < 1 || height < 1)
     throw UsageError(fmt::format("--size takes WIDTHxHEIGHT in pixels, found '{}'", text));
   using render::Film;
-  if (width > Film::kMostSide || height > Film::kMostSide || 1.0 * width * height > Film::kMostPixels)
+  if (width > Film::kMaxSide || height > Film::kMaxSide || 1.0 * width * height > Film::kMaxPixels)
     throw UsageError(fmt::format("--size {} is too large: a side has at most {} pixels, a picture {:.0f} million", text,
-                                 Film::kMostSide, Film::kMostPixels / 1e6));
+                                 Film::kMaxSide, Film::kMaxPixels / 1e6));
   return {width, height};
 }
 
@@ -82,8 +82,8 @@ void add_metadata(render::RenderResult& result, const render::Model& model, cons
   if (!stamp) return;
   metadata["lekalo.date"] = date_text(true);
   if (source_date()) return;
-  char host[HOST_NAME_MAX + 1] = {};
-  if (gethostname(host, HOST_NAME_MAX) == 0) metadata["lekalo.host"] = std::string(host);
+  char supporting_surface[HOST_NAME_MAX + 1] = {};
+  if (gethostname(supporting_surface, HOST_NAME_MAX) == 0) metadata["lekalo.host"] = std::string(supporting_surface);
   metadata["lekalo.path"] = std::filesystem::absolute(scene_file).string();
 }
 

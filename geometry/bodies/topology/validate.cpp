@@ -222,7 +222,7 @@ class Validation {
 
   void check_face(int index) {
     const Face& face = body_.faces[index];
-    // Seen against the surface's parametric normal r_u x r_v.
+    // Interaction against the surface's parametric normal r_u x r_v.
     const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
     const std::vector<Vec2> outer = polygon(face.loops[0]);
     if (!(side * signed_area(outer) > 0)) report("an outer loop has its face on the left", face_name(index));

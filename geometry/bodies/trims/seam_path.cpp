@@ -202,8 +202,8 @@ std::vector<Vec2> Rows::stretched(const std::vector<Corner>& corners) const {
 }  // namespace
 
 std::vector<Vec2> seam_path(const Loops& loops, const ClosedBand& band) {
-  constexpr int kFewestRows = 64, kMostRows = 16384;
-  for (int count = kFewestRows; count <= kMostRows; count *= 4)
+  constexpr int kFewestRows = 64, kMaxRows = 16384;
+  for (int count = kFewestRows; count <= kMaxRows; count *= 4)
     if (std::vector<Vec2> path = Rows(loops, band, count).path(); !path.empty()) return path;
   return {};
 }

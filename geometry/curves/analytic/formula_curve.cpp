@@ -16,7 +16,7 @@ namespace {
 constexpr int kTried = 64;
 // Over a long stretch the bounds of a quotient or a root may be infinite, or enormous beside the curve, where those of
 // its parts are not: stretches down to this part of the domain are taken in halves then.
-constexpr double kLeastHalved = 1.0 / 128;
+constexpr double kMinHalved = 1.0 / 128;
 constexpr double kEnormous = 8;
 
 const std::vector<std::string> kVariables{"t"};
@@ -49,7 +49,7 @@ CurveEnclosure FormulaCurve::enclose(const Interval& t, int order) const {
   CurveEnclosure whole = enclose_curve_centered(point_, t, order);
   const auto is_bounded = [&](int k) { return k > order || whole.d[k].bounded(); };
   const bool is_good = is_bounded(0) && is_bounded(1) && is_bounded(2) && whole.d[0].diameter() <= kEnormous * size_;
-  if (is_good || !(t.width() > kLeastHalved * domain_.width())) return whole;
+  if (is_good || !(t.width() > kMinHalved * domain_.width())) return whole;
   const CurveEnclosure below = enclose({t.lo, t.middle()}, order), above = enclose({t.middle(), t.hi}, order);
   for (int k = 0; k <= order; ++k) {
     whole.d[k] = below.d[k];

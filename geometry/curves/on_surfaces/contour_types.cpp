@@ -51,7 +51,7 @@ CurvePtr chosen(const Contours& found, const Fields& f, const std::string& none)
     size_t best = 0;
     double least = kInfinity;
     for (size_t k = 0; k < count; ++k) {
-      const double distance = project(f.vec3("near"), *found.branches[k].curve).feet.front().distance;
+      const double distance = project(f.vec3("near"), *found.branches[k].curve).foot_points.front().distance;
       if (distance < least) least = distance, best = k;
     }
     return found.branches[best].curve;

@@ -213,19 +213,19 @@ class Tracing {
   std::vector<Part> parts_;
 };
 
-// The nearest foot of a point.
+// The nearest foot point of a point.
 Vec2 nearest_foot(const Vec3& point, const Surface& surface, double t) {
-  SurfaceFeet feet;
+  SurfaceFootPoints foot_points;
   try {
-    feet = project(point, surface);
+    foot_points = project(point, surface);
   } catch (const std::invalid_argument& error) {
     throw FieldError("onto", error.what());
   }
-  if (!feet.regions.empty())
+  if (!foot_points.regions.empty())
     throw FieldError("of", fmt::format("at t = {:.6g} many points of the surface are equally near", t),
                      "begin elsewhere: range");
-  for (const SurfaceFoot& foot : feet.feet)
-    if (foot.kind == FootKind::minimum) return {foot.u, foot.v};
+  for (const SurfaceFootPoint& foot_point : foot_points.foot_points)
+    if (foot_point.kind == FootPointKind::minimum) return {foot_point.u, foot_point.v};
   throw FieldError("of", fmt::format("no normal of the surface leads to the curve's beginning, t = {:.6g}", t),
                    "project a part of the curve (range), or widen the surface");
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Mat2 = std::array<std::array<double, 2>, 2>;
 
-constexpr int kMostSteps = 30;
+constexpr int kMaxSteps = 30;
 // Determinants below this part of their terms are rounding.
 constexpr double kSingular = 1e-11;
 
@@ -86,7 +86,7 @@ std::optional<Vec2> ProjectionEquations::solve(double t, const Vec2& start) cons
   const Vec3 c = curve_->point(t);
   Vec2 x = start;
   double before = kInfinity;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const SurfaceJet s = surface_->evaluate(x.x, x.y, direction_ ? 1 : 2);
     const Vec3 way = c - s.point();
     const Vec2 f = direction_ ? Vec2(glm::dot(way, across_[0]), glm::dot(way, across_[1]))
@@ -270,7 +270,7 @@ CurveJet ProjectedImage::evaluate(double t, int order) const {
 
 void ProjectedImage::enclose_part(const PolynomialCurve::Part& part, const Interval& t, int order, int depth,
                                   CurveEnclosure& result) const {
-  constexpr int kMostHalvings = 16;
+  constexpr int kMaxHalvings = 16;
   if (const auto ranges = equations_->enclose(part, t, order)) {
     for (int k = 0; k <= order; ++k) {
       const Interval &u = ranges->x[0][k], &v = ranges->x[1][k];
@@ -278,7 +278,7 @@ void ProjectedImage::enclose_part(const PolynomialCurve::Part& part, const Inter
     }
     return;
   }
-  if (depth == kMostHalvings || !(t.width() > 0)) {
+  if (depth == kMaxHalvings || !(t.width() > 0)) {
     // Next to a place where the equations are singular: nothing is known of the derivatives.
     Box3 box;
     part.include_ranges(0, t, &box);

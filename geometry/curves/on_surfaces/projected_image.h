@@ -2,7 +2,7 @@
 //
 // With w = c(t) - S(u, v) the parameters obey
 //
-//   w . S_u = w . S_v = 0      along normals: S(u, v) is a foot of c(t)
+//   w . S_u = w . S_v = 0      along normals: S(u, v) is a foot point of c(t)
 //   w . a = w . b = 0          along a direction, a and b two vectors across it
 //
 // They are solved by Newton's iteration where the curve is evaluated, from a stored polynomial; the Taylor series of
@@ -39,15 +39,15 @@ class ProjectionEquations {
   int highest_order() const { return is_along_normals() ? kOrder - 1 : kOrder; }
   // Taylor polynomials of u and v about t where the solution is known.
   std::array<Jet<double, kOrder>, 2> series(double t, const Vec2& solution, int order) const;
-  // Along normals: the foot is a minimum of the distance.
+  // Along normals: the foot point is a minimum of the distance.
   bool is_nearest(double t, const Vec2& solution) const;
 
   struct Ranges {
     std::array<std::array<Interval, 3>, 2> x;  // [parameter][derivative]
   };
   // Certified to hold the solution that `about` approaches for all t, and its derivatives (up to `order`); none where
-  // the interval is too long for that. The second derivative of feet needs third derivatives of the surface: where it
-  // does not enclose these, they are taken from nine places, with as much again around.
+  // the interval is too long for that. The second derivative of foot points needs third derivatives of the surface:
+  // where it does not enclose these, they are taken from nine places, with as much again around.
   std::optional<Ranges> enclose(const PolynomialCurve::Part& about, const Interval& t, int order) const;
 
  private:

@@ -17,26 +17,26 @@ constexpr double kSameLine = 1e-9;
 // A surface asked by a held parameter and the one along the line.
 struct Held {
   const Surface& surface;
-  HeldParameter held;
+  IsoDirection held;
 
   Vec3 point(double at, double t) const {
-    return held == HeldParameter::u ? surface.point(at, t) : surface.point(t, at);
+    return held == IsoDirection::u ? surface.point(at, t) : surface.point(t, at);
   }
   // A unit vector across the line, in the surface, to the side of growing `at`.
   Vec3 across(double at, double t) const {
-    const double u = held == HeldParameter::u ? at : t, v = held == HeldParameter::u ? t : at;
+    const double u = held == IsoDirection::u ? at : t, v = held == IsoDirection::u ? t : at;
     const SurfaceJet s = surface.evaluate(u, v, 1);
     const Vec3 normal = surface.normal_sign() * surface.normal(u, v, s);
-    const Vec3 across = held == HeldParameter::u ? glm::cross(s.dv(), normal) : glm::cross(normal, s.du());
+    const Vec3 across = held == IsoDirection::u ? glm::cross(s.dv(), normal) : glm::cross(normal, s.du());
     const double length = glm::length(across);
     return length > 0 ? across / length : Vec3(0);
   }
 };
 
-std::vector<double> borders(const std::vector<SurfacePiece>& pieces, HeldParameter held) {
+std::vector<double> borders(const std::vector<SurfacePiece>& pieces, IsoDirection held) {
   std::vector<double> at;
   for (const SurfacePiece& piece : pieces) {
-    const Interval& range = held == HeldParameter::u ? piece.domain.u : piece.domain.v;
+    const Interval& range = held == IsoDirection::u ? piece.domain.u : piece.domain.v;
     at.push_back(range.lo), at.push_back(range.hi);
   }
   std::sort(at.begin(), at.end());
@@ -65,13 +65,13 @@ std::vector<Crease> creases(const Surface& surface, double angle) {
   if (!surface.bounded()) return found;
   const std::vector<SurfacePiece> pieces = surface.pieces();
   const double same = kSameLine * bounds(surface).diameter();
-  for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-    const bool u = held == HeldParameter::u;
+  for (const IsoDirection held : {IsoDirection::u, IsoDirection::v}) {
+    const bool u = held == IsoDirection::u;
     const Held sides{surface, held};
     const Interval range = u ? surface.domain().u : surface.domain().v,
                    along = u ? surface.domain().v : surface.domain().u;
     const std::vector<double> lines = borders(pieces, held),
-                              stops = borders(pieces, u ? HeldParameter::v : HeldParameter::u);
+                              stops = borders(pieces, u ? IsoDirection::v : IsoDirection::u);
     const double beside = kBeside * range.width();
     const auto add = [&](double before, double behind, double at, Seam seam) {
       bool goes_on = false;

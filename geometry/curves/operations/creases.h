@@ -14,7 +14,7 @@ namespace lekalo::geometry {
 inline constexpr double kSmoothEdge = 1e-3;
 
 struct Crease {
-  HeldParameter held = HeldParameter::u;
+  IsoDirection held = IsoDirection::u;
   double at = 0;   // at a seam the lower end of the domain, where the surface meets its upper end
   Interval along;  // of the other parameter
   bool seam = false;

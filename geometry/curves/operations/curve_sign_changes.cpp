@@ -6,9 +6,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kLeastPart = 1e-7;  // of the domain
+constexpr double kMinPart = 1e-7;  // of the domain
 // Parts of one length that stay undecided, for each piece: where there are more the function keeps to zero.
-constexpr size_t kMostParts = 32;
+constexpr size_t kMaxParts = 32;
 constexpr int kBisections = 60;
 
 }  // namespace
@@ -19,14 +19,14 @@ std::vector<double> sign_changes(const Curve& curve, bool closed, const std::fun
   std::vector<Interval> level, open;
   for (const CurvePiece& piece : curve.pieces())
     if (const Interval t = intersect(piece.domain, domain); t.width() > 0) level.push_back(t);
-  const size_t most = kMostParts * level.size();
+  const size_t most = kMaxParts * level.size();
   for (bool first = true; !level.empty(); first = false) {
     std::vector<Interval> next;
     const bool last = !first && level.size() > most;
     for (const Interval& t : level) {
       if (!range(curve.enclose(t, 0).d[0]).contains(0)) continue;
       const double middle = t.middle();
-      if (last || t.width() <= kLeastPart * domain.width() || !(t.lo < middle && middle < t.hi)) {
+      if (last || t.width() <= kMinPart * domain.width() || !(t.lo < middle && middle < t.hi)) {
         open.push_back(t);
         continue;
       }

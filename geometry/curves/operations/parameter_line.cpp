@@ -10,7 +10,7 @@
 
 namespace lekalo::geometry {
 
-ParameterLine::ParameterLine(SurfacePtr surface, HeldParameter held, double at, std::optional<Interval> range)
+ParameterLine::ParameterLine(SurfacePtr surface, IsoDirection held, double at, std::optional<Interval> range)
     : surface_(std::move(surface)), held_(held), at_(at) {
   const Rectangle domain = surface_->domain();
   domain_ = holds_u() ? domain.v : domain.u;
@@ -74,7 +74,7 @@ TypeDeclaration parameter_line_type() {
       .built_by([](const Fields& f) {
         if (f.has("u") == f.has("v"))
           throw FieldError(f.has("u") ? "v" : "of", "a parameter line holds one of u and v", "give either 'u' or 'v'");
-        const HeldParameter held = f.has("u") ? HeldParameter::u : HeldParameter::v;
+        const IsoDirection held = f.has("u") ? IsoDirection::u : IsoDirection::v;
         const char* field = f.has("u") ? "u" : "v";
         const SurfacePtr surface = f.surface("of");
         const Rectangle domain = surface->domain();

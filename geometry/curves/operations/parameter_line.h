@@ -5,13 +5,13 @@
 
 namespace lekalo::geometry {
 
-enum class HeldParameter { u, v };
+enum class IsoDirection { u, v };
 
 // A parameter line over the surface's domain or a part of it, its parameter being the other of u and v.
 class ParameterLine final : public Curve {
  public:
   // Throws std::invalid_argument for a surface that is unbounded that way and no range, or `at` outside of its domain.
-  ParameterLine(SurfacePtr surface, HeldParameter held, double at, std::optional<Interval> range = std::nullopt);
+  ParameterLine(SurfacePtr surface, IsoDirection held, double at, std::optional<Interval> range = std::nullopt);
 
   Interval domain() const override { return domain_; }
   double period() const override;
@@ -22,10 +22,10 @@ class ParameterLine final : public Curve {
   std::vector<CurvePiece> pieces() const override;
 
  private:
-  bool holds_u() const { return held_ == HeldParameter::u; }
+  bool holds_u() const { return held_ == IsoDirection::u; }
 
   SurfacePtr surface_;
-  HeldParameter held_;
+  IsoDirection held_;
   double at_;
   Interval domain_;
 };

@@ -57,7 +57,7 @@ struct Passage {
     const CurveEnclosure c = image.enclose(box[0], 1);
     return {{along(c.d[0], axis) - Interval(at)}, {{{along(c.d[1], axis)}}}};
   }
-  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& t) const {
+  SystemValue<double, 1, 1> evaluate(const ParameterPoint<1>& t) const {
     const CurveJet c = image.evaluate(t[0], 1);
     return {{c.d[0][axis] - at}, {{{c.d[1][axis]}}}};
   }

@@ -15,7 +15,7 @@ static void add_pieces(const NurbsCurveForm& form, const SpanPart& part, int hal
   piece.points.resize(form.degree + 1);
   bezier_points(form.degree, form.knots, part.span, form.points.data(), 1, part.rational.lo, part.rational.hi,
                 piece.points.data(), 1);
-  if (halvings == kMostHalvingsForWeights || all_weights_positive(piece.points))
+  if (halvings == kMaxHalvingsForWeights || all_weights_positive(piece.points))
     pieces.push_back(std::move(piece));
   else
     for (const SpanPart& half : halves(part)) add_pieces(form, half, halvings + 1, pieces);

@@ -30,6 +30,6 @@ std::array<SpanPart, 2> halves(const SpanPart& part);
 
 // Halvings after which a Bezier piece with a positive denominator is taken to have positive weights, as all have sooner
 // or later. Pieces are cut so, because the hull of their control points bounds nothing before.
-inline constexpr int kMostHalvingsForWeights = 12;
+inline constexpr int kMaxHalvingsForWeights = 12;
 
 }  // namespace lekalo::geometry

@@ -9,9 +9,9 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kNodes = static_cast<int>(PolynomialCurve::kTerms);
-constexpr size_t kMostParts = 4096;
-constexpr int kMostHalvings = 24;  // of a piece
-constexpr double kLeftOut = 0.1;   // of the tolerance: terms as small together
+constexpr size_t kMaxParts = 4096;
+constexpr int kMaxHalvings = 24;  // of a piece
+constexpr double kLeftOut = 0.1;  // of the tolerance: terms as small together
 
 class Fitting {
  public:
@@ -41,9 +41,9 @@ class Fitting {
     }
     if (good) {
       parts.push_back(part);
-      return parts.size() <= kMostParts;
+      return parts.size() <= kMaxParts;
     }
-    return depth < kMostHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
+    return depth < kMaxHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
   }
 
   std::vector<PolynomialCurve::Part> parts;

@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMostSide = kMaxDegree + 1;
+constexpr int kMaxSide = kMaxDegree + 1;
 
 struct Box {
   Interval c[3];
@@ -26,13 +26,13 @@ struct Box {
 // Boor's recursion backwards (geometry/curves/splines/blossom.h), with one argument at each level.
 struct SpanMatrix {
   int side;
-  double weights[kMostSide][kMostSide];
+  double weights[kMaxSide][kMaxSide];
 
   SpanMatrix(int degree, std::span<const double> knots, int span, const Interval& t) : side(degree + 1) {
     struct Share {
       double from, to;
     };
-    Share shares[kMostSide][kMostSide];  // [level][control]
+    Share shares[kMaxSide][kMaxSide];  // [level][control]
     for (int r = 1; r <= degree; ++r)
       for (int j = r; j <= degree; ++j) {
         const double knot = knots[span - degree + j], inverse = 1 / (knots[span + j + 1 - r] - knot);
@@ -66,7 +66,7 @@ struct Size {
 // A net of points with what each is good to in each coordinate.
 struct Net {
   Lanes slack;
-  Lanes points[kMostSide * kMostSide];
+  Lanes points[kMaxSide * kMaxSide];
 };
 
 inline void largest(const Net& net, Size size, Lanes& most) {
@@ -88,7 +88,7 @@ inline void differentiate(const Net& net, Size size, bool by_u, std::span<const 
     return;
   }
   const int step = by_u ? size.columns : 1;
-  double factors[kMostSide], most = 0;
+  double factors[kMaxSide], most = 0;
   for (int k = 0; k < degree; ++k) {
     factors[k] = degree / (knots[span + 1 + k] - knots[span + 1 - degree + k]);
     most = std::max(most, factors[k]);
@@ -106,7 +106,7 @@ inline void differentiate(const Net& net, Size size, bool by_u, std::span<const 
 // The Bezier points over a part of the spans.
 inline void bezier_hull(const Net& net, Size size, const SpanMatrix& u, const SpanMatrix& v, Net& hull) {
   const auto [rows, columns] = size;
-  Lanes half[kMostSide * kMostSide];
+  Lanes half[kMaxSide * kMaxSide];
   for (int m = 0; m < rows; ++m)
     for (int j = 0; j < columns; ++j) {
       Lanes sum{};

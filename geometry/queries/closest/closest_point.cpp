@@ -13,12 +13,12 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Boxes are not halved below this part of the domain: a double foot shows as a few of them.
-constexpr double kLeastBox = 1e-8;
+// Boxes are not halved below this part of the domain: a double foot point shows as a few of them.
+constexpr double kMinBox = 1e-8;
 // A derivative below this part of the size over the width of the domain vanishes: a cusp.
 constexpr double kNoDerivative = 1e-9;
-// Feet nearer than this part of the size are one, seen from both sides of a seam.
-constexpr double kSameFoot = 1e-11;
+// FootPoints nearer than this part of the size are one, seen from both sides of a seam.
+constexpr double kSameFootPoint = 1e-11;
 
 // f(t) = (p - r) . r' on a smooth piece (Golovanov 2016, (4.1.3)).
 struct CurveSystem {
@@ -31,7 +31,7 @@ struct CurveSystem {
     const CurveEnclosure r = curve.enclose(box[0], 2);
     return {{product(p, r.d[0], r.d[1])}, {{{product(p, r.d[0], r.d[2]) - square(r.d[1])}}}};
   }
-  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& at) const {
+  SystemValue<double, 1, 1> evaluate(const ParameterPoint<1>& at) const {
     const CurveJet r = jet(at[0]);
     const Vec3 way = p - r.d[0];
     return {{glm::dot(way, r.d[1])}, {{{glm::dot(way, r.d[2]) - glm::dot(r.d[1], r.d[1])}}}};
@@ -57,7 +57,7 @@ struct CurveProjector::Prepared {
     Interval domain;
     ParameterMap map;
     int degree;  // 0 for a piece that is not rational
-    std::optional<FootPolynomial> polynomial;
+    std::optional<FootPointPolynomial> polynomial;
     CurveJet begin, end;
   };
   CurvePtr curve;
@@ -74,7 +74,7 @@ struct CurveProjector::Prepared {
     for (const CurvePiece& piece : given_pieces) {
       Piece& own =
           pieces.emplace_back(Piece{piece.domain, piece.map, piece.is_rational() ? piece.degree() : 0, {}, {}, {}});
-      if (own.degree > 0 && own.degree <= FootPolynomial::kMostDegree)
+      if (own.degree > 0 && own.degree <= FootPointPolynomial::kMaxDegree)
         own.polynomial.emplace(piece.points, Vec3(piece.points[0]) / piece.points[0].w);
       own.begin = evaluate_within(*curve, piece.domain, piece.domain.lo, 1);
       own.end = evaluate_within(*curve, piece.domain, piece.domain.hi, 1);
@@ -84,45 +84,46 @@ struct CurveProjector::Prepared {
 
 namespace {
 
-// The feet of one point, gathered.
+// The foot points of one point, gathered.
 template <class Prepared>
 class CurveProjection {
  public:
   using Piece = typename Prepared::Piece;
   CurveProjection(const Vec3& p, const Prepared& on) : p_(p), on_(on), domain_(on.domain), size_(on.size) {}
 
-  CurveFeet run() {
+  CurveFootPoints run() {
     for (const Piece& piece : on_.pieces) search(piece);
-    for (const Interval& arc : result_.arcs) add(arc.middle(), FootKind::degenerate);
+    for (const Interval& arc : result_.arcs) add(arc.middle(), FootPointKind::degenerate);
     add_joints();
-    std::sort(result_.feet.begin(), result_.feet.end(), [](const CurveFoot& a, const CurveFoot& b) {
-      return a.distance != b.distance ? a.distance < b.distance : a.t < b.t;
-    });
+    std::sort(result_.foot_points.begin(), result_.foot_points.end(),
+              [](const CurveFootPoint& a, const CurveFootPoint& b) {
+                return a.distance != b.distance ? a.distance < b.distance : a.t < b.t;
+              });
     return std::move(result_);
   }
 
  private:
-  void add(double t, FootKind kind) {
+  void add(double t, FootPointKind kind) {
     const Vec3 at = on_.curve->point(t);
-    for (const CurveFoot& other : result_.feet)
-      if (glm::length(other.point - at) <= kSameFoot * size_ &&
-          (std::abs(other.t - t) <= kSameFoot * domain_.width() ||
-           std::abs(other.t - t) >= (1 - kSameFoot) * domain_.width()))
+    for (const CurveFootPoint& other : result_.foot_points)
+      if (glm::length(other.point - at) <= kSameFootPoint * size_ &&
+          (std::abs(other.t - t) <= kSameFootPoint * domain_.width() ||
+           std::abs(other.t - t) >= (1 - kSameFootPoint) * domain_.width()))
         return;
-    result_.feet.push_back({t, at, glm::length(p_ - at), kind});
+    result_.foot_points.push_back({t, at, glm::length(p_ - at), kind});
   }
 
   CurveSystem system_of(const Piece& piece) const { return {p_, *on_.curve, piece.domain}; }
 
   void search(const Piece& piece) {
-    CurveFootZeros zeros;
+    CurveFootPointZeros zeros;
     if (piece.polynomial && piece.polynomial->isolate(p_, zeros)) {
       const auto natural = [&](double x) { return piece.domain.clamp(piece.map.natural_of_bezier(x)); };
       const double beside = kBorderSlack * piece.domain.width();
       const auto part = [&](const Interval& x) {
         return intersect(Interval(natural(x.lo) - beside, natural(x.hi) + beside), piece.domain);
       };
-      for (const CurveFootZeros::Single& zero : zeros.single)
+      for (const CurveFootPointZeros::Single& zero : zeros.single)
         if (!polish(piece, natural(zero.near), part(zero.within))) zeros.undecided.push_back(zero.within);
       std::sort(zeros.undecided.begin(), zeros.undecided.end(),
                 [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
@@ -140,7 +141,7 @@ class CurveProjection {
       result_.arcs.push_back(piece.domain);
   }
 
-  // The foot near t; false if Newton's iteration leads out of the part that holds one.
+  // The foot point near t; false if Newton's iteration leads out of the part that holds one.
   bool polish(const Piece& piece, double t, const Interval& part) {
     const CurveSystem system = system_of(piece);
     double before = kInfinity;
@@ -152,7 +153,7 @@ class CurveProjection {
       t -= by;
       const double length = std::abs(by) / domain_.width();
       if (length <= 1e-15 || (length <= 1e-8 && length > 0.5 * before)) {
-        keep(t, glm::length(r.d[1]), 0, slope < 0 ? FootKind::minimum : FootKind::maximum);
+        keep(t, glm::length(r.d[1]), 0, slope < 0 ? FootPointKind::minimum : FootPointKind::maximum);
         return true;
       }
       before = length;
@@ -164,23 +165,23 @@ class CurveProjection {
   void search(const Piece& piece, const Interval& part) {
     const CurveSystem system = system_of(piece);
     RootSearchOptions<1, 1> options;
-    options.least[0] = kLeastBox * domain_.width();
+    options.least[0] = kMinBox * domain_.width();
     options.slack[0] = kBorderSlack * domain_.width();
     const auto found = search_roots<1, 1>(system, ParameterBox<1>{part}, options);
     for (const auto& at : found.isolated)
       keep(at[0], speed(system, at[0]), 0,
-           system.evaluate(at).derivative[0][0] < 0 ? FootKind::minimum : FootKind::maximum);
+           system.evaluate(at).derivative[0][0] < 0 ? FootPointKind::minimum : FootPointKind::maximum);
     for (const auto& box : found.open)
-      keep(box[0].middle(), speed(system, box[0].middle()), box[0].width(), FootKind::degenerate);
+      keep(box[0].middle(), speed(system, box[0].middle()), box[0].width(), FootPointKind::degenerate);
   }
   static double speed(const CurveSystem& system, double t) { return glm::length(system.jet(t).d[1]); }
 
-  void keep(double t, double speed, double width, FootKind kind) {
+  void keep(double t, double speed, double width, FootPointKind kind) {
     if (speed * domain_.width() > kNoDerivative * size_) return add(t, kind);
     // A cusp: f vanishes whatever the direction.
     const double beside = std::max(width, 1e-6 * domain_.width());
     const auto distance = [&](double at) { return glm::length(p_ - on_.curve->point(domain_.clamp(at))); };
-    if (distance(t - beside) > distance(t) && distance(t + beside) > distance(t)) add(t, FootKind::border);
+    if (distance(t - beside) > distance(t) && distance(t + beside) > distance(t)) add(t, FootPointKind::border);
   }
 
   // Joints of pieces and ends: f falls from plus to minus there, or the curve ends on the rising side.
@@ -199,7 +200,7 @@ class CurveProjection {
         const double rounding = 1e-14 * glm::length(p_ - r.d[0]) * glm::length(r.d[1]);
         return at_end ? f > rounding : f < -rounding;
       };
-      if (falls(before, true) && falls(behind, false)) add(t, FootKind::border);
+      if (falls(before, true) && falls(behind, false)) add(t, FootPointKind::border);
     }
   }
 
@@ -207,7 +208,7 @@ class CurveProjection {
   const Prepared& on_;
   const Interval domain_;
   const double size_;
-  CurveFeet result_;
+  CurveFootPoints result_;
 };
 
 }  // namespace
@@ -216,10 +217,12 @@ CurveProjector::CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces)
     : prepared_(std::make_shared<Prepared>(std::move(curve), pieces)) {}
 CurveProjector::CurveProjector(CurvePtr curve) : CurveProjector(curve, curve->pieces()) {}
 
-CurveFeet CurveProjector::feet(const Vec3& point) const { return CurveProjection(point, *prepared_).run(); }
+CurveFootPoints CurveProjector::foot_points(const Vec3& point) const {
+  return CurveProjection(point, *prepared_).run();
+}
 
-CurveFeet project(const Vec3& point, const Curve& curve) {
-  return CurveProjector(CurvePtr(CurvePtr(), &curve)).feet(point);
+CurveFootPoints project(const Vec3& point, const Curve& curve) {
+  return CurveProjector(CurvePtr(CurvePtr(), &curve)).foot_points(point);
 }
 
 }  // namespace lekalo::geometry

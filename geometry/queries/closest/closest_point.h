@@ -1,10 +1,10 @@
-// Projection of a point on a curve or a surface: all feet, not only the nearest (Golovanov 2016, 4.1 and 4.2;
+// Projection of a point on a curve or a surface: all foot points, not only the nearest (Golovanov 2016, 4.1 and 4.2;
 // capabilities 4.1b, 4.2b).
 //
-// A foot is a place where the way to the point is perpendicular to the curve, (p - r) . r' = 0, or to the surface,
-// (p - r) . r_u = (p - r) . r_v = 0: where the distance is stationary. All of them are found, certified by interval
-// arithmetic (geometry/numerics/root_search.h). Ends, edges, corners and places where the tangent jumps are listed
-// where the distance has a minimum there. So the nearest point of the whole is the first of the list.
+// A foot point is a place where the way to the point is perpendicular to the curve, (p - r) . r' = 0, or to the
+// surface, (p - r) . r_u = (p - r) . r_v = 0: where the distance is stationary. All of them are found, certified by
+// interval arithmetic (geometry/numerics/root_search.h). Ends, edges, corners and places where the tangent jumps are
+// listed where the distance has a minimum there. So the nearest point of the whole is the first of the list.
 //
 // On rational pieces the search is for zeros of polynomials (geometry/queries/closest/foot_point_polynomials.h), which
 // are made once for all points: a projector is worth having for more than one.
@@ -20,7 +20,7 @@ namespace lekalo::geometry {
 
 class Plane;
 
-enum class FootKind {
+enum class FootPointKind {
   minimum,  // of the distance
   maximum,
   saddle,      // of surfaces
@@ -28,15 +28,16 @@ enum class FootKind {
   border       // an end, edge, corner, kink or pole, where the distance is least but not stationary
 };
 
-struct CurveFoot {
+struct CurveFootPoint {
   double t = 0;
   Vec3 point{0};
   double distance = 0;
-  FootKind kind = FootKind::minimum;
+  FootPointKind kind = FootPointKind::minimum;
 };
-struct CurveFeet {
-  std::vector<CurveFoot> feet;  // by distance, then t
-  // Parts of the curve all of whose points are feet: arcs about the point. Their middles stand among the feet.
+struct CurveFootPoints {
+  std::vector<CurveFootPoint> foot_points;  // by distance, then t
+  // Parts of the curve all of whose points are foot points: arcs about the point. Their middles stand among the foot
+  // point points.
   std::vector<Interval> arcs;
 };
 // In the domain of the curve; a closed curve has no ends. Safe to use from many threads.
@@ -45,24 +46,24 @@ class CurveProjector {
   explicit CurveProjector(CurvePtr curve);
   // With pieces that it does not know itself.
   CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces);
-  CurveFeet feet(const Vec3& point) const;
+  CurveFootPoints foot_points(const Vec3& point) const;
 
  private:
   struct Prepared;
   std::shared_ptr<const Prepared> prepared_;
 };
-CurveFeet project(const Vec3& point, const Curve& curve);
+CurveFootPoints project(const Vec3& point, const Curve& curve);
 
-struct SurfaceFoot {
+struct SurfaceFootPoint {
   double u = 0, v = 0;
   Vec3 point{0};
   double distance = 0;
-  FootKind kind = FootKind::minimum;
+  FootPointKind kind = FootPointKind::minimum;
 };
-struct SurfaceFeet {
-  std::vector<SurfaceFoot> feet;  // by distance, then u, then v
-  // Parts of the surface that hold more feet than can be told apart: the point is the centre of a sphere, on the axis
-  // of a surface of revolution, or near to such a place. Their middles stand among the feet.
+struct SurfaceFootPoints {
+  std::vector<SurfaceFootPoint> foot_points;  // by distance, then u, then v
+  // Parts of the surface that hold more foot points than can be told apart: the point is the centre of a sphere, on the
+  // axis of a surface of revolution, or near to such a place. Their middles stand among the foot points.
   std::vector<Rectangle> regions;
 };
 // In the domain of the surface. Throws std::invalid_argument for an unbounded one that is no plane. Safe to use from
@@ -70,13 +71,13 @@ struct SurfaceFeet {
 class SurfaceProjector {
  public:
   explicit SurfaceProjector(SurfacePtr surface);
-  SurfaceFeet feet(const Vec3& point) const;
+  SurfaceFootPoints foot_points(const Vec3& point) const;
 
  private:
   struct Prepared;
   std::shared_ptr<const Prepared> prepared_;
   std::shared_ptr<const Plane> plane_;  // an unbounded one instead
 };
-SurfaceFeet project(const Vec3& point, const Surface& surface);
+SurfaceFootPoints project(const Vec3& point, const Surface& surface);
 
 }  // namespace lekalo::geometry

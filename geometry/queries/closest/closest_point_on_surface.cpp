@@ -1,4 +1,4 @@
-// Feet of a point on a surface (closest_point.h).
+// FootPoints of a point on a surface (closest_point.h).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,14 +16,14 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Boxes are not halved below this part of the domain: a double foot shows as a few of them.
-constexpr double kLeastBox = 1e-8;
+// Boxes are not halved below this part of the domain: a double foot point shows as a few of them.
+constexpr double kMinBox = 1e-8;
 // A derivative below this part of the size over the width of the domain vanishes: a pole.
 constexpr double kNoDerivative = 1e-9;
 // What is not decided so near to a pole, in parts of the domain, belongs to the pole.
 constexpr double kAtPole = 1e-6;
-// Feet nearer than this part of the size are one, seen from both sides of a seam.
-constexpr double kSameFoot = 1e-11;
+// FootPoints nearer than this part of the size are one, seen from both sides of a seam.
+constexpr double kSameFootPoint = 1e-11;
 
 // (p - s) . s_u = (p - s) . s_v = 0 (Golovanov 2016, (4.2.5)).
 struct SurfaceSystem {
@@ -39,7 +39,7 @@ struct SurfaceSystem {
     return {{product(p, r, u), product(p, r, v)},
             {{{product(p, r, s.d(2, 0)) - square(u), mixed}, {mixed, product(p, r, s.d(0, 2)) - square(v)}}}};
   }
-  SystemValue<double, 2, 2> evaluate(const ParameterPlace<2>& at) const { return of(jet(at[0], at[1])); }
+  SystemValue<double, 2, 2> evaluate(const ParameterPoint<2>& at) const { return of(jet(at[0], at[1])); }
   SystemValue<double, 2, 2> of(const SurfaceJet& s) const {
     const Vec3 way = p - s.point();
     const double mixed = glm::dot(way, s.duv()) - glm::dot(s.du(), s.dv());
@@ -49,13 +49,13 @@ struct SurfaceSystem {
   }
 };
 
-FootKind kind_of(const SystemValue<double, 2, 2>& at) {
+FootPointKind kind_of(const SystemValue<double, 2, 2>& at) {
   const auto& j = at.derivative;  // minus half the second derivatives of the squared distance
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   const double scale = std::abs(j[0][0] * j[1][1]) + std::abs(j[0][1] * j[1][0]);
-  if (!(std::abs(determinant) > 1e-12 * scale)) return FootKind::degenerate;
-  if (determinant < 0) return FootKind::saddle;
-  return j[0][0] < 0 ? FootKind::minimum : FootKind::maximum;
+  if (!(std::abs(determinant) > 1e-12 * scale)) return FootPointKind::degenerate;
+  if (determinant < 0) return FootPointKind::saddle;
+  return j[0][0] < 0 ? FootPointKind::minimum : FootPointKind::maximum;
 }
 
 // Whether an edge of the patch shrinks to a point: both equations vanish along it.
@@ -86,14 +86,14 @@ struct SurfaceProjector::Prepared {
   struct Piece {
     Rectangle domain;
     ParameterMap map_u, map_v;
-    std::optional<FootPolynomials> polynomials;
+    std::optional<FootPointPolynomials> polynomials;
   };
   // An edge of the domain, or a line inside where the tangent plane jumps.
   struct Line {
     bool holds_u;
     double place, below;  // the same line seen from below: across a seam another parameter
     bool has_below, has_above;
-    std::optional<CurveProjector> feet;  // none of a pole
+    std::optional<CurveProjector> foot_points;  // none of a pole
   };
   SurfacePtr surface;
   Rectangle domain;
@@ -111,10 +111,10 @@ struct SurfaceProjector::Prepared {
     for (const SurfacePiece& piece : given_pieces) {
       Piece& own = pieces.emplace_back(Piece{piece.domain, piece.map_u, piece.map_v, {}});
       if (piece.is_rational() && std::min(piece.degree_u, piece.degree_v) > 0 &&
-          std::max(piece.degree_u, piece.degree_v) <= FootPolynomials::kMostDegree && !has_collapsed_edge(piece))
+          std::max(piece.degree_u, piece.degree_v) <= FootPointPolynomials::kMaxDegree && !has_collapsed_edge(piece))
         own.polynomials.emplace(piece, Vec3(piece.points[0]) / piece.points[0].w);
     }
-    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) add_lines(held, given_pieces);
+    for (const IsoDirection held : {IsoDirection::u, IsoDirection::v}) add_lines(held, given_pieces);
   }
 
   // The derivative across a line, on the side towards less or greater parameters.
@@ -126,8 +126,8 @@ struct SurfaceProjector::Prepared {
   }
 
  private:
-  void add_lines(HeldParameter held, const std::vector<SurfacePiece>& given_pieces) {
-    const bool holds_u = held == HeldParameter::u;
+  void add_lines(IsoDirection held, const std::vector<SurfacePiece>& given_pieces) {
+    const bool holds_u = held == IsoDirection::u;
     const Interval& range = holds_u ? domain.u : domain.v;
     const Interval& other = holds_u ? domain.v : domain.u;
     const Periods periods = surface->periods();
@@ -154,7 +154,7 @@ struct SurfaceProjector::Prepared {
       }
       const auto curve = std::make_shared<ParameterLine>(surface, held, place);
       if (bounds(*curve).diameter() > kCollapsedEdge * size)
-        line.feet.emplace(curve, pieces_along(holds_u, place, last, given_pieces, *curve));
+        line.foot_points.emplace(curve, pieces_along(holds_u, place, last, given_pieces, *curve));
       lines.push_back(std::move(line));
     }
   }
@@ -181,7 +181,7 @@ struct SurfaceProjector::Prepared {
 
 namespace {
 
-// All feet of one point, gathered.
+// All foot points of one point, gathered.
 template <class Prepared>
 class SurfaceProjection {
  public:
@@ -190,26 +190,27 @@ class SurfaceProjection {
   SurfaceProjection(const Vec3& p, const Prepared& on)
       : p_(p), on_(on), surface_(*on.surface), domain_(on.domain), size_(on.size) {}
 
-  SurfaceFeet run() {
+  SurfaceFootPoints run() {
     for (const Piece& piece : on_.pieces) search(piece);
     for (const Line& line : on_.lines) add_line(line);
-    std::sort(result_.feet.begin(), result_.feet.end(), [](const SurfaceFoot& a, const SurfaceFoot& b) {
-      if (a.distance != b.distance) return a.distance < b.distance;
-      return a.u != b.u ? a.u < b.u : a.v < b.v;
-    });
+    std::sort(result_.foot_points.begin(), result_.foot_points.end(),
+              [](const SurfaceFootPoint& a, const SurfaceFootPoint& b) {
+                if (a.distance != b.distance) return a.distance < b.distance;
+                return a.u != b.u ? a.u < b.u : a.v < b.v;
+              });
     return std::move(result_);
   }
 
  private:
-  void add(double u, double v, FootKind kind) {
+  void add(double u, double v, FootPointKind kind) {
     const Vec3 at = surface_.point(u, v);
-    for (const SurfaceFoot& other : result_.feet)
-      if (glm::length(other.point - at) <= kSameFoot * size_ && are_one(other, u, v)) return;
-    result_.feet.push_back({u, v, at, glm::length(p_ - at), kind});
+    for (const SurfaceFootPoint& other : result_.foot_points)
+      if (glm::length(other.point - at) <= kSameFootPoint * size_ && are_one(other, u, v)) return;
+    result_.foot_points.push_back({u, v, at, glm::length(p_ - at), kind});
   }
 
   // One place of the parameters, or both sides of a seam: a surface may pass through one point several times.
-  bool are_one(const SurfaceFoot& a, double u, double v) const {
+  bool are_one(const SurfaceFootPoint& a, double u, double v) const {
     const auto near = [](double x, double y, const Interval& range) {
       const double apart = std::abs(x - y) / range.width();
       return apart <= 1e-6 || apart >= 1 - 1e-6;
@@ -229,7 +230,7 @@ class SurfaceProjection {
   }
 
   void search(const Piece& piece) {
-    SurfaceFootZeros zeros;
+    SurfaceFootPointZeros zeros;
     if (!piece.polynomials || !piece.polynomials->isolate(p_, zeros)) return search(piece.domain, piece.domain);
     const auto part = [](const Interval& x, const ParameterMap& map, const Interval& domain) {
       const double beside = kBorderSlack * domain.width();
@@ -240,7 +241,7 @@ class SurfaceProjection {
       return Rectangle{part(x.u, piece.map_u, piece.domain.u), part(x.v, piece.map_v, piece.domain.v)};
     };
     for (const Rectangle& box : zeros.undecided) undecided.push_back({part_of(box).u, part_of(box).v});
-    for (const SurfaceFootZeros::Single& zero : zeros.single) {
+    for (const SurfaceFootPointZeros::Single& zero : zeros.single) {
       const Rectangle within = part_of(zero.within);
       if (!polish(piece.domain, within, piece.map_u.natural_of_bezier(zero.near[0]),
                   piece.map_v.natural_of_bezier(zero.near[1])))
@@ -249,7 +250,7 @@ class SurfaceProjection {
     for (const ParameterBox<2>& box : joined_boxes<2>(undecided, {0, 0})) search(piece.domain, {box[0], box[1]});
   }
 
-  // The foot near (u, v); false if Newton's iteration leads out of the part that holds one.
+  // The foot point near (u, v); false if Newton's iteration leads out of the part that holds one.
   bool polish(const Rectangle& piece, const Rectangle& part, double u, double v) {
     const SurfaceSystem system{p_, surface_, piece};
     double before = kInfinity;
@@ -276,7 +277,7 @@ class SurfaceProjection {
   void search(const Rectangle& piece, const Rectangle& part) {
     const SurfaceSystem system{p_, surface_, piece};
     RootSearchOptions<2, 2> options;
-    options.least = {kLeastBox * domain_.u.width(), kLeastBox * domain_.v.width()};
+    options.least = {kMinBox * domain_.u.width(), kMinBox * domain_.v.width()};
     options.slack = {kBorderSlack * domain_.u.width(), kBorderSlack * domain_.v.width()};
     const auto found = search_roots<2, 2>(system, ParameterBox<2>{part.u, part.v}, options);
     for (const auto& at : found.isolated)
@@ -289,27 +290,29 @@ class SurfaceProjection {
         continue;
       if (box[0].width() > 1e3 * options.least[0] || box[1].width() > 1e3 * options.least[1])
         result_.regions.push_back({box[0], box[1]});
-      add(u, v, FootKind::degenerate);
+      add(u, v, FootPointKind::degenerate);
     }
   }
 
   // Edges of the domain, and lines inside where the tangent plane jumps.
   void add_line(const Line& line) {
-    if (!line.feet) return add_pole(line.holds_u, line.place, line.holds_u ? domain_.v : domain_.u, line.has_above);
-    for (const CurveFoot& foot : line.feet->feet(p_).feet) {
-      if (foot.kind == FootKind::maximum) continue;
-      const Vec3 way = p_ - foot.point;
+    if (!line.foot_points)
+      return add_pole(line.holds_u, line.place, line.holds_u ? domain_.v : domain_.u, line.has_above);
+    for (const CurveFootPoint& foot_point : line.foot_points->foot_points(p_).foot_points) {
+      if (foot_point.kind == FootPointKind::maximum) continue;
+      const Vec3 way = p_ - foot_point.point;
       const double rounding = 1e-14 * glm::length(way);
       const auto slope = [&](const Vec3& d) { return glm::dot(way, d) / std::max(glm::length(d), 1e-300); };
       const bool holds_u = line.holds_u;
-      if (line.has_below && !(slope(on_.across(holds_u, line.below, foot.t, true)) > rounding)) continue;
-      if (line.has_above && !(slope(on_.across(holds_u, line.place, foot.t, false)) < -rounding)) continue;
-      holds_u ? add(line.place, foot.t, FootKind::border) : add(foot.t, line.place, FootKind::border);
+      if (line.has_below && !(slope(on_.across(holds_u, line.below, foot_point.t, true)) > rounding)) continue;
+      if (line.has_above && !(slope(on_.across(holds_u, line.place, foot_point.t, false)) < -rounding)) continue;
+      holds_u ? add(line.place, foot_point.t, FootPointKind::border)
+              : add(foot_point.t, line.place, FootPointKind::border);
     }
   }
 
-  // All parameters of the edge are one point: a foot where the way to it is normal to the surface, a border where the
-  // distance grows in all directions.
+  // All parameters of the edge are one point: a foot point where the way to it is normal to the surface, a border where
+  // the distance grows in all directions.
   void add_pole(bool holds_u, double place, const Interval& other, bool begins) {
     const auto jet = [&](double t) {
       return holds_u ? surface_.evaluate(place, t, 2) : surface_.evaluate(t, place, 2);
@@ -329,11 +332,11 @@ class SurfaceProjection {
     }
     const double rounding = 1e-12 * std::max(glm::length(way), size_);
     const double t = other.lo;
-    const auto keep = [&](FootKind kind) { holds_u ? add(place, t, kind) : add(t, place, kind); };
+    const auto keep = [&](FootPointKind kind) { holds_u ? add(place, t, kind) : add(t, place, kind); };
     if (std::max(std::abs(steepest), std::abs(flattest)) <= rounding)
-      keep(FootKind::degenerate);
+      keep(FootPointKind::degenerate);
     else if (steepest < -rounding)
-      keep(FootKind::border);
+      keep(FootPointKind::border);
   }
 
   const Vec3 p_;
@@ -341,7 +344,7 @@ class SurfaceProjection {
   const Surface& surface_;
   const Rectangle domain_;
   const double size_;
-  SurfaceFeet result_;
+  SurfaceFootPoints result_;
 };
 
 }  // namespace
@@ -355,14 +358,14 @@ SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
     throw std::invalid_argument("the surface is unbounded: give it a domain to project on");
 }
 
-SurfaceFeet SurfaceProjector::feet(const Vec3& point) const {
+SurfaceFootPoints SurfaceProjector::foot_points(const Vec3& point) const {
   if (!plane_) return SurfaceProjection(point, *prepared_).run();
   const Vec3 local = plane_->frame().to_local_point(point);
-  return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootKind::minimum}}, {}};
+  return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootPointKind::minimum}}, {}};
 }
 
-SurfaceFeet project(const Vec3& point, const Surface& surface) {
-  return SurfaceProjector(SurfacePtr(SurfacePtr(), &surface)).feet(point);
+SurfaceFootPoints project(const Vec3& point, const Surface& surface) {
+  return SurfaceProjector(SurfacePtr(SurfacePtr(), &surface)).foot_points(point);
 }
 
 }  // namespace lekalo::geometry

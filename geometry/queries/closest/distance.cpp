@@ -13,11 +13,11 @@ namespace lekalo::geometry {
 namespace {
 
 // Boxes are not halved below this part of the range.
-constexpr double kLeastBox = 1e-8;
+constexpr double kMinBox = 1e-8;
 // Boxes of one size that may stay undecided before minima count as not isolated, by the number of unknowns; with four
 // fewer where a descent shows that they are not.
-constexpr int kMostBoxes[] = {0, 4096, 4096, 8192, 16384};
-constexpr int kMostBoxesOfLevel = 1024;
+constexpr int kMaxBoxes[] = {0, 4096, 4096, 8192, 16384};
+constexpr int kMaxBoxesOfLevel = 1024;
 // What is on the border of an element is found on that; what is not decided near to it too, about a pole.
 constexpr double kOnBorder = 2 * kBorderSlack, kAtPole = 1e-7;
 // A stationary place: the derivative over the entire range in parts of the square of the size.
@@ -46,10 +46,10 @@ class DistanceQuery {
     };
     const bool wanted = nearest_;
     if (has_patches(a_) && has_patches(b_)) {
-      nearest_ = stops_at_meeting_ = true;
+      nearest_ = stops_at_intersection_ = true;
       search_all();
-      if (wanted || seen_.distance <= kMeeting * size_) return result();
-      nearest_ = stops_at_meeting_ = false;
+      if (wanted || seen_.distance <= kIntersection * size_) return result();
+      nearest_ = stops_at_intersection_ = false;
       found_.clear();
       flats_.clear();
       bound_ = kInfinity;
@@ -65,13 +65,13 @@ class DistanceQuery {
       while (const auto pair = pairs.next()) {
         if (pair->from > seen_.distance * (1 + kTie) + kEqualDistance * size_) break;
         visit(*pair);
-        if (stops_at_meeting_ && seen_.distance <= kMeeting * size_) return;
+        if (stops_at_intersection_ && seen_.distance <= kIntersection * size_) return;
       }
     } else {
       for (const auto& a : a_)
         for (const auto& b : b_) visit({a.get(), b.get()});
     }
-    absorb_in_flats(flats_, size_, found_);
+    merge_minima_of_parallels(flats_, size_, found_);
   }
 
   void visit(const ElementPair& pair) {
@@ -125,19 +125,19 @@ class DistanceQuery {
     const ParameterBox<N> domain = system.domain();
     if (nearest_ && N > 1) {
       // A low limit first: it leaves out most of the boxes.
-      for (const ParameterPlace<N>& start : starts<N>(domain, N == 4 && pair.from <= kMeeting * size_ ? 3 : 1)) {
+      for (const ParameterPoint<N>& start : starts<N>(domain, N == 4 && pair.from <= kIntersection * size_ ? 3 : 1)) {
         system.evaluate(descended<N>(system, domain, start));
-        if (stops_at_meeting_ && seen_.distance <= kMeeting * size_) return;
+        if (stops_at_intersection_ && seen_.distance <= kIntersection * size_) return;
       }
     }
     RootSearchOptions<N, N> options;
-    options.most_boxes = N == 4 && seems_level<N>(pair, system) ? kMostBoxesOfLevel : kMostBoxes[N];
+    options.max_boxes = N == 4 && seems_level<N>(pair, system) ? kMaxBoxesOfLevel : kMaxBoxes[N];
     for (int i = 0; i < N; ++i) {
-      options.least[i] = kLeastBox * system.scale(i);
+      options.least[i] = kMinBox * system.scale(i);
       options.slack[i] = kBorderSlack * system.scale(i);
     }
     const RootSearchResult<N> found = search_roots<N, N>(system, domain, options);
-    for (const ParameterPlace<N>& at : found.isolated) {
+    for (const ParameterPoint<N>& at : found.isolated) {
       ParameterBox<N> around;
       for (int i = 0; i < N; ++i)
         around[i] = intersect(Interval(at[i] - 1e-9 * system.scale(i), at[i] + 1e-9 * system.scale(i)), domain[i]);
@@ -170,8 +170,8 @@ class DistanceQuery {
     const ParameterBox<N> domain = system.domain();
     double own = kInfinity;
     bool level = false;
-    for (const ParameterPlace<N>& start : starts<N>(box, is_wide<N>(system, box) ? 3 : 1)) {
-      const ParameterPlace<N> end = descended<N>(system, domain, start);
+    for (const ParameterPoint<N>& start : starts<N>(box, is_wide<N>(system, box) ? 3 : 1)) {
+      const ParameterPoint<N> end = descended<N>(system, domain, start);
       const double distance = glm::length(system.way(end));
       if (!system.keeps(end)) continue;
       own = std::min(own, distance);
@@ -194,20 +194,20 @@ class DistanceQuery {
   template <int N>
   bool seems_level(const ElementPair& pair, const DistanceSystem<N>& system) const {
     const ParameterBox<N> domain = system.domain();
-    double least = kInfinity, least_at_pole = kInfinity;
-    for (const ParameterPlace<N>& start : starts<N>(domain, 2)) {
-      const ParameterPlace<N> end = descended<N>(system, domain, start);
+    double least = kInfinity, min_at_pole = kInfinity;
+    for (const ParameterPoint<N>& start : starts<N>(domain, 2)) {
+      const ParameterPoint<N> end = descended<N>(system, domain, start);
       const double distance = glm::length(system.way(end));
       least = std::min(least, distance);
       if (is_singular(*pair.a, system.of_a(end)) || is_singular(*pair.b, system.of_b(end))) {
-        least_at_pole = std::min(least_at_pole, distance);
+        min_at_pole = std::min(min_at_pole, distance);
         continue;
       }
       bool inner = true;
       for (int i = 0; i < N; ++i) inner = inner && end[i] > domain[i].lo && end[i] < domain[i].hi;
       if (inner && !is_found_again<N>(system, end)) return true;
     }
-    return least_at_pole <= least + 1e-9 * size_;
+    return min_at_pole <= least + 1e-9 * size_;
   }
   static bool is_singular(const DistanceElement& element, const ElementPlace& at) {
     const ElementJet jet = element.jet(at);
@@ -224,13 +224,13 @@ class DistanceQuery {
   }
 
   template <int N>
-  static bool is_found_again(const DistanceSystem<N>& system, const ParameterPlace<N>& at) {
+  static bool is_found_again(const DistanceSystem<N>& system, const ParameterPoint<N>& at) {
     const ParameterBox<N> domain = system.domain();
     for (int i = 0; i < N; ++i)
       for (const double side : {1.0, -1.0}) {
-        ParameterPlace<N> beside = at;
+        ParameterPoint<N> beside = at;
         beside[i] = domain[i].clamp(at[i] + side * kBeside * system.scale(i));
-        const ParameterPlace<N> end = descended<N>(system, domain, beside);
+        const ParameterPoint<N> end = descended<N>(system, domain, beside);
         for (int k = 0; k < N; ++k)
           if (std::abs(end[k] - at[k]) > kFoundAgain * system.scale(k)) return false;
       }
@@ -273,14 +273,14 @@ class DistanceQuery {
   }
 
   Distance result() {
-    join_families(size_, found_);
+    join_non_isolated_minima(size_, found_);
     std::stable_sort(found_.begin(), found_.end(), [](const FoundMinimum& x, const FoundMinimum& y) {
       return x.minimum.distance < y.minimum.distance;
     });
     Distance result;
-    result.meet = seen_.distance <= kMeeting * size_;
+    result.meet = seen_.distance <= kIntersection * size_;
     const double most = nearest_ ? seen_.distance * (1 + kTie) + kEqualDistance * size_ : kInfinity;
-    if (!(result.meet && stops_at_meeting_))
+    if (!(result.meet && stops_at_intersection_))
       for (FoundMinimum& one : found_)
         if (one.minimum.distance <= most) result.minima.push_back(std::move(one.minimum));
     // A place on a curve where surfaces meet; or one where the search decided nothing.
@@ -295,7 +295,7 @@ class DistanceQuery {
     return result;
   }
 
-  bool nearest_, stops_at_meeting_ = false;
+  bool nearest_, stops_at_intersection_ = false;
   Box3 all_;
   double size_ = 0;
   DistanceElements a_, b_;

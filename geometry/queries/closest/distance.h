@@ -18,7 +18,7 @@
 namespace lekalo::geometry {
 
 // Things nearer than this part of their size meet: rounding after a few operations, as of the edges of our bodies.
-inline constexpr double kMeeting = 1e-12;
+inline constexpr double kIntersection = 1e-12;
 
 // What distances are measured between. The pointers must outlive the call.
 using Distant = std::variant<Vec3, const Curve*, const Surface*, const Body*>;

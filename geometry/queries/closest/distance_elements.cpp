@@ -57,7 +57,7 @@ class Gathering {
 
   // Where the domain does not reach its `borders` the surface goes on.
   void add_surface(const SurfacePtr& surface, const Rectangle& borders) {
-    const auto sheet = std::make_shared<DistanceSheet>();
+    const auto sheet = std::make_shared<FaceAdjacency>();
     sheet->surface = surface;
     const DistancePlace place{.kind = DistancePlace::Kind::surface};
     add_patches(*sheet, place, surface->domain());
@@ -107,7 +107,7 @@ class Gathering {
   }
 
   // The patches of a sheet inside of `cut`.
-  void add_patches(DistanceSheet& sheet, const DistancePlace& place, const Rectangle& cut) {
+  void add_patches(FaceAdjacency& sheet, const DistancePlace& place, const Rectangle& cut) {
     std::vector<SurfacePiece> pieces = smooth_pieces(*sheet.surface);
     if (pieces.empty()) pieces.push_back({cut, {}, {}, 0, 0, {}});
     sheet.scale = {cut.u.width(), cut.v.width()};
@@ -132,7 +132,7 @@ class Gathering {
   }
 
   // Borders of the domain (of a face they are edges), creases inside, corners and poles.
-  void add_lines(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, const Rectangle& domain,
+  void add_lines(const std::shared_ptr<FaceAdjacency>& sheet, const DistancePlace& place, const Rectangle& domain,
                  const Rectangle& borders) {
     const bool is_face = place.kind == DistancePlace::Kind::face;
     const Surface& surface = *sheet->surface;
@@ -145,7 +145,7 @@ class Gathering {
         sheet->mark(i, at);
         const bool border = at == range.lo || at == range.hi;
         if (border && is_face) continue;
-        const ParameterLine line(sheet->surface, i == 0 ? HeldParameter::u : HeldParameter::v, at);
+        const ParameterLine line(sheet->surface, i == 0 ? IsoDirection::u : IsoDirection::v, at);
         const bool pole = border && bounds(line).diameter() <= kCollapsedEdge * box.diameter();
         (pole ? poles : lines)[i].push_back(at);
       }
@@ -167,9 +167,9 @@ class Gathering {
       }
   }
 
-  void add_line(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, int i, double at,
+  void add_line(const std::shared_ptr<FaceAdjacency>& sheet, const DistancePlace& place, int i, double at,
                 const std::vector<double>& poles) {
-    const auto line = std::make_shared<ParameterLine>(sheet->surface, i == 0 ? HeldParameter::u : HeldParameter::v, at);
+    const auto line = std::make_shared<ParameterLine>(sheet->surface, i == 0 ? IsoDirection::u : IsoDirection::v, at);
     for (DistanceElement* element : add_pieces(line, place)) {
       (i == 0 ? element->held_u : element->held_v) = at;
       element->trim = sheet->trim;
@@ -193,7 +193,7 @@ class Gathering {
     }
   }
 
-  void add_pole(const std::shared_ptr<DistanceSheet>& sheet, const DistancePlace& place, int i, double at,
+  void add_pole(const std::shared_ptr<FaceAdjacency>& sheet, const DistancePlace& place, int i, double at,
                 const Interval& along) {
     DistancePlace pole = place;
     (i == 0 ? pole.u : pole.v) = at;
@@ -214,7 +214,7 @@ class Gathering {
 
   void add_face(const Body& body, int index) {
     const Face& face = body.faces[index];
-    const auto sheet = std::make_shared<DistanceSheet>();
+    const auto sheet = std::make_shared<FaceAdjacency>();
     sheet->surface = face.surface;
     sheet->trim = trim_of(body, index);
     Rectangle cut = face.surface->domain();
@@ -230,13 +230,13 @@ class Gathering {
     sheets_.push_back(sheet);
   }
 
-  const std::shared_ptr<DistanceSheet>& sheet_of(const Body& body, int coedge) const {
+  const std::shared_ptr<FaceAdjacency>& sheet_of(const Body& body, int coedge) const {
     return sheets_[body.loops[body.coedges[coedge].loop].face];
   }
 
   std::vector<DistanceElement*> add_edge(const Body& body, int index) {
     const Edge& edge = body.edges[index];
-    std::vector<std::pair<std::shared_ptr<DistanceSheet>, Curve2Ptr>> images;
+    std::vector<std::pair<std::shared_ptr<FaceAdjacency>, Curve2Ptr>> images;
     for (const int coedge : edge.coedges) images.emplace_back(sheet_of(body, coedge), body.coedges[coedge].image);
     const DistancePlace place{.kind = DistancePlace::Kind::edge, .index = index};
     const std::vector<DistanceElement*> pieces = add_pieces(edge.curve, place);
@@ -267,7 +267,7 @@ class Gathering {
     place.point = body.vertices[index].point;
     // Where the vertex lies on the images of its edges, and along which of these all points are it.
     struct Corner {
-      std::shared_ptr<DistanceSheet> sheet;
+      std::shared_ptr<FaceAdjacency> sheet;
       Curve2Ptr image;
       double t;
       bool pole;
@@ -304,10 +304,10 @@ class Gathering {
   }
 
   DistanceElements& elements_;
-  std::vector<std::shared_ptr<DistanceSheet>> sheets_;  // of the faces of a body
+  std::vector<std::shared_ptr<FaceAdjacency>> sheets_;  // of the faces of a body
 };
 
-// What of an unbounded plane can be nearest to a thing in the box: the feet of its points, and a border around.
+// What of an unbounded plane can be nearest to a thing in the box: the foot points of its points, and a border around.
 Rectangle cut_near(const Plane& plane, const Box3& box) {
   Rectangle cut{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
   for (int corner = 0; corner < 8; ++corner) {

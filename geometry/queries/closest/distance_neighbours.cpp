@@ -9,15 +9,15 @@ std::vector<DistanceStep> steps(const DistanceElement& element, const ElementPla
 }
 
 // Downhill to the element about a place on it.
-double least_distance(const DistanceElement& point, const DistanceElement& element, const ElementPlace& at) {
+double min_distance(const DistanceElement& point, const DistanceElement& element, const ElementPlace& at) {
   const auto from = [&](const auto& start) {
     constexpr int n = std::tuple_size_v<std::decay_t<decltype(start)>>;
     const DistanceSystem<n> system({&point, &element});
     const auto end = descended<n>(system, system.domain(), start);
     return system.keeps(end) ? glm::length(system.way(end)) : kInfinity;
   };
-  if (element.dimension == 1) return from(ParameterPlace<1>{at[0]});
-  if (element.dimension == 2) return from(ParameterPlace<2>{at[0], at[1]});
+  if (element.dimension == 1) return from(ParameterPoint<1>{at[0]});
+  if (element.dimension == 2) return from(ParameterPoint<2>{at[0], at[1]});
   return glm::length(point.place.point - element.place.point);
 }
 
@@ -26,15 +26,15 @@ double distance_from(const Vec3& point, const DistanceElement& element, const El
                      const std::vector<DistanceStep>& steps) {
   DistanceElement of_point;
   of_point.place.point = point;
-  double least = least_distance(of_point, element, at);
-  for (const DistanceStep& step : steps) least = std::min(least, least_distance(of_point, *step.into, step.at));
+  double least = min_distance(of_point, element, at);
+  for (const DistanceStep& step : steps) least = std::min(least, min_distance(of_point, *step.into, step.at));
   return least;
 }
 template <int N>
 bool ends_beside(const ElementPair& pair, const DistanceStep& step, const ElementPlace& at) {
   const DistanceSystem<N> system(pair);
   const ElementPlace moved = step.moved(kSmallStep);
-  ParameterPlace<N> start, end;
+  ParameterPoint<N> start, end;
   for (int i = 0; i < N; ++i) start[i] = i < pair.a->dimension ? moved[i] : at[i - pair.a->dimension];
   end = descended<N>(system, system.domain(), start);
   if (!system.keeps(end)) return false;
@@ -94,7 +94,7 @@ bool meets_beside(const std::vector<DistanceStep>& from_a, const std::vector<Dis
     for (const DistanceStep& other : from_b) {
       DistanceElement of_point;
       of_point.place.point = beside;
-      if (least_distance(of_point, *other.into, other.at) <= kMeeting * size) return true;
+      if (min_distance(of_point, *other.into, other.at) <= kIntersection * size) return true;
     }
   }
   return false;
@@ -105,7 +105,7 @@ bool meets_beside(const std::vector<DistanceStep>& from_a, const std::vector<Dis
 bool is_least_beside(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b, double size,
                      DistanceMinimum& minimum) {
   const std::vector<DistanceStep> from_a = steps(*pair.a, a), from_b = steps(*pair.b, b);
-  if (minimum.distance <= kMeeting * size) {
+  if (minimum.distance <= kIntersection * size) {
     if (!from_a.empty() && !from_b.empty() && meets_beside(from_a, from_b, size)) minimum.isolated = false;
     return true;
   }

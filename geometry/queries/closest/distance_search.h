@@ -75,18 +75,18 @@ class DistanceSystem {
     return box;
   }
   double scale(int i) const { return is_of_a(i) ? a_.scale[i] : b_.scale[i - a_.dimension]; }
-  std::array<double, 2> of_a(const ParameterPlace<N>& at) const {
+  std::array<double, 2> of_a(const ParameterPoint<N>& at) const {
     std::array<double, 2> result{};
     for (int i = 0; i < a_.dimension; ++i) result[i] = at[i];
     return result;
   }
-  std::array<double, 2> of_b(const ParameterPlace<N>& at) const {
+  std::array<double, 2> of_b(const ParameterPoint<N>& at) const {
     std::array<double, 2> result{};
     for (int i = 0; i < b_.dimension; ++i) result[i] = at[a_.dimension + i];
     return result;
   }
-  Vec3 way(const ParameterPlace<N>& at) const { return a_.at(of_a(at)) - b_.at(of_b(at)); }
-  bool keeps(const ParameterPlace<N>& at) const { return a_.keeps(of_a(at)) && b_.keeps(of_b(at)); }
+  Vec3 way(const ParameterPoint<N>& at) const { return a_.at(of_a(at)) - b_.at(of_b(at)); }
+  bool keeps(const ParameterPoint<N>& at) const { return a_.keeps(of_a(at)) && b_.keeps(of_b(at)); }
 
   // Gradient and second derivatives. A box without a minimum has values that do not vanish.
   SystemValue<Interval, N, N> enclose(const ParameterBox<N>& box) const {
@@ -108,7 +108,7 @@ class DistanceSystem {
     return result;
   }
 
-  SystemValue<double, N, N> evaluate(const ParameterPlace<N>& at) const {
+  SystemValue<double, N, N> evaluate(const ParameterPoint<N>& at) const {
     const ElementJet ja = a_.jet(of_a(at)), jb = b_.jet(of_b(at));
     const Vec3 w = ja.point - jb.point;
     if (seen_ && glm::length(w) < seen_->distance && keeps(at))
@@ -195,11 +195,11 @@ class DistanceSystem {
 
 // `count` places along each side of a box.
 template <int N>
-std::vector<ParameterPlace<N>> starts(const ParameterBox<N>& box, int count) {
-  std::vector<ParameterPlace<N>> result{{}};
+std::vector<ParameterPoint<N>> starts(const ParameterBox<N>& box, int count) {
+  std::vector<ParameterPoint<N>> result{{}};
   for (int i = 0; i < N; ++i) {
-    std::vector<ParameterPlace<N>> more;
-    for (const ParameterPlace<N>& place : result)
+    std::vector<ParameterPoint<N>> more;
+    for (const ParameterPoint<N>& place : result)
       for (int k = 0; k < count; ++k) {
         more.push_back(place);
         // Not where symmetric things are level.
@@ -213,11 +213,11 @@ std::vector<ParameterPlace<N>> starts(const ParameterBox<N>& box, int count) {
 // Downhill from a place to where the distance is least within the box, by Newton's steps made shorter until they lead
 // down (Levenberg and Marquardt).
 template <int N>
-ParameterPlace<N> descended(const DistanceSystem<N>& system, const ParameterBox<N>& box, ParameterPlace<N> x) {
-  constexpr int kMostSteps = 200;
+ParameterPoint<N> descended(const DistanceSystem<N>& system, const ParameterBox<N>& box, ParameterPoint<N> x) {
+  constexpr int kMaxSteps = 200;
   double shortening = 1e-4;
   Vec3 way = system.way(x);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const SystemValue<double, N, N> there = system.evaluate(x);
     bool moved = false;
     while (!moved && shortening < 1e12) {
@@ -230,7 +230,7 @@ ParameterPlace<N> descended(const DistanceSystem<N>& system, const ParameterBox<
       for (int i = 0; i < N; ++i)
         for (int j = 0; j < N; ++j)
           if (held[i] || held[j]) m[i][j] = i == j ? 1.0 : 0.0;
-      ParameterPlace<N> next = x;
+      ParameterPoint<N> next = x;
       bool small = true;
       double slope = 0;
       if (root_search::invert<N>(m, inverse))

@@ -29,7 +29,7 @@ bool go_on(const ParameterMap& before, const ParameterMap& behind) {
 
 }  // namespace
 
-std::optional<DistanceStep> DistanceSheet::step(const Vec2& from, const std::array<double, 2>& direction) const {
+std::optional<DistanceStep> FaceAdjacency::step(const Vec2& from, const std::array<double, 2>& direction) const {
   std::array<double, 2> to{from.x + kSmallStep * scale[0] * direction[0],
                            from.y + kSmallStep * scale[1] * direction[1]};
   if (trim && !trim->contains(to[0], to[1])) return std::nullopt;
@@ -46,19 +46,19 @@ std::optional<DistanceStep> DistanceSheet::step(const Vec2& from, const std::arr
   return std::nullopt;
 }
 
-void DistanceSheet::add_all_around(const Vec2& from, std::vector<DistanceStep>& steps) const {
+void FaceAdjacency::add_all_around(const Vec2& from, std::vector<DistanceStep>& steps) const {
   for (int k = 0; k < kDirections; ++k)
     if (const auto one = step(from, direction(k, kDirections))) steps.push_back(*one);
 }
 
-void DistanceSheet::add_across(const CurveJet& image, std::vector<DistanceStep>& steps) const {
+void FaceAdjacency::add_across(const CurveJet& image, std::vector<DistanceStep>& steps) const {
   const double a = image.d[1].x / scale[0], b = image.d[1].y / scale[1], length = std::hypot(a, b);
   if (!(length > 0)) return add_all_around(Vec2(image.d[0]), steps);
   for (const double side : {1.0, -1.0})
     if (const auto one = step(Vec2(image.d[0]), {-side * b / length, side * a / length})) steps.push_back(*one);
 }
 
-std::vector<double> DistanceSheet::sharp_places(int i, const Rectangle& domain, const Rectangle& borders) const {
+std::vector<double> FaceAdjacency::sharp_places(int i, const Rectangle& domain, const Rectangle& borders) const {
   const Interval range = i == 0 ? domain.u : domain.v, other = i == 0 ? domain.v : domain.u;
   const Interval border = i == 0 ? borders.u : borders.v;
   const Periods periods = surface->periods();
@@ -88,7 +88,7 @@ std::vector<double> DistanceSheet::sharp_places(int i, const Rectangle& domain, 
   return places;
 }
 
-void DistanceSheet::mark(int i, double at) {
+void FaceAdjacency::mark(int i, double at) {
   const Rectangle domain = surface->domain();
   const Interval range = i == 0 ? domain.u : domain.v;
   const bool seam = at == range.lo && (i == 0 ? surface->periods().u : surface->periods().v) > 0;

@@ -6,7 +6,7 @@
 
 namespace lekalo::geometry {
 
-struct DistanceSheet {
+struct FaceAdjacency {
   SurfacePtr surface;
   std::shared_ptr<const TrimRegion> trim;
   std::array<double, 2> scale{};  // ranges of u and v

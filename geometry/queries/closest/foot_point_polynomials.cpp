@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Halvings of a curve piece: what is not decided then is left to a search that can tell more.
-constexpr int kMostHalvings = 14;
-constexpr int kMostCoefficients = 3 * FootPolynomial::kMostDegree + 1;
+constexpr int kMaxHalvings = 14;
+constexpr int kMaxCoefficients = 3 * FootPointPolynomial::kMaxDegree + 1;
 
 double binomial(int n, int k) {
   double result = 1;
@@ -36,8 +36,8 @@ Scaled derivative(const Scaled& a) {
 
 // From the bounds |A - q w| <= reach + |q| W and |w| <= W of the coefficients: each of the terms 2 D w' and D' w is
 // below 4 n times their product, and has no more than 3 n + 20 roundings, as has the other.
-double error_of_coefficients(int degree, double most_weight) {
-  return 8.0 * std::max(degree, 1) * (3 * degree + 20) * kEpsilon * most_weight;
+double error_of_coefficients(int degree, double max_weight) {
+  return 8.0 * std::max(degree, 1) * (3 * degree + 20) * kEpsilon * max_weight;
 }
 
 struct Extent {
@@ -54,9 +54,9 @@ Extent extent_of(std::span<const Vec4> points, const Vec3& origin) {
 // Zeros of one polynomial with coefficients that are known to `error`.
 class Isolation {
  public:
-  Isolation(int count, double error, CurveFootZeros& found) : count_(count), error_(error), found_(found) {}
+  Isolation(int count, double error, CurveFootPointZeros& found) : count_(count), error_(error), found_(found) {}
 
-  using Coefficients = std::array<double, kMostCoefficients>;
+  using Coefficients = std::array<double, kMaxCoefficients>;
   void visit(const Coefficients& b, const Interval& t, int halvings) {
     // Signs -1, 0 (not known), 1: those of one kind, then those of the other with at most one unknown between.
     const auto sign_of = [&](int i) { return b[i] > error_ ? 1 : b[i] < -error_ ? -1 : 0; };
@@ -71,7 +71,7 @@ class Isolation {
         return;
       }
     }
-    if (halvings == kMostHalvings) {
+    if (halvings == kMaxHalvings) {
       found_.undecided.push_back(t);
       return;
     }
@@ -106,12 +106,12 @@ class Isolation {
   static constexpr double kNearZero = 1e-5;  // of the part: the curve's own Newton's steps end it
   const int count_;
   const double error_;
-  CurveFootZeros& found_;
+  CurveFootPointZeros& found_;
 };
 
 }  // namespace
 
-FootPolynomial::FootPolynomial(std::span<const Vec4> points, const Vec3& origin) : origin_(origin) {
+FootPointPolynomial::FootPointPolynomial(std::span<const Vec4> points, const Vec3& origin) : origin_(origin) {
   const int n = static_cast<int>(points.size()) - 1;
   std::array<Scaled, 4> a;  // x, y, z, w
   for (int i = 0; i <= n; ++i) {
@@ -137,15 +137,15 @@ FootPolynomial::FootPolynomial(std::span<const Vec4> points, const Vec3& origin)
   for (int i = 0; i < 3 * n; ++i) coefficients_[i].w = by[i];
   const Extent extent = extent_of(points, origin);
   reach_ = extent.reach;
-  least_error_ = error_of_coefficients(n, extent.weight) * sqr(extent.weight) * (1 + kMostHalvings);
+  min_error_ = error_of_coefficients(n, extent.weight) * sqr(extent.weight) * (1 + kMaxHalvings);
 }
 
-bool FootPolynomial::isolate(const Vec3& p, CurveFootZeros& found) const {
+bool FootPointPolynomial::isolate(const Vec3& p, CurveFootPointZeros& found) const {
   const Vec3 q = p - origin_;
   const Vec4 by(-2.0 * q, 1);
   Isolation::Coefficients b;
   const int count = static_cast<int>(coefficients_.size());
-  const double error = least_error_ * sqr(reach_ + glm::length(q));
+  const double error = min_error_ * sqr(reach_ + glm::length(q));
   bool vanishes = true;
   for (int i = 0; i < count; ++i) {
     b[i] = glm::dot(coefficients_[i], by);

@@ -1,4 +1,4 @@
-// The equations of feet on rational Bezier pieces as polynomials in Bernstein form.
+// The equations of foot points on rational Bezier pieces as polynomials in Bernstein form.
 //
 // With r = A/w, D = |A - q w|^2 and q the point, (p - r) . r' has the sign of
 //
@@ -20,7 +20,7 @@ namespace lekalo::geometry {
 
 // Parts of the unit interval or square.
 template <class Box, class Place>
-struct FootZeros {
+struct FootPointZeros {
   struct Single {
     Box within;  // holds exactly one zero, a simple one
     Place near;  // to it
@@ -28,33 +28,33 @@ struct FootZeros {
   std::vector<Single> single;
   std::vector<Box> undecided;  // zeros that are multiple, near to each other, or on borders of these parts
 };
-using CurveFootZeros = FootZeros<Interval, double>;
-using SurfaceFootZeros = FootZeros<Rectangle, std::array<double, 2>>;
+using CurveFootPointZeros = FootPointZeros<Interval, double>;
+using SurfaceFootPointZeros = FootPointZeros<Rectangle, std::array<double, 2>>;
 
 // Of a curve piece.
-class FootPolynomial {
+class FootPointPolynomial {
  public:
-  static constexpr int kMostDegree = 8;  // of the piece
+  static constexpr int kMaxDegree = 8;  // of the piece
   // `origin`: any point near the piece; coordinates are seen from there.
-  FootPolynomial(std::span<const Vec4> points, const Vec3& origin);
+  FootPointPolynomial(std::span<const Vec4> points, const Vec3& origin);
 
   // All zeros for the point p; false if the polynomial vanishes but for rounding.
-  bool isolate(const Vec3& p, CurveFootZeros& found) const;
+  bool isolate(const Vec3& p, CurveFootPointZeros& found) const;
 
  private:
   std::vector<Vec4> coefficients_;  // G, G0
   Vec3 origin_;
-  double reach_, least_error_;  // the error of a coefficient is below least_error_ (reach_ + |q|)^2
+  double reach_, min_error_;  // the error of a coefficient is below min_error_ (reach_ + |q|)^2
 };
 
 // Of a patch.
-class FootPolynomials {
+class FootPointPolynomials {
  public:
-  static constexpr int kMostDegree = 6;
-  FootPolynomials(const SurfacePiece& piece, const Vec3& origin);
+  static constexpr int kMaxDegree = 6;
+  FootPointPolynomials(const SurfacePiece& piece, const Vec3& origin);
 
   // All zeros for the point p; false if there are too many undecided parts to tell them apart.
-  bool isolate(const Vec3& p, SurfaceFootZeros& found) const;
+  bool isolate(const Vec3& p, SurfaceFootPointZeros& found) const;
 
   // Nets of coefficients: rows with u, columns with v, whose number is a multiple of four (they are elevated).
   struct Net {
@@ -65,7 +65,7 @@ class FootPolynomials {
  private:
   std::array<std::array<Net, 4>, 2> nets_;  // [by u, by v][G, G0]
   Vec3 origin_;
-  double reach_, least_error_;
+  double reach_, min_error_;
 };
 
 }  // namespace lekalo::geometry

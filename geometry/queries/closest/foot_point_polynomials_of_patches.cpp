@@ -11,14 +11,14 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMostHalvings = 12;  // in each direction
-constexpr int kMostCells = 1000, kMostUndecided = 100;
+constexpr int kMaxHalvings = 12;  // in each direction
+constexpr int kMaxCells = 1000, kMaxUndecided = 100;
 constexpr double kOneToOne = 0.9;
-constexpr double kTells = 3;      // a sum of |I - C J| with which Krawczyk's operator may exclude a cell
-constexpr int kMostColumns = 20;  // 3 * 6 + 1, to a multiple of four
-static_assert(3 * FootPolynomials::kMostDegree + 1 <= kMostColumns);
+constexpr double kTells = 3;     // a sum of |I - C J| with which Krawczyk's operator may exclude a cell
+constexpr int kMaxColumns = 20;  // 3 * 6 + 1, to a multiple of four
+static_assert(3 * FootPointPolynomials::kMaxDegree + 1 <= kMaxColumns);
 
-using Net = FootPolynomials::Net;
+using Net = FootPointPolynomials::Net;
 
 double binomial(int n, int k) {
   double result = 1;
@@ -82,7 +82,7 @@ inline void load_difference(const double* a, const double* b, Lanes& lanes) {
   load(a, lanes), load(b, other);
   lanes -= other;
 }
-void least_and_most(const Lanes& x, Lanes& least, Lanes& most) {
+void min_and_most(const Lanes& x, Lanes& least, Lanes& most) {
   least = x < least ? x : least;
   most = x > most ? x : most;
 }
@@ -94,7 +94,7 @@ Range across(const Lanes& least, const Lanes& most, double by) {
 LEKALO_WIDE Range values_of(const double* b, int rows, int columns) {
   Lanes least, most, x;
   load(b, least), most = least;
-  for (int k = 4; k < rows * columns; k += 4) load(b + k, x), least_and_most(x, least, most);
+  for (int k = 4; k < rows * columns; k += 4) load(b + k, x), min_and_most(x, least, most);
   return across(least, most, 1);
 }
 
@@ -104,7 +104,7 @@ LEKALO_WIDE void slopes_of(const double* b, int rows, int columns, Bounds& bound
   for (int k = 0; k < (rows - 1) * columns; k += 4) {
     load_difference(b + k + columns, b + k, x);
     if (k == 0) least = most = x;
-    least_and_most(x, least, most);
+    min_and_most(x, least, most);
   }
   bounds.by_x = across(least, most, rows - 1);
   load_difference(b + 1, b, x);
@@ -114,14 +114,14 @@ LEKALO_WIDE void slopes_of(const double* b, int rows, int columns, Bounds& bound
     for (int j = 0; j < columns - 1; j += 4) {
       const double* at = b + std::min(j, columns - 5);
       load_difference(at + 1, at, x);
-      least_and_most(x, least, most);
+      min_and_most(x, least, most);
     }
   bounds.by_y = across(least, most, columns - 1);
 }
 
 // The matrices that halve a row, [from][to].
 struct Halving {
-  std::array<std::array<double, kMostColumns>, kMostColumns> lower{}, upper{};
+  std::array<std::array<double, kMaxColumns>, kMaxColumns> lower{}, upper{};
   explicit Halving(int columns) {
     for (int to = 0; to < columns; ++to)
       for (int from = 0; from <= to; ++from)
@@ -148,7 +148,7 @@ LEKALO_WIDE void halve_rows(const double* b, int rows, int columns, double* lowe
 LEKALO_WIDE void halve_columns(const double* b, int rows, int columns, const Halving& by, double* lower,
                                double* upper) {
   for (int i = 0; i < rows; ++i, b += columns, lower += columns, upper += columns) {
-    double row[kMostColumns];
+    double row[kMaxColumns];
     std::memcpy(row, b, sizeof(double) * columns);
     for (int j = 0; j < columns; j += 4) {
       Lanes low{}, high{}, weights;
@@ -185,12 +185,12 @@ LEKALO_WIDE double value_of(const double* b, int rows, int columns, const double
 
 class PatchIsolation {
  public:
-  PatchIsolation(const std::array<Net, 2>& nets, double error, SurfaceFootZeros& found)
+  PatchIsolation(const std::array<Net, 2>& nets, double error, SurfaceFootPointZeros& found)
       : nets_(nets), error_(error), found_(found) {}
 
   bool run() {
     const size_t each = nets_[0].values.size() + nets_[1].values.size();
-    room_.resize(each * (2 * kMostHalvings + 2));
+    room_.resize(each * (2 * kMaxHalvings + 2));
     std::copy(nets_[0].values.begin(), nets_[0].values.end(), room_.begin());
     std::copy(nets_[1].values.begin(), nets_[1].values.end(), room_.begin() + nets_[0].values.size());
     struct Cell {
@@ -199,7 +199,7 @@ class PatchIsolation {
     };
     std::vector<Cell> cells{{{{0, 1}, {0, 1}}, {0, 0}}};
     for (int seen = 0; !cells.empty(); ++seen) {
-      if (seen > kMostCells || found_.undecided.size() > kMostUndecided) return false;
+      if (seen > kMaxCells || found_.undecided.size() > kMaxUndecided) return false;
       Cell& cell = cells.back();
       double* f = room_.data() + each * (cells.size() - 1);
       double* g = f + nets_[0].values.size();
@@ -208,7 +208,7 @@ class PatchIsolation {
         cells.pop_back();
         continue;
       }
-      if (cell.halvings[direction] == kMostHalvings) {
+      if (cell.halvings[direction] == kMaxHalvings) {
         found_.undecided.push_back(cell.box);
         cells.pop_back();
         continue;
@@ -263,9 +263,9 @@ class PatchIsolation {
     const bool tells = std::max(spread[0][0] + spread[0][1], spread[1][0] + spread[1][1]) < kTells;
     Range x{0, 1}, y{0, 1};
     bool exists = false;
-    for (int cut = 0; cut < (one_to_one ? kMostCuts : tells ? 1 : 0); ++cut) {
+    for (int cut = 0; cut < (one_to_one ? kMaxCuts : tells ? 1 : 0); ++cut) {
       const double mx = x.middle(), my = y.middle();
-      double by_columns[kMostColumns], by_rows[kMostColumns];
+      double by_columns[kMaxColumns], by_rows[kMaxColumns];
       bernstein_weights(nf.columns, my, by_columns);
       bernstein_weights(nf.rows, mx, by_rows);
       const double vf = value_of(f, nf.rows, nf.columns, by_rows, by_columns);
@@ -314,17 +314,17 @@ class PatchIsolation {
     return x >= y ? 0 : 1;
   }
 
-  static constexpr int kMostCuts = 12;
+  static constexpr int kMaxCuts = 12;
   static constexpr double kNearZero = 0.05;  // of the cell: the surface's own Newton's steps end it
   const std::array<Net, 2>& nets_;
   const double error_;
-  SurfaceFootZeros& found_;
+  SurfaceFootPointZeros& found_;
   std::vector<double> room_;
 };
 
 }  // namespace
 
-FootPolynomials::FootPolynomials(const SurfacePiece& piece, const Vec3& origin) : origin_(origin) {
+FootPointPolynomials::FootPointPolynomials(const SurfacePiece& piece, const Vec3& origin) : origin_(origin) {
   const int p = piece.degree_u, q = piece.degree_v;
   std::array<Net, 4> a;  // x, y, z, w
   double weight = 0;
@@ -357,10 +357,10 @@ FootPolynomials::FootPolynomials(const SurfacePiece& piece, const Vec3& origin) 
   }
   // As for curves, with the roundings of both directions and of the elevation.
   const int degree = std::max({p, q, 1});
-  least_error_ = 8.0 * degree * (6 * degree + columns + 40) * kEpsilon * weight * sqr(weight) * (2 + 2 * kMostHalvings);
+  min_error_ = 8.0 * degree * (6 * degree + columns + 40) * kEpsilon * weight * sqr(weight) * (2 + 2 * kMaxHalvings);
 }
 
-bool FootPolynomials::isolate(const Vec3& p, SurfaceFootZeros& found) const {
+bool FootPointPolynomials::isolate(const Vec3& p, SurfaceFootPointZeros& found) const {
   const Vec3 q = -2.0 * (p - origin_);
   std::array<Net, 2> nets;
   for (int by = 0; by < 2; ++by) {
@@ -369,7 +369,7 @@ bool FootPolynomials::isolate(const Vec3& p, SurfaceFootZeros& found) const {
     for (size_t i = 0; i < nets[by].values.size(); ++i)
       nets[by].values[i] += q.x * from[0].values[i] + q.y * from[1].values[i] + q.z * from[2].values[i];
   }
-  return PatchIsolation(nets, least_error_ * sqr(reach_ + 0.5 * glm::length(q)), found).run();
+  return PatchIsolation(nets, min_error_ * sqr(reach_ + 0.5 * glm::length(q)), found).run();
 }
 
 }  // namespace lekalo::geometry

@@ -19,7 +19,7 @@ std::optional<ElementPlace> place_on(const DistanceElement& element, const Vec3&
     }
     return std::nullopt;
   };
-  return element.dimension == 1 ? from(ParameterPlace<1>{}) : from(ParameterPlace<2>{});
+  return element.dimension == 1 ? from(ParameterPoint<1>{}) : from(ParameterPoint<2>{});
 }
 
 // Its parameters are those of its place.
@@ -50,9 +50,9 @@ size_t widen_inside(const ElementPair& pair, FoundMinimum& family, double size) 
       const ElementPlace at{from.domain[0].lo + from.domain[0].width() * i / kPlaces,
                             from.domain[1].lo + from.domain[1].width() * j / kPlaces};
       if (!from.keeps(at)) continue;
-      const auto foot = place_on(to, from.at(at) + way, size);
-      if (!foot || !to.keeps(*foot)) continue;
-      from_a ? widen(family, at, *foot) : widen(family, *foot, at);
+      const auto foot_point = place_on(to, from.at(at) + way, size);
+      if (!foot_point || !to.keeps(*foot_point)) continue;
+      from_a ? widen(family, at, *foot_point) : widen(family, *foot_point, at);
       ++count;
     }
   return count;
@@ -122,7 +122,7 @@ void absorb_borders(double size, std::vector<FoundMinimum>& found) {
 
 }  // namespace
 
-void absorb_in_flats(std::vector<ElementPair> flats, double size, std::vector<FoundMinimum>& found) {
+void merge_minima_of_parallels(std::vector<ElementPair> flats, double size, std::vector<FoundMinimum>& found) {
   std::stable_sort(flats.begin(), flats.end(),
                    [](const ElementPair& x, const ElementPair& y) { return x.unknowns() > y.unknowns(); });
   for (int unknowns = 4; unknowns >= 2; --unknowns) {
@@ -136,7 +136,7 @@ void absorb_in_flats(std::vector<ElementPair> flats, double size, std::vector<Fo
   std::erase_if(found, [](const FoundMinimum& one) { return one.absorbed; });
 }
 
-void join_families(double size, std::vector<FoundMinimum>& found) {
+void join_non_isolated_minima(double size, std::vector<FoundMinimum>& found) {
   const auto touch = [](const std::array<Interval, 2>& x, const std::array<Interval, 2>& y,
                         const std::array<double, 2>& scale) {
     for (int i = 0; i < 2; ++i)

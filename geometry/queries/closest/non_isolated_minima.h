@@ -7,9 +7,9 @@ namespace lekalo::geometry {
 
 // `flats`: pairs of parallel elements that are straight or plane, which are not searched: what is nearest on them
 // reaches to their borders. The places found there become one minimum of the pair.
-void absorb_in_flats(std::vector<ElementPair> flats, double size, std::vector<FoundMinimum>& found);
+void merge_minima_of_parallels(std::vector<ElementPair> flats, double size, std::vector<FoundMinimum>& found);
 
 // Parts of one such minimum on neighbouring elements become one; a border of it is not another.
-void join_families(double size, std::vector<FoundMinimum>& found);
+void join_non_isolated_minima(double size, std::vector<FoundMinimum>& found);
 
 }  // namespace lekalo::geometry

@@ -16,7 +16,7 @@ constexpr double kBeside = 1e-9;
 // Beside a crease normals are taken so far off, in parts of the range; about a pole at so many places.
 constexpr double kOff = 1e-9;
 constexpr int kPlacesOfPole = 32;
-// A foot inside of a face has the way along the normal; with a smaller cosine it is not decided there.
+// A foot point inside of a face has the way along the normal; with a smaller cosine it is not decided there.
 constexpr double kAlongNormal = 0.9;
 
 // The sum of the unit normals around a place: of both sides of a crease, of all directions at a pole.
@@ -53,9 +53,9 @@ Vec3 normals_about(const Surface& surface, double u, double v) {
 // whose two halves disagree has met an edge or touched something: it does not count.
 template <class Hits>
 bool vote_inside(const Vec3& point, Hits&& hits) {
-  constexpr int kLines = 7, kMostLines = 40;
+  constexpr int kLines = 7, kMaxLines = 40;
   int inside = 0, outside = 0;
-  for (int k = 0; k < kMostLines && inside + outside < kLines; ++k) {
+  for (int k = 0; k < kMaxLines && inside + outside < kLines; ++k) {
     // Directions spread over the sphere by the golden angle, none along an axis.
     const double z = 0.97 - 1.91 * (k * 0.6180339887498949 - std::floor(k * 0.6180339887498949));
     const double angle = 0.3 + 2.399963229728653 * k, r = std::sqrt(1 - z * z);
@@ -75,21 +75,21 @@ std::pair<int, int> count_sides(const std::vector<SurfaceHit>& hits) {
 }  // namespace
 
 SurfacePosition position(const Vec3& point, const Surface& surface) {
-  const SurfaceFeet found = project(point, surface);
-  const SurfaceFoot& foot = found.feet.front();
+  const SurfaceFootPoints found = project(point, surface);
+  const SurfaceFootPoint& foot_point = found.foot_points.front();
   SurfacePosition result;
-  result.distance = foot.distance;
-  result.nearest = {DistancePlace::Kind::surface, -1, 0, foot.u, foot.v, foot.point};
+  result.distance = foot_point.distance;
+  result.nearest = {DistancePlace::Kind::surface, -1, 0, foot_point.u, foot_point.v, foot_point.point};
   const double size = surface.bounded() ? bounds(surface).diameter() : glm::length(point);
-  if (foot.distance <= kOnSurface * size) return result;
-  const Vec3 way = point - foot.point;
-  const Vec3 sum =
-      foot.kind == FootKind::border ? normals_about(surface, foot.u, foot.v) : surface.normal(foot.u, foot.v);
+  if (foot_point.distance <= kOnSurface * size) return result;
+  const Vec3 way = point - foot_point.point;
+  const Vec3 sum = foot_point.kind == FootPointKind::border ? normals_about(surface, foot_point.u, foot_point.v)
+                                                            : surface.normal(foot_point.u, foot_point.v);
   const double length = glm::length(sum);
   result.height = length > 0 ? glm::dot(way, sum) / length : 0;
-  result.side = std::abs(result.height) <= kBeside * foot.distance ? SurfacePosition::Side::beside
-                : result.height > 0                                ? SurfacePosition::Side::above
-                                                                   : SurfacePosition::Side::below;
+  result.side = std::abs(result.height) <= kBeside * foot_point.distance ? SurfacePosition::Side::beside
+                : result.height > 0                                      ? SurfacePosition::Side::above
+                                                                         : SurfacePosition::Side::below;
   return result;
 }
 
@@ -104,10 +104,10 @@ RegionPosition nearest_border(const Vec2& point, const std::vector<std::vector<T
   for (size_t i = 0; i < loops.size(); ++i)
     for (size_t k = 0; k < loops[i].size(); ++k) {
       if (!counts(i, k)) continue;
-      const CurveFoot foot = project(Vec3(point, 0), *loops[i][k].curve).feet.front();
-      if (foot.distance < result.distance)
-        result = {Containment::outside, foot.distance, static_cast<int>(i),
-                  static_cast<int>(k),  foot.t,        Vec2(foot.point)};
+      const CurveFootPoint foot_point = project(Vec3(point, 0), *loops[i][k].curve).foot_points.front();
+      if (foot_point.distance < result.distance)
+        result = {Containment::outside, foot_point.distance, static_cast<int>(i),
+                  static_cast<int>(k),  foot_point.t,        Vec2(foot_point.point)};
     }
   return result;
 }
@@ -166,11 +166,12 @@ BodyPosition position(const Vec3& point, const Body& body) {
     result.where = Containment::on;
     return result;
   }
-  const DistancePlace& foot = result.nearest;
+  const DistancePlace& foot_point = result.nearest;
   bool inside = false;
   result.by_lines = true;
-  if (foot.kind == DistancePlace::Kind::face) {
-    const double along = glm::dot(point - foot.point, body.normal(foot.index, foot.u, foot.v)) / result.distance;
+  if (foot_point.kind == DistancePlace::Kind::face) {
+    const double along =
+        glm::dot(point - foot_point.point, body.normal(foot_point.index, foot_point.u, foot_point.v)) / result.distance;
     inside = along < 0;
     result.by_lines = !(std::abs(along) > kAlongNormal);
   }

@@ -19,7 +19,7 @@ struct SurfacePosition {
   enum class Side { above, below, on, beside };
   Side side = Side::on;
   double distance = 0;  // of the nearest point
-  double height = 0;    // along the normal there: plus or minus the distance where the foot is no border
+  double height = 0;    // along the normal there: plus or minus the distance where the foot point is no border
   DistancePlace nearest;
 };
 // By the nearest point: v . m > 0 is above, v the way from it and m the normal there; on a crease the sum of the

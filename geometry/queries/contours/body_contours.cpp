@@ -229,8 +229,8 @@ void keep_points(Joining& joining, const Contours& found, const FaceOf& face, co
 
 void add_cuts(std::vector<Vec3>& cuts, const FaceOf& face, const Surface& surface, double tolerance) {
   for (const int edge : face.edges()) {
-    const SurfaceMeetings found = intersect(*face.body->edges[edge].curve, surface, tolerance);
-    for (const SurfaceMeeting& meeting : found.points) cuts.push_back(meeting.point);
+    const SurfaceIntersections found = intersect(*face.body->edges[edge].curve, surface, tolerance);
+    for (const SurfaceIntersection& intersection : found.points) cuts.push_back(intersection.point);
     // Where an edge lies in the surface its ends are cuts.
     for (const Interval& part : found.on_surface)
       for (const double t : {part.lo, part.hi}) cuts.push_back(face.body->edges[edge].curve->point(t));
@@ -289,8 +289,8 @@ BodyContours silhouette(const Body& body, const ViewOf& view) {
     for (const Contour& contour : found.branches) {
       std::vector<Vec3> cuts;
       for (const int edge : face.edges())
-        for (const CurveMeeting& meeting : intersect(*contour.curve, *body.edges[edge].curve).points)
-          cuts.push_back(meeting.point);
+        for (const CurveIntersection& intersection : intersect(*contour.curve, *body.edges[edge].curve).points)
+          cuts.push_back(intersection.point);
       joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
     }
   }

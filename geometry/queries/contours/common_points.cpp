@@ -57,9 +57,9 @@ std::optional<Vec2> place_on(const Surface& surface, const Vec3& p, double near)
     if (std::abs(local.z) > near) return std::nullopt;
     return Vec2(local.x, local.y);
   }
-  const SurfaceFeet found = project(p, surface);
-  if (found.feet.empty() || found.feet[0].distance > near) return std::nullopt;
-  return Vec2(found.feet[0].u, found.feet[0].v);
+  const SurfaceFootPoints found = project(p, surface);
+  if (found.foot_points.empty() || found.foot_points[0].distance > near) return std::nullopt;
+  return Vec2(found.foot_points[0].u, found.foot_points[0].v);
 }
 
 class ThreeSheets {
@@ -104,7 +104,7 @@ class ThreeSheets {
   void meet(const Three& of, std::optional<Contours>& of_first_pair) {
     if (std::all_of(of.begin(), of.end(), [](const Sheet* one) { return one->is_unbounded_plane(); }))
       return meet_planes(of);
-    // Pairs whose meetings are no curves leave the point to another pair.
+    // Pairs whose intersections are no curves leave the point to another pair.
     bool complete = false;
     for (const std::array<int, 3>& order : {std::array{0, 1, 2}, std::array{0, 2, 1}, std::array{1, 2, 0}}) {
       const Sheet &first = *of[order[0]], &second = *of[order[1]];
@@ -164,8 +164,8 @@ class ThreeSheets {
     };
     for (const Contour& contour : found.branches) {
       if (!are_near(bounds(*contour.curve), third.box, tolerance_)) continue;
-      const SurfaceMeetings met = intersect(*contour.curve, *third.surface, relative_);
-      for (const SurfaceMeeting& one : met.points) {
+      const SurfaceIntersections met = intersect(*contour.curve, *third.surface, relative_);
+      for (const SurfaceIntersection& one : met.points) {
         std::array<Vec2, 3> places = places_at(contour, one.t);
         places[order[2]] = {one.u, one.v};
         add(of, one.point, places);

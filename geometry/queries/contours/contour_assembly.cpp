@@ -26,7 +26,7 @@ bool ContourAssembly<N>::runs_along(const ContourEquations<N>& equations, const 
                                     int parameter, double border) {
   // Contacts are known less well.
   const double near = (kind == ContourKind::crossing ? 1e-10 : 1e-7) * equations.domain()[parameter].width();
-  const auto is_near = [&](const ParameterPlace<N>& x) { return std::abs(x[parameter] - border) <= near; };
+  const auto is_near = [&](const ParameterPoint<N>& x) { return std::abs(x[parameter] - border) <= near; };
   if (!std::all_of(arc.nodes.begin(), arc.nodes.end(), is_near)) return false;
   if (kind != ContourKind::crossing) return true;
   // A sliver between two nodes on the border is none.
@@ -62,7 +62,7 @@ bool ContourAssembly<N>::lies_on(const Part& part, size_t node, const Part& othe
     const Vec3 from = other.equations->point(other.arc.nodes[i]);
     const Vec3 chord = other.equations->point(other.arc.nodes[i + 1]) - from;
     const double share = std::clamp(glm::dot(at - from, chord) / glm::dot(chord, chord), 0.0, 1.0);
-    const double near = std::max(kSag * glm::length(chord), 10 * kLeastContourImage * size_);
+    const double near = std::max(kSag * glm::length(chord), 10 * kMinContourImage * size_);
     if (glm::length(from + share * chord - at) < near) return true;
   }
   return false;
@@ -84,7 +84,7 @@ bool ContourAssembly<N>::is_same(const Part& part, const Part& known) const {
   };
   // Where they end next to a singular point they do so anywhere near.
   const bool singular = part.arc.begins_singular || part.arc.ends_singular;
-  const double near = (singular ? kNearSingular * kLeastContourImage : kSameEnd) * size_;
+  const double near = (singular ? kNearSingular * kMinContourImage : kSameEnd) * size_;
   const auto meet = [&](bool a, bool b) { return glm::length(end(part, a) - end(known, b)) < near; };
   if (!(meet(false, false) && meet(true, true)) && !(meet(false, true) && meet(true, false))) return false;
   return last < 2 || lies_on(part, last / 2, known);
@@ -114,12 +114,12 @@ void ContourAssembly<N>::drop_doubles() {
 template <int N>
 void ContourAssembly<N>::find_singular_points() {
   for (const auto& [equations, box] : open_) {
-    const ParameterPlace<N> place = singular_solution<N>(*equations, box, kNearSingular * kLeastContourImage * size_);
+    const ParameterPoint<N> place = singular_solution<N>(*equations, box, kNearSingular * kMinContourImage * size_);
     places_.push_back({equations, place, equations->point(place), equations->distance(place), -1, false});
   }
   for (SingularPlace& place : places_) {
     for (size_t k = 0; k < points_.size() && place.group < 0; ++k)
-      if (glm::length(points_[k].point - place.point) <= 10 * kLeastContourImage * size_)
+      if (glm::length(points_[k].point - place.point) <= 10 * kMinContourImage * size_)
         place.group = static_cast<int>(k);
     if (place.group < 0) {
       place.group = static_cast<int>(points_.size());
@@ -139,8 +139,8 @@ void ContourAssembly<N>::collect_ends() {
     const Part& part = parts_[p];
     for (const bool at_end : {false, true}) {
       const size_t last = part.arc.nodes.size() - 1;
-      const ParameterPlace<N>& x = part.arc.nodes[at_end ? last : 0];
-      const ParameterPlace<N>& before = part.arc.nodes[at_end ? last - 1 : 1];
+      const ParameterPoint<N>& x = part.arc.nodes[at_end ? last : 0];
+      const ParameterPoint<N>& before = part.arc.nodes[at_end ? last - 1 : 1];
       End end{static_cast<int>(p), at_end, at_end ? part.arc.ends_singular : part.arc.begins_singular, false,
               part.equations->point(x)};
       for (int i = 0; i < N; ++i)
@@ -150,9 +150,9 @@ void ContourAssembly<N>::collect_ends() {
                               x[i] == (upper ? part.equations->domain()[i].hi : part.equations->domain()[i].lo));
       // The tangent, to the side of the chord; the chord where there is none.
       const Vec3 chord = end.point - part.equations->point(before);
-      ParameterPlace<N> scale;
+      ParameterPoint<N> scale;
       for (int i = 0; i < N; ++i) scale[i] = part.equations->domain()[i].width();
-      ParameterPlace<N> direction = solution_curves::direction_of<N, N - 1>(
+      ParameterPoint<N> direction = solution_curves::direction_of<N, N - 1>(
           part.equations_of(at_end ? last - 1 : 0)->evaluate(x).derivative, scale);
       for (int i = 0; i < N; ++i) direction[i] *= scale[i];
       const Vec3 tangent = part.equations->motion(x, direction);
@@ -168,7 +168,7 @@ void ContourAssembly<N>::collect_ends() {
   for (size_t p = 0; p < parts_.size(); ++p) {
     End &begin = ends_[end_index(static_cast<int>(p), false)], &end = ends_[end_index(static_cast<int>(p), true)];
     const bool debris = begin.singular_point >= 0 && begin.singular_point == end.singular_point &&
-                        parts_[p].length <= 3 * kNearSingular * kLeastContourImage * size_;
+                        parts_[p].length <= 3 * kNearSingular * kMinContourImage * size_;
     if (debris) begin.singular_point = end.singular_point = kDropped;
   }
 }
@@ -177,7 +177,7 @@ template <int N>
 void ContourAssembly<N>::attach_singular(End& end) {
   // Where surfaces touch the neighbours' boxes stay open beside the curve's ends: these are no ends of it.
   if (!end.singular && parts_[end.part].kind != ContourKind::crossing) return;
-  double nearest = (end.singular ? kNearSingular : 1.0) * kLeastContourImage * size_;
+  double nearest = (end.singular ? kNearSingular : 1.0) * kMinContourImage * size_;
   for (const SingularPlace& place : places_) {
     const double apart = glm::length(place.point - end.point);
     if (!place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
@@ -189,7 +189,7 @@ template <int N>
 void ContourAssembly<N>::attach_rest() {
   for (End& end : ends_) {
     if (end.singular_point != kRegular || end.mate_part >= 0 || parts_[end.part].arc.closed) continue;
-    double nearest = kNearSingular * kLeastContourImage * size_;
+    double nearest = kNearSingular * kMinContourImage * size_;
     for (const SingularPlace& place : places_) {
       const double apart = glm::length(place.point - end.point);
       if (place.is_added && apart <= nearest) nearest = apart, end.singular_point = place.group;
@@ -249,7 +249,7 @@ void ContourAssembly<N>::pair_ends() {
 }
 
 template <int N>
-void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPlace<N>& shift,
+void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPoint<N>& shift,
                                 std::vector<ContourSegment<N>>& segments) const {
   const auto& nodes = part.arc.nodes;
   const size_t count = nodes.size();
@@ -278,12 +278,12 @@ void ContourAssembly<N>::append(const Part& part, bool backwards, ParameterPlace
 
 // From the end of an arc to the singular point next to it, or back from there.
 template <int N>
-void ContourAssembly<N>::append_straight(const End& end, bool inward, const ParameterPlace<N>& shift,
+void ContourAssembly<N>::append_straight(const End& end, bool inward, const ParameterPoint<N>& shift,
                                          std::vector<ContourSegment<N>>& segments) const {
   if (end.singular_point < 0) return;
   const Part& part = parts_[end.part];
-  const ParameterPlace<N> at_arc = part.arc.nodes[end.at_end ? part.arc.nodes.size() - 1 : 0];
-  ParameterPlace<N> at_point = at_arc;
+  const ParameterPoint<N> at_arc = part.arc.nodes[end.at_end ? part.arc.nodes.size() - 1 : 0];
+  ParameterPoint<N> at_point = at_arc;
   double nearest = kInfinity;
   for (const SingularPlace& place : places_) {
     if (place.group != end.singular_point || place.equations != part.equations) continue;
@@ -303,7 +303,7 @@ void ContourAssembly<N>::append_straight(const End& end, bool inward, const Para
 template <int N>
 Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) const {
   std::vector<ContourSegment<N>> segments;
-  ParameterPlace<N> shift{};
+  ParameterPoint<N> shift{};
   bool closed = false;
   int entry = first;
   for (;;) {
@@ -335,7 +335,7 @@ Contour ContourAssembly<N>::branch_from(int first, std::vector<bool>& used) cons
   for (const ContourSegment<N>& segment : solution->segments()) {
     if (!segment.is_certified()) continue;
     const auto at = solution->at(segment.t.middle(), 0);
-    ParameterPlace<N> x;
+    ParameterPoint<N> x;
     for (int i = 0; i < N; ++i) x[i] = at.x[i].c[0] - segment.shift[i];
     contour.error = std::max(contour.error, segment.equations->distance(x));
   }
@@ -349,7 +349,7 @@ template <int N>
 bool ContourAssembly<N>::lies_on_touching(const Vec3& point) const {
   return std::any_of(ends_.begin(), ends_.end(), [&](const End& end) {
     return parts_[end.part].kind != ContourKind::crossing &&
-           glm::length(end.point - point) <= kNearSingular * kLeastContourImage * size_;
+           glm::length(end.point - point) <= kNearSingular * kMinContourImage * size_;
   });
 }
 
@@ -372,7 +372,7 @@ bool ContourAssembly<N>::lies_in_tubes(int point) const {
 
 // Whether a place lies on an edge of a surface, where it does not close.
 template <int N>
-bool ContourAssembly<N>::on_edge(const ParameterPlace<N>& place, double near) const {
+bool ContourAssembly<N>::on_edge(const ParameterPoint<N>& place, double near) const {
   for (int i = 0; i < N; ++i) {
     const Interval& all = (*searched_)[i];
     if (periods_[i] == 0 && std::min(place[i] - all.lo, all.hi - place[i]) <= near * all.width()) return true;
@@ -396,7 +396,7 @@ bool ContourAssembly<N>::at_closed_pole(const SingularPlace& place, double near)
 // towards each as from it, though in apexes none is the other's. What stops elsewhere has lost what follows.
 template <int N>
 bool ContourAssembly<N>::stops_inside(const End& end) const {
-  constexpr double kNear = kNearSingular * kLeastContourImage;
+  constexpr double kNear = kNearSingular * kMinContourImage;
   const Part& part = parts_[end.part];
   if (end.mate_part >= 0 || end.singular_point == kDropped || part.arc.closed || end.at_pole) return false;
   const auto at_point = [&](const auto& has) {

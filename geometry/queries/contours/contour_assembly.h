@@ -11,7 +11,7 @@
 namespace lekalo::geometry {
 
 // Boxes with smaller images are not divided; a part of the surfaces' size.
-inline constexpr double kLeastContourImage = 1e-6;
+inline constexpr double kMinContourImage = 1e-6;
 
 // What a search of a piece is told beside its equations.
 template <int N>
@@ -37,7 +37,7 @@ class ContourAssembly {
   void add(std::unique_ptr<const ContourEquations<N>> equations, const PieceSearch<N>& search = {});
   // A singular solution that no search finds: a curve that goes on nowhere else ends there; where none does it is no
   // point of contact.
-  void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place);
+  void add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPoint<N>& place);
   Contours joined();
 
  private:
@@ -63,7 +63,7 @@ class ContourAssembly {
   };
   struct SingularPlace {
     EquationsPtr equations;
-    ParameterPlace<N> place{};
+    ParameterPoint<N> place{};
     Vec3 point{0};
     double distance = 0;
     int group = -1;
@@ -101,13 +101,13 @@ class ContourAssembly {
   void pair_ends();
   void pair(std::vector<int> group, bool all);
   bool at_closed_pole(const SingularPlace& place, double near) const;
-  bool on_edge(const ParameterPlace<N>& place, double near) const;
+  bool on_edge(const ParameterPoint<N>& place, double near) const;
   bool stops_inside(const End& end) const;
   int end_index(int part, bool at_end) const { return 2 * part + (at_end ? 1 : 0); }
   Contour branch_from(int end, std::vector<bool>& used) const;
-  void append(const Part& part, bool backwards, ParameterPlace<N>& shift,
+  void append(const Part& part, bool backwards, ParameterPoint<N>& shift,
               std::vector<ContourSegment<N>>& segments) const;
-  void append_straight(const End& end, bool inward, const ParameterPlace<N>& shift,
+  void append_straight(const End& end, bool inward, const ParameterPoint<N>& shift,
                        std::vector<ContourSegment<N>>& segments) const;
 
   std::array<KnownEnclosures, 2> known_;

@@ -8,7 +8,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kMostSteps = 40;
+constexpr int kMaxSteps = 40;
 constexpr int kContractions = 4;
 // Of a box that is to hold the solution by Krawczyk's operator.
 constexpr int kInflations = 6;
@@ -25,11 +25,11 @@ struct ChordSystem {
   double height(double t) const { return glm::dot(along, segment.from) + (t - segment.t.lo); }
 
   // Derivatives of all, [equation][parameter].
-  root_search::Matrix<N> matrix(const SystemValue<double, N, N - 1>& there, const ParameterPlace<N>& x) const {
+  root_search::Matrix<N> matrix(const SystemValue<double, N, N - 1>& there, const ParameterPoint<N>& x) const {
     root_search::Matrix<N> a{};
     for (int k = 0; k < N - 1; ++k) a[k] = there.derivative[k];
     for (int i = 0; i < N; ++i) {
-      ParameterPlace<N> by{};
+      ParameterPoint<N> by{};
       by[i] = 1;
       a[N - 1][i] = glm::dot(along, segment.equations->motion(x, by));
     }
@@ -38,9 +38,9 @@ struct ChordSystem {
 };
 
 template <int N>
-ParameterPlace<N> blend(const ContourSegment<N>& segment, double t) {
+ParameterPoint<N> blend(const ContourSegment<N>& segment, double t) {
   const double share = segment.t.width() > 0 ? (t - segment.t.lo) / segment.t.width() : 0;
-  ParameterPlace<N> x;
+  ParameterPoint<N> x;
   for (int i = 0; i < N; ++i) x[i] = (1 - share) * segment.begin[i] + share * segment.end[i];
   return x;
 }
@@ -94,14 +94,14 @@ const ContourSegment<N>& ContourSolution<N>::segment_at(double t) const {
 }
 
 template <int N>
-ParameterPlace<N> ContourSolution<N>::solve(const ContourSegment<N>& segment, double t) const {
+ParameterPoint<N> ContourSolution<N>::solve(const ContourSegment<N>& segment, double t) const {
   const ChordSystem<N> system(segment);
   const double height = system.height(t);
-  const ParameterPlace<N> start = blend(segment, t);
-  ParameterPlace<N> x = start, width;
+  const ParameterPoint<N> start = blend(segment, t);
+  ParameterPoint<N> x = start, width;
   for (int i = 0; i < N; ++i) width[i] = segment.equations->domain()[i].width();
   double before = kInfinity;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto there = segment.equations->evaluate(x);
     root_search::Matrix<N> inverse;
     if (!root_search::invert<N>(system.matrix(there, x), inverse)) return start;
@@ -133,7 +133,7 @@ typename ContourSolution<N>::Series ContourSolution<N>::at(double t, int order) 
   t = wrap(t);
   const ContourSegment<N>& segment = segment_at(t);
   const ChordSystem<N> system(segment);
-  const ParameterPlace<N> x = solve(segment, t);
+  const ParameterPoint<N> x = solve(segment, t);
   Series result;
   for (int i = 0; i < N; ++i) result.x[i].c[0] = x[i];
   if (order == 0) {
@@ -181,7 +181,7 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
                                                                      const Interval& t, int order) const {
   const ChordSystem<N> system(segment);
   const double middle = t.middle();
-  const ParameterPlace<N> center = solve(segment, middle);
+  const ParameterPoint<N> center = solve(segment, middle);
   const ParameterBox<N> all = segment.equations->domain();
   std::array<Jet<Interval, 2>, N> x;
   ParameterBox<N> box;

@@ -18,12 +18,12 @@ namespace lekalo::geometry {
 template <int N>
 struct ContourSegment {
   std::shared_ptr<const ContourEquations<N>> equations;
-  ParameterPlace<N> begin{}, end{};
+  ParameterPoint<N> begin{}, end{};
   // Holds the part and nothing else that solves the equations; empty intervals next to a singular solution, where no
   // such box is known and the part is as good as its chord.
   ParameterBox<N> tube{};
   // What the parameters are to be increased by so that they go on from the segment before: multiples of periods.
-  ParameterPlace<N> shift{};
+  ParameterPoint<N> shift{};
   Vec3 from{0}, to{0};
   Interval t;
   bool is_certified() const { return !tube[0].empty(); }
@@ -60,7 +60,7 @@ class ContourSolution {
 
  private:
   const ContourSegment<N>& segment_at(double t) const;
-  ParameterPlace<N> solve(const ContourSegment<N>& segment, double t) const;
+  ParameterPoint<N> solve(const ContourSegment<N>& segment, double t) const;
   Ranges over_segment(const ContourSegment<N>& segment, const Interval& t, int order) const;
 
   std::vector<ContourSegment<N>> segments_;

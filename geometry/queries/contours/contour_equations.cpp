@@ -12,14 +12,14 @@
 namespace lekalo::geometry {
 
 template <int N>
-SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPlace<N>& place) const {
+SystemValue<double, N, N - 1> ContourEquations<N>::evaluate(const ParameterPoint<N>& place) const {
   return continued<N, N - 1>(domain(), place,
-                             [this](const ParameterPlace<N>& inside) { return evaluate_inside(inside); });
+                             [this](const ParameterPoint<N>& inside) { return evaluate_inside(inside); });
 }
 template <int N>
 SystemValue<double, N, N - 1> ContourEquations<N>::evaluate_middle(const ParameterBox<N>& box,
                                                                    std::array<KnownEnclosures, 2>&) const {
-  ParameterPlace<N> middle;
+  ParameterPoint<N> middle;
   for (int i = 0; i < N; ++i) middle[i] = box[i].middle();
   return evaluate_inside(middle);
 }
@@ -117,7 +117,7 @@ class FunctionEquations final : public ContourEquations<2> {
     double most = 0;
     for (int i = 0; i <= 4; ++i)
       for (int j = 0; j <= 4; ++j) {
-        const ParameterPlace<2> at{piece.u.lo + piece.u.width() * i / 4, piece.v.lo + piece.v.width() * j / 4};
+        const ParameterPoint<2> at{piece.u.lo + piece.u.width() * i / 4, piece.v.lo + piece.v.width() * j / 4};
         const auto there = evaluate_inside(at);
         most = std::max(most, std::abs(there.value[0]) + std::abs(there.derivative[0][0]) * piece.u.width() +
                                   std::abs(there.derivative[0][1]) * piece.v.width());
@@ -151,14 +151,14 @@ class FunctionEquations final : public ContourEquations<2> {
     return extents;
   }
   bool is_pole(int parameter, bool upper) const override { return is_pole_of(*surface_, piece_, parameter, upper); }
-  Vec3 point(const ParameterPlace<2>& at) const override {
+  Vec3 point(const ParameterPoint<2>& at) const override {
     return evaluate_within(*surface_, piece_, at[0], at[1], 0).point();
   }
-  Vec3 motion(const ParameterPlace<2>& at, const ParameterPlace<2>& by) const override {
+  Vec3 motion(const ParameterPoint<2>& at, const ParameterPoint<2>& by) const override {
     const SurfaceJet s = evaluate_within(*surface_, piece_, at[0], at[1], 1);
     return by[0] * s.du() + by[1] * s.dv();
   }
-  double distance(const ParameterPlace<2>& at) const override {
+  double distance(const ParameterPoint<2>& at) const override {
     const auto f = evaluate(at);
     if (!function_.needs_tangents) return std::abs(f.value[0]);
     for (int i = 0; i < 2; ++i)
@@ -190,7 +190,7 @@ class FunctionEquations final : public ContourEquations<2> {
   }
 
  protected:
-  SystemValue<double, 2, 1> evaluate_inside(const ParameterPlace<2>& at) const override {
+  SystemValue<double, 2, 1> evaluate_inside(const ParameterPoint<2>& at) const override {
     const SurfaceJet jet = evaluate_within(*surface_, piece_, at[0], at[1], 1 + tangents());
     SystemValue<double, 2, 1> result;
     for (int i = 0; i < 2; ++i) {
@@ -212,7 +212,7 @@ class FunctionEquations final : public ContourEquations<2> {
   int tangents() const { return function_.needs_tangents ? 1 : 0; }
 
   // The function by the limit of the normal there.
-  double distance_at_pole(const ParameterPlace<2>& at) const {
+  double distance_at_pole(const ParameterPoint<2>& at) const {
     const Vec3 p = point(at);
     const Frame frame = frame_about(p, surface_->normal_sign() * surface_->normal(at[0], at[1]));
     const auto constant = [](const Vec3& v) {
@@ -312,9 +312,9 @@ class FunctionEquations final : public ContourEquations<2> {
   double rounding_ = 0;
 };
 
-class MeetingEquations final : public ContourEquations<4> {
+class IntersectionEquations final : public ContourEquations<4> {
  public:
-  MeetingEquations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s, const Rectangle& piece_s)
+  IntersectionEquations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s, const Rectangle& piece_s)
       : r_(std::move(r)), s_(std::move(s)), piece_r_(piece_r), piece_s_(piece_s) {
     Box3 all = r_->enclose(piece_r, 0).d(0, 0);
     all.include(s_->enclose(piece_s, 0).d(0, 0));
@@ -350,14 +350,14 @@ class MeetingEquations final : public ContourEquations<4> {
     return parameter < 2 ? is_pole_of(*r_, piece_r_, parameter, upper)
                          : is_pole_of(*s_, piece_s_, parameter - 2, upper);
   }
-  Vec3 point(const ParameterPlace<4>& at) const override {
+  Vec3 point(const ParameterPoint<4>& at) const override {
     return evaluate_within(*r_, piece_r_, at[0], at[1], 0).point();
   }
-  Vec3 motion(const ParameterPlace<4>& at, const ParameterPlace<4>& by) const override {
+  Vec3 motion(const ParameterPoint<4>& at, const ParameterPoint<4>& by) const override {
     const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
     return by[0] * r.du() + by[1] * r.dv();
   }
-  double distance(const ParameterPlace<4>& at) const override {
+  double distance(const ParameterPoint<4>& at) const override {
     return glm::length(evaluate_within(*r_, piece_r_, at[0], at[1], 0).point() -
                        evaluate_within(*s_, piece_s_, at[2], at[3], 0).point());
   }
@@ -379,7 +379,7 @@ class MeetingEquations final : public ContourEquations<4> {
   }
 
  protected:
-  SystemValue<double, 4, 3> evaluate_inside(const ParameterPlace<4>& at) const override {
+  SystemValue<double, 4, 3> evaluate_inside(const ParameterPoint<4>& at) const override {
     const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
     const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 1);
     return apart({r.point(), r.du(), r.dv()}, {s.point(), s.du(), s.dv()});
@@ -418,9 +418,9 @@ std::unique_ptr<ContourEquations<2>> function_equations(SurfacePtr surface, cons
   return std::make_unique<FunctionEquations>(std::move(surface), piece, std::move(function));
 }
 
-std::unique_ptr<ContourEquations<4>> meeting_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
-                                                       const Rectangle& piece_s) {
-  return std::make_unique<MeetingEquations>(std::move(r), piece_r, std::move(s), piece_s);
+std::unique_ptr<ContourEquations<4>> intersection_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
+                                                            const Rectangle& piece_s) {
+  return std::make_unique<IntersectionEquations>(std::move(r), piece_r, std::move(s), piece_s);
 }
 
 }  // namespace lekalo::geometry

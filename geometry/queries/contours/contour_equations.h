@@ -58,9 +58,9 @@ class KnownEnclosures {
 
 // A system at a place beyond its domain: as at the border, continued linearly.
 template <int N, int M, class Evaluate>
-SystemValue<double, N, M> continued(const ParameterBox<N>& domain, const ParameterPlace<N>& place,
+SystemValue<double, N, M> continued(const ParameterBox<N>& domain, const ParameterPoint<N>& place,
                                     const Evaluate& evaluate) {
-  ParameterPlace<N> inside;
+  ParameterPoint<N> inside;
   for (int i = 0; i < N; ++i) inside[i] = domain[i].clamp(place[i]);
   SystemValue<double, N, M> there = evaluate(inside);
   for (int i = 0; i < N; ++i)
@@ -88,7 +88,7 @@ class ContourEquations {
   virtual SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box,
                                                   std::array<KnownEnclosures, 2>* known = nullptr) const = 0;
   // Beyond the borders of the piece it goes on as there, linearly.
-  SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const;
+  SystemValue<double, N, N - 1> evaluate(const ParameterPoint<N>& place) const;
   // In the middle of a box of the piece.
   virtual SystemValue<double, N, N - 1> evaluate_middle(const ParameterBox<N>& box,
                                                         std::array<KnownEnclosures, 2>& known) const;
@@ -97,10 +97,10 @@ class ContourEquations {
   // Whether the border of the piece at that side of a parameter is one point in space: a pole.
   virtual bool is_pole(int parameter, bool at_upper_end) const = 0;
   // Of the first surface; inside the piece.
-  virtual Vec3 point(const ParameterPlace<N>& place) const = 0;
-  virtual Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const = 0;
+  virtual Vec3 point(const ParameterPoint<N>& place) const = 0;
+  virtual Vec3 motion(const ParameterPoint<N>& place, const ParameterPoint<N>& by) const = 0;
   // How far a place is from a solution, a length: the distance of the surfaces, or the Newton step.
-  virtual double distance(const ParameterPlace<N>& place) const = 0;
+  virtual double distance(const ParameterPoint<N>& place) const = 0;
   // The error of an equation's value by rounding.
   virtual double rounding() const = 0;
 
@@ -116,7 +116,7 @@ class ContourEquations {
   virtual std::unique_ptr<TouchingEquations<N>> touching(std::shared_ptr<const ContourEquations<N>> self) const;
 
  protected:
-  virtual SystemValue<double, N, N - 1> evaluate_inside(const ParameterPlace<N>& place) const = 0;
+  virtual SystemValue<double, N, N - 1> evaluate_inside(const ParameterPoint<N>& place) const = 0;
 };
 
 // A function of a surface's point and tangents, for each kind of number, that vanishes on the contour. One of the point
@@ -143,7 +143,7 @@ struct SurfaceFunction {
 
 std::unique_ptr<ContourEquations<2>> function_equations(SurfacePtr surface, const Rectangle& piece,
                                                         SurfaceFunction function);
-std::unique_ptr<ContourEquations<4>> meeting_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
-                                                       const Rectangle& piece_s);
+std::unique_ptr<ContourEquations<4>> intersection_equations(SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
+                                                            const Rectangle& piece_s);
 
 }  // namespace lekalo::geometry

@@ -36,12 +36,12 @@ struct Searched {
   std::array<KnownEnclosures, 2>& known;
 
   SystemValue<Interval, N, N - 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box, &known); }
-  SystemValue<double, N, N - 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  SystemValue<double, N, N - 1> evaluate(const ParameterPoint<N>& place) const { return equations.evaluate(place); }
   SystemValue<double, N, N - 1> evaluate_middle(const ParameterBox<N>& box) const {
     return equations.evaluate_middle(box, known);
   }
   std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.extents(box, known); }
-  Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const { return equations.motion(place, by); }
+  Vec3 motion(const ParameterPoint<N>& place, const ParameterPoint<N>& by) const { return equations.motion(place, by); }
 };
 
 // The equations of contact likewise.
@@ -51,21 +51,21 @@ struct SearchedTouching {
   std::array<KnownEnclosures, 2>& known;
 
   SystemValue<Interval, N, N + 1> enclose(const ParameterBox<N>& box) const { return equations.enclose(box); }
-  SystemValue<double, N, N + 1> evaluate(const ParameterPlace<N>& place) const { return equations.evaluate(place); }
+  SystemValue<double, N, N + 1> evaluate(const ParameterPoint<N>& place) const { return equations.evaluate(place); }
   SystemValue<double, N, N + 1> evaluate_middle(const ParameterBox<N>& box) const {
-    ParameterPlace<N> middle;
+    ParameterPoint<N> middle;
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle();
     return equations.evaluate(middle);
   }
   std::array<double, N> extents(const ParameterBox<N>& box) const { return equations.contour().extents(box, known); }
-  Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const {
+  Vec3 motion(const ParameterPoint<N>& place, const ParameterPoint<N>& by) const {
     return equations.contour().motion(place, by);
   }
 };
 
 template <int N>
-ParameterPlace<N> middle_of(const ParameterPlace<N>& a, const ParameterPlace<N>& b) {
-  ParameterPlace<N> middle;
+ParameterPoint<N> middle_of(const ParameterPoint<N>& a, const ParameterPoint<N>& b) {
+  ParameterPoint<N> middle;
   for (int i = 0; i < N; ++i) middle[i] = 0.5 * (a[i] + b[i]);
   return middle;
 }
@@ -88,12 +88,12 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, c
   if (!searched_) searched_ = domain;
   for (int i = 0; i < N; ++i) (*searched_)[i] = hull((*searched_)[i], domain[i]);
   SolutionCurveOptions<N> options;
-  options.least = std::min(kLeastContourImage * size_, search.least);
+  options.least = std::min(kMinContourImage * size_, search.least);
   options.rounding_of_places = search.rounding_of_places;
   for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
   options.rounding.fill(equations->rounding());
-  const int most_boxes = options.most_boxes;
-  options.most_boxes = coincident_ ? kBoxesOfLaterTries : kBoxesOfFirstTry;
+  const int max_boxes = options.max_boxes;
+  options.max_boxes = coincident_ ? kBoxesOfLaterTries : kBoxesOfFirstTry;
   const Searched<N> searched{*equations, known_};
   SolutionCurves<N> found = search_solution_curves<N, N - 1>(searched, domain, options);
   if (!found.complete) {
@@ -104,7 +104,7 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, c
       return;
     }
     if (touching) add_touching(touching, options, search.left_to_neighbour, options.settled);
-    options.most_boxes = most_boxes;
+    options.max_boxes = max_boxes;
     found = search_solution_curves<N, N - 1>(searched, domain, options);
   }
   complete_ = complete_ && found.complete;
@@ -117,7 +117,7 @@ void ContourAssembly<N>::add(std::unique_ptr<const ContourEquations<N>> given, c
 }
 
 template <int N>
-void ContourAssembly<N>::add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPlace<N>& place) {
+void ContourAssembly<N>::add_end(std::unique_ptr<const ContourEquations<N>> equations, const ParameterPoint<N>& place) {
   const Vec3 point = equations->point(place);
   places_.push_back({std::move(equations), place, point, next_up(tolerance_), -1, true});
 }
@@ -127,7 +127,7 @@ void ContourAssembly<N>::add_part(Part part) {
   for (size_t k = 1; k < part.arc.nodes.size(); ++k)
     part.length += glm::length(part.equations->point(part.arc.nodes[k]) - part.equations->point(part.arc.nodes[k - 1]));
   // No contour of its own is that short and on the border.
-  const bool is_moved = part.length < kLeastContourImage * size_ && is_moved_onto_border(part.arc, *part.equations);
+  const bool is_moved = part.length < kMinContourImage * size_ && is_moved_onto_border(part.arc, *part.equations);
   if (part.length > kShortestBranch * size_ && !is_moved) parts_.push_back(std::move(part));
 }
 
@@ -144,7 +144,7 @@ template <int N>
 SolutionCurves<N> ContourAssembly<N>::follow(const TouchingPtr& touching, int exact,
                                              const SolutionCurveOptions<N>& as) {
   SolutionCurveOptions<N, N + 1> options;
-  options.least = as.least, options.slack = as.slack, options.most_boxes = as.most_boxes;
+  options.least = as.least, options.slack = as.slack, options.max_boxes = as.max_boxes;
   options.rounding.fill(as.rounding[0]);
   // Slopes differ by up to the root of the distance.
   options.tolerance.fill(std::sqrt(tolerance_ * size_));
@@ -178,8 +178,8 @@ std::optional<int> ContourAssembly<N>::coincident_sides(const TouchingEquations<
   for (size_t k = 1; k < arc.nodes.size(); ++k) length += glm::length(point(k) - point(k - 1));
   if (!(length > kBeside * size_)) return std::nullopt;
   const size_t middle = arc.nodes.size() / 2;
-  const ParameterPlace<N>& at = arc.nodes[middle];
-  ParameterPlace<N> u{}, v{};
+  const ParameterPoint<N>& at = arc.nodes[middle];
+  ParameterPoint<N> u{}, v{};
   u[0] = v[1] = 1;
   const Vec3 normal = glm::cross(touching.contour().motion(at, u), touching.contour().motion(at, v));
   const Vec3 across = glm::cross(normal, point(middle) - point(middle - 1));

@@ -12,12 +12,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 15;
+constexpr int kMaxSteps = 15;
 
 // d^2 F (v, w) at x, by polarisation.
 template <int N>
-VectorXd second_derivative(const ContourEquations<N>& equations, const ParameterPlace<N>& x, const ParameterPlace<N>& v,
-                           const ParameterPlace<N>& w) {
+VectorXd second_derivative(const ContourEquations<N>& equations, const ParameterPoint<N>& x, const ParameterPoint<N>& v,
+                           const ParameterPoint<N>& w) {
   const ParameterBox<N> domain = equations.domain();
   VectorXd result = VectorXd::Zero(N - 1);
   for (const double sign : {1.0, -1.0}) {
@@ -29,10 +29,10 @@ VectorXd second_derivative(const ContourEquations<N>& equations, const Parameter
   return result;
 }
 
-// The foot of one surface's point on the other, whose parameters are x[first] and the next.
-void move_below(const ContourEquations<4>& equations, int first, ParameterPlace<4>& x) {
+// The foot point of one surface's point on the other, whose parameters are x[first] and the next.
+void move_below(const ContourEquations<4>& equations, int first, ParameterPoint<4>& x) {
   const ParameterBox<4> domain = equations.domain();
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto there = equations.evaluate(x);
     MatrixXd j(3, 2);
     VectorXd f(3);
@@ -51,14 +51,14 @@ void move_below(const ContourEquations<4>& equations, int first, ParameterPlace<
 }  // namespace
 
 template <int N>
-ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const ParameterBox<N>& box, double near) {
+ParameterPoint<N> singular_solution(const ContourEquations<N>& equations, const ParameterBox<N>& box, double near) {
   constexpr int M = N - 1;
   const ParameterBox<N> domain = equations.domain();
-  ParameterPlace<N> scale, start;
+  ParameterPoint<N> scale, start;
   for (int i = 0; i < N; ++i) scale[i] = domain[i].width(), start[i] = box[i].middle();
-  ParameterPlace<N> x = start;
+  ParameterPoint<N> x = start;
   bool converged = false;
-  for (int step = 0; step < kMostSteps && !converged; ++step) {
+  for (int step = 0; step < kMaxSteps && !converged; ++step) {
     const auto there = equations.evaluate(x);
     MatrixXd j(M, N), a(N + 1, N);
     for (int k = 0; k < M; ++k)
@@ -71,10 +71,10 @@ ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const 
     for (int c = 0; c < 2; ++c) {
       const VectorXd v = svd.matrixV().col(N - 2 + c);
       f[M + c] = left.dot(j * v);
-      ParameterPlace<N> way;
+      ParameterPoint<N> way;
       for (int i = 0; i < N; ++i) way[i] = v[i] * scale[i];
       for (int i = 0; i < N; ++i) {
-        ParameterPlace<N> unit{};
+        ParameterPoint<N> unit{};
         unit[i] = scale[i];
         a(M + c, i) = left.dot(second_derivative<N>(equations, x, way, unit));
       }
@@ -100,7 +100,7 @@ ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const 
   for (int i = 0; i < N; ++i)
     for (const bool upper : {false, true}) {
       if (!equations.is_pole(i, upper)) continue;
-      ParameterPlace<N> at = x;
+      ParameterPoint<N> at = x;
       at[i] = upper ? domain[i].hi : domain[i].lo;
       if constexpr (N == 4) move_below(equations, i < 2 ? 2 : 0, at);
       if (glm::length(equations.point(at) - equations.point(x)) <= near &&
@@ -109,7 +109,7 @@ ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const 
     }
   return x;
 }
-template ParameterPlace<2> singular_solution<2>(const ContourEquations<2>&, const ParameterBox<2>&, double);
-template ParameterPlace<4> singular_solution<4>(const ContourEquations<4>&, const ParameterBox<4>&, double);
+template ParameterPoint<2> singular_solution<2>(const ContourEquations<2>&, const ParameterBox<2>&, double);
+template ParameterPoint<4> singular_solution<4>(const ContourEquations<4>&, const ParameterBox<4>&, double);
 
 }  // namespace lekalo::geometry

@@ -10,6 +10,6 @@ namespace lekalo::geometry {
 // second order as all vanish there. The middle of the box where it leads away. A place nearer to a pole than `near`, a
 // length, is moved onto it if neither surface's point goes far by that.
 template <int N>
-ParameterPlace<N> singular_solution(const ContourEquations<N>& equations, const ParameterBox<N>& box, double near);
+ParameterPoint<N> singular_solution(const ContourEquations<N>& equations, const ParameterBox<N>& box, double near);
 
 }  // namespace lekalo::geometry

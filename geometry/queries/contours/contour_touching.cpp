@@ -11,9 +11,9 @@
 namespace lekalo::geometry {
 
 template <int N>
-SystemValue<double, N, N + 1> TouchingEquations<N>::evaluate(const ParameterPlace<N>& place) const {
+SystemValue<double, N, N + 1> TouchingEquations<N>::evaluate(const ParameterPoint<N>& place) const {
   return continued<N, N + 1>(contour().domain(), place,
-                             [this](const ParameterPlace<N>& inside) { return evaluate_inside(inside); });
+                             [this](const ParameterPoint<N>& inside) { return evaluate_inside(inside); });
 }
 template class TouchingEquations<2>;
 template class TouchingEquations<4>;
@@ -35,17 +35,17 @@ SystemValue<S, N, M> by_each_parameter(const std::array<S, N>& place, const Alon
 }
 
 // The point of a surface next to the target; none if the target lies beyond its edges.
-std::optional<Vec3> foot_inside(const Surface& surface, const Vec3& target) {
-  const SurfaceFeet found = project(target, surface);
-  if (found.feet.empty() || found.feet.front().kind == FootKind::border) return std::nullopt;
-  return found.feet.front().point;
+std::optional<Vec3> foot_point_inside(const Surface& surface, const Vec3& target) {
+  const SurfaceFootPoints found = project(target, surface);
+  if (found.foot_points.empty() || found.foot_points.front().kind == FootPointKind::border) return std::nullopt;
+  return found.foot_points.front().point;
 }
 
 class SurfacesTouching final : public TouchingEquations<4> {
  public:
-  SurfacesTouching(std::shared_ptr<const ContourEquations<4>> meeting, SurfacePtr r, const Rectangle& piece_r,
+  SurfacesTouching(std::shared_ptr<const ContourEquations<4>> intersection, SurfacePtr r, const Rectangle& piece_r,
                    SurfacePtr s, const Rectangle& piece_s)
-      : TouchingEquations<4>(std::move(meeting)),
+      : TouchingEquations<4>(std::move(intersection)),
         r_(std::move(r)),
         s_(std::move(s)),
         piece_r_(piece_r),
@@ -77,14 +77,14 @@ class SurfacesTouching final : public TouchingEquations<4> {
                                   enclosure_to_third(*s_, piece_s_, {x[2].c[0], x[3].c[0]}), x);
   }
   bool coincide_at(const Vec3& target, double tolerance) const override {
-    const std::optional<Vec3> on_r = foot_inside(*r_, target);
+    const std::optional<Vec3> on_r = foot_point_inside(*r_, target);
     if (!on_r) return false;
-    const SurfaceFeet on_s = project(*on_r, *s_);
-    return !on_s.feet.empty() && on_s.feet.front().distance <= tolerance;
+    const SurfaceFootPoints on_s = project(*on_r, *s_);
+    return !on_s.foot_points.empty() && on_s.foot_points.front().distance <= tolerance;
   }
 
  protected:
-  SystemValue<double, 4, 5> evaluate_inside(const ParameterPlace<4>& at) const override {
+  SystemValue<double, 4, 5> evaluate_inside(const ParameterPoint<4>& at) const override {
     const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 2);
     const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 2);
     return by_each_parameter<double, 4, 5>(at, [&](const auto& x) { return equations<double, 1>(r, s, x).equations; });
@@ -136,15 +136,16 @@ class PlaneTouching final : public TouchingEquations<2> {
         height.point};
   }
   bool coincide_at(const Vec3& target, double tolerance) const override {
-    const std::optional<Vec3> foot = foot_inside(*surface_, target);
-    if (!foot) return false;
-    const ParameterPlace<2> middle{piece_.u.middle(), piece_.v.middle()};
-    const double height = contour().evaluate(middle).value[0] + glm::dot(normal_, *foot - contour().point(middle));
+    const std::optional<Vec3> foot_point = foot_point_inside(*surface_, target);
+    if (!foot_point) return false;
+    const ParameterPoint<2> middle{piece_.u.middle(), piece_.v.middle()};
+    const double height =
+        contour().evaluate(middle).value[0] + glm::dot(normal_, *foot_point - contour().point(middle));
     return std::abs(height) <= tolerance;
   }
 
  protected:
-  SystemValue<double, 2, 3> evaluate_inside(const ParameterPlace<2>& at) const override {
+  SystemValue<double, 2, 3> evaluate_inside(const ParameterPoint<2>& at) const override {
     const SystemValue<double, 2, 1> height = contour().evaluate(at);
     const SurfaceJet s = evaluate_within(*surface_, piece_, at[0], at[1], 2);
     SystemValue<double, 2, 3> result =
@@ -194,7 +195,7 @@ class BorderEquations final : public TouchingEquations<N> {
   }
 
  protected:
-  SystemValue<double, N, N + 1> evaluate_inside(const ParameterPlace<N>& at) const override {
+  SystemValue<double, N, N + 1> evaluate_inside(const ParameterPoint<N>& at) const override {
     return with_border(touching_->evaluate(at), at[parameter_]);
   }
 
@@ -237,11 +238,11 @@ class StrongestEquations final : public ContourEquations<N> {
     return contour().extents(box, known);
   }
   bool is_pole(int parameter, bool at_upper_end) const override { return contour().is_pole(parameter, at_upper_end); }
-  Vec3 point(const ParameterPlace<N>& place) const override { return contour().point(place); }
-  Vec3 motion(const ParameterPlace<N>& place, const ParameterPlace<N>& by) const override {
+  Vec3 point(const ParameterPoint<N>& place) const override { return contour().point(place); }
+  Vec3 motion(const ParameterPoint<N>& place, const ParameterPoint<N>& by) const override {
     return contour().motion(place, by);
   }
-  double distance(const ParameterPlace<N>& place) const override { return contour().distance(place); }
+  double distance(const ParameterPoint<N>& place) const override { return contour().distance(place); }
   double rounding() const override { return contour().rounding(); }
   ContourSeries<double, kMaxContourOrder, N> series(
       const std::array<Jet<double, kMaxContourOrder>, N>& x) const override {
@@ -253,7 +254,7 @@ class StrongestEquations final : public ContourEquations<N> {
   int highest_order() const override { return kMaxContourOrder - 1; }
 
  protected:
-  SystemValue<double, N, N - 1> evaluate_inside(const ParameterPlace<N>& place) const override {
+  SystemValue<double, N, N - 1> evaluate_inside(const ParameterPoint<N>& place) const override {
     return combined(touching_->evaluate(place));
   }
 
@@ -289,10 +290,10 @@ class StrongestEquations final : public ContourEquations<N> {
 
 }  // namespace
 
-std::unique_ptr<TouchingEquations<4>> surfaces_touching(std::shared_ptr<const ContourEquations<4>> meeting,
+std::unique_ptr<TouchingEquations<4>> surfaces_touching(std::shared_ptr<const ContourEquations<4>> intersection,
                                                         SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
                                                         const Rectangle& piece_s) {
-  return std::make_unique<SurfacesTouching>(std::move(meeting), std::move(r), piece_r, std::move(s), piece_s);
+  return std::make_unique<SurfacesTouching>(std::move(intersection), std::move(r), piece_r, std::move(s), piece_s);
 }
 std::unique_ptr<TouchingEquations<2>> plane_touching(std::shared_ptr<const ContourEquations<2>> section,
                                                      SurfacePtr surface, const Rectangle& piece, const Vec3& normal) {
@@ -310,7 +311,7 @@ template std::unique_ptr<TouchingEquations<4>> border_of<4>(std::shared_ptr<cons
 // Combinations by the eigenvectors of J J^T with the largest eigenvalues.
 template <int N>
 std::shared_ptr<const ContourEquations<N>> strongest_at(std::shared_ptr<const TouchingEquations<N>> touching,
-                                                        const ParameterPlace<N>& place) {
+                                                        const ParameterPoint<N>& place) {
   constexpr int kAll = N + 1;
   const auto there = touching->evaluate(place);
   const ParameterBox<N> domain = touching->contour().domain();
@@ -324,8 +325,8 @@ std::shared_ptr<const ContourEquations<N>> strongest_at(std::shared_ptr<const To
   return std::make_shared<StrongestEquations<N>>(std::move(touching), weights);
 }
 template std::shared_ptr<const ContourEquations<2>> strongest_at<2>(std::shared_ptr<const TouchingEquations<2>>,
-                                                                    const ParameterPlace<2>&);
+                                                                    const ParameterPoint<2>&);
 template std::shared_ptr<const ContourEquations<4>> strongest_at<4>(std::shared_ptr<const TouchingEquations<4>>,
-                                                                    const ParameterPlace<4>&);
+                                                                    const ParameterPoint<4>&);
 
 }  // namespace lekalo::geometry

@@ -22,7 +22,7 @@ class TouchingEquations {
   // The contour's own equations, then those of contact; all are lengths.
   virtual SystemValue<Interval, N, N + 1> enclose(const ParameterBox<N>& box) const = 0;
   // Beyond the borders of the piece it goes on as there, linearly.
-  SystemValue<double, N, N + 1> evaluate(const ParameterPlace<N>& place) const;
+  SystemValue<double, N, N + 1> evaluate(const ParameterPoint<N>& place) const;
   // As ContourEquations::series, of all equations.
   virtual ContourSeries<double, kMaxContourOrder, N, N + 1> series(
       const std::array<Jet<double, kMaxContourOrder>, N>& x) const = 0;
@@ -35,14 +35,14 @@ class TouchingEquations {
 
  protected:
   explicit TouchingEquations(std::shared_ptr<const ContourEquations<N>> contour) : contour_(std::move(contour)) {}
-  virtual SystemValue<double, N, N + 1> evaluate_inside(const ParameterPlace<N>& place) const = 0;
+  virtual SystemValue<double, N, N + 1> evaluate_inside(const ParameterPoint<N>& place) const = 0;
 
  private:
   const std::shared_ptr<const ContourEquations<N>> contour_;
 };
 
 // Of two surfaces.
-std::unique_ptr<TouchingEquations<4>> surfaces_touching(std::shared_ptr<const ContourEquations<4>> meeting,
+std::unique_ptr<TouchingEquations<4>> surfaces_touching(std::shared_ptr<const ContourEquations<4>> intersection,
                                                         SurfacePtr r, const Rectangle& piece_r, SurfacePtr s,
                                                         const Rectangle& piece_s);
 // Of a surface and a plane with the unit normal.
@@ -59,6 +59,6 @@ std::unique_ptr<TouchingEquations<N>> border_of(std::shared_ptr<const TouchingEq
 // third order.
 template <int N>
 std::shared_ptr<const ContourEquations<N>> strongest_at(std::shared_ptr<const TouchingEquations<N>> touching,
-                                                        const ParameterPlace<N>& place);
+                                                        const ParameterPoint<N>& place);
 
 }  // namespace lekalo::geometry

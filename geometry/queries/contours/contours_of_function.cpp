@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "geometry/curves/operations/creases.h"
+#include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/contours/contour_assembly.h"
 #include "geometry/tolerances.h"
-#include "geometry/curves/operations/surface_curve.h"
 
 namespace lekalo::geometry {
 
@@ -51,7 +51,7 @@ SmoothParts smooth_parts(const Surface& surface) {
   result.periods = closed_periods(surface);
   std::array<std::vector<double>, 2> cuts;
   for (const Crease& crease : creases(surface, kJump)) {
-    const bool u = crease.held == HeldParameter::u;
+    const bool u = crease.held == IsoDirection::u;
     (u ? result.periods.u : result.periods.v) = 0;
     if (!crease.seam) cuts[u ? 0 : 1].push_back(crease.at);
   }

@@ -17,7 +17,7 @@ SurfaceFunction lit_alike(const Triple<double>& direction, double cosine) {
           }};
 }
 
-// d = i - 2 (i . n) n / n^2 for the way of sight i; it meets the lamp p + x l where (s - p) x l . d = 0.
+// d = i - 2 (i . n) n / n^2 for the line of sight i; it meets the lamp p + x l where (s - p) x l . d = 0.
 SurfaceFunction mirrored(const ViewOf& view, const Triple<double>& p, const Triple<double>& l) {
   return {true, [=](const auto& s, const auto& s_u, const auto& s_v) {
             const auto n = cross(s_u, s_v);

@@ -12,11 +12,9 @@ namespace lekalo::geometry {
 namespace {
 
 // Parts of a line that are shorter, of all of it, are none.
-constexpr double kLeastPart = 1e-9;
+constexpr double kMinPart = 1e-9;
 
-Vec3 place(HeldParameter held, double at, double t) {
-  return held == HeldParameter::u ? Vec3(at, t, 0) : Vec3(t, at, 0);
-}
+Vec3 place(IsoDirection held, double at, double t) { return held == IsoDirection::u ? Vec3(at, t, 0) : Vec3(t, at, 0); }
 
 // What of a region's range is seen once: beside a slanted seam regions are wider than a period.
 Interval one_period(const Interval& range, double period) {
@@ -31,13 +29,13 @@ std::vector<double> values_in(const ParameterValues& asked, const Interval& rang
   for (int i = 0; i < asked.count; ++i)
     values.push_back(range.clamp(range.lo + range.width() * i / (periodic ? asked.count : asked.count - 1)));
   for (const double value : asked.values)
-    if (const double at = range.clamp(value); std::abs(at - value) <= kLeastPart * range.width()) values.push_back(at);
+    if (const double at = range.clamp(value); std::abs(at - value) <= kMinPart * range.width()) values.push_back(at);
   return values;
 }
 
-bool is_closed_in(const Surface& surface, HeldParameter held) {
+bool is_closed_in(const Surface& surface, IsoDirection held) {
   const Rectangle domain = surface.domain();
-  const bool u = held == HeldParameter::u;
+  const bool u = held == IsoDirection::u;
   if (const double period = u ? surface.periods().u : surface.periods().v; period > 0)
     return std::abs((u ? domain.u : domain.v).width() - period) <= 1e-9 * period;
   const Interval &range = u ? domain.u : domain.v, &along = u ? domain.v : domain.u;
@@ -63,8 +61,8 @@ Curve2Ptr NetLine::image() const {
   return std::make_shared<NurbsCurve>(form);
 }
 
-NetLine whole_line(const SurfacePtr& surface, HeldParameter held, double at) {
-  return {surface, held, at, held == HeldParameter::u ? surface->domain().v : surface->domain().u};
+NetLine whole_line(const SurfacePtr& surface, IsoDirection held, double at) {
+  return {surface, held, at, held == IsoDirection::u ? surface->domain().v : surface->domain().u};
 }
 
 std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net) {
@@ -72,8 +70,8 @@ std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterN
   if (!surface->bounded()) return lines;
   const Rectangle domain = surface->domain();
   const DegenerateEdges edges = surface->degenerate_edges();
-  for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-    const bool u = held == HeldParameter::u;
+  for (const IsoDirection held : {IsoDirection::u, IsoDirection::v}) {
+    const bool u = held == IsoDirection::u;
     const Interval& range = u ? domain.u : domain.v;
     ParameterValues asked = u ? net.u : net.v;
     for (double& value : asked.values)
@@ -95,8 +93,8 @@ std::vector<NetLine> parameter_lines(const Body& body, const ParameterNet& net) 
       for (const NetLine& line : parameter_lines(face.surface, net)) add(line);
       continue;
     }
-    for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-      const bool u = held == HeldParameter::u;
+    for (const IsoDirection held : {IsoDirection::u, IsoDirection::v}) {
+      const bool u = held == IsoDirection::u;
       ParameterValues asked = u ? net.u : net.v;
       const double period = u ? face.surface->periods().u : face.surface->periods().v;
       const Interval range = one_period(u ? face.region->u_range() : face.region->v_range(), period);
@@ -119,9 +117,9 @@ std::vector<FaceRegion> face_regions(const Body& body) {
   return faces;
 }
 
-void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
+void each_line_of_face(const FaceRegion& face, IsoDirection held, double at,
                        const std::function<void(const NetLine& line)>& visit) {
-  const bool u = held == HeldParameter::u;
+  const bool u = held == IsoDirection::u;
   const Rectangle domain = face.surface->domain();
   const Periods periods = face.surface->periods();
   const Interval &range = u ? domain.u : domain.v, &whole = u ? domain.v : domain.u;
@@ -131,7 +129,7 @@ void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
                  room = u ? face.region->u_range() : face.region->v_range();
   const Interval along = one_period(reach, period);
   std::vector<double> copies{at};
-  const auto is_in_room = [&](double x) { return x < room.hi - kLeastPart * room.width(); };
+  const auto is_in_room = [&](double x) { return x < room.hi - kMinPart * room.width(); };
   if (held_period > 0)
     for (double x = at + shift_into(room, at, held_period) + held_period; is_in_room(x); x += held_period)
       copies.push_back(x);
@@ -139,8 +137,8 @@ void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
   for (const double copy : copies) {
     const Segment line(place(held, copy, reach.lo), place(held, copy, reach.hi));
     for (const Curve2Ptr& border : face.borders)
-      for (const CurveMeeting& meeting : intersect(line, *border).points) {
-        const double cut = reach.lo + meeting.s * reach.width();
+      for (const CurveIntersection& intersection : intersect(line, *border).points) {
+        const double cut = reach.lo + intersection.s * reach.width();
         cuts.push_back(cut > along.hi ? cut - period * std::ceil((cut - along.hi) / period) : cut);
       }
   }
@@ -153,7 +151,7 @@ void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
   for (size_t k = 0; k + 1 < cuts.size(); ++k) {
     const Interval t{cuts[k], cuts[k + 1]};
     const Vec3 middle = place(held, at, t.middle());
-    if (t.width() <= kLeastPart * along.width() || !face.region->contains(middle.x, middle.y)) continue;
+    if (t.width() <= kMinPart * along.width() || !face.region->contains(middle.x, middle.y)) continue;
     const double shift = shift_into(whole, t.middle(), period);
     visit({face.surface, held, own_at, {whole.clamp(t.lo + shift), whole.clamp(t.hi + shift)}});
   }
@@ -161,8 +159,8 @@ void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
 
 double shift_into(const Interval& range, double x, double period) {
   if (!(period > 0)) return 0;
-  const double shift = period * std::ceil((range.lo - x) / period - kLeastPart);
-  return x + shift <= range.hi + kLeastPart * period ? shift : 0;
+  const double shift = period * std::ceil((range.lo - x) / period - kMinPart);
+  return x + shift <= range.hi + kMinPart * period ? shift : 0;
 }
 
 }  // namespace lekalo::geometry

@@ -24,19 +24,19 @@ struct ParameterNet {
 std::vector<double> values_in(const ParameterValues& asked, const Interval& range, bool periodic);
 
 // True if the opposite edges of the domain are one line of space, which may run the other way there (a Moebius band).
-bool is_closed_in(const Surface& surface, HeldParameter held);
+bool is_closed_in(const Surface& surface, IsoDirection held);
 
 // Over the whole of the other parameter, or a part of it.
 struct NetLine {
   SurfacePtr surface;
-  HeldParameter held = HeldParameter::u;
+  IsoDirection held = IsoDirection::u;
   double at = 0;
   Interval along;
 
   CurvePtr curve() const { return std::make_shared<ParameterLine>(surface, held, at, along); }
   Curve2Ptr image() const;
 };
-NetLine whole_line(const SurfacePtr& surface, HeldParameter held, double at);
+NetLine whole_line(const SurfacePtr& surface, IsoDirection held, double at);
 
 // None of an unbounded surface, and none that is a point.
 std::vector<NetLine> parameter_lines(const SurfacePtr& surface, const ParameterNet& net);
@@ -50,7 +50,7 @@ struct FaceRegion {
 };
 std::vector<FaceRegion> face_regions(const Body& body);
 // Calls visit(line) for the parts of a parameter line that lie in the region of such a face, in its surface's domain.
-void each_line_of_face(const FaceRegion& face, HeldParameter held, double at,
+void each_line_of_face(const FaceRegion& face, IsoDirection held, double at,
                        const std::function<void(const NetLine& line)>& visit);
 // A whole number of periods that brings x into the range; 0 where none does.
 double shift_into(const Interval& range, double x, double period);

@@ -14,9 +14,9 @@ namespace lekalo::geometry {
 namespace {
 
 // Of the branch's length.
-constexpr double kLeastPart = 1e-7;
-// Parts that stay undecided, for each segment: where there are more the curve keeps to the way of sight.
-constexpr size_t kMostParts = 16;
+constexpr double kMinPart = 1e-7;
+// Parts that stay undecided, for each segment: where there are more the curve keeps to the line of sight.
+constexpr size_t kMaxParts = 16;
 constexpr int kBisections = 60;
 
 Triple<Interval> ranges(const Box3& box) { return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}, {box.lo.z, box.hi.z}}; }
@@ -31,14 +31,14 @@ class CuspSearch {
     std::vector<Interval> monotone, open;
     std::vector<Part> level;
     for (const ContourSegment<2>& segment : solution_.segments()) level.push_back({&segment, segment.t});
-    const size_t most = kMostParts * level.size();
+    const size_t most = kMaxParts * level.size();
     for (bool first = true; !level.empty(); first = false) {
       std::vector<Part> next;
       for (const Part& part : level) {
         const bool certified = part.segment->is_certified();
         const Verdict verdict = certified ? decide(part) : Verdict::unsure;
         if (verdict == Verdict::none) continue;
-        const bool is_small = part.t.width() <= kLeastPart * length || (!first && level.size() > most);
+        const bool is_small = part.t.width() <= kMinPart * length || (!first && level.size() > most);
         if (verdict == Verdict::monotone || !certified || is_small) {
           (verdict == Verdict::monotone ? monotone : open).push_back(part.t);
           continue;

@@ -19,7 +19,7 @@ SurfaceFunction outline(const ViewOf& view) {
 
 }  // namespace
 
-// Whether the way of sight runs in the surface everywhere in a part of its domain: a cylinder along its axis, a cone
+// Whether the line of sight runs in the surface everywhere in a part of its domain: a cylinder along its axis, a cone
 // from its tip, a facet. All that is seen of it are its borders.
 static bool is_edge_on(const Surface& surface, const Rectangle& part, const ViewOf& view) {
   constexpr int kSteps = 6;

@@ -6,7 +6,7 @@
 
 namespace lekalo::geometry {
 
-// Where the way of sight is tangent: i . (s_u x s_v) = 0 (4.6.5). Throws
+// Where the line of sight is tangent: i . (s_u x s_v) = 0 (4.6.5). Throws
 // std::invalid_argument for an unbounded surface.
 Contours silhouette(const SurfacePtr& surface, const ViewOf& view);
 

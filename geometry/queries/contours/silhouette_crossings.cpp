@@ -13,14 +13,14 @@ namespace {
 // Of the domain: places nearer than this are one, and rounding at the ends of pieces.
 constexpr double kSamePlace = 1e-9, kSlack = 1e-12;
 
-// The equation along t; `from` is the eye or the way of sight.
+// The equation along t; `from` is the eye or the line of sight.
 struct SightAlong {
   const Surface& surface;
   const Curve& image;
   bool central;
   Vec3 from;
 
-  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& t) const {
+  SystemValue<double, 1, 1> evaluate(const ParameterPoint<1>& t) const {
     const CurveJet x = image.evaluate(t[0], 1);
     const SurfaceJet s = surface.evaluate(x.d[0].x, x.d[0].y, 2);
     const double u1 = x.d[1].x, v1 = x.d[1].y;
@@ -80,14 +80,14 @@ void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<d
 
 }  // namespace
 
-void add_sight_turns(const Curve& line, const Surface& surface, const Curve& image, const ViewOf& view,
-                     std::vector<double>& turns) {
+void add_silhouette_crossings(const Curve& line, const Surface& surface, const Curve& image, const ViewOf& view,
+                              std::vector<double>& turns) {
   const double width = line.domain().width();
   const SightAlong system{surface, image, view.central, view.direction_or_eye};
   RootSearchOptions<1, 1> options;
   options.slack = {kSlack * width};
   options.least = {kSamePlace * width};
-  options.most_boxes = 2000;
+  options.max_boxes = 2000;
   const auto search = [&](const Interval& t) {
     const auto found = search_roots<1, 1>(system, ParameterBox<1>{t}, options);
     for (const auto& root : found.isolated) turns.push_back(root[0]);
@@ -101,7 +101,8 @@ void add_sight_turns(const Curve& line, const Surface& surface, const Curve& ima
   }
 }
 
-std::vector<double> sight_turns(const Curve& curve, bool closed, const ImplicitFormula& formula, const ViewOf& view) {
+std::vector<double> silhouette_crossings(const Curve& curve, bool closed, const ImplicitFormula& formula,
+                                         const ViewOf& view) {
   const ImplicitCondition sight = ImplicitCondition::sight(view);
   return sign_changes(
       curve, closed, [&](const Box3& box) { return sight.enclose(range_of(formula, box), box).value; },

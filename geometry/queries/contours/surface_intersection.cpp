@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/contours/analytic/closed_contours.h"
 #include "geometry/queries/contours/contour_assembly.h"
 #include "geometry/queries/contours/contours_of_function.h"
 #include "geometry/queries/contours/plane_section.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/analytic/plane.h"
-#include "geometry/curves/operations/surface_curve.h"
 
 namespace lekalo::geometry {
 
@@ -36,7 +36,7 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
       const std::array<bool, 2> in_a = goes_on(*a, piece_a.domain), in_b = goes_on(*b, pieces_b[k].domain);
       PieceSearch<4> search;
       search.left_to_neighbour = {in_a[0], in_a[1], in_b[0], in_b[1]};
-      assembly.add(meeting_equations(a, piece_a.domain, b, pieces_b[k].domain), search);
+      assembly.add(intersection_equations(a, piece_a.domain, b, pieces_b[k].domain), search);
     });
   return assembly.joined();
 }

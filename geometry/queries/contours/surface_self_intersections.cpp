@@ -1,8 +1,8 @@
 // The parameter domain is halved into pairs of cells. A pair whose images are apart is done; one on whose hull the
 // surface is one-to-one holds only trivial solutions; one that does not touch, across joined borders either, has two
-// different places, and its solutions are the meetings of two surfaces (geometry/queries/contours/contour_equations.h).
-// What is left are pairs that touch, down to the least cells: there the surface is pinched (Whitney's umbrella), or has
-// a pole.
+// different places, and its solutions are the intersections of two surfaces
+// (geometry/queries/contours/contour_equations.h). What is left are pairs that touch, down to the least cells: there
+// the surface is pinched (Whitney's umbrella), or has a pole.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,17 +22,17 @@ namespace {
 constexpr double kCut = 0.4871;
 constexpr double kOwnChange = 0.25;
 // Parts of the surface's size.
-constexpr double kLeastCell = 3e-4;
+constexpr double kMinCell = 3e-4;
 constexpr double kRounding = 1e-15;
 constexpr double kNearPole = 1e-5, kNearPinch = 1e-4;
 constexpr double kJoined = 1e-10;
 // Of the square of a cell's part of the size.
-constexpr double kLeastOfSquare = 1e-3;
+constexpr double kMinOfSquare = 1e-3;
 // Of the domain's sides: cells that are nearer touch; places that are nearer are one at a pinch point.
 constexpr double kTouch = 1e-12;
 constexpr double kSamePlace = 1e-4, kNearPlace = 5e-3;
 // Pairs of one size that touch and are not known to be one-to-one; more for each piece.
-constexpr int kMostPairs = 4000, kPairsOfPiece = 40;
+constexpr int kMaxPairs = 4000, kPairsOfPiece = 40;
 
 struct Cell {
   Rectangle box;
@@ -48,7 +48,7 @@ bool touch(const Interval& a, const Interval& b, double by) { return a.lo - by <
 
 double weight(const Cell& cell) { return std::max(cell.weight_u, cell.weight_v); }
 
-ParameterPlace<4> swapped(const ParameterPlace<4>& x) { return {x[2], x[3], x[0], x[1]}; }
+ParameterPoint<4> swapped(const ParameterPoint<4>& x) { return {x[2], x[3], x[0], x[1]}; }
 
 class SelfIntersection {
  public:
@@ -65,7 +65,7 @@ class SelfIntersection {
   Contours run() {
     std::vector<Cell> cells;
     for (const SurfacePiece& piece : surface_->pieces()) cells.push_back(cell(piece.domain));
-    const size_t most = kMostPairs + kPairsOfPiece * cells.size();
+    const size_t most = kMaxPairs + kPairsOfPiece * cells.size();
     std::vector<CellPair> level;
     for (size_t a = 0; a < cells.size(); ++a)
       for (size_t b = a; b < cells.size(); ++b) visit({cells[a], cells[b]}, level);
@@ -96,7 +96,7 @@ class SelfIntersection {
  private:
   struct Pinch {
     Vec3 point;
-    ParameterPlace<4> place;
+    ParameterPoint<4> place;
   };
 
   // Beside how far a parameter moves the image it counts how much it changes its own tangent: where that vanishes at a
@@ -125,7 +125,7 @@ class SelfIntersection {
     }
     if (!touching)
       search(a, b);
-    else if (std::max(a.extent, b.extent) <= kLeastCell * size_)
+    else if (std::max(a.extent, b.extent) <= kMinCell * size_)
       add_pinch(a, b);
     else
       undecided.push_back(pair);
@@ -138,7 +138,7 @@ class SelfIntersection {
     PieceSearch<4> search;
     search.left_to_neighbour = {is_continued_u(a.box), is_continued_v(a.box), is_continued_u(b.box),
                                 is_continued_v(b.box)};
-    search.least = kLeastOfSquare * part * part * size_;
+    search.least = kMinOfSquare * part * part * size_;
     search.rounding_of_places = std::max(search.rounding_of_places, kRounding / (part * part * part));
     assembly_.add(equations(a.box, b.box), search);
   }
@@ -176,7 +176,7 @@ class SelfIntersection {
   bool is_continued_v(const Rectangle& box) const { return box.v.hi < domain_.v.hi || joints_.goes_on_v(); }
 
   std::unique_ptr<ContourEquations<4>> equations(const Rectangle& a, const Rectangle& b) const {
-    return meeting_equations(surface_, a, surface_, b);
+    return intersection_equations(surface_, a, surface_, b);
   }
 
   static Rectangle with(const Rectangle& box, const Vec2& place) {
@@ -210,7 +210,7 @@ class SelfIntersection {
     // Across a joined border the second place is that of its cell.
     Vec2 y{b.box.u.clamp(x.x), b.box.v.clamp(x.y)};
     if (are_near_places(x, y)) y = x;
-    const ParameterPlace<4> place{x.x, x.y, y.x, y.y};
+    const ParameterPoint<4> place{x.x, x.y, y.x, y.y};
     assembly_.add_end(equations(with(a.box, x), with(b.box, y)), place);
     pinches_.push_back({surface_->point(x.x, x.y), place});
   }
@@ -262,7 +262,7 @@ class SelfIntersection {
     const auto* curve = dynamic_cast<const ContourCurve<4>*>(contour.curve.get());
     std::vector<ContourSegment<4>> segments = curve->solution().segments();
     const std::array<double, 2> periods{closed_periods(*surface_).u, closed_periods(*surface_).v};
-    const auto steps = [&](const ParameterPlace<4>& from, const ParameterPlace<4>& to) {
+    const auto steps = [&](const ParameterPoint<4>& from, const ParameterPoint<4>& to) {
       return joints_.apart({from[0], from[1]}, {to[0], to[1]}) + joints_.apart({from[2], from[3]}, {to[2], to[3]});
     };
     std::map<const ContourEquations<4>*, std::shared_ptr<const ContourEquations<4>>> turned;

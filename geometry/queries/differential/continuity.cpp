@@ -179,10 +179,10 @@ struct DomainSide {
   DomainEdge edge;
   ParameterLine line;
 
-  Vec2 place(double t) const { return edge.held == HeldParameter::u ? Vec2(edge.at, t) : Vec2(t, edge.at); }
+  Vec2 place(double t) const { return edge.held == IsoDirection::u ? Vec2(edge.at, t) : Vec2(t, edge.at); }
   Vec2 inward() const {
     const Rectangle domain = surface.domain();
-    const bool holds_u = edge.held == HeldParameter::u;
+    const bool holds_u = edge.held == IsoDirection::u;
     const double side = edge.at == (holds_u ? domain.u.lo : domain.v.lo) ? 1 : -1;
     return holds_u ? Vec2(side, 0) : Vec2(0, side);
   }
@@ -192,10 +192,10 @@ std::vector<DomainSide> sides_of(const Surface& surface, double size) {
   const Rectangle domain = surface.domain();
   const SurfacePtr shared(SurfacePtr(), &surface);
   std::vector<DomainSide> result;
-  for (const HeldParameter held : {HeldParameter::u, HeldParameter::v}) {
-    const Interval across = held == HeldParameter::u ? domain.u : domain.v;
+  for (const IsoDirection held : {IsoDirection::u, IsoDirection::v}) {
+    const Interval across = held == IsoDirection::u ? domain.u : domain.v;
     for (const double at : {across.lo, across.hi}) {
-      DomainSide side{surface, {held, at, held == HeldParameter::u ? domain.v : domain.u}, {shared, held, at}};
+      DomainSide side{surface, {held, at, held == IsoDirection::u ? domain.v : domain.u}, {shared, held, at}};
       if (bounds(side.line).diameter() > kCollapsedEdge * size) result.push_back(std::move(side));
     }
   }
@@ -205,14 +205,14 @@ std::vector<DomainSide> sides_of(const Surface& surface, double size) {
 // The part of the first that runs along the second.
 std::optional<Interval> shared_part(const DomainSide& a, const DomainSide& b, double gap) {
   const Interval range = a.line.domain();
-  const auto is_near = [&](double t) { return project(a.line.point(t), b.line).feet[0].distance <= gap; };
+  const auto is_near = [&](double t) { return project(a.line.point(t), b.line).foot_points[0].distance <= gap; };
   std::vector<double> places;
   for (const double t : {range.lo, range.hi})
     if (is_near(t)) places.push_back(t);
   if (places.size() < 2 && !b.line.is_closed())
     for (const double t : {b.line.domain().lo, b.line.domain().hi}) {
-      const CurveFoot foot = project(b.line.point(t), a.line).feet[0];
-      if (foot.distance <= gap) places.push_back(foot.t);
+      const CurveFootPoint foot_point = project(b.line.point(t), a.line).foot_points[0];
+      if (foot_point.distance <= gap) places.push_back(foot_point.t);
     }
   if (places.empty()) return std::nullopt;
   const auto [lo, hi] = std::minmax_element(places.begin(), places.end());
@@ -239,16 +239,16 @@ std::vector<SurfaceJoint> joints(const Surface& a, const Surface& b, const Conti
       if (&a == &b && side_a.edge.held != side_b.edge.held) continue;
       const auto part = shared_part(side_a, side_b, gap * size);
       if (!part) continue;
-      const auto foot = [&](double t) { return project(side_a.line.point(t), side_b.line).feet[0].t; };
+      const auto foot_point = [&](double t) { return project(side_a.line.point(t), side_b.line).foot_points[0].t; };
       const auto jumps_at = [&](double t) {
         const Vec3 along = side_a.line.evaluate(t, 1).d[1];
         return jumps_between(across_edge(a, side_a.place(t), side_a.inward(), along, true),
-                             across_edge(b, side_b.place(foot(t)), side_b.inward(), along, false), size);
+                             across_edge(b, side_b.place(foot_point(t)), side_b.inward(), along, false), size);
       };
       SurfaceJoint joint{side_a.edge, side_b.edge, {}};
       joint.a.range = *part;
       if (!side_b.line.is_closed()) {
-        const double first = foot(part->lo), last = foot(part->hi);
+        const double first = foot_point(part->lo), last = foot_point(part->hi);
         joint.b.range = {std::min(first, last), std::max(first, last)};
       }
       joint.continuity = worst_along(*part, jumps_at, tolerances);

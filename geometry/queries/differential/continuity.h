@@ -45,7 +45,7 @@ CurveJoint joint(const Curve& a, const Curve& b, const ContinuityTolerances& tol
 
 // A part of an edge of a surface's domain.
 struct DomainEdge {
-  HeldParameter held = HeldParameter::u;
+  IsoDirection held = IsoDirection::u;
   double at = 0;
   Interval range;  // of the other parameter
 };

@@ -21,11 +21,11 @@ constexpr double kAgree[] = {1e-14, 1e-13, 1e-11, 1e-9};
 // leads farther away than `reach`.
 std::optional<Vec3> solved(const ImplicitFormula& formula, const ImplicitCondition& condition, const Vec3& q,
                            const Vec3& n, double reach) {
-  constexpr int kMostSteps = 20;
+  constexpr int kMaxSteps = 20;
   constexpr double kRounding = 1e-6;  // Newton's steps as short would be followed by much shorter ones
   Vec3 p = q;
   double before = kInfinity;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const SecondOrder<double> f = second_order(formula, p);
     const auto second = condition.at(f, triple(p));
     const root_search::Matrix<3> rows{{{f.gradient.x, f.gradient.y, f.gradient.z},
@@ -228,10 +228,10 @@ Vec3 LastBit::point(const Vec3& from, const Vec3& to, double share) const {
 }
 
 std::optional<Vec3> Collector::singular_point(const Box3& box) const {
-  constexpr int kMostSteps = 12;
+  constexpr int kMaxSteps = 12;
   Vec3 p = box.center();
   const double reach = box.diameter() + kLeast * size_;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const SecondOrder<double> f = second_order(formula_, p);
     root_search::Matrix<3> inverse;
     if (!root_search::invert<3>({{{f.xx, f.xy, f.xz}, {f.xy, f.yy, f.yz}, {f.xz, f.yz, f.zz}}}, inverse))

@@ -18,7 +18,7 @@ namespace implicit_arc {
 // missing.
 inline constexpr double kLeast = 1e-6, kLargeOpen = 1e-3;
 inline constexpr double kBorder = 1e-12;  // of the domain's sides
-inline constexpr int kMostBoxes = 40000;
+inline constexpr int kMaxBoxes = 40000;
 
 // A value of F over a box that excludes it.
 inline constexpr double kNowhere = std::numeric_limits<double>::max();
@@ -35,8 +35,8 @@ std::array<double, N> widths(const ParameterBox<N>& box) {
   return result;
 }
 template <int N>
-ParameterPlace<N> middle(const ParameterBox<N>& box) {
-  ParameterPlace<N> result;
+ParameterPoint<N> middle(const ParameterBox<N>& box) {
+  ParameterPoint<N> result;
   for (int i = 0; i < N; ++i) result[i] = box[i].middle();
   return result;
 }
@@ -54,14 +54,14 @@ class Collector {
 
   // `system` has what search_solution_curves() asks for, and
   //   kUnknowns
-  //   Vec3 point(const ParameterPlace<kUnknowns>&) const
+  //   Vec3 point(const ParameterPoint<kUnknowns>&) const
   //   std::array<double, kUnknowns - 1> rounding() const      of the equations' values
   template <class System>
   ImplicitArcs find(const System& system, const ParameterBox<System::kUnknowns>& domain) {
     constexpr int N = System::kUnknowns;
     SolutionCurveOptions<N> options;
     options.least = kLeast * size_;
-    options.most_boxes = kMostBoxes;
+    options.max_boxes = kMaxBoxes;
     options.divides_hard_boxes = true;
     options.rounding = system.rounding();
     for (int i = 0; i < N; ++i) options.slack[i] = kBorder * domain[i].width();
@@ -71,7 +71,7 @@ class Collector {
       for (const ParameterBox<N>& open : found.open) {
         Box3 hull;
         for (int corner = 0; corner < 1 << N; ++corner) {
-          ParameterPlace<N> at;
+          ParameterPoint<N> at;
           for (int i = 0; i < N; ++i) at[i] = corner >> i & 1 ? open[i].hi : open[i].lo;
           hull.include(system.point(at));
         }

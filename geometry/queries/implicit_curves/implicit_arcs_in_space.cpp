@@ -29,7 +29,7 @@ struct InSpace {
     return {{is_outside ? Interval(kNowhere) : range.over.value, second.value},
             {{{g.x, g.y, g.z}, {second.gradient.x, second.gradient.y, second.gradient.z}}}};
   }
-  SystemValue<double, 3, 2> evaluate(const ParameterPlace<3>& x) const {
+  SystemValue<double, 3, 2> evaluate(const ParameterPoint<3>& x) const {
     const Vec3 p = point(x);
     const SecondOrder<double> f = second_order(formula, p);
     const auto second = condition.at(f, triple(p));
@@ -38,8 +38,8 @@ struct InSpace {
   }
   SystemValue<double, 3, 2> evaluate_middle(const ParameterBox<3>& box) const { return evaluate(middle<3>(box)); }
   std::array<double, 3> extents(const ParameterBox<3>& box) const { return widths<3>(box); }
-  Vec3 motion(const ParameterPlace<3>&, const ParameterPlace<3>& by) const { return {by[0], by[1], by[2]}; }
-  Vec3 point(const ParameterPlace<3>& x) const { return {x[0], x[1], x[2]}; }
+  Vec3 motion(const ParameterPoint<3>&, const ParameterPoint<3>& by) const { return {by[0], by[1], by[2]}; }
+  Vec3 point(const ParameterPoint<3>& x) const { return {x[0], x[1], x[2]}; }
   std::array<double, 2> rounding() const {
     return {rounding_in(searched, [&](const Vec3& p) { return thin(formula, p).value.width(); }),
             rounding_in(searched, [&](const Vec3& p) {
@@ -57,7 +57,7 @@ struct InSpace {
   }
 };
 
-// The surface is seen edge-on all over: its formula does not depend on the place along any way of sight.
+// The surface is seen edge-on all over: its formula does not depend on the place along any line of sight.
 bool vanishes(const ImplicitFormula& formula, const ImplicitCondition& sight, const Box3& box) {
   const Interval slope = sight.enclose(range_of(formula, box), box).value;
   return slope.lo == 0 && slope.hi == 0;

@@ -50,18 +50,18 @@ struct OnPlane {
             at.c[0] + at.c[1] * u + at.c[2] * v + over.c[3] * sqr(u) + over.c[4] * u * v + over.c[5] * sqr(v));
     return result;
   }
-  SystemValue<double, 2, 1> evaluate(const ParameterPlace<2>& x) const {
+  SystemValue<double, 2, 1> evaluate(const ParameterPoint<2>& x) const {
     using J = Jet2<double, 1>;
     const J at = value(J::u_variable(x[0]), J::v_variable(x[1]));
     return {{at.c[0]}, {{{at.c[1], at.c[2]}}}};
   }
   SystemValue<double, 2, 1> evaluate_middle(const ParameterBox<2>& box) const { return evaluate(middle<2>(box)); }
   std::array<double, 2> extents(const ParameterBox<2>& box) const { return widths<2>(box); }
-  Vec3 motion(const ParameterPlace<2>&, const ParameterPlace<2>& by) const {
+  Vec3 motion(const ParameterPoint<2>&, const ParameterPoint<2>& by) const {
     const auto [x, y] = by;
     return x * plane.x + y * plane.y;
   }
-  Vec3 point(const ParameterPlace<2>& x) const { return plane.point({x[0], x[1], 0}); }
+  Vec3 point(const ParameterPoint<2>& x) const { return plane.point({x[0], x[1], 0}); }
   std::array<double, 1> rounding() const {
     return {rounding_in(region.box, [&](const Vec3& p) { return thin(formula, p).value.width(); })};
   }

@@ -18,7 +18,7 @@ bool hold(const std::vector<ImplicitSide>& sides, const Vec3& p) {
 
 void each_kept(const Interval& domain, bool closed, const std::vector<double>& cuts,
                const std::function<bool(double)>& keeps, const std::function<void(const Interval&)>& put) {
-  constexpr double kLeastPart = 1e-9;  // of the domain
+  constexpr double kMinPart = 1e-9;  // of the domain
   std::vector<double> ends;
   if (!closed || cuts.empty()) ends.push_back(domain.lo);
   ends.insert(ends.end(), cuts.begin(), cuts.end());
@@ -27,7 +27,7 @@ void each_kept(const Interval& domain, bool closed, const std::vector<double>& c
     const Interval t{ends[k], ends[k + 1]};
     double inside = place_inside(t);
     if (inside > domain.hi) inside -= domain.width();
-    if (t.width() > kLeastPart * domain.width() && keeps(inside)) put(t);
+    if (t.width() > kMinPart * domain.width() && keeps(inside)) put(t);
   }
 }
 

@@ -131,9 +131,9 @@ class ImplicitCondition {
   Affine to_other_;
 };
 
-// How the surface bends along a way of sight that touches it, s . H s: above zero F is larger than the level on both
-// sides of the contact, so that the way passes where F is larger; zero where the silhouette runs along the way of sight
-// and its picture has a cusp.
+// How the surface bends along a line of sight that touches it, s . H s: above zero F is larger than the level on both
+// sides of the contact, so that the way passes where F is larger; zero where the silhouette runs along the line of
+// sight and its picture has a cusp.
 template <class S>
 S bend_along(const SecondOrder<S>& f, const Triple<S>& sight) {
   return dot(sight, f.second(sight));

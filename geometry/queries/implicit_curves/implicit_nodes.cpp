@@ -8,7 +8,7 @@ namespace {
 
 // Of the region's diameter: half sides of cubes that are tried.
 constexpr double kReaches[] = {0.05, 0.02, 0.007, 2e-3, 5e-4, 1e-4};
-constexpr int kMostBoxes = 4096, kMostBoxesOfCone = 400;
+constexpr int kMaxBoxes = 4096, kMaxBoxesOfCone = 400;
 
 // F = level and grad F = 0 for x, y, z.
 struct SingularPoint {
@@ -17,7 +17,7 @@ struct SingularPoint {
   SystemValue<Interval, 3, 4> enclose(const ParameterBox<3>& x) const {
     return value_of(range_of(formula, {{x[0].lo, x[1].lo, x[2].lo}, {x[0].hi, x[1].hi, x[2].hi}}).over);
   }
-  SystemValue<double, 3, 4> evaluate(const ParameterPlace<3>& x) const {
+  SystemValue<double, 3, 4> evaluate(const ParameterPoint<3>& x) const {
     return value_of(second_order(formula, {x[0], x[1], x[2]}));
   }
   template <class S>
@@ -39,7 +39,7 @@ struct SilhouetteOfCone {
   SystemValue<Interval, 2, 2> enclose(const ParameterBox<2>& x) const {
     return value_of(range.over, sight, x[0], x[1], central);
   }
-  SystemValue<double, 2, 2> evaluate(const ParameterPlace<2>& x) const {
+  SystemValue<double, 2, 2> evaluate(const ParameterPoint<2>& x) const {
     return value_of(at_node, sight_at_node, x[0], x[1], false);
   }
   template <class S>
@@ -70,7 +70,7 @@ bool is_known(const ImplicitFormula& formula, const ViewOf& view, const Vec3& no
     RootSearchOptions<2, 2> options;
     options.least = {1e-3, 1e-3};
     options.slack = {1e-9, 1e-9};
-    options.most_boxes = kMostBoxesOfCone;
+    options.max_boxes = kMaxBoxesOfCone;
     const SilhouetteOfCone cone{range, sight, at_node, sight_at_node, view.central, axis};
     const auto found = search_roots<2, 2>(cone, {Interval(-1, 1), Interval(-1, 1)}, options);
     if (!found.complete || !found.open.empty()) return false;
@@ -84,7 +84,7 @@ std::vector<ImplicitNode> implicit_nodes(const ImplicitFormula& formula, double 
                                          const Box3& box) {
   if (formula.smoothness() != Expression::Smoothness::smooth) return {};
   RootSearchOptions<3, 4> options;
-  options.most_boxes = kMostBoxes;
+  options.max_boxes = kMaxBoxes;
   options.least.fill(1e-6 * size);
   options.slack.fill(1e-9 * size);
   // What rounding makes of the values; the gradient's in all directions alike.
@@ -98,7 +98,7 @@ std::vector<ImplicitNode> implicit_nodes(const ImplicitFormula& formula, double 
   const auto found = search_roots<3, 4>(SingularPoint{formula}, domain, options);
   if (!found.complete) return {};
   std::vector<ImplicitNode> nodes;
-  for (const ParameterPlace<3>& x : found.isolated) {
+  for (const ParameterPoint<3>& x : found.isolated) {
     const Vec3 point(x[0], x[1], x[2]);
     for (const double reach : kReaches)
       if (is_known(formula, view, point, reach * size)) {

@@ -21,7 +21,7 @@ struct ImplicitNode {
 };
 
 // Those in a box, of a region of that size, at which the silhouette is known so. Others are left out: where the second
-// derivatives have no inverse, and where a way of sight touches the cone.
+// derivatives have no inverse, and where a line of sight touches the cone.
 std::vector<ImplicitNode> implicit_nodes(const ImplicitFormula& formula, double size, const ViewOf& view,
                                          const Box3& box);
 

@@ -196,13 +196,13 @@ namespace {
 
 class Passages {
  public:
-  Passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
+  Passages(CurveCells& curve, SurfaceCells& surface, double touch, int max_touches, int max_pairs,
            std::vector<double>& places)
       : curve_(curve),
         surface_(surface),
         touch_(touch),
-        most_touches_(most_touches),
-        most_pairs_(most_pairs),
+        max_touches_(max_touches),
+        max_pairs_(max_pairs),
         places_(places) {}
 
   bool run() {
@@ -304,7 +304,7 @@ class Passages {
   }
 
   bool meet(int i, int j) {
-    if (++pairs_ > most_pairs_) return false;
+    if (++pairs_ > max_pairs_) return false;
     const CurveCells::Cell& c = curve_.cell(i);
     const SurfaceCells::Cell& s = surface_.cell(j);
     if (is_apart(c, s)) return true;
@@ -318,7 +318,7 @@ class Passages {
     }
     if (touches(c, s)) {
       touching_.push_back(c.t);
-      return static_cast<int>(touching_.size()) <= most_touches_;
+      return static_cast<int>(touching_.size()) <= max_touches_;
     }
     const double of_curve = glm::length(c.end - c.begin) + 2 * c.bulge, of_surface = glm::length(s.box.hi - s.box.lo);
     if (of_curve > of_surface || of_surface <= touch_) {
@@ -332,16 +332,16 @@ class Passages {
   CurveCells& curve_;
   SurfaceCells& surface_;
   double touch_;
-  int most_touches_, most_pairs_, pairs_ = 0;
+  int max_touches_, max_pairs_, pairs_ = 0;
   std::vector<Interval> touching_;
   std::vector<double>& places_;
 };
 
 }  // namespace
 
-bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
-                  std::vector<double>& places) {
-  return Passages(curve, surface, touch, most_touches, most_pairs, places).run();
+bool add_crossing_candidates(CurveCells& curve, SurfaceCells& surface, double touch, int max_touches, int max_pairs,
+                             std::vector<double>& places) {
+  return Passages(curve, surface, touch, max_touches, max_pairs, places).run();
 }
 
 }  // namespace lekalo::geometry

@@ -6,8 +6,8 @@
 // singular, and then Newton's iteration finds the place. A curve that ends on the surface's border and leaves it there,
 // perhaps along its tangent plane (as lines of the next patch do), meets it nowhere else near that end
 // (leaving_border.h). Cells are made when they are first asked for and kept: a picture asks for many curves against the
-// same surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all meetings
-// with their kinds.
+// same surface. That is some hundred times faster than intersect() (curve_intersections.h), which isolates all
+// intersections with their kinds.
 #pragma once
 
 #include <deque>
@@ -96,9 +96,9 @@ class SurfaceCells {
 
 // Adds the parameters of the curve where it may pass through the surface to `places`. Where it is nearer to the surface
 // than `touch`, a length, along a stretch, it touches it: the stretch's ends are places. False if there are more
-// than `most_touches` of them or `most_pairs` pairs of cells: the curve runs along the surface, or nearly; `places` is
+// than `max_touches` of them or `max_pairs` pairs of cells: the curve runs along the surface, or nearly; `places` is
 // then as before.
-bool add_passages(CurveCells& curve, SurfaceCells& surface, double touch, int most_touches, int most_pairs,
-                  std::vector<double>& places);
+bool add_crossing_candidates(CurveCells& curve, SurfaceCells& surface, double touch, int max_touches, int max_pairs,
+                             std::vector<double>& places);
 
 }  // namespace lekalo::geometry

@@ -7,7 +7,7 @@ namespace lekalo::geometry {
 void add_entries(const Curve& curve, const Box3& box, double size, const ChordHits& add_hits,
                  std::vector<double>& places) {
   constexpr double kFlat = 1e-11, kBowed = 1e-5;  // of the size, how far a part is from its chord
-  constexpr int kMostHalvings = 40;
+  constexpr int kMaxHalvings = 40;
   std::vector<double> hits;
   const auto part = [&](const auto& self, double lo, const Vec3& from, double hi, const Vec3& to, int depth) -> void {
     const double middle = 0.5 * (lo + hi);
@@ -19,7 +19,7 @@ void add_entries(const Curve& curve, const Box3& box, double size, const ChordHi
     hits.clear();
     if (from != to) add_hits({from, to - from}, hits);
     if (hits.empty() && bow < kBowed * size) return;
-    if (bow < kFlat * size || depth >= kMostHalvings || !(lo < middle && middle < hi)) {
+    if (bow < kFlat * size || depth >= kMaxHalvings || !(lo < middle && middle < hi)) {
       for (const double hit : hits) places.push_back(lo + hit * (hi - lo));
       return;
     }

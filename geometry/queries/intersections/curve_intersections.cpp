@@ -31,7 +31,7 @@ struct PierceSystem {
     }
     return result;
   }
-  SystemValue<double, 3, 3> evaluate(const ParameterPlace<3>& at) const {
+  SystemValue<double, 3, 3> evaluate(const ParameterPoint<3>& at) const {
     const CurveJet r = evaluate_within(curve, piece, at[0], 1);
     const SurfaceJet s = evaluate_within(surface, patch, at[1], at[2], 1);
     SystemValue<double, 3, 3> result;
@@ -42,8 +42,8 @@ struct PierceSystem {
     return result;
   }
   // (r - s) . s_u = (r - s) . s_v = 0 and r' . (s_u x s_v) = 0.
-  ParameterPlace<3> contact_near(const ParameterPlace<3>& start, const ParameterPlace<3>& reach) const {
-    return refined<3, 3>(start, reach, [&](const ParameterPlace<3>& at) {
+  ParameterPoint<3> contact_near(const ParameterPoint<3>& start, const ParameterPoint<3>& reach) const {
+    return refined<3, 3>(start, reach, [&](const ParameterPoint<3>& at) {
       const CurveJet r = curve.evaluate(at[0], 2);
       const SurfaceJet s = surface.evaluate(at[1], at[2], 2);
       const Vec3 way = r.d[0] - s.point(), normal = glm::cross(s.du(), s.dv());
@@ -80,10 +80,10 @@ class CurvePair {
     Box3 all = box_a_;
     all.include(box_b_);
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
-    least_ = least_box(tolerance);
+    least_ = min_box(tolerance);
   }
 
-  CurveMeetings run() {
+  CurveIntersections run() {
     if (!are_near(box_a_, box_b_, tolerance_)) return {};
     pieces_a_ = a_.pieces(), pieces_b_ = b_.pieces();
     find_common();
@@ -93,17 +93,18 @@ class CurvePair {
         for (const Interval& part : without(of_a.domain, parts_))
           if (are_near(a_.enclose(part, 0).d[0], box, tolerance_)) search({a_, b_, part, of_b.domain});
     }
-    std::sort(result_.points.begin(), result_.points.end(),
-              [](const CurveMeeting& x, const CurveMeeting& y) { return x.s != y.s ? x.s < y.s : x.t < y.t; });
+    std::sort(result_.points.begin(), result_.points.end(), [](const CurveIntersection& x, const CurveIntersection& y) {
+      return x.s != y.s ? x.s < y.s : x.t < y.t;
+    });
     return std::move(result_);
   }
 
  private:
-  // The foot of a point if it lies on the curve.
+  // The foot point of a point if it lies on the curve.
   std::optional<double> place_on(const Curve& curve, const Vec3& p) const {
-    const CurveFeet found = project(p, curve);
-    if (found.feet.empty() || found.feet[0].distance > tolerance_) return std::nullopt;
-    return found.feet[0].t;
+    const CurveFootPoints found = project(p, curve);
+    if (found.foot_points.empty() || found.foot_points[0].distance > tolerance_) return std::nullopt;
+    return found.foot_points[0].t;
   }
 
   // Curves can part only at an end of a smooth piece of either.
@@ -117,8 +118,8 @@ class CurvePair {
     const auto add_of_b = [&](double t) {
       const Vec3 p = b_.point(t);
       if (!box_a_.inflated(tolerance_).contains(p)) return;
-      for (const CurveFoot& foot : project(p, a_).feet)
-        if (foot.distance <= tolerance_) places.push_back(foot.t);
+      for (const CurveFootPoint& foot_point : project(p, a_).foot_points)
+        if (foot_point.distance <= tolerance_) places.push_back(foot_point.t);
     };
     for (const CurvePiece& piece : pieces_b_) add_of_b(piece.domain.lo);
     add_of_b(b_.domain().hi);
@@ -151,9 +152,9 @@ class CurvePair {
     const auto found = search_roots<2, 3>(system, ParameterBox<2>{system.piece_a, system.piece_b}, options);
     for (const auto& at : found.isolated) add(at, false);
     for (const auto& box : found.open) {
-      ParameterPlace<2> middle, reach;
+      ParameterPoint<2> middle, reach;
       for (int i = 0; i < 2; ++i) middle[i] = box[i].middle(), reach[i] = box[i].width() + 10 * options.least[i];
-      const auto within = [&](const ParameterPlace<2>& at) -> ParameterPlace<2> {
+      const auto within = [&](const ParameterPoint<2>& at) -> ParameterPoint<2> {
         return {system.piece_a.clamp(at[0]), system.piece_b.clamp(at[1])};
       };
       // Where they do not touch they cross at an angle too small to tell, or at a cusp.
@@ -163,18 +164,18 @@ class CurvePair {
   }
 
   // False if the curves are farther from each other there than the tolerance.
-  bool add(const ParameterPlace<2>& at, bool contact) {
+  bool add(const ParameterPoint<2>& at, bool contact) {
     const CurveJet ra = a_.evaluate(at[0], 1), rb = b_.evaluate(at[1], 1);
-    CurveMeeting meeting{at[0], at[1], 0.5 * (ra.d[0] + rb.d[0]), glm::length(ra.d[0] - rb.d[0])};
-    if (!(meeting.distance <= tolerance_)) return false;
-    meeting.contact = contact && sine_between(ra.d[1], rb.d[1]) < kParallel;
+    CurveIntersection intersection{at[0], at[1], 0.5 * (ra.d[0] + rb.d[0]), glm::length(ra.d[0] - rb.d[0])};
+    if (!(intersection.distance <= tolerance_)) return false;
+    intersection.contact = contact && sine_between(ra.d[1], rb.d[1]) < kParallel;
     const double near_a = 4 * least_ * a_.domain().width(), near_b = 4 * least_ * b_.domain().width();
     if (is_within(parts_, at[0], near_a)) return true;
-    for (CurveMeeting& other : result_.points)
-      if (glm::length(other.point - meeting.point) <= 4 * tolerance_ && is_one_place(a_, other.s, at[0], near_a) &&
+    for (CurveIntersection& other : result_.points)
+      if (glm::length(other.point - intersection.point) <= 4 * tolerance_ && is_one_place(a_, other.s, at[0], near_a) &&
           is_one_place(b_, other.t, at[1], near_b))
         return true;
-    result_.points.push_back(meeting);
+    result_.points.push_back(intersection);
     return true;
   }
 
@@ -184,7 +185,7 @@ class CurvePair {
   double least_ = 0;      // part of a domain
   std::vector<CurvePiece> pieces_a_, pieces_b_;
   std::vector<Interval> parts_;  // of the first, common
-  CurveMeetings result_;
+  CurveIntersections result_;
 };
 
 class CurveAndSurface {
@@ -195,11 +196,11 @@ class CurveAndSurface {
     if (surface.bounded()) surface_box_ = bounds(surface), all.include(surface_box_);
     relative_ = tolerance;
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
-    least_ = least_box(tolerance);
+    least_ = min_box(tolerance);
     patches_ = patches();
   }
 
-  SurfaceMeetings run() {
+  SurfaceIntersections run() {
     const std::vector<CurvePiece> pieces = curve_.pieces();
     // Along a common part no solution is isolated: such parts, which take long to find, are looked for only then.
     if (!search_all(pieces, true)) {
@@ -208,7 +209,7 @@ class CurveAndSurface {
       search_all(pieces, false);
     }
     std::sort(result_.points.begin(), result_.points.end(),
-              [](const SurfaceMeeting& a, const SurfaceMeeting& b) { return a.t < b.t; });
+              [](const SurfaceIntersection& a, const SurfaceIntersection& b) { return a.t < b.t; });
     return std::move(result_);
   }
 
@@ -255,8 +256,8 @@ class CurveAndSurface {
     const auto lies_on = [&](double t) {
       const Vec3 p = curve_.point(t);
       if (!surface_box_.inflated(tolerance_).contains(p)) return false;
-      const SurfaceFeet found = project(p, surface_);
-      return !found.feet.empty() && found.feet[0].distance <= tolerance_;
+      const SurfaceFootPoints found = project(p, surface_);
+      return !found.foot_points.empty() && found.foot_points[0].distance <= tolerance_;
     };
     std::vector<double> places;
     for (const CurvePiece& piece : pieces) places.push_back(piece.domain.lo);
@@ -265,12 +266,12 @@ class CurveAndSurface {
       const SurfacePtr surface(SurfacePtr(), &surface_);
       const Rectangle domain = surface_.domain();
       for (const auto& [held, at] :
-           {std::pair(HeldParameter::u, domain.u.lo), std::pair(HeldParameter::u, domain.u.hi),
-            std::pair(HeldParameter::v, domain.v.lo), std::pair(HeldParameter::v, domain.v.hi)}) {
+           {std::pair(IsoDirection::u, domain.u.lo), std::pair(IsoDirection::u, domain.u.hi),
+            std::pair(IsoDirection::v, domain.v.lo), std::pair(IsoDirection::v, domain.v.hi)}) {
         const ParameterLine edge(surface, held, at);
         if (bounds(edge).diameter() <= tolerance_) continue;
-        const CurveMeetings met = intersect(curve_, edge, relative_);
-        for (const CurveMeeting& one : met.points) places.push_back(one.s);
+        const CurveIntersections met = intersect(curve_, edge, relative_);
+        for (const CurveIntersection& one : met.points) places.push_back(one.s);
         for (const CommonPart& one : met.common) places.insert(places.end(), {one.s.lo, one.s.hi});
       }
     }
@@ -313,9 +314,9 @@ class CurveAndSurface {
       return false;
     for (const auto& at : found.isolated) add(at, false);
     for (const auto& box : found.open) {
-      ParameterPlace<3> middle, reach;
+      ParameterPoint<3> middle, reach;
       for (int i = 0; i < 3; ++i) middle[i] = box[i].middle(), reach[i] = box[i].width() + 10 * options.least[i];
-      const auto within = [&](const ParameterPlace<3>& at) -> ParameterPlace<3> {
+      const auto within = [&](const ParameterPoint<3>& at) -> ParameterPoint<3> {
         return {system.piece.clamp(at[0]), system.patch.u.clamp(at[1]), system.patch.v.clamp(at[2])};
       };
       if (!add(within(system.contact_near(middle, reach)), true))
@@ -325,21 +326,21 @@ class CurveAndSurface {
   }
 
   // False if the curve is farther from the surface there than the tolerance.
-  bool add(const ParameterPlace<3>& at, bool contact) {
+  bool add(const ParameterPoint<3>& at, bool contact) {
     const CurveJet r = curve_.evaluate(at[0], 1);
     const SurfaceJet s = surface_.evaluate(at[1], at[2], 1);
-    SurfaceMeeting meeting{at[0], at[1], at[2], r.d[0], glm::length(r.d[0] - s.point())};
-    if (!(meeting.distance <= tolerance_)) return false;
+    SurfaceIntersection intersection{at[0], at[1], at[2], r.d[0], glm::length(r.d[0] - s.point())};
+    if (!(intersection.distance <= tolerance_)) return false;
     const Vec3 normal = glm::cross(s.du(), s.dv());
     const double sine =
         std::abs(glm::dot(r.d[1], normal)) / std::max(glm::length(r.d[1]) * glm::length(normal), 1e-300);
-    meeting.contact = contact && sine < kParallel;
+    intersection.contact = contact && sine < kParallel;
     const double near = 4 * least_ * curve_.domain().width();
     if (is_within(result_.on_surface, at[0], near)) return true;
-    for (const SurfaceMeeting& other : result_.points)
-      if (glm::length(other.point - meeting.point) <= 4 * tolerance_ && is_one_place(curve_, other.t, at[0], near))
+    for (const SurfaceIntersection& other : result_.points)
+      if (glm::length(other.point - intersection.point) <= 4 * tolerance_ && is_one_place(curve_, other.t, at[0], near))
         return true;
-    result_.points.push_back(meeting);
+    result_.points.push_back(intersection);
     return true;
   }
 
@@ -350,14 +351,16 @@ class CurveAndSurface {
   double tolerance_ = 0;  // a length
   double least_ = 0;      // part of a domain
   std::vector<Rectangle> patches_;
-  SurfaceMeetings result_;
+  SurfaceIntersections result_;
 };
 
 }  // namespace
 
-CurveMeetings intersect(const Curve& a, const Curve& b, double tolerance) { return CurvePair(a, b, tolerance).run(); }
+CurveIntersections intersect(const Curve& a, const Curve& b, double tolerance) {
+  return CurvePair(a, b, tolerance).run();
+}
 
-SurfaceMeetings intersect(const Curve& curve, const Surface& surface, double tolerance) {
+SurfaceIntersections intersect(const Curve& curve, const Surface& surface, double tolerance) {
   return CurveAndSurface(curve, surface, tolerance).run();
 }
 

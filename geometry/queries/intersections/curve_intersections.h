@@ -15,7 +15,7 @@
 
 namespace lekalo::geometry {
 
-struct CurveMeeting {
+struct CurveIntersection {
   double s = 0, t = 0;   // on the first and on the second curve
   Vec3 point{0};         // midway between both
   double distance = 0;   // between them
@@ -27,23 +27,23 @@ struct CommonPart {
   Interval s;
   double begin = 0, end = 0;
 };
-struct CurveMeetings {
-  std::vector<CurveMeeting> points;  // by s; ends of common parts are not among them
-  std::vector<CommonPart> common;    // by s
+struct CurveIntersections {
+  std::vector<CurveIntersection> points;  // by s; ends of common parts are not among them
+  std::vector<CommonPart> common;         // by s
 };
 // `tolerance` is relative to the size of both. A closed curve's seam counts once.
-CurveMeetings intersect(const Curve& a, const Curve& b, double tolerance = kSamePoint);
+CurveIntersections intersect(const Curve& a, const Curve& b, double tolerance = kSamePoint);
 
-struct SurfaceMeeting {
+struct SurfaceIntersection {
   double t = 0, u = 0, v = 0;  // on the curve and on the surface
   Vec3 point{0};               // of the curve
   double distance = 0;         // from the surface's
   bool contact = false;        // the curve touches the surface here
 };
-struct SurfaceMeetings {
-  std::vector<SurfaceMeeting> points;  // by t
-  std::vector<Interval> on_surface;    // parts of the curve that lie on the surface
+struct SurfaceIntersections {
+  std::vector<SurfaceIntersection> points;  // by t
+  std::vector<Interval> on_surface;         // parts of the curve that lie on the surface
 };
-SurfaceMeetings intersect(const Curve& curve, const Surface& surface, double tolerance = kSamePoint);
+SurfaceIntersections intersect(const Curve& curve, const Surface& surface, double tolerance = kSamePoint);
 
 }  // namespace lekalo::geometry

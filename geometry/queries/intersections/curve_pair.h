@@ -1,4 +1,4 @@
-// Parts of the searches for meetings of curves: what geometry/queries/intersections/curve_intersections.h and
+// Parts of the searches for intersections of curves: what geometry/queries/intersections/curve_intersections.h and
 // self_intersections.h share.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace lekalo::geometry {
 inline constexpr double kParallel = 1e-3;
 // Places along a part at which it must lie on the other curve or surface to be common.
 inline constexpr int kPlacesOfCommonPart = 24;
-inline constexpr int kMostSteps = 30;
+inline constexpr int kMaxSteps = 30;
 
 inline bool are_near(const Box3& a, const Box3& b, double by) {
   for (int k = 0; k < 3; ++k)
@@ -26,7 +26,7 @@ inline bool are_near(const Box3& a, const Box3& b, double by) {
 }
 
 // Where curves within the tolerance of each other touch, they are so over about its square root of their length.
-inline double least_box(double tolerance) { return std::max(1e-8, 0.05 * std::sqrt(tolerance)); }
+inline double min_box(double tolerance) { return std::max(1e-8, 0.05 * std::sqrt(tolerance)); }
 
 // How far beyond an end of the curve the tolerance reaches, in its parameter.
 inline double slack_of(const Curve& curve, const Interval& piece, double tolerance) {
@@ -45,9 +45,9 @@ inline double sine_between(const Vec3& a, const Vec3& b) {
 // Newton's iteration for M equations in N unknowns, least squares of more; the start where it does not end inside
 // `reach` of it.
 template <int N, int M, class Equations>
-ParameterPlace<N> refined(const ParameterPlace<N>& start, const ParameterPlace<N>& reach, Equations&& equations) {
-  ParameterPlace<N> x = start;
-  for (int step = 0; step < kMostSteps; ++step) {
+ParameterPoint<N> refined(const ParameterPoint<N>& start, const ParameterPoint<N>& reach, Equations&& equations) {
+  ParameterPoint<N> x = start;
+  for (int step = 0; step < kMaxSteps; ++step) {
     const SystemValue<double, N, M> there = equations(x);
     std::array<std::array<double, M>, N> inverse;
     if (!root_search::solve_for<N, M>(there.derivative, inverse)) return start;
@@ -78,7 +78,7 @@ struct PairSystem {
     }
     return result;
   }
-  SystemValue<double, 2, 3> evaluate(const ParameterPlace<2>& at) const {
+  SystemValue<double, 2, 3> evaluate(const ParameterPoint<2>& at) const {
     const CurveJet ra = evaluate_within(a, piece_a, at[0], 1), rb = evaluate_within(b, piece_b, at[1], 1);
     SystemValue<double, 2, 3> result;
     for (int k = 0; k < 3; ++k) {
@@ -89,7 +89,7 @@ struct PairSystem {
   }
   // (r_a - r_b) . r_a' = 0 and (r_a' x r_b') . n = 0, n across the plane of contact (Golovanov 2016, (4.3.6), in a form
   // that is regular where the curves touch).
-  ParameterPlace<2> contact_near(const ParameterPlace<2>& start, const ParameterPlace<2>& reach) const {
+  ParameterPoint<2> contact_near(const ParameterPoint<2>& start, const ParameterPoint<2>& reach) const {
     const CurveJet a0 = evaluate_within(a, piece_a, start[0], 2), b0 = evaluate_within(b, piece_b, start[1], 2);
     const auto curvature = [](const CurveJet& r) {
       const double square = glm::dot(r.d[1], r.d[1]);
@@ -97,7 +97,7 @@ struct PairSystem {
     };
     const Vec3 n = glm::cross(a0.d[1], curvature(a0) - curvature(b0));
     if (!(glm::dot(n, n) > 0)) return start;
-    return refined<2, 2>(start, reach, [&](const ParameterPlace<2>& at) {
+    return refined<2, 2>(start, reach, [&](const ParameterPoint<2>& at) {
       const CurveJet ra = a.evaluate(at[0], 2), rb = b.evaluate(at[1], 2);
       const Vec3 way = ra.d[0] - rb.d[0];
       SystemValue<double, 2, 2> f;

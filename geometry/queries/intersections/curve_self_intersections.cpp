@@ -66,7 +66,7 @@ struct QuotientSystem {
     return q;
   }
 
-  SystemValue<double, 2, 3> evaluate(const ParameterPlace<2>& at) const {
+  SystemValue<double, 2, 3> evaluate(const ParameterPoint<2>& at) const {
     const double s = at[0], t = at[1], apart = t + turn - s;
     Vec3 value, by_s, by_t;
     if (is_one() && std::abs(apart) <= kNearDiagonal * curve.domain().width()) {
@@ -105,7 +105,7 @@ struct StopSystem {
     for (int k = 0; k < 3; ++k) f.value[k] = along(r.d[1], k), f.derivative[k] = {along(r.d[2], k)};
     return f;
   }
-  SystemValue<double, 1, 3> evaluate(const ParameterPlace<1>& t) const {
+  SystemValue<double, 1, 3> evaluate(const ParameterPoint<1>& t) const {
     const CurveJet r = evaluate_within(curve, piece, t[0], 2);
     SystemValue<double, 1, 3> f;
     for (int k = 0; k < 3; ++k) f.value[k] = r.d[1][k], f.derivative[k] = {r.d[2][k]};
@@ -113,14 +113,14 @@ struct StopSystem {
   }
 };
 
-class SelfMeetings {
+class SelfIntersections {
  public:
-  SelfMeetings(const Curve& curve, double tolerance) : curve_(curve), domain_(curve.domain()) {
+  SelfIntersections(const Curve& curve, double tolerance) : curve_(curve), domain_(curve.domain()) {
     tolerance_ = tolerance * std::max(bounds(curve).diameter(), 1e-300);
-    least_ = least_box(tolerance) * domain_.width();
+    least_ = min_box(tolerance) * domain_.width();
   }
 
-  CurveSelfMeetings run() {
+  CurveSelfIntersections run() {
     find_stops();
     find_common();
     for (const double t : stops_) add_cusp(t);
@@ -129,7 +129,9 @@ class SelfMeetings {
       for (size_t b = a; b < parts_.size(); ++b)
         if (!is_common(parts_[a], parts_[b])) meet(a, b);
     std::sort(result_.points.begin(), result_.points.end(),
-              [](const CurveSelfMeeting& x, const CurveSelfMeeting& y) { return x.s != y.s ? x.s < y.s : x.t < y.t; });
+              [](const CurveSelfIntersection& x, const CurveSelfIntersection& y) {
+                return x.s != y.s ? x.s < y.s : x.t < y.t;
+              });
     return std::move(result_);
   }
 
@@ -154,8 +156,8 @@ class SelfMeetings {
   // Where else the curve goes through its point at s, to the tolerance.
   std::vector<double> others_at(double s) const {
     std::vector<double> places;
-    for (const CurveFoot& foot : project(curve_.point(s), curve_).feet)
-      if (foot.distance <= tolerance_ && !is_one(foot.t, s)) places.push_back(foot.t);
+    for (const CurveFootPoint& foot_point : project(curve_.point(s), curve_).foot_points)
+      if (foot_point.distance <= tolerance_ && !is_one(foot_point.t, s)) places.push_back(foot_point.t);
     return places;
   }
 
@@ -187,12 +189,13 @@ class SelfMeetings {
         const double share = static_cast<double>(i) / kPlacesOfCommonPart;
         const double s = part.middle() + (forwards ? share : -share) * part.width();
         double next = kInfinity;
-        for (const CurveFoot& foot : project(curve_.point(s), curve_).feet) {
-          if (foot.distance > tolerance_) continue;
-          if (2 * i < kPlacesOfCommonPart && is_one(foot.t, s)) continue;
-          if (std::abs(foot.t - at) < std::abs(next - at)) next = foot.t;
-          // A foot on the seam of a closed curve is at both ends.
-          const double other_end = foot.t + (foot.t < domain_.middle() ? domain_.width() : -domain_.width());
+        for (const CurveFootPoint& foot_point : project(curve_.point(s), curve_).foot_points) {
+          if (foot_point.distance > tolerance_) continue;
+          if (2 * i < kPlacesOfCommonPart && is_one(foot_point.t, s)) continue;
+          if (std::abs(foot_point.t - at) < std::abs(next - at)) next = foot_point.t;
+          // A foot point on the seam of a closed curve is at both ends.
+          const double other_end =
+              foot_point.t + (foot_point.t < domain_.middle() ? domain_.width() : -domain_.width());
           if (is_closed() && std::abs(domain_.clamp(other_end) - other_end) <= near() &&
               std::abs(other_end - at) < std::abs(next - at))
             next = domain_.clamp(other_end);
@@ -279,11 +282,11 @@ class SelfMeetings {
         add_cusp(both.width() > 0 ? both.middle() : box[0].hi);
         continue;
       }
-      ParameterPlace<2> middle, reach;
+      ParameterPoint<2> middle, reach;
       for (int i = 0; i < 2; ++i) middle[i] = box[i].middle(), reach[i] = box[i].width() + 10 * least_;
-      const ParameterPlace<2> touching = PairSystem{curve_, curve_, first, second}.contact_near(middle, reach);
+      const ParameterPoint<2> touching = PairSystem{curve_, curve_, first, second}.contact_near(middle, reach);
       if (add(first.clamp(touching[0]), second.clamp(touching[1]), true)) continue;
-      const ParameterPlace<2> crossing =
+      const ParameterPoint<2> crossing =
           refined<2, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); });
       add(first.clamp(crossing[0]), second.clamp(crossing[1]), true);
     }
@@ -298,21 +301,21 @@ class SelfMeetings {
 
   void add_cusp(double at) {
     const double t = on_one_side(domain_.clamp(at));
-    const CurveSelfMeeting cusp{SelfMeetingKind::cusp, t, t, curve_.point(t), 0};
+    const CurveSelfIntersection cusp{SelfIntersectionKind::cusp, t, t, curve_.point(t), 0};
     if (!is_known(cusp)) result_.points.push_back(cusp);
   }
 
   // The seam of a closed curve is its begin.
   double on_one_side(double t) const { return is_closed() && t >= domain_.hi - near() ? domain_.lo : t; }
 
-  bool is_known(const CurveSelfMeeting& one) const {
+  bool is_known(const CurveSelfIntersection& one) const {
     for (const CommonPart& common : result_.common) {
       const Interval of_t = image(common);
       if (is_within({common.s}, one.s, near()) && is_within({of_t}, one.t, near())) return true;
       for (const auto& [s, t] : {std::pair(common.s.lo, common.begin), std::pair(common.s.hi, common.end)})
         if ((is_one(s, one.s) && is_one(t, one.t)) || (is_one(s, one.t) && is_one(t, one.s))) return true;
     }
-    return std::any_of(result_.points.begin(), result_.points.end(), [&](const CurveSelfMeeting& other) {
+    return std::any_of(result_.points.begin(), result_.points.end(), [&](const CurveSelfIntersection& other) {
       return glm::length(other.point - one.point) <= 4 * tolerance_ && is_one(other.s, one.s) && is_one(other.t, one.t);
     });
   }
@@ -323,11 +326,11 @@ class SelfMeetings {
     s = on_one_side(s), t = on_one_side(t);
     if (s > t) std::swap(s, t);
     const CurveJet at_s = curve_.evaluate(s, 1), at_t = curve_.evaluate(t, 1);
-    CurveSelfMeeting meeting{SelfMeetingKind::crossing, s, t, 0.5 * (at_s.d[0] + at_t.d[0]),
-                             glm::length(at_s.d[0] - at_t.d[0])};
-    if (!(meeting.distance <= tolerance_) || is_one(s, t)) return false;
-    if (open && sine_between(at_s.d[1], at_t.d[1]) < kParallel) meeting.kind = SelfMeetingKind::contact;
-    if (!is_known(meeting)) result_.points.push_back(meeting);
+    CurveSelfIntersection intersection{SelfIntersectionKind::crossing, s, t, 0.5 * (at_s.d[0] + at_t.d[0]),
+                                       glm::length(at_s.d[0] - at_t.d[0])};
+    if (!(intersection.distance <= tolerance_) || is_one(s, t)) return false;
+    if (open && sine_between(at_s.d[1], at_t.d[1]) < kParallel) intersection.kind = SelfIntersectionKind::contact;
+    if (!is_known(intersection)) result_.points.push_back(intersection);
     return true;
   }
 
@@ -337,13 +340,13 @@ class SelfMeetings {
   double least_ = 0;      // of the parameter
   std::vector<double> stops_;
   std::vector<Interval> parts_;
-  CurveSelfMeetings result_;
+  CurveSelfIntersections result_;
 };
 
 }  // namespace
 
-CurveSelfMeetings self_intersections(const Curve& curve, double tolerance) {
-  return SelfMeetings(curve, tolerance).run();
+CurveSelfIntersections self_intersections(const Curve& curve, double tolerance) {
+  return SelfIntersections(curve, tolerance).run();
 }
 
 }  // namespace lekalo::geometry

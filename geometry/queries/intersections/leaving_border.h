@@ -4,7 +4,7 @@
 //
 //   r(t) - P = t R = (u - u0) S_u + (v - v0) S_v,
 //
-// t counted from the end, R, S_u, S_v means of the derivatives along the way. Seen along any n, with D(a, b) =
+// t counted from the end, R, S_u, S_v means of the derivatives along the way. Interaction along any n, with D(a, b) =
 // n . (a x b): t D(S_u, R) = (v - v0) D(S_u, S_v). So there is none if the signs of both D, which the boxes of the
 // derivatives tell, put v beyond the border; the curve may leave in the tangent plane, as lines of the next patch do.
 // The same of borders u = u0. An end that is off the border by e shifts t D(S_u, R) by |S_u| e, which the part at the

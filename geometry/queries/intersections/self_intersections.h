@@ -12,26 +12,26 @@
 
 namespace lekalo::geometry {
 
-enum class SelfMeetingKind {
+enum class SelfIntersectionKind {
   crossing,
   contact,  // the tangents are parallel
   cusp      // s = t: the curve stops and turns, r' = 0
 };
-struct CurveSelfMeeting {
-  SelfMeetingKind kind = SelfMeetingKind::crossing;
+struct CurveSelfIntersection {
+  SelfIntersectionKind kind = SelfIntersectionKind::crossing;
   double s = 0, t = 0;  // s <= t
   Vec3 point{0};        // midway between both
   double distance = 0;  // between them
 };
-struct CurveSelfMeetings {
-  std::vector<CurveSelfMeeting> points;  // by s; ends of common parts are not among them
+struct CurveSelfIntersections {
+  std::vector<CurveSelfIntersection> points;  // by s; ends of common parts are not among them
   // Parts that the curve runs twice: from s.lo to s.hi as from `begin` to `end`, which are larger.
   std::vector<CommonPart> common;
 };
 // Of curves in space and in the plane. Where the ends of a closed curve join it does not meet itself. `tolerance` is
 // relative to the size of the curve: what comes so near to itself far along the curve meets itself, and proportionally
 // nearer where s and t are nearer.
-CurveSelfMeetings self_intersections(const Curve& curve, double tolerance = kSamePoint);
+CurveSelfIntersections self_intersections(const Curve& curve, double tolerance = kSamePoint);
 
 // Each branch has two images on the surface; where they jump they cross a border that joins another. Points: `end`
 // where a curve begins at a pinch point, `contact` where two sheets touch or the surface runs through one point again

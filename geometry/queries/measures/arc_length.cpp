@@ -14,10 +14,10 @@ double parameter_at_fraction(const Curve& curve, double s) {
   if (!(whole > 0)) throw std::invalid_argument("the curve has no length");
   if (s <= 0) return domain.lo;
   if (s >= 1) return domain.hi;
-  constexpr int kMostSteps = 100;
+  constexpr int kMaxSteps = 100;
   double lo = domain.lo, hi = domain.hi, length_to_lo = 0;
   double t = lo + s * (hi - lo);
-  for (int step = 0; step < kMostSteps && lo < t && t < hi; ++step) {
+  for (int step = 0; step < kMaxSteps && lo < t && t < hi; ++step) {
     const double length = length_to_lo + arc_length(curve, lo, t).value;
     const double excess = length - s * whole;
     const double speed = glm::length(curve.evaluate(t, 1).d[1]);

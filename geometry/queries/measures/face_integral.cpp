@@ -51,8 +51,8 @@ Integral integrate_along_u(const Surface& surface, double v, const std::vector<d
 }
 
 // Of G in place of cells: at most so many lines, and evaluations on each; an accuracy that these allow.
-constexpr int kMostLines = 4000;
-constexpr int kMostOnLine = 10000;
+constexpr int kMaxLines = 4000;
+constexpr int kMaxOnLine = 10000;
 constexpr double kLineAccuracy = 1e-9;
 // A line is divided beforehand, or nodes miss what it cuts off a curve that it nearly touches. What it misses all the
 // same, an area that falls with the third power of the parts, is told by twice as many.
@@ -71,9 +71,9 @@ Integral integrate_by_lines(const Surface& surface, const std::vector<double>& b
                             IntegrationGoal goal) {
   goal.relative = std::max(goal.relative, kLineAccuracy);
   goal.absolute = std::max(goal.absolute, 0.1 * kLineAccuracy);
-  goal.evaluations = kMostLines;
+  goal.evaluations = kMaxLines;
   IntegrationGoal along = inner_goal(goal);
-  along.evaluations = kMostOnLine;
+  along.evaluations = kMaxOnLine;
   const auto with_parts = [&](int parts) {
     const std::vector<double> breaks = divided(breaks_u, parts);
     std::vector<double> line_error(count, 0);  // the largest of a line

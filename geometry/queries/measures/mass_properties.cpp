@@ -151,9 +151,9 @@ double border_of(const Surface& surface) {
   const Rectangle domain = surface.domain();
   double sum = 0;
   for (const double u : {domain.u.lo, domain.u.hi})
-    sum += arc_length(ParameterLine(alias, HeldParameter::u, u), domain.v.lo, domain.v.hi).value;
+    sum += arc_length(ParameterLine(alias, IsoDirection::u, u), domain.v.lo, domain.v.hi).value;
   for (const double v : {domain.v.lo, domain.v.hi})
-    sum += arc_length(ParameterLine(alias, HeldParameter::v, v), domain.u.lo, domain.u.hi).value;
+    sum += arc_length(ParameterLine(alias, IsoDirection::v, v), domain.u.lo, domain.u.hi).value;
   return sum;
 }
 
@@ -187,12 +187,12 @@ SurfaceMeasures area_of(Integral integral, const Scale& scale, const Variation& 
 
 // An integral that comes no nearer to rest than this is infinite, for all that can be told: beside a place where the
 // derivatives grow without bounds, that of 1/x changes by more with the last digit of x, that of x^(-3/4) by less.
-constexpr double kLeastAccuracy = 1e-3;
+constexpr double kMinAccuracy = 1e-3;
 
 // Of a length or an area, integral 0.
 void require_measure(const Integral& integral, const std::string& what) {
   const bool is_found = std::isfinite(integral.value[0]) &&
-                        (integral.converged || integral.error[0] <= kLeastAccuracy * std::abs(integral.value[0]));
+                        (integral.converged || integral.error[0] <= kMinAccuracy * std::abs(integral.value[0]));
   if (!is_found)
     throw std::invalid_argument(what +
                                 " is infinite or cannot be told: somewhere in the domain the derivatives grow "

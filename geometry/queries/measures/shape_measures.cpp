@@ -56,8 +56,8 @@ class Estimates {
   T mean_{0}, squares_{0};
 };
 
-constexpr int kMostDimensions = 5;
-using CubePoint = std::array<double, kMostDimensions>;
+constexpr int kMaxDimensions = 5;
+using CubePoint = std::array<double, kMaxDimensions>;
 
 // Points of the lattice of the generalised golden ratio g (g^(D+1) = g + 1), shifted and wrapped into the unit cube of
 // D dimensions (Roberts 2018).

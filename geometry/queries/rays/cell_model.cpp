@@ -65,12 +65,12 @@ LEKALO_WIDE CellModel model_of(const PatchView& patch) {
   m.dy = 0.5 * center.dt;
   const CellFrame frame(m.dx, m.dy);
   m.normal = frame.normal;
-  double least_weight = kInfinity, most_weight = -kInfinity;
+  double min_weight = kInfinity, max_weight = -kInfinity;
   for (int k = 0; k < patch.count(); ++k) {
-    least_weight = std::min(least_weight, patch.points[k].w);
-    most_weight = std::max(most_weight, patch.points[k].w);
+    min_weight = std::min(min_weight, patch.points[k].w);
+    max_weight = std::max(max_weight, patch.points[k].w);
   }
-  if (!(least_weight > 0)) {
+  if (!(min_weight > 0)) {
     m.shift_x = m.shift_y = m.bend = m.variation_x = m.variation_y = kInfinity;
     return m;
   }
@@ -78,7 +78,7 @@ LEKALO_WIDE CellModel model_of(const PatchView& patch) {
   // derivative of X~ raised to the patch's own degree, less w dx, has coefficients K; then
   //   |S_x - dx| <= max|K| / min w + max|S~| max|w_x| / min w
   // holds for every part of the vectors. The fourth lane holds w_x.
-  const bool polynomial = least_weight == most_weight;
+  const bool polynomial = min_weight == max_weight;
   const int p = patch.degree_u, q = patch.degree_v;
   LargestParts along_x(frame), along_y(frame), reach(frame);
   Lanes middle, dx, dy;
@@ -103,11 +103,11 @@ LEKALO_WIDE CellModel model_of(const PatchView& patch) {
       include(j, q, j > 0 ? patch.at(i, j - 1) : at, c, j < q ? patch.at(i, j + 1) : at, dy, along_y);
       if (!polynomial) reach.include(c / c[3] - middle);
     }
-  along_x.add_to(m, m.variation_x, 1 / least_weight);
-  along_y.add_to(m, m.variation_y, 1 / least_weight);
+  along_x.add_to(m, m.variation_x, 1 / min_weight);
+  along_y.add_to(m, m.variation_y, 1 / min_weight);
   if (!polynomial) {
-    reach.add_to(m, m.variation_x, along_x.fourth() / least_weight);
-    reach.add_to(m, m.variation_y, along_y.fourth() / least_weight);
+    reach.add_to(m, m.variation_x, along_x.fourth() / min_weight);
+    reach.add_to(m, m.variation_y, along_y.fourth() / min_weight);
   }
   if (!frame.regular) m.shift_x = m.shift_y = kInfinity;
   return m;

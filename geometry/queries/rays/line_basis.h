@@ -38,12 +38,12 @@ class PreparedLine {
   explicit PreparedLine(Line&&) = delete;
   const Line& line() const { return line_; }
 
-  // The same line measured from its point nearest to `center` (whose parameter goes to `foot`) but for 1e-7 of the way
-  // there, in coordinates relative to `center`: all rounds at the size of things there, however far the line begins, so
-  // that neighbouring pieces see the same line. Holds until the next call.
-  const LineBasis& near(const Vec3& center, double& foot) const {
+  // The same line measured from its point nearest to `center` (whose parameter goes to `foot point`) but for 1e-7 of
+  // the way there, in coordinates relative to `center`: all rounds at the size of things there, however far the line
+  // begins, so that neighbouring pieces see the same line. Holds until the next call.
+  const LineBasis& near(const Vec3& center, double& foot_point) const {
     if (basis_ && center == center_) {
-      foot = foot_;
+      foot_point = foot_point_;
       return *basis_;
     }
     if (!basis_) {
@@ -51,12 +51,12 @@ class PreparedLine {
       for (int k = 0; k < 3; ++k) upper_[k] = static_cast<float>(line_.direction[k]);
       lower_ = line_.direction - upper_;
     }
-    // origin - center and its rounding error (Knuth, TAOCP 2, 4.2.2). With `foot` a float, its products with a float
-    // and with what is left of the direction are exact; the first nearly takes the difference away.
+    // origin - center and its rounding error (Knuth, TAOCP 2, 4.2.2). With `foot point` a float, its products with a
+    // float and with what is left of the direction are exact; the first nearly takes the difference away.
     const Vec3 &o = line_.origin, from = o - center, taken = o - from;
     const Vec3 error = (o - (from + taken)) + (taken - center);
-    foot = foot_ = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
-    basis_->line.origin = (from + foot * upper_) + (foot * lower_ + error);
+    foot_point = foot_point_ = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
+    basis_->line.origin = (from + foot_point * upper_) + (foot_point * lower_ + error);
     center_ = center;
     return *basis_;
   }
@@ -66,7 +66,7 @@ class PreparedLine {
   mutable std::optional<LineBasis> basis_;
   mutable Vec3 upper_{0}, lower_{0};  // the direction in floats, and the rest
   mutable Vec3 center_{0};            // of the last call, often the next one's too: neighbours are asked together
-  mutable double foot_ = 0;
+  mutable double foot_point_ = 0;
 };
 
 }  // namespace lekalo::geometry

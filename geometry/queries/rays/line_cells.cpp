@@ -25,7 +25,7 @@ constexpr double kInjective = 0.9;
 // Cells that one line may ask of one cell of a surface before the search gives up: only lines that run inside the
 // surface (tangent along a curve) get there. Roots are found with a quarter of that, at cusps and poles too. Where a
 // formula has a fractional power of zero the doubles near zero have to be gone through, a hundred halvings.
-constexpr int kMostCells = 256, kMostUnboundedCells = 1024;
+constexpr int kMaxCells = 256, kMaxUnboundedCells = 1024;
 
 // A vector's parts along a line's n1, n2 and the line.
 inline void see(const LineBasis& line, double x, double y, double z, Lanes& parts) {
@@ -308,7 +308,7 @@ struct Search {
   bool unbounded;
   int cells = 0;
 
-  int most_cells() const { return unbounded ? kMostUnboundedCells : kMostCells; }
+  int max_cells() const { return unbounded ? kMaxUnboundedCells : kMaxCells; }
   double size() const { return whole.x + whole.y; }
   // The slack at borders as a length.
   double slack() const { return kBorderSlack * size(); }
@@ -363,15 +363,15 @@ struct Search {
   // Whether making a part shorter along one parameter, of which it has a share, tells nothing more. About a step at
   // zero doubles would go on for a thousand halvings; |x|^0.2 is as small as the smallest cell at 1e-60.
   bool is_spent(const Interval& range, double reach, double share) const {
-    constexpr double kLeastShare = 1e-60;
-    return reach <= slack() || share <= kLeastShare || is_exhausted(range);
+    constexpr double kMinShare = 1e-60;
+    return reach <= slack() || share <= kMinShare || is_exhausted(range);
   }
 };
 
 // Decides the cell if it can be: without a root, with one, or too small to be halved. False: to be halved.
 bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double hull, double x0, double y0, double hx,
                 double hy) {
-  if (++s.cells > s.most_cells()) return true;
+  if (++s.cells > s.max_cells()) return true;
   CellHit hit;
   const Verdict verdict = decide(cells, m, s.line, hit);
   if (verdict == Verdict::none) return true;
@@ -385,13 +385,13 @@ bool is_settled(Search& s, const SurfaceCells& cells, const CellModel& m, double
 }
 
 // The surface over a rectangle, behind its proxy; keeps what the proxy leaves open.
-class BehindProxy final : public NearSurface {
+class ProxiedSurface final : public NearSurface {
  public:
   struct Cell {
     double x, y, hx, hy;
   };
   // `length_of_slack`: that of the cells as a length.
-  BehindProxy(const SurfaceCells& cells, double length_of_slack, const ProxyPatch& proxy) : cells_(cells) {
+  ProxiedSurface(const SurfaceCells& cells, double length_of_slack, const ProxyPatch& proxy) : cells_(cells) {
     off = proxy.off;
     off_x = proxy.off_x;
     off_y = proxy.off_y;
@@ -455,15 +455,15 @@ void search(Search& s, const Part& part, const CellModel& m, const ProxyPatch* p
     proxy = &own;
   }
   if (has_proxy && proxy->off <= kWorthwhileProxy * (glm::length(m.dx) + glm::length(m.dy))) {
-    BehindProxy behind(cells, s.slack(), *proxy);
+    ProxiedSurface behind(cells, s.slack(), *proxy);
     CellHits found;
     search_net(proxy->view(), behind, s.line, found);
     for (int i = 0; i < found.size(); ++i)
       s.add({found[i].t, part.x0 + part.hx * found[i].x, part.y0 + part.hy * found[i].y});
-    const std::vector<BehindProxy::Cell>& open = behind.open();
+    const std::vector<ProxiedSurface::Cell>& open = behind.open();
     if (open.empty()) return;
     if (open.size() > 1 || std::max(open[0].hx, open[0].hy) < 0.9) {
-      for (const BehindProxy::Cell& cell : open) go_on(part.cell(cell.x, cell.y, cell.hx, cell.hy));
+      for (const ProxiedSurface::Cell& cell : open) go_on(part.cell(cell.x, cell.y, cell.hx, cell.hy));
       return;
     }
   }

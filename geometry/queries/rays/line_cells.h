@@ -55,7 +55,7 @@ class CellHits {
   std::vector<CellHit> more_;
 };
 
-// All meetings of the line with a cell of a patch, but for some with a t certainly outside the interval.
+// All intersections of the line with a cell of a patch, but for some with a t certainly outside the interval.
 void intersect(const PatchView& patch, const PatchCell& cell, const LineBasis& line, const Interval& t, CellHits& hits);
 
 // The same for a rectangle of any surface. `proxy` is proxy_of(surface, box), kept by the caller; `hull` holds its

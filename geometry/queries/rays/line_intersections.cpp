@@ -21,11 +21,11 @@ namespace lekalo::geometry {
 namespace {
 
 // Of a surface that only its enclosures tell about: each cell costs several evaluations over intervals.
-constexpr size_t kMostEnclosedCells = 1 << 13;
+constexpr size_t kMaxEnclosedCells = 1 << 13;
 // Cells that are smaller in both parameters are searched as they are: only about a singular place any get so small.
-constexpr double kLeastShareOfDomain = 1.0 / 4096;
+constexpr double kMinShareOfDomain = 1.0 / 4096;
 // Of a surface of many smooth parts each has so many at least.
-constexpr size_t kLeastShare = 1 << 9;
+constexpr size_t kMinShare = 1 << 9;
 
 // A surface with a closed form: one piece.
 class FormulaTarget final : public LineTarget {
@@ -51,7 +51,7 @@ class FormulaTarget final : public LineTarget {
   void trimmed_hits(const Line& line, const Interval& t, LineHits& hits) const;
 
   SurfacePtr surface_;
-  Acceptance acceptance_;
+  HitFilter acceptance_;
   Box3 box_;
 };
 
@@ -63,17 +63,17 @@ void FormulaTarget::trimmed_hits(const Line& line, const Interval& t, LineHits& 
 }
 
 // What of a surface counts: the rectangles of its domain in which there may be something of that, and the share of
-// kMostEnclosedCells that it may have.
-struct Wanted {
+// kMaxEnclosedCells that it may have.
+struct CellBudget {
   std::function<bool(const Rectangle&)> has_some;  // none: all
-  size_t most_cells = kMostEnclosedCells;
+  size_t max_cells = kMaxEnclosedCells;
 };
 
 // Any other surface: rectangles certified by its own enclosures.
 class EnclosureTarget final : public LineTarget {
  public:
   EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim,
-                  const Wanted& wanted)
+                  const CellBudget& wanted)
       : surface_(std::move(surface)), acceptance_(std::move(trim)) {
     std::vector<Rectangle> boxes;
     for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
@@ -84,14 +84,14 @@ class EnclosureTarget final : public LineTarget {
   Box3 piece_bounds(int i) const override { return cells_[i].hull; }
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     const Cell& cell = cells_[i];
-    double foot;
-    LineBasis basis = line.near(cell.model.point, foot);
+    double foot_point;
+    LineBasis basis = line.near(cell.model.point, foot_point);
     basis.line.origin += cell.model.point;
     CellHits found;
     intersect(*surface_, cell.box, cell.model, cell.proxy, cell.hull, basis, found);
     for (int k = 0; k < found.size(); ++k) {
       LineHit hit;
-      hit.t = foot + found[k].t;
+      hit.t = foot_point + found[k].t;
       hit.u = cell.box.u.clamp(cell.box.u.middle() + 0.5 * cell.box.u.width() * found[k].x);
       hit.v = cell.box.v.clamp(cell.box.v.middle() + 0.5 * cell.box.v.width() * found[k].y);
       if (acceptance_.keeps(hit, t, line.line(), *surface_)) hits.add(hit);
@@ -113,7 +113,7 @@ class EnclosureTarget final : public LineTarget {
   };
   // Halves the largest cells that are not flat first: around singular points none ever is, and those are small soon.
   // What is halved next depends only on what there is, so that any number of threads makes the same cells.
-  void cut(const std::vector<Rectangle>& boxes, const Wanted& wanted) {
+  void cut(const std::vector<Rectangle>& boxes, const CellBudget& wanted) {
     const SampledExtent sampled(*surface_);
     const Rectangle domain = surface_->domain();
     // By the bounds: on a line of singular points in the middle of a cell one of the derivatives there may vanish.
@@ -135,17 +135,17 @@ class EnclosureTarget final : public LineTarget {
         fresh[i].size = sampled.size(fresh[i].box, fresh[i].model);
       });
       for (const Cell& cell : fresh) {
-        const bool is_done = roughness(cell.model) <= kFlat || sampled.share(cell.box) < kLeastShareOfDomain;
+        const bool is_done = roughness(cell.model) <= kFlat || sampled.share(cell.box) < kMinShareOfDomain;
         (is_done ? cells_ : rough).push_back(cell);
       }
       const size_t count = cells_.size() + rough.size();
-      if (rough.empty() || count >= wanted.most_cells) break;
+      if (rough.empty() || count >= wanted.max_cells) break;
       // The largest, and those not much smaller.
       std::stable_sort(rough.begin(), rough.end(), [](const Cell& a, const Cell& b) { return a.size > b.size; });
       const double least = 0.7 * rough.front().size;
       fresh.clear();
       size_t halved = 0;
-      for (; halved < rough.size() && count + halved < wanted.most_cells; ++halved) {
+      for (; halved < rough.size() && count + halved < wanted.max_cells; ++halved) {
         const Cell& cell = rough[halved];
         if (cell.size < least) break;
         Cell first{{}, cell.box, {}}, second = first;
@@ -166,18 +166,17 @@ class EnclosureTarget final : public LineTarget {
   }
 
   SurfacePtr surface_;
-  Acceptance acceptance_;
+  HitFilter acceptance_;
   std::vector<Cell> cells_;
 };
 
 std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
-                                               double least_area, const Wanted& wanted) {
+                                               double min_area, const CellBudget& wanted) {
   if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
   std::vector<SurfacePiece> pieces = surface->pieces();
   const bool rational =
       std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
-  if (rational)
-    return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), least_area);
+  if (rational) return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), min_area);
   return std::make_unique<EnclosureTarget>(std::move(surface), pieces, std::move(trim), wanted);
 }
 
@@ -186,16 +185,16 @@ std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_p
 class PartsTarget final : public LineTarget {
  public:
   PartsTarget(SurfacePtr surface, std::vector<SmoothPart> parts, const std::shared_ptr<const TrimRegion>& trim,
-              double least_area)
+              double min_area)
       : surface_(std::move(surface)), parts_(std::move(parts)) {
     const Rectangle domain = surface_->domain();
     slack_ = kHitSlack * Vec3(domain.u.width(), domain.v.width(), 0);
-    const size_t share = std::max(kMostEnclosedCells / parts_.size(), kLeastShare);
+    const size_t share = std::max(kMaxEnclosedCells / parts_.size(), kMinShare);
     for (const SmoothPart& part : parts_) {
       const auto may_hold = [&](const Rectangle& r) {
         return geometry::may_hold(part.sides, {{r.u.lo, r.v.lo, 0}, {r.u.hi, r.v.hi, 0}});
       };
-      targets_.push_back(make_smooth_target(part.surface, trim, least_area, {may_hold, share}));
+      targets_.push_back(make_smooth_target(part.surface, trim, min_area, {may_hold, share}));
       for (int i = 0; i < targets_.back()->piece_count(); ++i) pieces_.emplace_back(targets_.size() - 1, i);
     }
   }
@@ -240,16 +239,16 @@ class PartsTarget final : public LineTarget {
 }  // namespace
 
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
-                                             double least_area) {
+                                             double min_area) {
   if (std::vector<SmoothPart> parts = smooth_parts(surface); parts.size() > 1)
-    return std::make_unique<PartsTarget>(std::move(surface), std::move(parts), trim, least_area);
-  return make_smooth_target(std::move(surface), std::move(trim), least_area, {});
+    return std::make_unique<PartsTarget>(std::move(surface), std::move(parts), trim, min_area);
+  return make_smooth_target(std::move(surface), std::move(trim), min_area, {});
 }
 
-std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double least_area) {
+std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double min_area) {
   std::vector<std::unique_ptr<LineTarget>> targets;
   for (int face = 0; face < static_cast<int>(body.faces.size()); ++face)
-    targets.push_back(make_line_target(body.faces[face].surface, trim_of(body, face), least_area));
+    targets.push_back(make_line_target(body.faces[face].surface, trim_of(body, face), min_area));
   return targets;
 }
 
@@ -284,11 +283,11 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
             });
   const double length = glm::length(line.direction);
   const auto slope = [&](const SurfaceHit& hit) { return glm::dot(normal(hit), line.direction) / length; };
-  // What the line's own rounding moves it by; a hit moves by as much over its steepness, and Acceptance lets it.
+  // What the line's own rounding moves it by; a hit moves by as much over its steepness, and HitFilter lets it.
   const auto rounding = [&](const SurfaceHit& hit) {
     return kShallowSlack * (glm::length(line.origin) + std::abs(hit.t) * length);
   };
-  constexpr double kLeastSteepness = 1e-4;
+  constexpr double kMinSteepness = 1e-4;
   size_t kept = first + 1;
   for (size_t i = first + 1; i < hits.size(); ++i) {
     const SurfaceHit hit = hits[i];
@@ -296,9 +295,9 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
     // Hits far from the one before them, as nearly all are, need no normals.
     for (size_t k = kept; k-- > first && !again;) {
       const double apart = (hit.t - hits[k].t) * length;
-      if (apart > (kSameHit * size + rounding(hit)) / kLeastSteepness) break;
+      if (apart > (kSameHit * size + rounding(hit)) / kMinSteepness) break;
       const double a = slope(hit), b = slope(hits[k]);
-      const double steepness = std::max(std::min(std::abs(a), std::abs(b)), kLeastSteepness);
+      const double steepness = std::max(std::min(std::abs(a), std::abs(b)), kMinSteepness);
       const double reach = (kSameHit * size + rounding(hit)) / steepness;
       const Surface* const one = surface(hit);
       again = apart <= reach && (a > 0) == (b > 0) &&

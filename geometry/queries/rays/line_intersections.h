@@ -42,10 +42,10 @@ class LineTarget {
   virtual std::string_view method() const = 0;
 };
 
-// Unbounded surfaces give one piece with an unbounded box. `trim` may be null. Cells smaller than `least_area` are not
+// Unbounded surfaces give one piece with an unbounded box. `trim` may be null. Cells smaller than `min_area` are not
 // cut further, which costs time and saves memory, nothing else.
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim = nullptr,
-                                             double least_area = 0);
+                                             double min_area = 0);
 
 // All hits of a line with a surface or body, sorted by t, one for each crossing: a small hierarchy over the pieces.
 class LineIntersector {
@@ -75,6 +75,6 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
                 const std::function<const Surface*(const SurfaceHit&)>& surface, size_t first = 0);
 
 // Line targets of a body's faces, trims included, in the order of its faces.
-std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double least_area = 0);
+std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double min_area = 0);
 
 }  // namespace lekalo::geometry

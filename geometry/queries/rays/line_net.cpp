@@ -26,14 +26,14 @@ constexpr double kContraction = 0.25;
 constexpr double kInjective = 0.9;
 
 // Cells that one line may ask of one patch; only lines that run inside the surface (tangent along a curve) get there.
-constexpr int kMostCells = 20000;
+constexpr int kMaxCells = 20000;
 
 // A cell is clipped rather than halved where that leaves less of one side than this.
 constexpr double kWorthClipping = 0.7;
 
 // Newton's iteration is trusted in cells in which rounding moves roots by less than this part, and cells are not made
 // so small that it moves them more: a line along a parameter line is soon known across it, long before it is along it.
-constexpr double kMostRounding = 1e-3;
+constexpr double kMaxRounding = 1e-3;
 
 // Ratio of the weights of a patch from which on it is worth while to know what rounding does in the cell alone.
 constexpr double kUneven = 8;
@@ -128,7 +128,7 @@ class NetSearch {
         line_(line),
         hits_(hits),
         room_(workspace(static_cast<size_t>(n()) * (kDeepest + 2))) {
-    double least_weight = kInfinity, most_weight = 0;
+    double min_weight = kInfinity, max_weight = 0;
     for (int k = 0; k < n(); ++k) {
       const Vec4& c = patch.points[k];
       const Vec3 r = Vec3(c) - c.w * line.line.origin;
@@ -136,8 +136,8 @@ class NetSearch {
       const double size = std::abs(r.x) + std::abs(r.y) + std::abs(r.z);
       room_[n() + k] = pair(size);
       rounding_ = std::max(rounding_, size);
-      least_weight = std::min(least_weight, c.w);
-      most_weight = std::max(most_weight, c.w);
+      min_weight = std::min(min_weight, c.w);
+      max_weight = std::max(max_weight, c.w);
     }
     const auto clip = [&](Pair* c) {
       clip_x(c, place.x - place.hx, place.x + place.hx);
@@ -147,8 +147,8 @@ class NetSearch {
     // A coefficient is wrong by a few roundings of the terms that made it, and of the averages that clipping and
     // halving take; the same averages of the terms' sizes bound that. Where weights differ much they are far smaller
     // here than elsewhere in the patch.
-    least_weight_ = least_weight;
-    unevenness_ = most_weight / least_weight;
+    min_weight_ = min_weight;
+    unevenness_ = max_weight / min_weight;
     if (unevenness_ > kUneven) {
       clip(room_ + n());
       rounding_ = 0;
@@ -431,9 +431,9 @@ class NetSearch {
   // if it does not settle.
   // `noise`: what the rounding of the points moves the place by, at least kSameHit.
   bool settle_on_surface(double& root_x, double& root_y, double outside, double noise) const {
-    constexpr int kMostSteps = 30;
+    constexpr int kMaxSteps = 30;
     double x = root_x, y = root_y;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       const PatchPoint at = surface_at(x, y);
       const Vec2 f = across(at.point), a(glm::dot(line_.n1, at.ds), glm::dot(line_.n2, at.ds)),
                  b(glm::dot(line_.n1, at.dt), glm::dot(line_.n2, at.dt));
@@ -472,7 +472,7 @@ class NetSearch {
     Box3 hull;
     for (int k = 0; k < n(); ++k) hull.include(Vec3(patch_.points[k]) / patch_.points[k].w);
     const double size = std::min(whole_.x + whole_.y, hull.diameter());
-    if (allowance_ > kBorderSlack * size * least_weight_ && settle_on_surface(x, y, 0, kSameHit)) {
+    if (allowance_ > kBorderSlack * size * min_weight_ && settle_on_surface(x, y, 0, kSameHit)) {
       add(x, y, 10 * kSameHit);
       return;
     }
@@ -494,15 +494,15 @@ class NetSearch {
   // Beside a line along which a derivative vanishes the other one is short, and rounding moves a root far in
   // parameters, but not in space. A tangent, which is undecided too, has a short derivative across the line alone.
   void add_if_crossed(const PatchPoint& at, double x, double y) {
-    constexpr double kMostNoise = 1e-3;
+    constexpr double kMaxNoise = 1e-3;
     const auto steepness = [&](const PatchPoint& p) {
       const Vec3 across = glm::cross(p.ds, p.dt);
       return std::abs(glm::dot(across, line_.line.direction)) * std::sqrt(line_.inverse_length2) /
              (glm::length(p.ds) * glm::length(p.dt));
     };
     const double noise =
-        std::max(kSameHit, 8 * allowance_ / (least_weight_ * std::min(glm::length(at.ds), glm::length(at.dt))));
-    if (!(noise <= kMostNoise) || !(steepness(at) > 1e-6) || !settle_on_surface(x, y, noise, noise) ||
+        std::max(kSameHit, 8 * allowance_ / (min_weight_ * std::min(glm::length(at.ds), glm::length(at.dt))));
+    if (!(noise <= kMaxNoise) || !(steepness(at) > 1e-6) || !settle_on_surface(x, y, noise, noise) ||
         !(steepness(surface_at(x, y)) > 1e-6))
       return;
     add(x, y, 10 * noise);
@@ -551,7 +551,7 @@ class NetSearch {
   // Finds the root of a cell with its coefficients in c, or that there is none; or makes the cell smaller; or says how
   // it is to be halved.
   Rest treat(Pair* c, Cell& cell) {
-    if (++cells_ > kMostCells || excluded(c)) return Rest::nothing;
+    if (++cells_ > kMaxCells || excluded(c)) return Rest::nothing;
     Jacobian j;
     const Pair f = center(c, j);
     const double determinant = j.determinant();
@@ -570,7 +570,7 @@ class NetSearch {
       if (lo[0] > 1 || lo[1] > 1 || hi[0] < -1 || hi[1] < -1) return Rest::nothing;
       const double worst = largest_of(slack);
       const bool contracts = e[0] <= kContraction && e[1] <= kContraction;
-      if (e[0] <= kInjective && e[1] <= kInjective && worst < kMostRounding &&
+      if (e[0] <= kInjective && e[1] <= kInjective && worst < kMaxRounding &&
           newton(c, cell, root, slack, border, contracts))
         return Rest::nothing;
       if (near_ && largest_of(unknown) > kTooWide) {
@@ -579,7 +579,7 @@ class NetSearch {
       }
       if (!contracts) {
         if (excluded_across(c, j)) return Rest::nothing;
-        if (clip_to(root, larger(e + uncertain, slack / (0.25 * kMostRounding)), c, cell)) {
+        if (clip_to(root, larger(e + uncertain, slack / (0.25 * kMaxRounding)), c, cell)) {
           if (std::max(cell.hx, cell.hy) >= kSmallestCell) return Rest::smaller;
           leave(cell);
           return Rest::nothing;
@@ -599,8 +599,8 @@ class NetSearch {
     // Unless rounding has the last word there already, and not in the other one. (At the centre alone it may have it:
     // on a cusp a derivative vanishes, and the determinant is nothing but rounding.)
     const auto is_spent = [&](bool along_x) {
-      return slack[along_x ? 0 : 1] > 0.5 * kMostRounding &&
-             rounding_ > 0.5 * kMostRounding * (along_x ? o.extent_x : o.extent_y);
+      return slack[along_x ? 0 : 1] > 0.5 * kMaxRounding &&
+             rounding_ > 0.5 * kMaxRounding * (along_x ? o.extent_x : o.extent_y);
     };
     if (is_spent(cell.along_x) && !is_spent(!cell.along_x)) cell.along_x = !cell.along_x;
     return Rest::halves;
@@ -651,7 +651,7 @@ class NetSearch {
   double allowance_ = 0;  // with the distance of the surface that the patch stands for
   double excludes_ = 0;   // and the slack at its border
   int cells_ = 0;
-  double least_weight_ = 1;
+  double min_weight_ = 1;
   double unevenness_ = 1;  // of the weights: the largest by the least
 };
 

@@ -1,10 +1,10 @@
-// All meetings of a line with a rational Bezier patch, in the plane across the line.
+// All intersections of a line with a rational Bezier patch, in the plane across the line.
 //
 // With n1, n2 the unit vectors across the line and o its origin, the homogeneous functions
 //
 //   f(s, t) = n1 . (X - w o),  g(s, t) = n2 . (X - w o),  X, w the patch's numerators and denominator,
 //
-// are polynomials in Bernstein form whose common zeros are the meetings: two numbers a control point, whatever the
+// are polynomials in Bernstein form whose common zeros are the intersections: two numbers a control point, whatever the
 // weights. A cell x, y in [-1, 1] of parameters is treated by F = J^-1 (f, g), J the derivatives at its centre, for
 // which the differences of the coefficients bound E = dF/d(x, y) - I over the cell:
 //

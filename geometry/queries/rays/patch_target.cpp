@@ -9,7 +9,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Cells of one piece when the target is built; what is not flat by then is halved along the line that asks.
-constexpr int kMostCellsPerPiece = 1024;
+constexpr int kMaxCellsPerPiece = 1024;
 constexpr int kDeepestCut = 9;
 
 static_assert(1 << kDeepestCut <= PatchCell::kPlaces);
@@ -25,12 +25,12 @@ Vec3 in_space(const std::array<uint16_t, 3>& steps, const Vec3& reach) {
 // Cuts one piece after the other.
 class PatchTarget::Cutter {
  public:
-  Cutter(PatchTarget& target, double least_area) : target_(target), least_area_(least_area) {}
+  Cutter(PatchTarget& target, double min_area) : target_(target), min_area_(min_area) {}
 
   void cut(int patch) {
     const PatchView view = target_.view_of(target_.patches_[patch]);
     patch_ = patch;
-    budget_ = kMostCellsPerPiece;
+    budget_ = kMaxCellsPerPiece;
     room_.resize(static_cast<size_t>(view.count()) * (2 * kDeepestCut + 1));
     std::copy(view.points, view.points + view.count(), room_.begin());
     cut(room_.data(), geometry::model_of({room_.data(), view.degree_u, view.degree_v}), {}, 0);
@@ -39,7 +39,7 @@ class PatchTarget::Cutter {
  private:
   bool is_done(const CellModel& model, int depth) const {
     return roughness(model) <= kFlat || depth == kDeepestCut || budget_ <= 1 ||
-           glm::length(glm::cross(model.dx, model.dy)) < 0.25 * least_area_;
+           glm::length(glm::cross(model.dx, model.dy)) < 0.25 * min_area_;
   }
 
   // What lies behind the cell's points is free for its halves.
@@ -102,15 +102,15 @@ class PatchTarget::Cutter {
   }
 
   PatchTarget& target_;
-  double least_area_;
+  double min_area_;
   std::vector<Vec4> room_;
   int patch_ = 0, budget_ = 0;
 };
 
 PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim,
-                         double least_area)
+                         double min_area)
     : surface_(std::move(surface)), acceptance_(std::move(trim)) {
-  Cutter cutter(*this, least_area);
+  Cutter cutter(*this, min_area);
   for (const SurfacePiece& piece : pieces) {
     Patch patch;
     patch.map_u = piece.map_u;
@@ -157,15 +157,15 @@ Box3 PatchTarget::piece_bounds(int i) const {
 void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const {
   const Cell& cell = cells_[i];
   const Patch& patch = patches_[cell.patch];
-  double foot;
-  const LineBasis& basis = line.near(patch.center, foot);
+  double foot_point;
+  const LineBasis& basis = line.near(patch.center, foot_point);
   CellHits found;
-  intersect(view_of(patch), cell.cell, basis, {t.lo - foot, t.hi - foot}, found);
+  intersect(view_of(patch), cell.cell, basis, {t.lo - foot_point, t.hi - foot_point}, found);
   if (found.size() == 0) return;
   const CellPlace place = cell.cell.place();
   for (int k = 0; k < found.size(); ++k) {
     LineHit hit;
-    hit.t = foot + found[k].t;
+    hit.t = foot_point + found[k].t;
     const double x = place.x + place.hx * found[k].x, y = place.y + place.hy * found[k].y;
     hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
     hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));

@@ -15,9 +15,9 @@ namespace lekalo::geometry {
 
 class PatchTarget final : public LineTarget {
  public:
-  // All pieces rational. Cells with an area below `least_area` are not cut (scene units squared; 0: no limit).
+  // All pieces rational. Cells with an area below `min_area` are not cut (scene units squared; 0: no limit).
   PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim,
-              double least_area);
+              double min_area);
 
   int piece_count() const override { return static_cast<int>(cells_.size()); }
   std::string_view method() const override { return "Bezier pieces"; }
@@ -54,7 +54,7 @@ class PatchTarget final : public LineTarget {
   }
 
   SurfacePtr surface_;
-  Acceptance acceptance_;
+  HitFilter acceptance_;
   std::vector<Patch> patches_;
   std::vector<Cell> cells_;
   std::vector<Vec4> points_;

@@ -12,9 +12,9 @@ namespace {
 
 // Bounds this many times larger than the sampled extent are those of the enclosure, not of the surface.
 constexpr double kImplausible = 8;
-constexpr int kSteps = 16;            // of the grid that tells the surface's size
-constexpr size_t kMostParts = 400;    // about a place in the middle of a cell four rows of 40 halvings, two parts each
-constexpr double kMostGrowth = 1000;  // of the points' box by a part's own: more is a pole
+constexpr int kSteps = 16;           // of the grid that tells the surface's size
+constexpr size_t kMaxParts = 400;    // about a place in the middle of a cell four rows of 40 halvings, two parts each
+constexpr double kMaxGrowth = 1000;  // of the points' box by a part's own: more is a pole
 
 double at(const Interval& range, int i, int steps) { return range.lo + (range.hi - range.lo) * i / steps; }
 
@@ -86,13 +86,13 @@ Box3 SampledExtent::hull(const Rectangle& cell, const CellModel& model) const {
   const double enough = sampled.empty() ? 0 : kImplausible * sampled.diameter();
   Box3 result;
   // The loosest first.
-  while (parts.size() < kMostParts && parts.front().size > enough) {
+  while (parts.size() < kMaxParts && parts.front().size > enough) {
     std::pop_heap(parts.begin(), parts.end(), is_smaller);
     const Part loosest = parts.back();
     parts.pop_back();
     if (share(loosest.box) < kSmallestCell) {
       const Box3 here = points(loosest.box);
-      if (!here.empty() && here.diameter() > kMostGrowth * sampled.diameter()) return whole.hull;
+      if (!here.empty() && here.diameter() > kMaxGrowth * sampled.diameter()) return whole.hull;
       result.include(here);
       if (parts.empty()) break;
       continue;

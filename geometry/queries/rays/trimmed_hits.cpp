@@ -8,11 +8,11 @@
 
 namespace lekalo::geometry {
 
-Acceptance::Acceptance(std::shared_ptr<const TrimRegion> trim) : trim_(std::move(trim)) {
+HitFilter::HitFilter(std::shared_ptr<const TrimRegion> trim) : trim_(std::move(trim)) {
   if (trim_) slack_ = kTrimSlack * std::max(trim_->u_range().width(), trim_->v_range().width());
 }
 
-bool Acceptance::is_inside(const LineHit& hit, const Line& line, const Surface& surface) const {
+bool HitFilter::is_inside(const LineHit& hit, const Line& line, const Surface& surface) const {
   if (trim_->contains(hit.u, hit.v, slack_)) return true;
   // The rounding of a line moves its hit with a surface that it hardly crosses much further than the slack, along the
   // line, and the neighbour across the edge, which it may cross steeply, has accepted it.

@@ -9,9 +9,9 @@
 namespace lekalo::geometry {
 
 // Keeps hits in an interval of the line and inside the trims, if there are any.
-class Acceptance {
+class HitFilter {
  public:
-  explicit Acceptance(std::shared_ptr<const TrimRegion> trim);
+  explicit HitFilter(std::shared_ptr<const TrimRegion> trim);
   bool keeps(const LineHit& hit, const Interval& t, const Line& line, const Surface& surface) const {
     return hit.t >= t.lo && hit.t <= t.hi && (!trim_ || is_inside(hit, line, surface));
   }

@@ -19,13 +19,13 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kFirstDirections = 48;
-constexpr int kMostDirections = 768;
+constexpr int kMaxDirections = 768;
 constexpr int kPlaces = 48;       // along each
 constexpr double kSpread = 0.08;  // neighbours are no farther from each other, of the length
 // A shot that misses by no more has reached the point; the other is for ways next to a pole, where parameters are bad
 // coordinates and steps do not come nearer. The miss is part of the error then.
 constexpr double kReached = 1e-13, kNearlyReached = 1e-7;
-constexpr int kMostShots = 30;
+constexpr int kMaxShots = 30;
 
 class Shooting {
  public:
@@ -108,7 +108,7 @@ class Shooting {
   // Directions with others between those that go apart.
   void draw_net() {
     for (int i = 0; i <= kFirstDirections; ++i) rays_.push_back(ray(kTwoPi * i / kFirstDirections));
-    for (size_t i = 0; i + 1 < rays_.size() && rays_.size() < kMostDirections;) {
+    for (size_t i = 0; i + 1 < rays_.size() && rays_.size() < kMaxDirections;) {
       const bool narrow = rays_[i + 1].angle - rays_[i].angle < 1e-4;
       if (narrow || spread(rays_[i], rays_[i + 1]) <= kSpread * reach_)
         ++i;
@@ -178,7 +178,7 @@ class Shooting {
     constexpr int kPatience = 6;
     int shots = 0;  // that were exact
     double angle = start.angle, length = start.length, before = kInfinity;
-    for (int time = 0; time < kMostShots; ++time) {
+    for (int time = 0; time < kMaxShots; ++time) {
       if (!(length > 0) || length > 1.5 * reach_) return std::nullopt;
       FlowOptions options = options_;
       options.length = length;

@@ -154,14 +154,14 @@ class SurfaceFlow {
   // A step of the length h, or `longest`, or to the border of the piece, or shorter: such that its error is small. h
   // becomes the length of the next one. None where no step is short enough.
   std::optional<Step> longest_step(const Rectangle& piece, double& h, double longest) const {
-    constexpr int kMostCuts = 30;
+    constexpr int kMaxCuts = 30;
     const double shortest = 1e-11 * options_.size, allowed = options_.tolerance * options_.size;
     double cut = kInfinity;
     std::optional<Crossing> aim;  // at which the cut step should end
     for (int cuts = 0;;) {
       const double now = std::min({h, longest, cut});
       std::optional<Step> step = try_step(piece, now);
-      if (const auto crossing = step ? first_crossing(piece, *step) : std::nullopt; crossing && cuts < kMostCuts) {
+      if (const auto crossing = step ? first_crossing(piece, *step) : std::nullopt; crossing && cuts < kMaxCuts) {
         // A polynomial that reaches beyond the border is not quite the line: so the end is sought in turns.
         aim = crossing;
         cut = std::max(0.5 * now * (1 + crossing->x), 1e-16 * options_.size);
@@ -176,7 +176,7 @@ class SurfaceFlow {
         if (h > std::min(shortest, 0.5 * longest)) continue;
         return std::nullopt;
       }
-      if (aim && now == cut && cuts < kMostCuts) {
+      if (aim && now == cut && cuts < kMaxCuts) {
         const Interval& range = side(piece, aim->axis);
         const double rest = (aim->above ? range.hi : range.lo) - step->end[aim->axis];
         const double speed = (step->end[aim->axis] - value(*step, aim->axis, 0.99)) / (0.005 * now);

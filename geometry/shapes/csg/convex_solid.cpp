@@ -12,7 +12,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Beyond so many planes a hierarchy over the faces is faster than to ask them all.
-constexpr size_t kMostPlanes = 24;
+constexpr size_t kMaxPlanes = 24;
 
 // A corner this far outside a plane (of the body's size) still belongs to a convex body: rounding of its coordinates.
 constexpr double kFlatCorner = 1e-12;
@@ -21,7 +21,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-ConvexSolid::Side::Side(SurfacePtr side) : surface(std::move(side)), knows_feet(surface->knows_feet()) {
+ConvexSolid::Side::Side(SurfacePtr side) : surface(std::move(side)), has_closest_point(surface->has_closest_point()) {
   const Surface* original = surface.get();
   if (const auto* image = dynamic_cast<const TransformedSurface*>(original)) {
     original = image->original().get();
@@ -61,7 +61,7 @@ std::optional<ConvexSolid> ConvexSolid::of(const Body& body) {
     solid.add_plane(face, side.surface->point(u, v), body.normal(face, u, v));
   }
   if (solid.round_face_ < 0) {
-    if (solid.slabs_.size() > kMostPlanes || !solid.holds_corners_of(body)) return std::nullopt;
+    if (solid.slabs_.size() > kMaxPlanes || !solid.holds_corners_of(body)) return std::nullopt;
     return solid;
   }
   const Side& round = solid.sides_[solid.round_face_];
@@ -255,9 +255,9 @@ LEKALO_FUSED bool ConvexSolid::clip_to_quadric(const LineOfSolids& line, Stretch
 
 ShapePoint ConvexSolid::point(int face, const Vec3& near, bool parameters) const {
   const Side& side = sides_[face];
-  if (!parameters && side.knows_feet) {
-    const Foot foot = side.surface->foot(near);
-    return {foot.point, side.sign * foot.normal};
+  if (!parameters && side.has_closest_point) {
+    const FootPoint foot_point = side.surface->foot_point(near);
+    return {foot_point.point, side.sign * foot_point.normal};
   }
   const Vec3 at = side.mapped ? side.inverse.point(near) : near;
   const Rectangle domain = side.surface->domain();

@@ -53,7 +53,7 @@ class ConvexSolid {
   // A face's surface, which may be the image of one of three.
   struct Side {
     SurfacePtr surface;
-    bool knows_feet;
+    bool has_closest_point;
     const Plane* plane = nullptr;
     const SphereSurface* sphere = nullptr;
     const ConeSurface* cone = nullptr;

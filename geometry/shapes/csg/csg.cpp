@@ -123,9 +123,9 @@ int Csg::append(const ShapePtr& operand, int parent, bool taken_away, bool turne
   }
   const auto* tree = dynamic_cast<const Csg*>(operand.get());
   if (!tree) {
-    if (leaf_count() == kMostLeaves)
+    if (leaf_count() == kMaxLeaves)
       throw std::invalid_argument(
-          fmt::format("it has more than {} parts, those of its operands' operands counted", kMostLeaves));
+          fmt::format("it has more than {} parts, those of its operands' operands counted", kMaxLeaves));
     nodes_[number].leaf = leaf_count();
     leaves_.push_back({operand, closed_form(*operand), turned, number});
     return number;

@@ -24,10 +24,10 @@ class Csg final : public Shape {
   enum class Operation { unite, intersect, subtract };
 
   // A tree of more leaves takes too much memory; one name used twice in each of twenty operations has a million.
-  static constexpr int kMostLeaves = 100'000;
+  static constexpr int kMaxLeaves = 100'000;
 
   // The operands, at least one, must be closed; subtract takes all others from the first. Throws std::invalid_argument
-  // for an open operand, for more than kMostLeaves, and where nothing can be left since the operands' boxes do not
+  // for an open operand, for more than kMaxLeaves, and where nothing can be left since the operands' boxes do not
   // meet.
   Csg(Operation operation, const std::vector<ShapePtr>& operands);
 

@@ -94,9 +94,9 @@ class Asking {
     const Vec3 across = glm::normalize(glm::cross(question_.tangent, normal));
     std::array<double, 2> bends{};
     for (const int side : {0, 1}) {
-      const Vec3 aside = (side == 0 ? h : -h) * across;
-      const auto near = height(question_.point + aside, normal, h),
-                 far = height(question_.point + 2.0 * aside, normal, 2 * h);
+      const Vec3 outward_offset = (side == 0 ? h : -h) * across;
+      const auto near = height(question_.point + outward_offset, normal, h),
+                 far = height(question_.point + 2.0 * outward_offset, normal, 2 * h);
       if (!near || !far) return false;
       bends[side] = (8 * near->value - far->value) / (2 * h * h);
     }

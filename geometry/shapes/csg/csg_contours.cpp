@@ -55,7 +55,7 @@ class Lines {
   CsgLines find() {
     for (int k = 0; k < count(); ++k) add_edges(k);
     for (int k = 0; k < count(); ++k)
-      for (int m = k + 1; m < count(); ++m) add_meeting(k, m);
+      for (int m = k + 1; m < count(); ++m) add_intersection(k, m);
     for (int k = 0; k < count(); ++k) add_silhouettes(k);
     return std::move(result_);
   }
@@ -139,7 +139,7 @@ class Lines {
       found.line.curve = edge.curve;
       for (const int c : edge.coedges) {
         const Coedge& coedge = body.coedges[c];
-        found.line.hosts.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
+        found.line.supporting_surfaces.push_back({body.faces[body.loops[coedge.loop].face].surface, coedge.image});
       }
       found.smooth = is_smooth(found.line);
       add(std::move(found));
@@ -148,12 +148,12 @@ class Lines {
 
   static bool is_smooth(const CsgLine& line) {
     constexpr double kSmooth = 1e-3;
-    if (line.hosts.size() != 2) return false;
+    if (line.supporting_surfaces.size() != 2) return false;
     const Interval domain = line.curve->domain();
     for (const double x : {0.23, kAskedAt, 0.81}) {
       const auto normal = [&](int which) {
-        const Vec3 uv = line.hosts[which].image->point(domain.lo + x * domain.width());
-        return line.hosts[which].surface->normal(uv.x, uv.y);
+        const Vec3 uv = line.supporting_surfaces[which].image->point(domain.lo + x * domain.width());
+        return line.supporting_surfaces[which].surface->normal(uv.x, uv.y);
       };
       if (glm::length(glm::cross(normal(0), normal(1))) > kSmooth) return false;
     }
@@ -170,7 +170,7 @@ class Lines {
   ShapeOutlines tube_outlines(const CsgLeaf& leaf) const { return outlines(*leaf.tube, view_of(leaf)); }
 
   // Where the boundaries of two leaves meet.
-  void add_meeting(int k, int m) {
+  void add_intersection(int k, int m) {
     if (!BoxTree::meets(leaves_[k].box, leaves_[m].box) || belong_together(k, m) || belong_together(m, k)) return;
     // A shape is the first, then a body.
     if ((leaves_[m].shape && !leaves_[k].shape) || (leaves_[k].plane && !leaves_[m].plane)) std::swap(k, m);
@@ -183,11 +183,11 @@ class Lines {
       else if (a.shape && b.plane)
         add_section_of_shape(k, b.plane->frame().origin, b.plane->frame().z, asked);
       else if (a.shape && b.body)
-        add_meeting_of_shape(k, m);
+        add_intersection_of_shape(k, m);
       else if (a.implicit && b.implicit)
-        add_meeting_of_implicit(k, m);
+        add_intersection_of_implicit(k, m);
       else if (a.shape && b.shape)
-        add_meeting_of_tube(a.tube ? k : m, a.tube ? m : k, asked);
+        add_intersection_of_tube(a.tube ? k : m, a.tube ? m : k, asked);
       else if (b.body)
         add(intersect(*a.body, *b.body), *a.body, b.body.get(), asked);
       else
@@ -198,7 +198,7 @@ class Lines {
   }
 
   // With the faces of a body, as far as the whole surfaces go: where they are no faces the solid has no edge.
-  void add_meeting_of_shape(int k, int m) {
+  void add_intersection_of_shape(int k, int m) {
     const CsgLeaf &leaf = leaves_[k], &other = leaves_[m];
     for (int f = 0; f < static_cast<int>(other.body->faces.size()); ++f) {
       const SurfacePtr& surface = other.body->faces[f].surface;
@@ -210,7 +210,7 @@ class Lines {
         for (const Contour& contour : found.branches) {
           Candidate one = asked;
           one.line.curve = contour.curve;
-          one.line.hosts.push_back({surface, contour.images[0]});
+          one.line.supporting_surfaces.push_back({surface, contour.images[0]});
           one.touching = contour.kind == ContourKind::touching;
           add_turns(leaf, contour.closed, one.line);
           add(std::move(one));
@@ -219,11 +219,11 @@ class Lines {
         add_section_of_shape(k, plane->origin, plane->normal(), asked);
       } else if (leaf.tube) {
         const Affine back = leaf.map.inverse();
-        const ShapeOutlines found = boundary_of(k).meeting(transformed(surface, back), view_of(leaf));
+        const ShapeOutlines found = boundary_of(k).intersection(transformed(surface, back), view_of(leaf));
         if (!found.complete) result_.complete = false;
         for (const ShapeOutline& line : found.lines) {
           Candidate one = asked;
-          one.line.hosts.push_back({surface, line.image});
+          one.line.supporting_surfaces.push_back({surface, line.image});
           add(line.curve, nullptr, line.turns, leaf.map, std::move(one));
         }
       }
@@ -231,12 +231,12 @@ class Lines {
   }
 
   // A tube and another one, or an implicit leaf.
-  void add_meeting_of_tube(int k, int m, const Candidate& asked) {
+  void add_intersection_of_tube(int k, int m, const Candidate& asked) {
     const CsgLeaf &leaf = leaves_[k], &other = leaves_[m];
     const Affine to_other = other.map.inverse() * leaf.map;
     const ViewOf view = view_of(leaf);
-    const ShapeOutlines found = other.tube ? boundary_of(k).meeting(boundary_of(m), to_other.inverse(), view)
-                                           : boundary_of(k).meeting(other.implicit->formula(), to_other, view);
+    const ShapeOutlines found = other.tube ? boundary_of(k).intersection(boundary_of(m), to_other.inverse(), view)
+                                           : boundary_of(k).intersection(other.implicit->formula(), to_other, view);
     if (!found.complete) result_.complete = false;
     for (const ShapeOutline& line : found.lines) {
       Candidate one = asked;
@@ -248,7 +248,7 @@ class Lines {
   }
   const TubeBoundary& boundary_of(int k) { return tubes_.try_emplace(k, *leaves_[k].tube).first->second; }
 
-  void add_meeting_of_implicit(int k, int m) {
+  void add_intersection_of_implicit(int k, int m) {
     const CsgLeaf &a = leaves_[k], &b = leaves_[m];
     const Affine back = a.map.inverse();
     const ImplicitCondition other = ImplicitCondition::other(b.implicit->formula(), b.map.inverse() * a.map);
@@ -271,8 +271,8 @@ class Lines {
   // Where an implicit leaf turns away along a line on it.
   void add_turns(const CsgLeaf& leaf, bool closed, CsgLine& line) const {
     line.curve = contour_approximation(line.curve);
-    const std::vector<double> turns =
-        sight_turns(*transformed(line.curve, leaf.map.inverse()), closed, leaf.implicit->formula(), view_of(leaf));
+    const std::vector<double> turns = silhouette_crossings(*transformed(line.curve, leaf.map.inverse()), closed,
+                                                           leaf.implicit->formula(), view_of(leaf));
     line.turns.insert(line.turns.end(), turns.begin(), turns.end());
   }
 
@@ -310,9 +310,9 @@ class Lines {
           CsgLine& line = found.line;
           line.curve =
               t.width() == all.width() ? part.contour.curve : std::make_shared<CurvePart>(part.contour.curve, t);
-          line.hosts.push_back({body.faces[part.face].surface, part.contour.images[0]});
+          line.supporting_surfaces.push_back({body.faces[part.face].surface, part.contour.images[0]});
           if (other && part.other_face >= 0 && part.contour.images.size() > 1)
-            line.hosts.push_back({other->faces[part.other_face].surface, part.contour.images[1]});
+            line.supporting_surfaces.push_back({other->faces[part.other_face].surface, part.contour.images[1]});
           for (const double cusp : part.contour.cusps)
             if (t.contains(cusp)) line.turns.push_back(cusp);
           found.touching = part.contour.kind == ContourKind::touching;
@@ -325,18 +325,19 @@ class Lines {
 
   void add(const ImplicitContours& contours, const Affine& map, const Candidate& asked) {
     if (!contours.complete) result_.complete = false;
-    for (const ImplicitContour& contour : contours.lines) add(contour.curve, contour.aside, contour.turns, map, asked);
+    for (const ImplicitContour& contour : contours.lines)
+      add(contour.curve, contour.outward_offset, contour.turns, map, asked);
   }
   void add(const ShapeOutlines& outlines, const Affine& map, bool edges, const Candidate& asked) {
     if (!outlines.complete) result_.complete = false;
     for (const ShapeOutline& outline : outlines.lines)
-      if (outline.edge == edges) add(outline.curve, outline.aside, outline.turns, map, asked);
+      if (outline.edge == edges) add(outline.curve, outline.outward_offset, outline.turns, map, asked);
   }
   // What a leaf has in coordinates of its own.
-  void add(const CurvePtr& curve, const CurvePtr& aside, const std::vector<double>& turns, const Affine& map,
+  void add(const CurvePtr& curve, const CurvePtr& outward_offset, const std::vector<double>& turns, const Affine& map,
            Candidate found) {
     found.line.curve = transformed(curve, map);
-    if (aside) found.line.aside = transformed(aside, Affine{map.linear, Vec3(0)});
+    if (outward_offset) found.line.outward_offset = transformed(outward_offset, Affine{map.linear, Vec3(0)});
     found.line.turns = turns;
     add(std::move(found));
   }
@@ -345,8 +346,10 @@ class Lines {
   void add(Candidate found) {
     CsgLine& line = found.line;
     const Interval domain = line.curve->domain();
-    for (CsgLine::Host& host : line.hosts)
-      if (host.image) host.image = contour_approximation(line.curve, *host.surface, host.image);
+    for (CsgLine::SupportingSurface& supporting_surface : line.supporting_surfaces)
+      if (supporting_surface.image)
+        supporting_surface.image =
+            contour_approximation(line.curve, *supporting_surface.surface, supporting_surface.image);
     line.curve = contour_approximation(line.curve);
     const Box3 box = bounds(*line.curve);
     found.reach = std::min(size_, box.diameter());
@@ -373,9 +376,9 @@ class Lines {
       if (std::find(found.own.begin(), found.own.end(), k) != found.own.end() || !BoxTree::meets(leaf.box, box))
         continue;
       const auto meet = [&](const Surface& surface) {
-        const SurfaceMeetings meetings = intersect(curve, surface);
-        for (const SurfaceMeeting& one : meetings.points) cuts.push_back(one.t);
-        for (const Interval& on : meetings.on_surface) cuts.push_back(on.lo), cuts.push_back(on.hi);
+        const SurfaceIntersections intersections = intersect(curve, surface);
+        for (const SurfaceIntersection& one : intersections.points) cuts.push_back(one.t);
+        for (const Interval& on : intersections.on_surface) cuts.push_back(on.lo), cuts.push_back(on.hi);
       };
       if (leaf.plane) meet(*leaf.plane);
       if (leaf.body)
@@ -405,12 +408,14 @@ class Lines {
 
   // Of the angle at which the surfaces of a line meet there; 1 where they are not known.
   static double sine_at(const CsgLine& line, double t) {
-    if (line.hosts.size() != 2 || !line.hosts[0].image || !line.hosts[1].image) return 1;
-    const auto normal = [&](const CsgLine::Host& host) {
-      const Vec3 uv = host.image->point(t);
-      return host.surface->normal(uv.x, uv.y);
+    if (line.supporting_surfaces.size() != 2 || !line.supporting_surfaces[0].image ||
+        !line.supporting_surfaces[1].image)
+      return 1;
+    const auto normal = [&](const CsgLine::SupportingSurface& supporting_surface) {
+      const Vec3 uv = supporting_surface.image->point(t);
+      return supporting_surface.surface->normal(uv.x, uv.y);
     };
-    return glm::length(glm::cross(normal(line.hosts[0]), normal(line.hosts[1])));
+    return glm::length(glm::cross(normal(line.supporting_surfaces[0]), normal(line.supporting_surfaces[1])));
   }
 
   // Of a stretch on the boundary: what it is there. Notes faces that are one across it.
@@ -434,9 +439,10 @@ class Lines {
     part.kind = kind;
     if (t.width() < line.curve->domain().width()) {
       part.curve = std::make_shared<CurvePart>(line.curve, t);
-      if (part.aside) part.aside = std::make_shared<CurvePart>(line.aside, t);
+      if (part.outward_offset) part.outward_offset = std::make_shared<CurvePart>(line.outward_offset, t);
     }
-    std::erase_if(part.hosts, [](const CsgLine::Host& host) { return !host.image; });
+    std::erase_if(part.supporting_surfaces,
+                  [](const CsgLine::SupportingSurface& supporting_surface) { return !supporting_surface.image; });
     std::erase_if(part.turns, [&](double turn) { return !t.contains(turn); });
     result_.lines.push_back(std::move(part));
   }

@@ -20,14 +20,16 @@ struct CsgLine {
   enum class Kind { sharp, smooth, silhouette, section, parameter };
   CurvePtr curve;  // a whole edge or contour, or a part of one
   Kind kind = Kind::sharp;
-  struct Host {
+  struct SupportingSurface {
     SurfacePtr surface;
     Curve2Ptr image;
   };
-  std::vector<Host> hosts;  // the surfaces of the leaves on which it lies, as far as these have any
+  std::vector<SupportingSurface>
+      supporting_surfaces;  // the surfaces of the leaves on which it lies, as far as these have any
   // Of silhouettes where the picture has a cusp, of other lines where a leaf without surfaces turns away there.
   std::vector<double> turns;
-  CurvePtr aside;  // of silhouettes without hosts: a vector along which lines beside them miss the leaf
+  CurvePtr outward_offset;  // of silhouettes without supporting surfaces: a vector along which lines beside them miss
+                            // the leaf
 };
 
 struct CsgLines {
@@ -38,7 +40,7 @@ struct CsgLines {
   std::vector<std::set<int>> one_face;
 };
 
-// Edges first; hosts of one leaf's face are one surface in all lines.
+// Edges first; supporting surfaces of one leaf's face are one surface in all lines.
 CsgLines csg_lines(const Csg& solid, const ViewOf& view);
 
 // Where a plane cuts the solid's boundary; `view` is that of the turns. The normal need not be a unit vector.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNoCorner = 1e-12;
 constexpr double kOutside = 1e-9;
 // More are not asked for what they have in common: the time grows with the fourth power.
-constexpr size_t kMostHalfSpaces = 32;
+constexpr size_t kMaxHalfSpaces = 32;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Box3 HalfSpaceShape::bounds() const {
 // which one leaves none of them, and then there is one along which two of the planes meet. (Ziegler 1995, 1.)
 Box3 bounds_of_common(std::span<const Frame> planes) {
   const size_t count = planes.size();
-  if (count < 4 || count > kMostHalfSpaces) return Box3::everything();
+  if (count < 4 || count > kMaxHalfSpaces) return Box3::everything();
   Box3 box;
   double far = 0;
   for (size_t i = 0; i < count; ++i)
@@ -68,7 +68,7 @@ void HalfSpaceShape::all_hits(const Line& line, const Interval& t, std::vector<S
 
 ShapePoint HalfSpaceShape::point(const SurfaceHit& hit, const Vec3& near) const {
   const Frame& frame = plane_.frame();
-  return {plane_.foot(near).point, frame.z, frame.x, frame.y, hit.u, hit.v};
+  return {plane_.foot_point(near).point, frame.z, frame.x, frame.y, hit.u, hit.v};
 }
 
 // A line that is met comes from the side that its direction leaves; one that is not lies on one side.

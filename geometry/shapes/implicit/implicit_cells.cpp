@@ -25,8 +25,8 @@ constexpr double kHopelessModel = 1e6;
 // makes the bounds smaller by kGain than what follows from those of the box around.
 constexpr double kSmallBox = 0.13;
 constexpr double kGain = 0.25;
-constexpr int kMostCuts = 36;
-constexpr int kMostGridBoxes = 4096;
+constexpr int kMaxCuts = 36;
+constexpr int kMaxGridBoxes = 4096;
 // Axes along which a box is halved: all whose side is at least this part of its longest.
 constexpr double kLongSide = 0.7;
 // A stretch gets its own model where that is so much better than the one it has.
@@ -116,7 +116,7 @@ ImplicitCells::ImplicitCells(ImplicitFormula formula, const Box3& region,
     if (!may_be_zero) continue;
     const Vec3 size = at.box.size();
     const bool good = models && cell.error <= kGoodModel * sum(glm::abs(cell.g));
-    if (good || at.cuts >= kMostCuts || count() + static_cast<int>(open.size()) + 1 >= most) {
+    if (good || at.cuts >= kMaxCuts || count() + static_cast<int>(open.size()) + 1 >= most) {
       nodes_[at.node].child = count();
       cells_.push_back(cell);
       rounding_ = std::max(rounding_, cell.rounding);
@@ -240,7 +240,7 @@ void ImplicitCells::make_grid(const Box3& region, int rounds) {
   for (; rounds > 0; --rounds) {
     const auto halved = long_axes(grid_.side);
     for (const bool is_halved : halved) total *= is_halved ? 2 : 1;
-    if (total > kMostGridBoxes) break;
+    if (total > kMaxGridBoxes) break;
     for (int axis = 0; axis < 3; ++axis) {
       if (!halved[axis]) continue;
       grid_.count[axis] *= 2;
@@ -334,7 +334,7 @@ void ImplicitCells::follow_node(int node, const Line& line, double t0, double t1
     int node;
     double t0, t1;
   };
-  Part stack[kMostCuts + 4];
+  Part stack[kMaxCuts + 4];
   int top = 0;
   stack[0] = {node, t0, t1};
   while (top >= 0) {
@@ -478,10 +478,10 @@ LEKALO_WIDE void ImplicitCells::follow_model(const Cell& cell, const Line& line,
 // derivatives allow.
 double ImplicitCells::zero_in(const Cell& cell, const Line& line, double speed, double t0, double t1, bool rising,
                               double share) const {
-  constexpr int kMostSteps = 3;
+  constexpr int kMaxSteps = 3;
   const double tolerance = kSameZero * size_ / glm::length(line.direction);
   double t = t0 + share * (t1 - t0);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto at = formula_.along(line, Jet<double, 3>::variable(t));
     double off = -at.c[0] / at.c[1], slope = at.c[1], change = kInfinity;
     for (int k = 0; k < 4 && std::abs(change) > tolerance; ++k) {

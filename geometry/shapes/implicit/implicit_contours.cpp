@@ -25,7 +25,7 @@ namespace {
 constexpr double kAgreeAside = 1e-4;
 // Around a ball curves are searched in a box larger by this part of its diameter: the ball only touches its own box.
 constexpr double kAroundBall = 1.0 / 64;
-constexpr double kLeastPart = 1e-9;  // of a curve's domain
+constexpr double kMinPart = 1e-9;  // of a curve's domain
 // So far beside a crease, of the region's diameter, the branch on its other side is looked for; and where its value is
 // as far from zero the surface jumps.
 constexpr double kBeside = 1e-6, kNoJump = 1e-9;
@@ -171,7 +171,7 @@ class Collector {
     const auto is_inside = [&](double t) {
       const Vec3 p = arc.curve->point(t);
       return region_.is_ball ? glm::length(p - center) <= region_.radius()
-                             : region_.box.inflated(kLeastPart * region_.box.diameter()).contains(p);
+                             : region_.box.inflated(kMinPart * region_.box.diameter()).contains(p);
     };
     const Interval all = arc.curve->domain();
     each_kept(all, arc.closed, cuts, is_inside, [&](const Interval& t) {
@@ -193,13 +193,13 @@ class Collector {
           return bend_along(range_of(formula, box).over, view_.central ? triple(box) - v : v);
         },
         bend_at);
-    line.aside = aside_of(*curve, line.turns, regular, formula, bend_at);
+    line.outward_offset = outward_offset_of(*curve, line.turns, regular, formula, bend_at);
     result_.lines.push_back(std::move(line));
   }
 
-  // grad F, of unit length, to the side on which the way of sight passes. None where that cannot be told.
-  CurvePtr aside_of(const Curve& curve, const std::vector<double>& cusps, const Interval& regular,
-                    const ImplicitFormula& formula, const std::function<double(const Vec3&)>& bend_at) {
+  // grad F, of unit length, to the side on which the line of sight passes. None where that cannot be told.
+  CurvePtr outward_offset_of(const Curve& curve, const std::vector<double>& cusps, const Interval& regular,
+                             const ImplicitFormula& formula, const std::function<double(const Vec3&)>& bend_at) {
     const Interval domain = curve.domain();
     std::vector<double> ends{domain.lo};
     for (const double cusp : cusps)
@@ -209,14 +209,14 @@ class Collector {
     for (size_t k = 0; k + 1 < ends.size(); ++k) {
       const Interval t{ends[k], ends[k + 1]};
       const double side = bend_at(curve.point(t.middle())) > 0 ? 1 : -1;
-      const auto aside = [&](double at) {
+      const auto outward_offset = [&](double at) {
         const Vec3 slope = formula.gradient(curve.point(regular.clamp(at)));
         return side / glm::length(slope) * slope;
       };
       std::vector<Interval> pieces;
       for (const CurvePiece& piece : curve.pieces())
         if (const Interval part = intersect(piece.domain, t); part.width() > 0) pieces.push_back(part);
-      const auto found = polynomial_approximation(aside, pieces, kAgreeAside);
+      const auto found = polynomial_approximation(outward_offset, pieces, kAgreeAside);
       if (!found) {
         result_.complete = false;
         return nullptr;
@@ -249,8 +249,8 @@ class Collector {
     }
     if (!other) result_.complete = false;
     if (!is_sharp) return;
-    ImplicitContour line{curve, closed, sight_turns(*curve, closed, *branch.formula, view_), nullptr};
-    const std::vector<double> turns = sight_turns(*curve, closed, *other, view_);
+    ImplicitContour line{curve, closed, silhouette_crossings(*curve, closed, *branch.formula, view_), nullptr};
+    const std::vector<double> turns = silhouette_crossings(*curve, closed, *other, view_);
     line.turns.insert(line.turns.end(), turns.begin(), turns.end());
     result_.lines.push_back(std::move(line));
   }
@@ -270,7 +270,7 @@ class Collector {
 
   // A line on the surface, and perhaps on the ball of the region, that is no silhouette.
   void add(const ImplicitArc& arc, const CurvePtr& curve, bool closed, bool on_ball) {
-    ImplicitContour line{curve, closed, sight_turns(*curve, closed, *arc.formula, view_), nullptr};
+    ImplicitContour line{curve, closed, silhouette_crossings(*curve, closed, *arc.formula, view_), nullptr};
     if (on_ball) {
       const std::vector<double> found = turns_of_ball(*curve, closed);
       line.turns.insert(line.turns.end(), found.begin(), found.end());
@@ -285,14 +285,14 @@ class Collector {
     const std::array radii{region_.radius()};
     for (const ShapeOutline& outline : outlines(Balls(centers, radii), view_).lines) {
       const auto* circle = dynamic_cast<const Circle*>(outline.curve.get());
-      const auto* aside = dynamic_cast<const Circle*>(outline.aside.get());
+      const auto* outward_offset = dynamic_cast<const Circle*>(outline.outward_offset.get());
       each_kept(
           circle->domain(), true, changes_of_F(*circle, true), [&](double t) { return is_solid_at(circle->point(t)); },
           [&](const Interval& t) {
             result_.lines.push_back({std::make_shared<Circle>(circle->frame(), circle->radius(), t),
                                      t.width() == circle->domain().width(),
                                      {},
-                                     std::make_shared<Circle>(aside->frame(), aside->radius(), t)});
+                                     std::make_shared<Circle>(outward_offset->frame(), outward_offset->radius(), t)});
           });
     }
   }

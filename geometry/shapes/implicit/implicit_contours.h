@@ -1,8 +1,8 @@
 // Lines of an implicit surface F = level in its region: silhouettes (Golovanov 2016, 4.6), the border at which the
 // region cuts it off or closes it, the creases of a formula with kinks, sections by planes.
 //
-// A point of the surface is on its silhouette if the way of sight s touches it there, grad F . s = 0. With the second
-// derivatives H of F the picture has a cusp where s . H s = 0, and beside the contour the way of sight passes on the
+// A point of the surface is on its silhouette if the line of sight s touches it there, grad F . s = 0. With the second
+// derivatives H of F the picture has a cusp where s . H s = 0, and beside the contour the line of sight passes on the
 // side on which F has the sign of s . H s.
 #pragma once
 
@@ -18,12 +18,12 @@ namespace lekalo::geometry {
 struct ImplicitContour {
   CurvePtr curve;  // to 1e-13 of the region's size (1e-9 where the formula's rounding leaves no more)
   bool closed = false;
-  // By t. Of silhouettes: where the curve runs along the way of sight, so that its picture has a cusp. Of other lines:
+  // By t. Of silhouettes: where the curve runs along the line of sight, so that its picture has a cusp. Of other lines:
   // where the surface, or the ball that is its region, turns away from the viewer.
   std::vector<double> turns;
   // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the surface there. It
   // changes sides at cusps.
-  CurvePtr aside;
+  CurvePtr outward_offset;
 };
 
 struct ImplicitContours {

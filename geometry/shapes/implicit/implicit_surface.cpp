@@ -12,9 +12,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kTried = 16;             // places along each axis where F must have a value
-constexpr int kMostCells = 4096;       // with models
-constexpr int kMostBoundCells = 1024;  // that only bound a polynomial's surface
+constexpr int kTried = 16;            // places along each axis where F must have a value
+constexpr int kMaxCells = 4096;       // with models
+constexpr int kMaxBoundCells = 1024;  // that only bound a polynomial's surface
 // The computed place of a point is never further from the surface, of the region's size: at singular points the
 // formula's rounding is all that is known.
 constexpr double kWorstPlace = 1e-7;
@@ -98,7 +98,7 @@ ImplicitSurface::ImplicitSurface(Expression expression, double level, const Impl
   if (polynomial_ && polynomial_->degree() == 0)
     throw FieldError("formula", "the formula is constant: it names none of x, y, z");
   const auto outside = [&](const Box3& cell) { return region.is_ball && region.misses(cell); };
-  ImplicitCells cells(formula_, box, outside, polynomial_ ? kMostBoundCells : kMostCells, !polynomial_);
+  ImplicitCells cells(formula_, box, outside, polynomial_ ? kMaxBoundCells : kMaxCells, !polynomial_);
   if (cells.where_zero().empty()) {
     const bool above = formula_(box.center()) > 0;
     throw FieldError(field,
@@ -136,32 +136,32 @@ bool ImplicitSurface::find_chord(const Line& line, Chord& chord) const {
   if (!region_.is_ball) return clip(region_.box, true) && (!ends_at_bounds_ || clip(bounds_, false));
   // |o + t d - c|^2 = r^2, from the place nearest to the centre.
   const Vec3 off = region_.box.center() - line.origin;
-  const double square = glm::dot(line.direction, line.direction), foot = glm::dot(off, line.direction) / square;
-  const Vec3 across = off - foot * line.direction;
+  const double square = glm::dot(line.direction, line.direction), foot_point = glm::dot(off, line.direction) / square;
+  const Vec3 across = off - foot_point * line.direction;
   const double rest = region_.radius() * region_.radius() - glm::dot(across, across);
   if (!(rest > 0)) return false;
   const double half = std::sqrt(rest / square);
-  chord = {foot - half, foot + half, 1, 1};
+  chord = {foot_point - half, foot_point + half, 1, 1};
   return !ends_at_bounds_ || clip(bounds_, false);
 }
 
 void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only, std::vector<SurfaceHit>& hits) const {
   // From an origin near the region: a line that begins far away loses no digits beyond those of its t.
-  const double foot =
+  const double foot_point =
       glm::dot(region_.box.center() - given.origin, given.direction) / glm::dot(given.direction, given.direction);
-  if (!std::isfinite(foot)) return;  // neither is the line
-  const Line line{given.at(foot), given.direction};
+  if (!std::isfinite(foot_point)) return;  // neither is the line
+  const Line line{given.at(foot_point), given.direction};
   Chord chord;
   if (!find_chord(line, chord)) return;
-  if (t.lo - foot > chord.t0) chord.t0 = t.lo - foot, chord.enter = -1;
-  if (t.hi - foot < chord.t1) chord.t1 = t.hi - foot, chord.leave = -1;
+  if (t.lo - foot_point > chord.t0) chord.t0 = t.lo - foot_point, chord.enter = -1;
+  if (t.hi - foot_point < chord.t1) chord.t1 = t.hi - foot_point, chord.leave = -1;
   if (!(chord.t0 < chord.t1)) return;
   const Vec3 from = line.at(chord.t0), to = line.at(chord.t1);
   const auto meet_border = [&](double at, int face, bool inside) {
-    if (closed_ && inside && face > 0) hits.push_back({at + foot, 0, 0, face, 0});
+    if (closed_ && inside && face > 0) hits.push_back({at + foot_point, 0, 0, face, 0});
   };
   if (!polynomial_) {
-    SignChanges changes(hits, foot, first_only, closed_);
+    SignChanges changes(hits, foot_point, first_only, closed_);
     if (closed_) {
       changes.begin(is_positive(formula_(from)));
       meet_border(chord.t0, chord.enter, !changes.positive());
@@ -178,7 +178,8 @@ void ImplicitSurface::find(const Line& given, const Interval& t, bool first_only
   find_crossings(on_chord, polynomial_->degree(), first_only, crossings);
   meet_border(chord.t0, chord.enter, !crossings.begins_positive);
   if (first_only && !hits.empty()) return;
-  for (int i = 0; i < crossings.count; ++i) hits.push_back({foot + chord.t0 + crossings.s[i] * (chord.t1 - chord.t0)});
+  for (int i = 0; i < crossings.count; ++i)
+    hits.push_back({foot_point + chord.t0 + crossings.s[i] * (chord.t1 - chord.t0)});
   if (first_only && !hits.empty()) return;
   meet_border(chord.t1, chord.leave, !crossings.ends_positive);
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSmallestPart = 1e-13;
 // Of formulas that oscillate without end. After that many parts the smallest ones double with each kCoarser further, so
 // that what lies behind still gets its share.
-constexpr int kMostParts = 5000, kCoarser = 200;
+constexpr int kMaxParts = 5000, kCoarser = 200;
 
 bool is_bounded(const Interval& range) { return std::isfinite(range.lo) && std::isfinite(range.hi); }
 
@@ -33,7 +33,7 @@ class Follower {
     stack[0] = {t0, t1};
     for (int parts = 0; top >= 0; ++parts) {
       const Interval part = stack[top--];
-      const double coarser = std::exp2(std::max(0, parts - kMostParts) / kCoarser);
+      const double coarser = std::exp2(std::max(0, parts - kMaxParts) / kCoarser);
       const State state = tell(part, top > 60 ? kInfinity : coarser * smallest_);
       if (state == State::open) {
         const double middle = part.middle();
@@ -140,11 +140,11 @@ class Follower {
 
 double find_zero(const ImplicitFormula& formula, const Line& line, double lo, double hi, bool rising, double start) {
   const double tolerance = 4e-16 * (hi - lo) + 2e-16 * std::max(std::abs(lo), std::abs(hi));
-  constexpr int kMostSteps = 400, kHalvedEach = 8;  // so that any bracket closes
+  constexpr int kMaxSteps = 400, kHalvedEach = 8;  // so that any bracket closes
   const auto narrow = [&](double t, double value) { (is_positive(value) == rising ? hi : lo) = t; };
   double t = std::clamp(start, lo, hi);
   double previous = 0;  // the step before if it was Newton's
-  for (int step = 1; step <= kMostSteps && hi - lo > tolerance; ++step) {
+  for (int step = 1; step <= kMaxSteps && hi - lo > tolerance; ++step) {
     const auto value = formula.along(line, Jet<double, 1>::variable(t));
     if (value.c[0] == 0) return t;
     narrow(t, value.c[0]);

@@ -19,7 +19,7 @@ CurvePtr BallCircle::curve(const Interval& t) const {
   return std::make_shared<Circle>(at, radius * s, t);
 }
 
-CurvePtr BallCircle::aside(const Interval& t) const {
+CurvePtr BallCircle::outward_offset(const Interval& t) const {
   Frame at = frame;
   at.origin = k * frame.z;
   return std::make_shared<Circle>(at, s, t);

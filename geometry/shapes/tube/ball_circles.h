@@ -32,9 +32,9 @@ struct BallCircle {
   Vec3 point(double t) const { return center + radius * normal(t); }
   CurvePtr curve(const Interval& t) const;
   // The normal, by the same parameter.
-  CurvePtr aside(const Interval& t) const;
+  CurvePtr outward_offset(const Interval& t) const;
 };
-// Where the way of sight touches the ball; nothing for an eye inside.
+// Where the line of sight touches the ball; nothing for an eye inside.
 std::optional<BallCircle> circle_of(const Vec3& center, double radius, const ViewOf& view);
 // In the plane of a unit normal; nothing if it misses the ball.
 std::optional<BallCircle> circle_of(const Vec3& center, double radius, const Vec3& origin, const Vec3& normal);

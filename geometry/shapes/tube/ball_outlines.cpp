@@ -80,7 +80,7 @@ class TubeOutlines {
     const BallJet ball = sweep_.ball(t);
     return ball.center[0] + ball.radius[0] * n;
   }
-  // How the wall bends along the way of sight: below 0 away from it.
+  // How the wall bends along the line of sight: below 0 away from it.
   double bend(double t, const Vec3& n) const {
     const BallJet ball = sweep_.ball(t);
     const double R = ball.radius[0], way = glm::dot(n, ball.center[1]);
@@ -136,7 +136,7 @@ class TubeOutlines {
       }
       before_that = before, before = here;
     }
-    // A curve that begins or ends along the way of sight.
+    // A curve that begins or ends along the line of sight.
     const auto is_end_on = [&](double t) { return std::abs(h(t)) < kEndOn; };
     std::vector<Cut> ends{{all.lo, is_end_on(all.lo)}};
     for (const Cut& cut : cuts)
@@ -148,9 +148,9 @@ class TubeOutlines {
       const bool joins_lo = k > 0 && !ends[k].end_on, joins_hi = k + 2 < ends.size() && !ends[k + 1].end_on;
       Interval t{ends[k].t, ends[k + 1].t};
       // There the directions have no limit that rounding leaves.
-      const double aside = 1e-7 * t.width();
-      if (ends[k].end_on) t.lo += aside;
-      if (ends[k + 1].end_on) t.hi -= aside;
+      const double outward_offset = 1e-7 * t.width();
+      if (ends[k].end_on) t.lo += outward_offset;
+      if (ends[k + 1].end_on) t.hi -= outward_offset;
       add_wall(t, joins_lo, joins_hi);
     }
   }
@@ -206,7 +206,7 @@ class TubeOutlines {
   void put(const Interval& range, const std::function<double(double)>& t_at,
            const std::function<Vec3(double)>& point_at, const std::function<Vec3(double)>& normal_at, double side) {
     const std::array<Interval, 1> whole{range};
-    // Off the outline by d, along the wall, the way of sight is off the tangent plane by d/R.
+    // Off the outline by d, along the wall, the line of sight is off the tangent plane by d/R.
     const auto is_on_outline = [&](double s, const Vec3& p) {
       const BallJet ball = touching_ball(p, t_at(s));
       const Vec3 n = (p - ball.center[0]) / ball.radius[0];
@@ -215,12 +215,13 @@ class TubeOutlines {
              std::abs(glm::dot(n, sight)) * ball.radius[0] <= kAgreeOnBalls * size_;
     };
     const CurvePtr curve = fitted_line(range, size_, point_at, is_on_outline, result_.complete);
-    const CurvePtr aside = polynomial_approximation([&](double s) { return side * normal_at(s); }, whole, kAgreeAside);
-    if (!curve || !aside) {
+    const CurvePtr outward_offset =
+        polynomial_approximation([&](double s) { return side * normal_at(s); }, whole, kAgreeAside);
+    if (!curve || !outward_offset) {
       result_.complete = false;
       return;
     }
-    result_.lines.push_back({curve, false, aside, {}});
+    result_.lines.push_back({curve, false, outward_offset, {}});
   }
 
   // The circle of one ball, as far as neither the balls before it (the curve ends there at `before`) nor those after it
@@ -268,7 +269,7 @@ class TubeOutlines {
       return !tube_.holds(circle.center + circle.radius * n + kBesideBalls * size_ * n);
     };
     each_stretch(arc, 48, is_outside, [&](const Interval& part, bool outside) {
-      if (outside) result_.lines.push_back({circle.curve(part), false, circle.aside(part), {}});
+      if (outside) result_.lines.push_back({circle.curve(part), false, circle.outward_offset(part), {}});
     });
   }
 
@@ -331,7 +332,7 @@ ShapeOutlines outlines(const Balls& balls, const ViewOf& view) {
   for (size_t i = 0; i < all.size(); ++i) {
     if (const auto circle = circle_of(all[i].center, all[i].radius, view))
       for (const Interval& arc : arcs_outside(balls, {i, i}, [&](double x) { return circle->point(x); }))
-        result.lines.push_back({circle->curve(arc), false, circle->aside(arc), {}});
+        result.lines.push_back({circle->curve(arc), false, circle->outward_offset(arc), {}});
     balls.near(i, [&](size_t k) {
       if (k <= i) return;
       // The circle of two balls.

@@ -4,7 +4,7 @@
 // A point c(t) + R(t) n of the wall of a tube, |n| = 1, is on its outline if
 //
 //   n . c' = -R'          it is on the envelope of the balls,
-//   n . i = 0             the way of sight i touches there; from an eye at e, n . (c - e) = -R,
+//   n . i = 0             the line of sight i touches there; from an eye at e, n . (c - e) = -R,
 //
 // two planes through which n = x a + y b +- z a x b is found in closed form, a = c' and b = i or c - e. Where
 // 1 - |x a + y b|^2 < 0 the balls hide one another altogether, and the two branches join at the ends of such stretches.
@@ -24,7 +24,7 @@ struct ShapeOutline {
   CurvePtr curve;     // to 1e-10 of the size where it is no circle
   bool edge = false;  // a sharp edge; else a silhouette, without cusps inside
   // Of silhouettes: a vector, by the same parameter, along which lines beside the curve miss the shape.
-  CurvePtr aside;
+  CurvePtr outward_offset;
   std::vector<double> turns;  // of edges, by t: where a surface at the edge turns away from the viewer
   Curve2Ptr image;            // of the line in which a surface is met: on that surface
 };

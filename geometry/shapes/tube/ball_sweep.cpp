@@ -29,7 +29,7 @@ constexpr double kLastStep = 1e-6;
 // Longer steps, of the same, are not Newton's.
 constexpr double kNewtonStep = 0.1;
 // Enough for any curve that can be drawn.
-constexpr size_t kMostCells = size_t{1} << 20;
+constexpr size_t kMaxCells = size_t{1} << 20;
 
 double farthest(const Box3& box, const Vec3& from) { return glm::length(glm::max(box.hi - from, from - box.lo)); }
 
@@ -77,10 +77,10 @@ void BallSweep::cut(const Interval& t) {
   const auto& [r0, r1, r2] = cell.middle.center;
   const auto& [R0, R1, R2] = cell.middle.radius;
   if (!(R0 > 0 && R0 < kInfinity)) law_.refuse(middle, R0);
-  cell.wander = farthest(boxes.d[2], r2);
-  cell.radius_wander = farthest(radius[2], R2);
-  cell.least_radius = radius[0].lo;
-  const double speed = glm::length(r1), most = glm::length(r2) + cell.wander, turn = most * h;
+  cell.variation_bound = farthest(boxes.d[2], r2);
+  cell.radius_variation_bound = farthest(radius[2], R2);
+  cell.min_radius = radius[0].lo;
+  const double speed = glm::length(r1), most = glm::length(r2) + cell.variation_bound, turn = most * h;
   const double extent = std::min(boxes.d[0].diameter(), 2 * h * (speed + 0.5 * turn)) + radius[0].width();
 
   cell.is_place = extent <= kSamePlace * size_ || t.width() <= narrowest_;
@@ -89,7 +89,7 @@ void BallSweep::cut(const Interval& t) {
   const bool even = radius[1].width() <= uneven && radius[0].width() <= 2 * h * (std::abs(R1) + uneven);
   // At a critical point (p - r) . r' = -R R', so that only the part of r'' across r' counts in full.
   const double along = speed > 0 ? glm::dot(r2, r1) / (speed * speed) : 0;
-  const double across = glm::length(r2 - along * r1) + cell.wander + std::abs(along) * turn;
+  const double across = glm::length(r2 - along * r1) + cell.variation_bound + std::abs(along) * turn;
   const double slope = magnitude(radius[1]), R = radius[0].hi;
   const double slowest = std::max(0.0, speed - turn);
   const double d =
@@ -97,16 +97,16 @@ void BallSweep::cut(const Interval& t) {
   // Where one ball holds all others there is no critical point.
   cell.regular = d > 0 || mignitude(radius[1]) > speed + turn;
   const bool straight = turn <= kStraight * speed;
-  const bool small = extent <= kSmall * cell.least_radius &&
-                     (cell.wander <= 0.25 * glm::length(r2) || extent <= 0.01 * kSmall * cell.least_radius);
+  const bool small = extent <= kSmall * cell.min_radius &&
+                     (cell.variation_bound <= 0.25 * glm::length(r2) || extent <= 0.01 * kSmall * cell.min_radius);
   bool is_good = cell.is_place || (positive && even && ((straight && cell.regular) || (small && most < kInfinity)));
   if (is_good) {
     add_model(cell);
     // Where two halves may have models they are worth more than the whole without one.
-    is_good = cell.is_modelled || cell.is_place || extent < cell.least_radius;
+    is_good = cell.is_modelled || cell.is_place || extent < cell.min_radius;
   }
   if (!is_good) {
-    if (cells_.size() >= kMostCells)
+    if (cells_.size() >= kMaxCells)
       throw FieldError("of", "the curve takes more than a million pieces", "make it simpler, or its domain smaller");
     cut({t.lo, middle});
     cut({middle, t.hi});
@@ -217,26 +217,26 @@ struct Range {
 
   Range(const Profile& p, const BallJet& ball, double h, const BallSweep::Cell& cell) {
     const auto about = [](double x, double by) { return Interval(x - by, x + by); };
-    const double w = cell.wander, v = cell.radius_wander;
-    const double most_a2 = std::abs(p.a2) + w;
+    const double w = cell.variation_bound, v = cell.radius_variation_bound;
+    const double max_a2 = std::abs(p.a2) + w;
     a2 = about(p.a2, w);
-    a1 = about(p.a1, most_a2 * h);
-    a = about(p.a, (std::abs(p.a1) + 0.5 * most_a2 * h) * h);
+    a1 = about(p.a1, max_a2 * h);
+    a = about(p.a, (std::abs(p.a1) + 0.5 * max_a2 * h) * h);
     // The terms of g''/2 = R'^2 + R R'' - f' . f' - f . f''.
     const double f0 = glm::length(p.across), f1 = glm::length(p.across1), f2 = glm::length(p.across2) + w;
     const double off1 = f2 * h, off0 = (f1 + 0.5 * off1) * h;
     const auto& [R0, R1, R2] = ball.radius;
-    const double most_R2 = std::abs(R2) + v, off_R1 = most_R2 * h, off_R0 = (std::abs(R1) + 0.5 * off_R1) * h;
+    const double max_R2 = std::abs(R2) + v, off_R1 = max_R2 * h, off_R0 = (std::abs(R1) + 0.5 * off_R1) * h;
     const double middle = R0 * R2 - glm::dot(p.across, p.across2);
-    const double off = off0 * f2 + f0 * w + off_R0 * most_R2 + R0 * v;
+    const double off = off0 * f2 + f0 * w + off_R0 * max_R2 + R0 * v;
     const auto square = [](double x, double by) {
       const double lo = std::max(0.0, x - by);
       return Interval(lo * lo, (x + by) * (x + by));
     };
     const Interval bend = square(f1, off1), widen = square(std::abs(R1), off_R1);
     g2 = {2 * (middle - off + widen.lo - bend.hi), 2 * (middle + off + widen.hi - bend.lo)};
-    const double most_g2 = std::max(-g2.lo, g2.hi);
-    g1 = about(p.g1, most_g2 * h);
+    const double max_g2 = std::max(-g2.lo, g2.hi);
+    g1 = about(p.g1, max_g2 * h);
     // Below the parabola of the largest g'' that touches in the middle, above that of the least.
     const double slope = std::abs(p.g1);
     const double rounding = rounding_of_g(f0 + off0);
@@ -272,7 +272,8 @@ class CellSolver {
     const Range range(p, middle, h, cell_);
     if (range.g.hi < 0) return;
     if (spans_.cover(range.a.lo - range.root.hi, range.a.hi + range.root.hi, same_)) return;
-    const double extent = (glm::length(middle.center[1]) + (glm::length(middle.center[2]) + cell_.wander) * h) * h;
+    const double extent =
+        (glm::length(middle.center[1]) + (glm::length(middle.center[2]) + cell_.variation_bound) * h) * h;
     if (extent <= same_) return add_ball(t.middle(), p);
     const bool one_stretch = range.g.lo > 0 || range.g2.hi <= 0 || !range.g1.contains(0);
     const bool certain = one_stretch && (cell_.regular || (range.is_simple(1) && range.is_simple(-1)));
@@ -290,7 +291,7 @@ class CellSolver {
  private:
   // Halvings of one cell for one line. A line along a valley of equal balls (the axis of a ring that has no hole) never
   // gets certain; after so many halvings one search a part is enough.
-  static constexpr int kMostHalvings = 1000;
+  static constexpr int kMaxHalvings = 1000;
 
   BallJet ball(double t) const { return cell_.is_modelled ? sweep_.ball(cell_, t) : sweep_.ball(t); }
 
@@ -313,8 +314,8 @@ class CellSolver {
   bool extreme(int sign, const Interval& t, const Profile& at_middle, double second, SpanEnd& end) const {
     double lo = t.lo, hi = std::min(t.hi, last_), x = std::clamp(t.middle() + step_to_model(at_middle, sign), lo, hi);
     bool lo_tried = false, hi_tried = false;
-    constexpr int kMostSteps = 200, kHalving = 10;  // every tenth step halves the bracket, if all others fail
-    for (int step = 0; step < kMostSteps; ++step) {
+    constexpr int kMaxSteps = 200, kHalving = 10;  // every tenth step halves the bracket, if all others fail
+    for (int step = 0; step < kMaxSteps; ++step) {
       const Profile p(line_, ball(x));
       if (p.g < 0 &&
           p.g + farthest_up(std::abs(p.g1), second, p.g1 > 0 ? hi - x : x - lo) < -rounding_of_g(glm::length(p.across)))
@@ -323,8 +324,8 @@ class CellSolver {
       const bool at_end = (x == lo && !lo_tried && critical.n >= 0) || (x == hi && !hi_tried && critical.n <= 0);
       const bool narrow = lo_tried && hi_tried && !(hi - lo > 4e-16 * (std::abs(lo) + std::abs(hi)));
       double next = x + critical.step(lo - x, hi - x);
-      const bool close = next > lo && next < hi && critical.is_close(next - x, cell_.least_radius);
-      if (at_end || close || critical.n == 0 || narrow || step + 1 == kMostSteps) {
+      const bool close = next > lo && next < hi && critical.is_close(next - x, cell_.min_radius);
+      if (at_end || close || critical.n == 0 || narrow || step + 1 == kMaxSteps) {
         if (!(p.g >= 0)) return false;
         end = {critical.s(p, close && !at_end ? next - x : 0), close && !at_end ? next : x, index_, 0};
         return true;
@@ -333,7 +334,7 @@ class CellSolver {
         lo = x, lo_tried = true;
       else
         hi = x, hi_tried = true;
-      if (p.g2 < 0 && !critical.is_near(next - x, cell_.least_radius)) next = x + step_to_model(p, sign);
+      if (p.g2 < 0 && !critical.is_near(next - x, cell_.min_radius)) next = x + step_to_model(p, sign);
       if (step % kHalving == kHalving - 1) next = 0.5 * lo + 0.5 * hi;
       next = std::clamp(next, lo, hi);
       if ((next == lo && lo_tried) || (next == hi && hi_tried)) next = 0.5 * lo + 0.5 * hi;
@@ -350,7 +351,7 @@ class CellSolver {
   const Line& line_;
   const SpanLimit& limit_;
   LineSpans& spans_;
-  int left_ = kMostHalvings;
+  int left_ = kMaxHalvings;
 };
 
 }  // namespace
@@ -366,7 +367,7 @@ void BallSweep::finish(SpanEnd& end, bool is_in, const Line& line) const {
   const Critical critical(p, is_in ? 1 : -1);
   // At an end of its cell a minimum need not be critical.
   const double step = critical.step(0, 0);
-  const bool moves = end.u + step > cell.t.lo && end.u + step < cell.t.hi && critical.is_close(step, cell.least_radius);
+  const bool moves = end.u + step > cell.t.lo && end.u + step < cell.t.hi && critical.is_close(step, cell.min_radius);
   end.s = critical.s(p, moves ? step : 0);
   if (moves) end.u += step;
 }

@@ -47,13 +47,13 @@ class BallSweep {
     BallJet middle;
     // r and R as polynomials of (t - middle)/half the width: what lines are searched on.
     std::array<Vec4, kModelTerms> model;
-    bool is_modelled = false;  // else on the curve itself
-    double wander = 0;         // r'' is this near to that of the middle
-    double radius_wander = 0;  // the same of R''
-    bool regular = false;      // D > 0 for every line
-    bool is_place = false;     // its balls are all one but for rounding
-    Box3 box;                  // of its balls
-    double least_radius = 0;
+    bool is_modelled = false;           // else on the curve itself
+    double variation_bound = 0;         // r'' is this near to that of the middle
+    double radius_variation_bound = 0;  // the same of R''
+    bool regular = false;               // D > 0 for every line
+    bool is_place = false;              // its balls are all one but for rounding
+    Box3 box;                           // of its balls
+    double min_radius = 0;
   };
 
   // Throws FieldError (field of) for an unbounded curve or one without length, (field radius) for a radius that is not

@@ -17,7 +17,7 @@ constexpr int kTerms = 20;
 constexpr double kModelError = 1e-14;                               // of the size
 constexpr double kAgree = 1e-13, kLeast = 1e-6, kLargeOpen = 1e-3;  // likewise
 constexpr double kBorder = 1e-12;                                   // of the domain's sides
-constexpr int kMostBoxes = 40000, kChecks = 53;
+constexpr int kMaxBoxes = 40000, kChecks = 53;
 
 template <class S>
 using Four = std::array<S, 4>;  // c and R^2
@@ -25,7 +25,7 @@ using Four = std::array<S, 4>;  // c and R^2
 // The unknowns s and d are those of x in [-1, 1] over the range.
 class Bend {
  public:
-  using Place = ParameterPlace<3>;
+  using Place = ParameterPoint<3>;
   using Box = ParameterBox<3>;
 
   static std::optional<Bend> of(const BallSweep& sweep, const Interval& range) {
@@ -184,7 +184,7 @@ class Bend {
 };
 
 // The solution between two nodes, in the plane across the chord: by Newton's iteration.
-ParameterPlace<3> between(const Bend& bend, const ParameterPlace<3>& from, const ParameterPlace<3>& to, double share) {
+ParameterPoint<3> between(const Bend& bend, const ParameterPoint<3>& from, const ParameterPoint<3>& to, double share) {
   constexpr int kSteps = 12;
   const ParameterBox<3> domain = bend.domain();
   Vec3 x, chord;
@@ -214,7 +214,7 @@ std::optional<BendEdges> bend_edges(const BallSweep& sweep, const Interval& rang
   if (!bend) return std::nullopt;
   SolutionCurveOptions<3> options;
   options.least = kLeast * bend->size();
-  options.most_boxes = kMostBoxes;
+  options.max_boxes = kMaxBoxes;
   options.divides_hard_boxes = true;
   options.rounding = bend->rounding();
   for (int i = 0; i < 3; ++i) options.slack[i] = kBorder * bend->domain()[i].width();
@@ -236,7 +236,7 @@ std::optional<BendEdges> bend_edges(const BallSweep& sweep, const Interval& rang
         polynomial_approximation([&](double t) { return bend->point(at(t)); }, parts, kAgree * bend->size());
     const CurvePtr places = polynomial_approximation(
         [&](double t) {
-          const ParameterPlace<3> place = at(t);
+          const ParameterPoint<3> place = at(t);
           return Vec3(place[0], place[1], place[2]);
         },
         parts, kAgree * bend->size());

@@ -10,7 +10,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Of a cell. However thin a tube: its coordinates have no more figures.
-constexpr double kMostPieces = 1e16;
+constexpr double kMaxPieces = 1e16;
 
 // Pieces are looked at one by one where their boxes have less than this of the whole's area.
 constexpr double kThin = 0.02;
@@ -58,7 +58,7 @@ Tube::Tube(CurvePtr curve, RadiusLaw radius, Caps caps)
   double area = 0;
   for (const BallSweep::Cell& cell : sweep_.cells()) {
     const double length = glm::length(cell.middle.center[1]) * cell.t.width();
-    const double pieces = std::clamp(std::ceil(length / cell.middle.radius[0]), 1.0, kMostPieces);
+    const double pieces = std::clamp(std::ceil(length / cell.middle.radius[0]), 1.0, kMaxPieces);
     first_piece_.push_back(first_piece_.back() + static_cast<int64_t>(pieces));
     area += pieces * sqr(length / pieces + 2 * cell.middle.radius[0]);
   }
@@ -192,8 +192,8 @@ Box3 Tube::box_of_balls(int cell_number, int64_t piece) const {
   const BallSweep::Cell& cell = sweep_.cells()[cell_number];
   const double h = 0.5 * cell.t.width() / static_cast<double>(pieces_in(cell_number));
   const BallJet ball = sweep_.ball(cell.t.lo + (2 * static_cast<double>(piece) + 1) * h);
-  const double bend = glm::length(cell.middle.center[2]) + cell.wander,
-               widen = std::abs(cell.middle.radius[2]) + cell.radius_wander;
+  const double bend = glm::length(cell.middle.center[2]) + cell.variation_bound,
+               widen = std::abs(cell.middle.radius[2]) + cell.radius_variation_bound;
   const double reach = h * (std::abs(ball.radius[1]) + h * (widen + bend));
   Box3 box{ball.center[0], ball.center[0]};
   const Vec3 along = h * glm::abs(ball.center[1]) + Vec3(reach + ball.radius[0]);

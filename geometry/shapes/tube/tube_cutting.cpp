@@ -15,18 +15,18 @@ constexpr int kPlacesOfTurns = 64;
 constexpr double kFirstStep = 1e-14, kLongestStep = 0.01;
 
 double settled(const TubeLine& line, double end, double inside) {
-  const auto is_bare = [&](double t) { return line.is_bare(t, 0.5 * kBesideBalls); };
+  const auto is_exposed = [&](double t) { return line.is_exposed(t, 0.5 * kBesideBalls); };
   // From half as far outside more of the line is seen to be bare, or less.
-  const bool more = is_bare(end);
+  const bool more = is_exposed(end);
   const double way = more ? end - inside : inside - end;
   double from = end, to = end;
   for (double step = kFirstStep * way; to == end; step *= 2) {
     if (std::abs(step) > kLongestStep * std::abs(way) || !line.curve->domain().contains(end + step)) return end;
-    if (is_bare(end + step) != more) to = end + step;
+    if (is_exposed(end + step) != more) to = end + step;
   }
   for (double middle = 0.5 * (from + to); std::min(from, to) < middle && middle < std::max(from, to);
        middle = 0.5 * (from + to))
-    (is_bare(middle) == more ? from : to) = middle;
+    (is_exposed(middle) == more ? from : to) = middle;
   return line.curve->domain().clamp(end + 2 * ((more ? from : to) - end));
 }
 
@@ -48,7 +48,7 @@ void add_turns(const TubeLine& line, const Interval& range, const ViewOf& view, 
 void add_bare(const TubeLine& line, const ViewOf& view, ShapeOutlines& found) {
   const Interval all = line.curve->domain();
   each_stretch(
-      all, line.places, [&](double t) { return line.is_bare(t, kBesideBalls); },
+      all, line.places, [&](double t) { return line.is_exposed(t, kBesideBalls); },
       [&](Interval t, bool bare) {
         if (!bare) return;
         if (t.lo > all.lo) t.lo = settled(line, t.lo, t.middle());

@@ -11,7 +11,7 @@ namespace lekalo::geometry {
 struct TubeLine {
   CurvePtr curve;
   // Whether a place is bare, as seen from so far outside, of the size.
-  std::function<bool(double t, double beside)> is_bare;
+  std::function<bool(double t, double beside)> is_exposed;
   std::vector<std::function<Vec3(double t)>> outward;  // normals of the tubes there
   Curve2Ptr image;                                     // on the surface that is met, if any
   int places = 64;                                     // where it is asked at least

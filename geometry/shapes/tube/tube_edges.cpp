@@ -62,13 +62,14 @@ struct Bounds {
     const BallJet middle = sweep.ball(from + h);
     const Vec3 &r1 = middle.center[1], &r2 = middle.center[2];
     const Box3 box = sweep.curve().enclose({from, std::min(from + 2 * h, cell.t.hi)}, 2).d[2];
-    const double wander = glm::length(glm::max(box.hi - r2, r2 - box.lo)), most = glm::length(r2) + wander;
+    const double variation_bound = glm::length(glm::max(box.hi - r2, r2 - box.lo)),
+                 most = glm::length(r2) + variation_bound;
     const double speed = glm::length(r1), turn = most * h, slowest = speed - turn;
     const double along = glm::dot(r1, r2) / (speed * speed);
-    const double across = glm::length(r2 - along * r1) + wander + std::abs(along) * turn;
+    const double across = glm::length(r2 - along * r1) + variation_bound + std::abs(along) * turn;
     lengths.back() += 2 * h * (speed + turn);
-    const double R2 = std::abs(cell.middle.radius[2]) + cell.radius_wander, R1 = std::abs(middle.radius[1]) + R2 * h,
-                 R = middle.radius[0] + R1 * h;
+    const double R2 = std::abs(cell.middle.radius[2]) + cell.radius_variation_bound,
+                 R1 = std::abs(middle.radius[1]) + R2 * h, R = middle.radius[0] + R1 * h;
     constant = constant && R1 == 0;
     const auto include = [&](double& bound, double value) { bound = slowest > 0 ? std::max(bound, value) : kInfinity; };
     include(curvature, across / (slowest * slowest));
@@ -117,12 +118,12 @@ std::optional<std::vector<std::array<Interval, 2>>> TubeBoundary::near_stretches
     length += along.lengths[k];
     if (k == 0 || length > most) stretches.push_back({k, k}), length = along.lengths[k];
     stretches.back().to = k + 1;
-    centers.push_back(cells[k].box.inflated(-cells[k].least_radius));
+    centers.push_back(cells[k].box.inflated(-cells[k].min_radius));
   }
   const auto are_near = [&](const Stretch& a, const Stretch& b) {
     for (size_t i = a.from; i < a.to; ++i)
       for (size_t k = b.from; k < b.to; ++k)
-        if (apart(centers[i], centers[k]) <= cells[i].least_radius + cells[k].least_radius) return true;
+        if (apart(centers[i], centers[k]) <= cells[i].min_radius + cells[k].min_radius) return true;
     return false;
   };
   const auto range_of = [&](const Stretch& stretch) {
@@ -205,8 +206,8 @@ void TubeBoundary::add_edges(const Contours& contours, const Part& a, const Part
     line.places = std::max(line.places, static_cast<int>(tube_.sweep().cells().size()));
     line.outward = {[&, on_a](double t) { return outward(a, Vec2(on_a->point(t))); },
                     [&, on_b](double t) { return outward(b, Vec2(on_b->point(t))); }};
-    line.is_bare = [&](double t, double beside) {
-      return is_bare_edge(a, Vec2(on_a->point(t)), b, Vec2(on_b->point(t)), beside);
+    line.is_exposed = [&](double t, double beside) {
+      return is_exposed_edge(a, Vec2(on_a->point(t)), b, Vec2(on_b->point(t)), beside);
     };
     add_bare(line, view, found.lines);
   }
@@ -221,7 +222,7 @@ TubeLine TubeBoundary::edge_of_balls(const CurvePtr& curve, const std::function<
   TubeLine line;
   line.curve = curve;
   line.outward = {[=](double t) { return normal(t, balls(t).x); }, [=](double t) { return normal(t, balls(t).y); }};
-  line.is_bare = [=, this](double t, double beside) {
+  line.is_exposed = [=, this](double t, double beside) {
     const Vec2 both = balls(t);
     if (!keeps(both)) return false;
     const Vec3 p = curve->point(t), n = normal(t, both.x) + normal(t, both.y);
@@ -234,7 +235,7 @@ TubeLine TubeBoundary::edge_of_balls(const CurvePtr& curve, const std::function<
 // Bends X are stretches of cells on which the wall may be singular, Y these with the cells beside them, W what is
 // between bends. Pairs of balls are those of one bend, one of them in X and both in Y (cuspidal_edges.h); one in X and
 // the other beyond Y, or in another bend; and those of walls W.
-bool TubeBoundary::add_edges_of_bends(const CanalSurface& wall, const ViewOf& view, Edges& found) const {
+bool TubeBoundary::add_cuspidal_edges(const CanalSurface& wall, const ViewOf& view, Edges& found) const {
   const BallSweep& sweep = tube_.sweep();
   const Interval domain = wall.domain().u;
   const bool closed = wall.periods().u > 0;
@@ -315,7 +316,7 @@ TubeBoundary::Edges TubeBoundary::edges(const ViewOf& view) const {
   for (size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (part.wall && bends_too_much(*part.wall))
-      found.all_known = add_edges_of_bends(*part.wall, view, found) && found.all_known;
+      found.all_known = add_cuspidal_edges(*part.wall, view, found) && found.all_known;
     else if (part.wall)
       add_own_edges(part, view, found);
     for (size_t k = i + 1; k < parts_.size(); ++k) {

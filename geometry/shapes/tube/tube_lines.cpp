@@ -41,9 +41,9 @@ TubeLine line_on(const Contour& contour, std::vector<OnPart> parts) {
     line.places = std::max(line.places, static_cast<int>(on.boundary.tube().sweep().cells().size()));
     line.outward.push_back([on](double t) { return on.map.normal(on.boundary.outward(on.part, on.place(t))); });
   }
-  line.is_bare = [parts = std::move(parts)](double t, double beside) {
+  line.is_exposed = [parts = std::move(parts)](double t, double beside) {
     return std::all_of(parts.begin(), parts.end(),
-                       [&](const OnPart& on) { return on.boundary.is_bare(on.part, on.place(t), beside); });
+                       [&](const OnPart& on) { return on.boundary.is_exposed(on.part, on.place(t), beside); });
   };
   return line;
 }
@@ -123,7 +123,7 @@ bool TubeBoundary::is_cut_off(const Part& part, const Vec2& place) const {
   return false;
 }
 
-bool TubeBoundary::is_bare(const Part& part, const Vec2& place, double beside) const {
+bool TubeBoundary::is_exposed(const Part& part, const Vec2& place, double beside) const {
   if (part.end >= 0 && tube_.caps() == Caps::none) return false;
   const Vec3 p = part.surface->point(place.x, place.y), by = beside * size_ * outward(part, place);
   return !is_cut_off(part, place) && !tube_.holds(p + by) && (part.end < 0 || tube_.holds(p - by));
@@ -148,7 +148,8 @@ bool TubeBoundary::is_on_end(int side, const Vec3& p) const {
   return is_in;
 }
 
-bool TubeBoundary::is_bare_edge(const Part& a, const Vec2& at_a, const Part& b, const Vec2& at_b, double beside) const {
+bool TubeBoundary::is_exposed_edge(const Part& a, const Vec2& at_a, const Part& b, const Vec2& at_b,
+                                   double beside) const {
   const Vec3 n = outward(a, at_a) + outward(b, at_b), p = a.surface->point(at_a.x, at_a.y);
   const double length = glm::length(n);
   if (!(length > 0) || is_cut_off(a, at_a) || is_cut_off(b, at_b)) return false;
@@ -157,7 +158,7 @@ bool TubeBoundary::is_bare_edge(const Part& a, const Vec2& at_a, const Part& b, 
   return !tube_.holds(p + beside * size_ / length * n);
 }
 
-ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& view) const {
+ShapeOutlines TubeBoundary::intersection(const SurfacePtr& surface, const ViewOf& view) const {
   ShapeOutlines found;
   found.complete = complete();
   const Box3 box = bounds(*surface);
@@ -174,8 +175,8 @@ ShapeOutlines TubeBoundary::meeting(const SurfacePtr& surface, const ViewOf& vie
   return found;
 }
 
-ShapeOutlines TubeBoundary::meeting(const ImplicitFormula& formula, const Affine& to_formula,
-                                    const ViewOf& view) const {
+ShapeOutlines TubeBoundary::intersection(const ImplicitFormula& formula, const Affine& to_formula,
+                                         const ViewOf& view) const {
   ShapeOutlines found;
   found.complete = complete();
   for (const Part& part : parts_) {
@@ -187,7 +188,8 @@ ShapeOutlines TubeBoundary::meeting(const ImplicitFormula& formula, const Affine
   return found;
 }
 
-ShapeOutlines TubeBoundary::meeting(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const {
+ShapeOutlines TubeBoundary::intersection(const TubeBoundary& other, const Affine& from_other,
+                                         const ViewOf& view) const {
   ShapeOutlines found;
   found.complete = complete() && other.complete();
   for (const Part& theirs : other.parts_) {

@@ -36,9 +36,9 @@ class TubeBoundary {
 
   // All lines are edges, with images on the surface that is met; `view` is that of their turns. The surface and the
   // formula are given in the tube's coordinates, or by the map from these.
-  ShapeOutlines meeting(const SurfacePtr& surface, const ViewOf& view) const;
-  ShapeOutlines meeting(const ImplicitFormula& formula, const Affine& to_formula, const ViewOf& view) const;
-  ShapeOutlines meeting(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const;
+  ShapeOutlines intersection(const SurfacePtr& surface, const ViewOf& view) const;
+  ShapeOutlines intersection(const ImplicitFormula& formula, const Affine& to_formula, const ViewOf& view) const;
+  ShapeOutlines intersection(const TubeBoundary& other, const Affine& from_other, const ViewOf& view) const;
 
   // The edges along which the tube goes through itself, but for corners between straight parts (ball_outlines.h).
   struct Edges {
@@ -57,9 +57,9 @@ class TubeBoundary {
   // Of a part at a place: the direction out of the tube, and whether the place is on the boundary, as seen from so far
   // outside, of the size.
   Vec3 outward(const Part& part, const Vec2& place) const;
-  bool is_bare(const Part& part, const Vec2& place, double beside) const;
+  bool is_exposed(const Part& part, const Vec2& place, double beside) const;
   // The same of a place on two parts, where the tube has an edge; from between them.
-  bool is_bare_edge(const Part& a, const Vec2& at_a, const Part& b, const Vec2& at_b, double beside) const;
+  bool is_exposed_edge(const Part& a, const Vec2& at_a, const Part& b, const Vec2& at_b, double beside) const;
 
  private:
   void add_walls();
@@ -75,8 +75,8 @@ class TubeBoundary {
   std::optional<Part> apart_from(const Part& part, const Part& other) const;
   Part wall_over(double from, double to) const;
   void add_edges(const Contours& contours, const Part& a, const Part& b, const ViewOf& view, Edges& found) const;
-  bool add_edges_of_bends(const CanalSurface& wall, const ViewOf& view, Edges& found) const;
-  TubeLine line_on_wall(const Part& part, HeldParameter held, double at) const;
+  bool add_cuspidal_edges(const CanalSurface& wall, const ViewOf& view, Edges& found) const;
+  TubeLine line_on_wall(const Part& part, IsoDirection held, double at) const;
   std::optional<TubeLine> line_over_corner(const Part& ball, const Part& before, double v) const;
   std::vector<double> zero_angles() const;
   TubeLine edge_of_balls(const CurvePtr& curve, const std::function<Vec2(double)>& balls,

@@ -59,10 +59,10 @@ std::vector<double> TubeBoundary::zero_angles() const {
   return angles;
 }
 
-TubeLine TubeBoundary::line_on_wall(const Part& part, HeldParameter held, double at) const {
+TubeLine TubeBoundary::line_on_wall(const Part& part, IsoDirection held, double at) const {
   const Interval domain = tube_.sweep().curve().domain();
   const bool has_flat_ends = tube_.caps() != Caps::round;
-  const auto place = [=](double t) { return held == HeldParameter::u ? Vec2(at, t) : Vec2(t, at); };
+  const auto place = [=](double t) { return held == IsoDirection::u ? Vec2(at, t) : Vec2(t, at); };
   TubeLine line;
   line.curve = contour_approximation(whole_line(part.surface, held, at).curve());
   line.places = std::max(kPlaces, 4 * static_cast<int>(tube_.sweep().cells().size()));
@@ -71,12 +71,12 @@ TubeLine TubeBoundary::line_on_wall(const Part& part, HeldParameter held, double
   // directions.
   std::vector<std::pair<const Part*, double>> corners;
   for (const Part& ball : parts_) {
-    if (held == HeldParameter::v || !ball.before || !ball.after) continue;
+    if (held == IsoDirection::v || !ball.before || !ball.after) continue;
     const Interval range = part.wall->domain().u;
     if (at == range.hi && *ball.before == next_down(at)) corners.emplace_back(&ball, *ball.after);
     if (at == range.lo && *ball.after == at) corners.emplace_back(&ball, *ball.before);
   }
-  line.is_bare = [=, this, &part](double t, double beside) {
+  line.is_exposed = [=, this, &part](double t, double beside) {
     for (const auto& [ball, other] : corners) {
       const BallJet on_other = tube_.sweep().ball(other);
       const Vec3 n = outward(part, place(t));
@@ -85,7 +85,7 @@ TubeLine TubeBoundary::line_on_wall(const Part& part, HeldParameter held, double
     Vec2 asked = place(t);
     if (has_flat_ends)
       asked.x = std::clamp(asked.x, domain.lo + kInside * domain.width(), domain.hi - kInside * domain.width());
-    return is_bare(part, asked, beside);
+    return is_exposed(part, asked, beside);
   };
   return line;
 }
@@ -108,7 +108,7 @@ std::optional<TubeLine> TubeBoundary::line_over_corner(const Part& ball, const P
   const auto normal = [curve = line.curve, center, R](double t) { return (curve->point(t) - center) / R; };
   line.places = kPlaces;
   line.outward = {normal};
-  line.is_bare = [=, this, curve = line.curve, &ball](double t, double beside) {
+  line.is_exposed = [=, this, curve = line.curve, &ball](double t, double beside) {
     const Vec3 p = curve->point(t);
     return !tube_.is_cut_off(p, *ball.before) && !tube_.holds(p + beside * size_ * normal(t));
   };
@@ -128,13 +128,13 @@ ShapeOutlines TubeBoundary::parameter_lines(const ParameterNet& net, const ViewO
     const Part& part = parts_[k];
     if (!part.wall) continue;
     for (const double at : places)
-      if (part.wall->domain().u.contains(at)) add_bare(line_on_wall(part, HeldParameter::u, at), view, found);
+      if (part.wall->domain().u.contains(at)) add_bare(line_on_wall(part, IsoDirection::u, at), view, found);
     const auto corner = std::find_if(parts_.begin(), parts_.end(), [&](const Part& one) {
       return one.before && one.after && *one.before == next_down(part.wall->domain().u.hi);
     });
     for (const double angle : angles) {
       const double v = kTurn.clamp(wrapped(angle + zeros[k], kTurn));
-      add_bare(line_on_wall(part, HeldParameter::v, v), view, found);
+      add_bare(line_on_wall(part, IsoDirection::v, v), view, found);
       if (corner == parts_.end()) continue;
       if (const auto over = line_over_corner(*corner, part, v)) add_bare(*over, view, found);
     }

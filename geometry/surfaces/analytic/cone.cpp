@@ -17,9 +17,9 @@ ConeSurface::ConeSurface(const Frame& frame, double radius, double top_radius, d
   if (!(height != 0)) throw std::invalid_argument("the height of a cone must not be zero");
   check_domain(domain, {});
   // On both nappes the height of a hit does not tell its side, and at an apex there is no gradient.
-  if (free_sides(0, 0).front || free_sides(0, 0).back) {
+  if (convex_sides(0, 0).front || convex_sides(0, 0).back) {
     const double slope = widening_ / height;
-    be_part_of({{1, 1, -slope * slope}, -2 * radius * slope, -radius * radius}, Vec3(1));
+    set_quadric({{1, 1, -slope * slope}, -2 * radius * slope, -radius * radius}, Vec3(1));
   }
 }
 
@@ -33,7 +33,7 @@ Vec3 ConeSurface::nearest_axis_point() const {
   return frame_.point({0, 0, height_ * v});
 }
 
-Sides ConeSurface::free_sides(double, double) const {
+Sides ConeSurface::convex_sides(double, double) const {
   // An unbounded cylinder has no change of radius to multiply infinity with.
   const double lo = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.lo,
                hi = widening_ == 0 ? radius_ : radius_ + widening_ * domain_.v.hi;
@@ -42,10 +42,10 @@ Sides ConeSurface::free_sides(double, double) const {
   return {.front = outward, .back = !outward};
 }
 
-Foot ConeSurface::foot(const Vec3& near) const {
+FootPoint ConeSurface::foot_point(const Vec3& near) const {
   const Vec3 p = frame_.to_local_point(near);
   if (p.x == 0 && p.y == 0) return {near, normal(0, p.z / height_)};  // the apex
-  return MeridianSurface::foot(near);
+  return MeridianSurface::foot_point(near);
 }
 
 LEKALO_FUSED void ConeSurface::meet_line(const Line& line, const Interval& t, LineHits& hits) const {
@@ -57,7 +57,7 @@ LEKALO_FUSED void ConeSurface::meet_line(const Line& line, const Interval& t, Li
   const Quadric quadric = cylinder ? Quadric{{1, 1, 0}, 0, -1} : Quadric{{1, 1, -1}, 0, 0};
   const QuadricRoots roots = quadric_roots(quadric, o, d);
   const Interval near{t.lo - moved.start, t.hi - moved.start};
-  const bool by_height = knows_feet() && !hits.wants_parameters();
+  const bool by_height = has_closest_point() && !hits.wants_parameters();
   const auto add = [&](int i, double nappe) {
     if (hits.is_enough() || !roots.may_lie_in(near, i)) return;
     // Is there anything of this nappe in the domain?

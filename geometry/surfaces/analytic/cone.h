@@ -19,8 +19,8 @@ class ConeSurface : public MeridianFormula<ConeSurface> {
   double height() const { return height_; }
 
   // Of one nappe the outer side.
-  Sides free_sides(double u, double v) const override;
-  Foot foot(const Vec3& near) const override;
+  Sides convex_sides(double u, double v) const override;
+  FootPoint foot_point(const Vec3& near) const override;
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 
   template <class T>

@@ -16,7 +16,7 @@ Ellipsoid::Ellipsoid(const Frame& frame, const Vec3& semi_axes, const Rectangle&
     throw std::invalid_argument("the semi-axes of an ellipsoid must be positive");
   check_domain(domain, kRules);
   whole_ = covers(domain, kFull);
-  be_part_of({{1, 1, 1}, 0, -1}, 1.0 / semi_axes);
+  set_quadric({{1, 1, 1}, 0, -1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm Ellipsoid::meridian_form() const {

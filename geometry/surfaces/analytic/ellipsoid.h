@@ -14,7 +14,7 @@ class Ellipsoid final : public MeridianFormula<Ellipsoid> {
   Ellipsoid(const Frame& frame, const Vec3& semi_axes, const Rectangle& domain = kFull);
   Vec3 semi_axes() const { return {a_, b_, c_}; }
 
-  Sides free_sides(double, double) const override { return {.front = true, .back = false}; }
+  Sides convex_sides(double, double) const override { return {.front = true, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

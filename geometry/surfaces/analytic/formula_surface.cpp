@@ -17,7 +17,7 @@ namespace {
 // Places along each direction where the formulas are tried before anything else asks.
 constexpr int kTried = 32;
 // As of formula curves: parts of the domain down to this are taken in halves where bounds are infinite or enormous.
-constexpr double kLeastHalved = 1.0 / 16;
+constexpr double kMinHalved = 1.0 / 16;
 constexpr double kEnormous = 8;
 
 double place(const Interval& range, int i) { return i == kTried ? range.hi : range.lo + range.width() * i / kTried; }
@@ -84,7 +84,7 @@ SurfaceEnclosure FormulaSurface::enclose(const Rectangle& box, int order) const 
     return whole.d(0, 0).diameter() <= kEnormous * size_ &&
            std::all_of(whole.values.begin(), whole.values.begin() + count, [](const Box3& b) { return b.bounded(); });
   };
-  if (!(std::max(share_u, share_v) > kLeastHalved) || is_good()) return whole;
+  if (!(std::max(share_u, share_v) > kMinHalved) || is_good()) return whole;
   Rectangle below = box, above = box;
   if (share_u >= share_v)
     below.u.hi = above.u.lo = box.u.middle();

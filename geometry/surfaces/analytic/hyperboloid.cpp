@@ -16,7 +16,7 @@ HyperboloidOneSheet::HyperboloidOneSheet(const Frame& frame, const Vec3& semi_ax
   if (!(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0))
     throw std::invalid_argument("the semi-axes of a hyperboloid must be positive");
   check_domain(domain, kOneSheetRules);
-  be_part_of({{1, 1, -1}, 0, -1}, 1.0 / semi_axes);
+  set_quadric({{1, 1, -1}, 0, -1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm HyperboloidOneSheet::meridian_form() const {
@@ -34,7 +34,7 @@ HyperboloidTwoSheets::HyperboloidTwoSheets(const Frame& frame, const Vec3& semi_
   if (!(semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z != 0))
     throw std::invalid_argument("the semi-axes of a hyperboloid must be positive");
   check_domain(domain, kTwoSheetsRules);
-  be_part_of({{1, 1, -1}, 0, 1}, 1.0 / semi_axes);
+  set_quadric({{1, 1, -1}, 0, 1}, 1.0 / semi_axes);
 }
 
 NurbsCurveForm HyperboloidTwoSheets::meridian_form() const {

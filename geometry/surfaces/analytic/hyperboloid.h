@@ -39,7 +39,7 @@ class HyperboloidTwoSheets final : public MeridianFormula<HyperboloidTwoSheets> 
   HyperboloidTwoSheets(const Frame& frame, const Vec3& semi_axes, const Rectangle& domain);
   Vec3 semi_axes() const { return {a_, b_, c_}; }
 
-  Sides free_sides(double, double) const override { return {.front = c_ > 0, .back = c_ < 0}; }
+  Sides convex_sides(double, double) const override { return {.front = c_ > 0, .back = c_ < 0}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -127,7 +127,7 @@ std::optional<NurbsSurfaceForm> MeridianSurface::as_nurbs() const {
   return form;
 }
 
-void MeridianSurface::be_part_of(const Quadric& quadric, const Vec3& scale) {
+void MeridianSurface::set_quadric(const Quadric& quadric, const Vec3& scale) {
   quadric_ = quadric;
   scale_ = scale;
   const Interval& v = domain_.v;
@@ -136,7 +136,7 @@ void MeridianSurface::be_part_of(const Quadric& quadric, const Vec3& scale) {
   const double some = has_lo ? (has_hi ? v.middle() : v.lo + 1) : has_hi ? v.hi - 1 : 0;
   const Vec3 from = frame_.to_local_direction(evaluate(0, some, 0).point() - frame_.origin);
   side_ = glm::dot(frame_.direction(half_gradient(scale_ * from)), normal(0, some)) < 0 ? -1 : 1;
-  knows_feet_ = domain_.u.width() >= kTwoPi;
+  has_closest_point_ = domain_.u.width() >= kTwoPi;
   inside_ = around_ = Interval::entire();
   if (whole_) return;
   const auto height = [&](double at) { return scale_.z * meridian(at, 0).z[0]; };
@@ -158,7 +158,7 @@ void MeridianSurface::be_part_of(const Quadric& quadric, const Vec3& scale) {
 }
 
 // One step of Newton's iteration along the gradient.
-Foot MeridianSurface::foot(const Vec3& near) const {
+FootPoint MeridianSurface::foot_point(const Vec3& near) const {
   const Vec3 from = near - frame_.origin;
   const Vec3 p = scale_ * (upright_ ? from : frame_.to_local_direction(from));
   const Vec3 half = half_gradient(p);
@@ -170,7 +170,7 @@ Foot MeridianSurface::foot(const Vec3& near) const {
 
 LEKALO_FUSED void MeridianSurface::add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
                                                     std::optional<double> (*parameter)(const Vec3&)) const {
-  const bool by_height = knows_feet_ && !hits.wants_parameters();
+  const bool by_height = has_closest_point_ && !hits.wants_parameters();
   visit_quadric_hits(quadric_, local_line(line, frame_.origin), scale_, range, hits, [&](double t, const Vec3& p) {
     const Place place = by_height ? place_by_height(p.z) : Place::at_border;
     if (place == Place::inside)

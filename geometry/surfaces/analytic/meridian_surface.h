@@ -41,8 +41,8 @@ class MeridianSurface : public Surface {
   DegenerateEdges degenerate_edges() const override;
   bool bounded() const override { return domain_.v.lo > -kInfinity && domain_.v.hi < kInfinity; }
   bool has_line_formula() const override { return true; }
-  bool knows_feet() const override { return knows_feet_; }
-  Foot foot(const Vec3& near) const override;
+  bool has_closest_point() const override { return has_closest_point_; }
+  FootPoint foot_point(const Vec3& near) const override;
 
  protected:
   MeridianSurface(const Frame& frame, double a, double b, const Rectangle& domain)
@@ -70,15 +70,15 @@ class MeridianSurface : public Surface {
   void add_hit(LineHits& hits, const Line& line, double t, double u, double v) const;
 
   // For constructors, once meridian() can be asked: the surface is a part of this quadric, whose coordinates are those
-  // of the frame times `scale`, and the height z tells which part. So it knows its feet if it goes all round.
-  void be_part_of(const Quadric& quadric, const Vec3& scale);
+  // of the frame times `scale`, and the height z tells which part. So it knows its foot points if it goes all round.
+  void set_quadric(const Quadric& quadric, const Vec3& scale);
 
   // Adds the hits of a line with that quadric. `parameter` is v of a scaled point on it, or nothing where the point
   // belongs to another sheet.
   void add_quadric_hits(const Line& line, const Interval& range, LineHits& hits,
                         std::optional<double> (*parameter)(const Vec3&)) const;
 
-  // What the height alone, in scaled coordinates, tells of a hit on a surface that knows its feet.
+  // What the height alone, in scaled coordinates, tells of a hit on a surface that knows its foot points.
   enum class Place { inside, outside, at_border };
   Place place_by_height(double z) const {
     if (inside_.contains(z)) return Place::inside;
@@ -92,8 +92,8 @@ class MeridianSurface : public Surface {
   double a_, b_;  // stretch of the parallels along x and y
   Rectangle domain_;
   bool whole_ = false;  // a closed surface, all of it
-  bool knows_feet_ = false;
-  Vec3 scale_{1};  // of be_part_of
+  bool has_closest_point_ = false;
+  Vec3 scale_{1};  // of set_quadric
 
  private:
   Quadric quadric_;

@@ -16,7 +16,7 @@ EllipticParaboloid::EllipticParaboloid(const Frame& frame, double a, double b, c
     : MeridianFormula(frame, a, b, domain) {
   if (!(a > 0 && b > 0)) throw std::invalid_argument("the semi-axes of a paraboloid must be positive");
   check_domain(domain, kEllipticRules);
-  be_part_of({{1, 1, 0}, -1, 0}, {1 / a, 1 / b, 1});
+  set_quadric({{1, 1, 0}, -1, 0}, {1 / a, 1 / b, 1});
 }
 
 NurbsCurveForm EllipticParaboloid::meridian_form() const {

@@ -15,7 +15,7 @@ class EllipticParaboloid final : public MeridianFormula<EllipticParaboloid> {
   EllipticParaboloid(const Frame& frame, double a, double b, const Rectangle& domain);
   Vec2 semi_axes() const { return {a_, b_}; }
 
-  Sides free_sides(double, double) const override { return {.front = true, .back = false}; }
+  Sides convex_sides(double, double) const override { return {.front = true, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -21,10 +21,10 @@ inline double range_slack(const Interval& range) {
   return 4 * std::numeric_limits<double>::epsilon() * largest + (width < kInfinity ? kHitSlack * width : 0.0);
 }
 
-// x moved into the range if it lies inside or within rounding of it, or nearer than `least_slack`.
-inline std::optional<double> within(const Interval& range, double x, double least_slack = 0) {
+// x moved into the range if it lies inside or within rounding of it, or nearer than `min_slack`.
+inline std::optional<double> within(const Interval& range, double x, double min_slack = 0) {
   if (range.contains(x)) return x;
-  const double slack = std::max(range_slack(range), least_slack);
+  const double slack = std::max(range_slack(range), min_slack);
   if (!(x >= range.lo - slack && x <= range.hi + slack)) return std::nullopt;
   return range.clamp(x);
 }

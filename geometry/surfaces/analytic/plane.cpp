@@ -44,7 +44,7 @@ SurfaceJet Plane::evaluate(double u, double v, int order) const {
   return jet;
 }
 
-Foot Plane::foot(const Vec3& near) const {
+FootPoint Plane::foot_point(const Vec3& near) const {
   return {near - glm::dot(near - frame_.origin, frame_.z) * frame_.z, normal_sign() * frame_.z};
 }
 

@@ -20,9 +20,9 @@ class Plane final : public Surface {
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   bool bounded() const override;
   bool is_whole() const { return whole_; }
-  bool knows_feet() const override { return true; }
-  Foot foot(const Vec3& near) const override;
-  Sides free_sides(double, double) const override { return {true, true}; }
+  bool has_closest_point() const override { return true; }
+  FootPoint foot_point(const Vec3& near) const override;
+  Sides convex_sides(double, double) const override { return {true, true}; }
   bool has_line_formula() const override { return true; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }
 

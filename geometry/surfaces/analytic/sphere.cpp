@@ -15,7 +15,7 @@ SphereSurface::SphereSurface(const Frame& frame, double radius, const Rectangle&
   if (!(radius > 0)) throw std::invalid_argument("the radius of a sphere must be positive");
   check_domain(domain, kRules);
   whole_ = covers(domain, kFull);
-  be_part_of({{1, 1, 1}, 0, -1}, Vec3(1 / radius));
+  set_quadric({{1, 1, 1}, 0, -1}, Vec3(1 / radius));
 }
 
 NurbsCurveForm SphereSurface::meridian_form() const {
@@ -34,7 +34,7 @@ Vec3 SphereSurface::normal(double, double, const SurfaceJet& jet) const {
   return (normal_sign() / radius_) * (jet.point() - frame_.origin);
 }
 
-Foot SphereSurface::foot(const Vec3& near) const {
+FootPoint SphereSurface::foot_point(const Vec3& near) const {
   // The length differs from the radius by rounding, so that one step of Newton's iteration replaces root and quotient.
   const Vec3 from_center = near - frame_.origin;
   const double square = glm::dot(from_center, from_center) * (scale_.x * scale_.x);

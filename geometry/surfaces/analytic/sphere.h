@@ -16,8 +16,8 @@ class SphereSurface final : public MeridianFormula<SphereSurface> {
 
   using MeridianSurface::normal;
   Vec3 normal(double u, double v, const SurfaceJet& jet) const override;
-  Foot foot(const Vec3& near) const override;
-  Sides free_sides(double, double) const override { return {.front = true, .back = false}; }
+  FootPoint foot_point(const Vec3& near) const override;
+  Sides convex_sides(double, double) const override { return {.front = true, .back = false}; }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override;
 
   template <class T>

@@ -63,7 +63,7 @@ TorusSurface::TorusSurface(const Frame& frame, double major, double minor, const
   if (!(major > -minor)) throw std::invalid_argument("the major radius of a torus must be greater than -minor radius");
   check_domain(domain, rules(major, minor));
   whole_ = covers(domain, full_domain(major, minor));
-  if (major == 0) be_part_of({{1, 1, 1}, 0, -1}, Vec3(1 / minor));
+  if (major == 0) set_quadric({{1, 1, 1}, 0, -1}, Vec3(1 / minor));
 }
 
 NurbsCurveForm TorusSurface::meridian_form() const {

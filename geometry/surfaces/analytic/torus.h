@@ -23,7 +23,7 @@ class TorusSurface final : public MeridianFormula<TorusSurface> {
 
   Periods periods() const override { return {kTwoPi, kTwoPi}; }
   // The tube's outer half lies on the convex hull.
-  Sides free_sides(double, double v) const override {
+  Sides convex_sides(double, double v) const override {
     return {.front = major_ <= 0 || std::cos(v) >= 0, .back = false};
   }
   void line_hits(const Line& line, const Interval& t, LineHits& hits) const override { meet_line(line, t, hits); }

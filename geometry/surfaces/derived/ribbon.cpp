@@ -28,7 +28,7 @@ constexpr double kSameDirection = 1e-8;
 constexpr double kAcross = 1e-6;
 // A curve this near a surface lies on it, relative to the surface's size.
 constexpr double kOnSurface = 1e-6;
-// Points each way among which the search for the foot of a point begins.
+// Points each way among which the search for the foot point of a point begins.
 constexpr int kGrid = 48;
 // On a part the tangent stays this near (cosine) to that in the middle.
 constexpr double kTurned = 0.7;

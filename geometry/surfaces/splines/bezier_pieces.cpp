@@ -59,7 +59,7 @@ std::vector<SurfacePiece> bezier_pieces(const NurbsSurfaceForm& form, const Rect
   for (int halvings = 0;; halvings += 2) {
     std::vector<SurfacePiece> pieces = bezier_pieces(form, parts_u, parts_v, uneven_u, uneven_v);
     const bool any = std::find(uneven_u.begin(), uneven_u.end(), 1) != uneven_u.end();
-    if (!any || halvings >= kMostHalvingsForWeights) return pieces;
+    if (!any || halvings >= kMaxHalvingsForWeights) return pieces;
     halve(parts_u, uneven_u);
     halve(parts_v, uneven_v);
   }

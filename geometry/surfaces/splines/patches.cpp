@@ -61,10 +61,10 @@ bool whole(double x, double lowest, double highest) { return x == std::floor(x) 
 }  // namespace
 
 std::vector<SurfacePtr> parse_patches(std::string_view text) {
-  constexpr double kMostPatches = 1e6;
+  constexpr double kMaxPatches = 1e6;
   NumberLines lines(text);
   const std::vector<double> first = lines.next();
-  if (first.size() != 1 || !whole(first[0], 1, kMostPatches)) lines.fail("expected the number of patches");
+  if (first.size() != 1 || !whole(first[0], 1, kMaxPatches)) lines.fail("expected the number of patches");
   const int count = static_cast<int>(first[0]);
 
   std::vector<SurfacePtr> patches;

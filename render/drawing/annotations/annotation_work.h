@@ -29,7 +29,7 @@ class AnnotationWork {
 
   // A place on the page that the annotation speaks of.
   Vec2 place(const geometry::Anchor& anchor);
-  // Scene units of a length on the page that lies across the way of sight at this point.
+  // Scene units of a length on the page that lies across the line of sight at this point.
   double in_scene(double millimetres, const Vec3& point) const;
   // Whether its lines have arrows at their beginning and end.
   std::pair<bool, bool> heads() const;

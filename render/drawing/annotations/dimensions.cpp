@@ -20,7 +20,7 @@ constexpr double kGap = 0.8;           // between a point and the line that lead
 constexpr double kBeyond = 1.5;        // by which these lines pass the dimension line
 constexpr double kTextOff = 0.7;       // between a line and the text upon it
 constexpr double kShelf = 6;           // from a circle to the number of its radius
-constexpr double kLeastForHeads = 3;   // in arrow lengths: shorter dimension lines have their arrows outside
+constexpr double kMinForHeads = 3;     // in arrow lengths: shorter dimension lines have their arrows outside
 constexpr double kTail = 2;            // in arrow lengths: from there lines lead to arrows outside
 constexpr double kBesideText = 0.5;    // between a text upon a line and the line's ends
 constexpr double kNumberBorder = 0.2;  // around a number: it may be so near to the arrow heads of its line
@@ -28,7 +28,7 @@ constexpr double kLean = 0.6;          // of leaders to numbers, for each of the
 constexpr double kStraight = 1e-9;     // radians: sides of an angle that are one line
 
 // The plane of an angle, x along its first side. The sides of 180 degrees are one line, which lies in many planes: it
-// is the one across the way of sight, seen from its front. None where there is no angle, or such a line is seen
+// is the one across the line of sight, seen from its front. None where there is no angle, or such a line is seen
 // end-on.
 std::optional<Frame> plane_of_angle(const View& view, const Vec3& apex, const Vec3& side, const Vec3& other) {
   Vec3 z = glm::cross(side, other);
@@ -96,11 +96,11 @@ void page_arc(AnnotationWork& work, const Vec2& apex, const Vec2& side, const Ve
 }
 
 // From a point that is measured to the dimension line and beyond it.
-void extension_line(AnnotationWork& work, const Vec2& point, const Vec2& foot) {
-  const double length = glm::length(foot - point);
+void extension_line(AnnotationWork& work, const Vec2& point, const Vec2& foot_point) {
+  const double length = glm::length(foot_point - point);
   if (!(length > kGap)) return;
-  const Vec2 way = (foot - point) / length;
-  work.page_line(point + kGap * way, foot + kBeyond * way, false, false);
+  const Vec2 way = (foot_point - point) / length;
+  work.page_line(point + kGap * way, foot_point + kBeyond * way, false, false);
 }
 
 // The number with what stands around it, or the text in its place.
@@ -191,15 +191,15 @@ void add_angle_dimension(AnnotationWork& work) {
   const std::array<Vec3, 2> ends = {f.get<Anchor>("from").point, f.get<Anchor>("to").point};
   const Vec3 x = ends[0] - apex, y = ends[1] - apex;
   const double radius = std::min(glm::length(x), glm::length(y)) + work.in_scene(f.number("offset"), apex);
-  std::array<Vec3, 2> feet;
+  std::array<Vec3, 2> foot_points;
   for (size_t k = 0; k < 2; ++k) {
     work.page().anchors.push_back(ends[k]);
     if (!(glm::length(ends[k] - apex) > 0)) return;
-    feet[k] = apex + radius * glm::normalize(ends[k] - apex);
-    if (!work.is_seen(feet[k])) return work.leave_out_behind();
+    foot_points[k] = apex + radius * glm::normalize(ends[k] - apex);
+    if (!work.is_seen(foot_points[k])) return work.leave_out_behind();
   }
   for (size_t k = 0; k < 2; ++k)
-    if (!(glm::length(ends[k] - apex) > radius)) extension_line(work, view.place(ends[k]), view.place(feet[k]));
+    if (!(glm::length(ends[k] - apex) > radius)) extension_line(work, view.place(ends[k]), view.place(foot_points[k]));
   const double degrees = std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180 / kPi;
   arc_of_angle(work, apex, ends[0], ends[1], radius, number_text(work, degrees, "", "°"), "",
                HiddenLines{HiddenLines::Way::show, {}});
@@ -226,7 +226,7 @@ void add_linear_dimension(AnnotationWork& work) {
   extension_line(work, p, from);
   extension_line(work, q, to);
   const double head = work.style().arrow_size, tail = kTail * head;
-  const bool fits = glm::length(to - from) >= kLeastForHeads * head;
+  const bool fits = glm::length(to - from) >= kMinForHeads * head;
   if (fits) {
     const auto [start, end] = work.heads();
     work.page_line(from, to, start, end);
@@ -266,7 +266,7 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   const Vec2 out = glm::normalize(near - (diameter ? far : center));
   const Vec2 end = near + kShelf * out;
   const double head = work.style().arrow_size;
-  if (span >= kLeastForHeads * head) {
+  if (span >= kMinForHeads * head) {
     work.page_line(diameter ? far : center, near, diameter, true);
     work.page_line(near, end, false, false);
   } else {

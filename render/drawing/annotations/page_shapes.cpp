@@ -66,8 +66,8 @@ Circle circle_of(const Fields& f) {
         if (!surface && is_round(*face.surface)) surface = face.surface;
     const Rectangle domain = surface->domain();
     const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
-    for (const HeldParameter held : {HeldParameter::v, HeldParameter::u}) {
-      curve = std::make_shared<ParameterLine>(surface, held, middle(held == HeldParameter::v ? domain.v : domain.u));
+    for (const IsoDirection held : {IsoDirection::v, IsoDirection::u}) {
+      curve = std::make_shared<ParameterLine>(surface, held, middle(held == IsoDirection::v ? domain.v : domain.u));
       if (curve->domain().width() < kInfinity && is_round(*curve)) break;
     }
   }
@@ -86,11 +86,11 @@ std::string dimension_number(double value, int decimals) {
 }
 
 std::string dimension_number(double value) {
-  constexpr int kDecimals = 2, kDigits = 2, kMostDecimals = 5;
+  constexpr int kDecimals = 2, kDigits = 2, kMaxDecimals = 5;
   const double size = std::abs(value);
   const int power = size > 0 ? static_cast<int>(std::floor(std::log10(size) + 1e-9)) : 0;
   const int decimals = std::max(kDecimals, kDigits - 1 - power);
-  if (decimals <= kMostDecimals) return dimension_number(value, decimals);
+  if (decimals <= kMaxDecimals) return dimension_number(value, decimals);
   // One digit before the point and the others, then the power: 5.0e-05.
   const std::string text = fmt::format("{:.{}e}", value, kDigits - 1);
   const std::string digits = dimension_number(std::stod(text.substr(0, text.find('e'))), kDigits - 1);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSamples = 24;  // of a gradient, across the area's longer side
 constexpr int kStops = 12;
-constexpr double kLeastColor = 0.02;  // of a material that fills: black ones (glass, mirrors) do not
+constexpr double kMinColor = 0.02;  // of a material that fills: black ones (glass, mirrors) do not
 constexpr Vec3 kPlainColor(0.791298, 0.791298, 0.791298);  // #e6e6e6
 
 // The real roots of c[0] + c[1] s + c[2] s^2 + c[3] s^3 in [0, 1).
@@ -127,13 +127,13 @@ class Filling {
   }
 
  private:
-  struct Seen {
+  struct Interaction {
     RegionLabel label;
     double lambert = 0;  // cosine of the angle to the light, 0 where turned away
     Vec3 color{0};       // of the material, linear
   };
-  Seen seen_at(const Vec2& place) const {
-    Seen seen;
+  Interaction seen_at(const Vec2& place) const {
+    Interaction seen;
     const Ray ray = view_.camera.ray(place.x, place.y);
     Hit hit;
     if (!world_.nearest(ray, hit)) return seen;
@@ -151,7 +151,7 @@ class Filling {
     return seen;
   }
   RegionLabel label_at(const Vec2& place) const {
-    const Seen seen = seen_at(place);
+    const Interaction seen = seen_at(place);
     if (seen.label.object >= 0) colors_.emplace(seen.label.object, seen.color);
     return seen.label;
   }
@@ -160,7 +160,7 @@ class Filling {
   Vec3 color_of(int object) const {
     if (fills_[static_cast<size_t>(object)]->color) return *fills_[static_cast<size_t>(object)]->color;
     const Vec3 color = colors_.at(object);
-    return std::max({color.x, color.y, color.z}) < kLeastColor ? kPlainColor : glm::clamp(color, 0.0, 1.0);
+    return std::max({color.x, color.y, color.z}) < kMinColor ? kPlainColor : glm::clamp(color, 0.0, 1.0);
   }
 
   std::vector<Path> loops(const std::function<bool(const RegionLabel&)>& belongs) const {
@@ -213,7 +213,7 @@ class Filling {
     const double step = std::max(hi.x - lo.x, hi.y - lo.y) / kSamples;
     for (double y = lo.y + 0.5 * step; y < hi.y; y += step)
       for (double x = lo.x + 0.5 * step; x < hi.x; x += step) {
-        const Seen seen = seen_at((Vec2(x, y) - view_.at) / view_.millimetres);
+        const Interaction seen = seen_at((Vec2(x, y) - view_.at) / view_.millimetres);
         if (seen.label == label) samples.push_back({{x, y}, shade + (1 - shade) * seen.lambert});
       }
     if (samples.size() < 3) return std::nullopt;

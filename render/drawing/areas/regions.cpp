@@ -22,11 +22,11 @@ namespace {
 constexpr double kSamePlace = 2e-3;
 // How far beside a part is asked what is seen there: of its length, and in pixels.
 // Less than what tells two curves apart, so that an area between them is not passed over.
-constexpr double kBeside = 1e-3, kLeastBeside = 1e-5, kMostBeside = 0.25 * kSamePlace;
+constexpr double kBeside = 1e-3, kMinBeside = 1e-5, kMaxBeside = 0.25 * kSamePlace;
 // Where what is seen changes along a part without a cut is found to so many pixels.
 constexpr double kChange = 1e-4;
-// Loops that end so near to one another are joined, pixels. Curves that touch, with radii up to R, part by kMostBeside
-// only sqrt(2 R kMostBeside) from there.
+// Loops that end so near to one another are joined, pixels. Curves that touch, with radii up to R, part by kMaxBeside
+// only sqrt(2 R kMaxBeside) from there.
 constexpr double kCorner = 2;
 
 Box3 box_of(const ProjectedCurve::Cell& cell, double slack) {
@@ -163,7 +163,7 @@ Vec2 Regions::place(int border, const Vec2& begin, const Vec2& end, const Interv
 
 // What is seen beside each part, at three places; where they differ, a cut is missing: the part is halved there.
 void Regions::label_parts(const std::function<RegionLabel(const Vec2&)>& what) {
-  constexpr int kMostParts = 64;  // of one
+  constexpr int kMaxParts = 64;  // of one
   std::vector<Part> labelled;
   for (const Part& whole : parts_) {
     std::vector<Part> open{whole};
@@ -181,7 +181,7 @@ void Regions::label_parts(const std::function<RegionLabel(const Vec2&)>& what) {
         if (!(length > 0)) return std::pair<RegionLabel, RegionLabel>();
         way /= length;
         const Vec2 left(way.y, -way.x);
-        const double off = std::clamp(kBeside * length / h * 0.5 * part.t.width(), kLeastBeside, kMostBeside);
+        const double off = std::clamp(kBeside * length / h * 0.5 * part.t.width(), kMinBeside, kMaxBeside);
         const auto seen = [&](const Vec2& p) {
           if (part.border >= 0) return what(p);
           const Vec2 in = p - at;
@@ -196,7 +196,7 @@ void Regions::label_parts(const std::function<RegionLabel(const Vec2&)>& what) {
       bool split = false;
       for (const double share : {0.17, 0.83}) {
         const auto here = beside(at_share(share));
-        if (here == middle || made >= kMostParts) continue;
+        if (here == middle || made >= kMaxParts) continue;
         double lo = at_share(std::min(share, 0.5)), hi = at_share(std::max(share, 0.5));
         const auto at_lo = share < 0.5 ? here : middle;
         const auto at = [&](double t) { return place(part.border, whole.begin, whole.end, whole.t, t); };

@@ -12,8 +12,8 @@ namespace lekalo::render {
 namespace {
 
 // Millimetres.
-constexpr double kSeen = 0.05;     // of a text beyond the edge
-constexpr double kLeastRoom = 20;  // between margins that a message speaks of
+constexpr double kSeen = 0.05;   // of a text beyond the edge
+constexpr double kMinRoom = 20;  // between margins that a message speaks of
 constexpr double kMarginStep = 0.5;
 constexpr size_t kLongest = 40;  // characters of a text in a message
 
@@ -58,7 +58,7 @@ std::string over_the_edge(const Label& label, const PageEdges& edges) {
   const double enough = kMarginStep * std::ceil((edges.margin + worst.over) / kMarginStep);
   if (label.on_page) return where + "; `page` holds it there, whatever the margin";
   // Names of axes and legends have their place beside the whole graph, which a margin does not change.
-  if (label.kind == "axis" || label.kind == "legend" || 2 * enough + kLeastRoom > std::min(page.x, page.y))
+  if (label.kind == "axis" || label.kind == "legend" || 2 * enough + kMinRoom > std::min(page.x, page.y))
     return where + "; a larger page or a smaller `text_size` has room for it";
   return where + fmt::format("; `margin: {:g} mm` gives it room", enough);
 }

@@ -22,7 +22,7 @@ constexpr double kFree = 1.5;   // millimetres around what a panel shows
 constexpr int kTrial = 1000;    // pixels of cameras by which sizes are found
 constexpr double kTallest = 3;  // times its width: pictures whose height is found
 constexpr double kRounding = 1e-6;
-constexpr double kLeastRoom = 1;  // millimetres for what is shown beside its annotations
+constexpr double kMinRoom = 1;  // millimetres for what is shown beside its annotations
 constexpr const char* kAnchorFields[] = {"at", "from", "to"};
 
 double millimetres_of(const std::string& unit) {
@@ -74,7 +74,7 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
                  fmt::format("the panel '{}' has a perspective camera: a scale is for parallel views", name),
                  "a parallel camera, or scale: fit");
   extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
-  const Shown shown(model.objects);
+  const FramedContent shown(model.objects);
   extent.shown = shown_box(model, shown, *extent.camera, extent.millimetres);
   extent.half = 0.5 * extent.shown.size();
   const SheetBox all = annotated_box(model, shown, *extent.camera, extent.millimetres);
@@ -114,7 +114,7 @@ SheetBox anchors_box(const Model& model, const Camera& camera, double millimetre
 }
 
 // Empty where no object shows anything: then cameras frame a cube, which is not seen.
-SheetBox objects_box(const Shown& shown, const Camera& camera, double millimetres) {
+SheetBox objects_box(const FramedContent& shown, const Camera& camera, double millimetres) {
   SheetBox part;
   if (shown.box.empty()) return part;
   for (const Vec3& point : shown.points()) include(point, camera, millimetres, part);
@@ -164,7 +164,7 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
 
 }  // namespace
 
-SheetBox shown_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres) {
+SheetBox shown_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres) {
   SheetBox part = anchors_box(model, camera, millimetres);
   include(objects_box(shown, camera, millimetres), part);
   if (!(part.lo.x < kInfinity))
@@ -172,14 +172,14 @@ SheetBox shown_box(const Model& model, const Shown& shown, const Camera& camera,
   return part;
 }
 
-SheetBox annotated_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres) {
+SheetBox annotated_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres) {
   SheetBox all = shown_box(model, shown, camera, millimetres);
   include(annotations_box(model, camera, millimetres), all);
   return all;
 }
 
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
-  const Shown objects_shown(model.objects);
+  const FramedContent objects_shown(model.objects);
   const SheetBox objects = objects_box(objects_shown, *model.camera, millimetres), picture{Vec2(0), size};
   const bool shows_objects = objects.lo.x < kInfinity;
   // A camera may frame some of the objects: then its picture counts, not what lies outside of it.
@@ -207,7 +207,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
     const Vec2 content = shown.size();
     Vec2 room = size - before - after;
     if (auto_height) room.y = std::max(kTallest * size.x, size.y) - before.y - after.y;
-    if (!(room.x > kLeastRoom && room.y > kLeastRoom)) break;  // for both: the scene keeps its place
+    if (!(room.x > kMinRoom && room.y > kMinRoom)) break;  // for both: the scene keeps its place
     double grow = kInfinity;
     for (const int axis : {0, 1})
       if (content[axis] > 0) grow = std::min(grow, room[axis] / content[axis]);
@@ -355,7 +355,7 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     for (const std::string& name : row) {
       if (name.empty()) continue;
       Model model = model_of(page, *panels.at(name));
-      const Vec2 shown = shown_box(model, Shown(model.objects), *model.make_camera(kTrial, kTrial), 1).size();
+      const Vec2 shown = shown_box(model, FramedContent(model.objects), *model.make_camera(kTrial, kTrial), 1).size();
       Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, kTallest) * width : width);
       const double per_pixel = millimetres_of_pixel(page);
       const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };

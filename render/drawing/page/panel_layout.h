@@ -17,8 +17,8 @@ namespace lekalo::render {
 // What the objects, and the points of which annotations speak, take of a picture whose pixels have so many millimetres:
 // it grows with the scene. And what the annotations take with them.
 // `shown`: the model's objects.
-SheetBox shown_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres);
-SheetBox annotated_box(const Model& model, const Shown& shown, const Camera& camera, double millimetres);
+SheetBox shown_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres);
+SheetBox annotated_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres);
 
 // A camera that frames the scene so that its annotations have room too: `size` is that of the picture in millimetres,
 // whose height is made to fit where it is automatic. The model's own camera where they have.

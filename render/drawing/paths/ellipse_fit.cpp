@@ -13,7 +13,7 @@ using geometry::kTwoPi;
 
 namespace {
 
-constexpr size_t kLeastPlaces = 9;
+constexpr size_t kMinPlaces = 9;
 // Half axes between these, of the extent of the places: else the places tell the ellipse badly, or it is a line.
 constexpr double kNarrowest = 1e-4, kWidest = 1e4;
 
@@ -45,8 +45,8 @@ std::optional<PictureEllipse> ellipse_through(const std::array<Vec2, 5>& places)
 
 }  // namespace
 
-std::optional<EllipticArc> elliptic_arc(const std::vector<Vec2>& places, double tolerance, double least_turn) {
-  if (places.size() < kLeastPlaces) return std::nullopt;
+std::optional<EllipticArc> elliptic_arc(const std::vector<Vec2>& places, double tolerance, double min_turn) {
+  if (places.size() < kMinPlaces) return std::nullopt;
   Vec2 lo = places[0], hi = places[0];
   for (const Vec2& place : places) lo = glm::min(lo, place), hi = glm::max(hi, place);
   const Vec2 middle = 0.5 * (lo + hi);
@@ -76,7 +76,7 @@ std::optional<EllipticArc> elliptic_arc(const std::vector<Vec2>& places, double 
     arc.end += step;
   }
   const double turn = std::abs(arc.end - arc.begin);
-  if (!(turn >= least_turn && turn <= kTwoPi * (1 + 1e-9))) return std::nullopt;
+  if (!(turn >= min_turn && turn <= kTwoPi * (1 + 1e-9))) return std::nullopt;
   return arc;
 }
 

@@ -14,8 +14,8 @@ struct EllipticArc {
 };
 
 // The arc on which these places follow one another in this order, none farther from it than `tolerance`; none where
-// there is no such ellipse, where the arc is shorter than `least_turn` (radians), or where the ellipse is as narrow as
+// there is no such ellipse, where the arc is shorter than `min_turn` (radians), or where the ellipse is as narrow as
 // a line. The first and the last place may be one. The lengths are those of the places.
-std::optional<EllipticArc> elliptic_arc(const std::vector<Vec2>& places, double tolerance, double least_turn);
+std::optional<EllipticArc> elliptic_arc(const std::vector<Vec2>& places, double tolerance, double min_turn);
 
 }  // namespace lekalo::render

@@ -16,11 +16,11 @@ using geometry::kPi;
 
 namespace {
 
-constexpr int kMostHalvings = 24;
+constexpr int kMaxHalvings = 24;
 // What is told as a straight line or an arc is nearer to it than these parts of the tolerance. Pictures of circles are
 // ellipses to rounding; other curves come so near to one only where they hardly turn.
 constexpr double kStraight = 0.1, kElliptic = 1e-3;
-constexpr double kLeastTurn = 0.1;  // radians of its ellipse; shorter arcs tell it badly
+constexpr double kMinTurn = 0.1;  // radians of its ellipse; shorter arcs tell it badly
 
 class Fitting {
  public:
@@ -49,7 +49,7 @@ class Fitting {
       path_.steps.push_back(line_to(end));
       return true;
     }
-    if (const auto arc = elliptic_arc(places, kElliptic * tolerance_, kLeastTurn)) {
+    if (const auto arc = elliptic_arc(places, kElliptic * tolerance_, kMinTurn)) {
       std::vector<PathStep> steps = arcs_to(arc->ellipse, arc->begin, arc->end);
       steps.back().to = end;
       path_.steps.insert(path_.steps.end(), steps.begin(), steps.end());
@@ -95,7 +95,7 @@ class Fitting {
         fits = false;
         break;
       }
-    if (fits || depth >= kMostHalvings) {
+    if (fits || depth >= kMaxHalvings) {
       path_.steps.push_back(cubic);
       return;
     }

@@ -18,7 +18,7 @@ using Role = TexNode::Role;
 constexpr double kAxis = 0.25;        // height of minus signs and bars of fractions
 constexpr double kThickness = 0.045;  // of these bars
 constexpr double kSuperscript = 0.40, kSubscript = 0.18, kSubscriptUnder = 0.25;
-constexpr double kLeastScript = 0.5;  // of the text's size
+constexpr double kMinScript = 0.5;  // of the text's size
 
 // What has been laid out, about its own baseline's beginning; y downwards, millimetres.
 struct Box {
@@ -75,7 +75,7 @@ class Setter {
 
  private:
   double em(double scale) const { return scale * size_; }
-  static double smaller(double scale) { return std::max(kLeastScript, 0.7 * scale); }
+  static double smaller(double scale) { return std::max(kMinScript, 0.7 * scale); }
 
   Box characters(const std::string& text, const Font& font, double scale) const {
     Box box;

@@ -95,7 +95,9 @@ class Drawing {
  private:
   // Contours that solve their equations at every point are asked too often for that.
   static void simplify(Stroke& stroke) {
-    for (Stroke::Host& host : stroke.hosts) host.image = contour_approximation(stroke.curve, *host.surface, host.image);
+    for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
+      supporting_surface.image =
+          contour_approximation(stroke.curve, *supporting_surface.surface, supporting_surface.image);
     stroke.curve = contour_approximation(stroke.curve);
   }
 
@@ -103,7 +105,7 @@ class Drawing {
   // along a border, all of it, crosses it nowhere.
   void find_repeated_lines() {
     constexpr int kPlaces = 4;
-    const double same = CoveringLayers::kOnHost * world_.radius();
+    const double same = CoveringLayers::kOnSupportingSurface * world_.radius();
     using Places = std::array<Vec3, kPlaces + 1>;
     std::vector<std::pair<Places, int>> lines;
     for (size_t k = 0; k < strokes_.size(); ++k) {
@@ -127,14 +129,14 @@ class Drawing {
       };
       return near(false) || near(true);
     };
-    twins_.resize(strokes_.size());
+    coincident_.resize(strokes_.size());
     for (size_t k = 0; k < lines.size(); ++k)
       for (size_t j = k + 1; j < lines.size(); ++j) {
         if (lines[j].first[kPlaces / 2].x > lines[k].first[kPlaces / 2].x + same) break;
         const int a = lines[k].second, b = lines[j].second;
         if (!(strokes_[a].outlines || strokes_[b].outlines) || !agree(lines[k].first, lines[j].first)) continue;
         if (strokes_[a].outlines) strokes_[b].outlines = false;
-        twins_[a].push_back(b), twins_[b].push_back(a);
+        coincident_[a].push_back(b), coincident_[b].push_back(a);
       }
   }
 
@@ -145,10 +147,10 @@ class Drawing {
     std::vector<double> events = stroke.cusps;
     const std::vector<double>& own = own_outlines_of(line);
     events.insert(events.end(), own.begin(), own.end());
-    add_outlines_of_twins(line, events);
+    add_outlines_of_coincident_lines(line, events);
     add_self_piercings(stroke, events);
     std::vector<const Stroke*> along;
-    for (const int twin : twins_[line]) along.push_back(&strokes_[twin]);
+    for (const int coincident : coincident_[line]) along.push_back(&strokes_[coincident]);
     piercings_->add(stroke, along, events);
     // Where it goes round its own surface, has a cusp or ends on an outline, it only touches that in the picture: such
     // a place is known better than as a crossing.
@@ -163,26 +165,27 @@ class Drawing {
     };
     for (const CurvePiece& piece : stroke.curve->pieces())
       if (is_corner(*stroke.curve, piece.domain.lo) && !is_known(piece.domain.lo)) events.push_back(piece.domain.lo);
-    const auto is_twin = [&](int other) {
-      const std::vector<int>& twins = twins_[line];
-      return std::find(twins.begin(), twins.end(), outline_of_[other]) != twins.end();
+    const auto is_coincident = [&](int other) {
+      const std::vector<int>& coincident_lines = coincident_[line];
+      return std::find(coincident_lines.begin(), coincident_lines.end(), outline_of_[other]) != coincident_lines.end();
     };
     const auto add_crossing = [&](int of, int outline, const PictureCrossing& crossing, double t) {
-      if ((crossing.touching || share_host(strokes_[outline], stroke)) && is_known(t)) return;
+      if ((crossing.touching || share_supporting_surface(strokes_[outline], stroke)) && is_known(t)) return;
       const double near = CoveringLayers::kTouch * world_.radius();
       if (outline == of || depth_at(outline, crossing.t_other) < depth_at(of, crossing.t) + near) events.push_back(t);
     };
-    crossings.with(*curves_[line], is_twin, [&](int other, const PictureCrossing& crossing) {
+    crossings.with(*curves_[line], is_coincident, [&](int other, const PictureCrossing& crossing) {
       ++result_.statistics.crossings;
       add_crossing(line, outline_of_[other], crossing, crossing.t);
     });
     // A twin's with itself are the line's too.
-    for (const int twin : twins_[line])
-      if (strokes_[twin].outlines)
+    for (const int coincident : coincident_[line])
+      if (strokes_[coincident].outlines)
         crossings.with(
-            *curves_[twin], [&](int other) { return outline_of_[other] != twin; },
+            *curves_[coincident], [&](int other) { return outline_of_[other] != coincident; },
             [&](int, const PictureCrossing& crossing) {
-              if (const auto t = same_place(line, twin, crossing.t)) add_crossing(twin, twin, crossing, *t);
+              if (const auto t = same_place(line, coincident, crossing.t))
+                add_crossing(coincident, coincident, crossing, *t);
             });
     return events;
   }
@@ -196,11 +199,12 @@ class Drawing {
            glm::length(before.d[0] - behind.d[0]) > kSmooth * (a + b) * curve.domain().width();
   }
 
-  static bool share_host(const Stroke& a, const Stroke& b) {
+  static bool share_supporting_surface(const Stroke& a, const Stroke& b) {
     if (a.object != b.object || a.placement != b.placement) return false;
-    if (a.hosts.empty() && b.hosts.empty() && (a.aside || b.aside)) return true;  // of one tube
-    for (const Stroke::Host& one : a.hosts)
-      for (const Stroke::Host& other : b.hosts)
+    if (a.supporting_surfaces.empty() && b.supporting_surfaces.empty() && (a.outward_offset || b.outward_offset))
+      return true;  // of one tube
+    for (const Stroke::SupportingSurface& one : a.supporting_surfaces)
+      for (const Stroke::SupportingSurface& other : b.supporting_surfaces)
         if (one.surface == other.surface && same_map(a.to_world, b.to_world)) return true;
     return false;
   }
@@ -211,8 +215,8 @@ class Drawing {
     const Affine back = stroke.to_world.inverse();
     const ViewOf view = camera_.is_parallel() ? ViewOf{false, back.direction(camera_.view_direction())}
                                               : ViewOf{true, back.point(layers_.eye())};
-    for (const Stroke::Host& host : stroke.hosts)
-      add_sight_turns(*stroke.curve, *host.surface, *host.image, view, events);
+    for (const Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
+      add_silhouette_crossings(*stroke.curve, *supporting_surface.surface, *supporting_surface.image, view, events);
   }
 
   // Twins ask for one another's.
@@ -223,8 +227,8 @@ class Drawing {
   }
 
   // The place of a twin at t, on the line itself.
-  std::optional<double> same_place(int line, int twin, double t) const {
-    const Stroke &stroke = strokes_[line], &other = strokes_[twin];
+  std::optional<double> same_place(int line, int coincident, double t) const {
+    const Stroke &stroke = strokes_[line], &other = strokes_[coincident];
     const Vec3 point = (stroke.to_world.inverse() * other.to_world).point(other.curve->point(t));
     const auto meets = [&](double at) {
       return glm::length(stroke.curve->point(at) - point) < kNear * world_.radius();
@@ -239,19 +243,20 @@ class Drawing {
   }
 
   // Where it goes round surfaces that join its own along it.
-  void add_outlines_of_twins(int line, std::vector<double>& events) {
-    for (const int twin : twins_[line])
-      for (const double turn : own_outlines_of(twin))
-        if (const auto t = same_place(line, twin, turn)) events.push_back(*t);
+  void add_outlines_of_coincident_lines(int line, std::vector<double>& events) {
+    for (const int coincident : coincident_[line])
+      for (const double turn : own_outlines_of(coincident))
+        if (const auto t = same_place(line, coincident, turn)) events.push_back(*t);
   }
 
   // Where it meets the lines in which a surface on which it lies goes through itself.
   void add_self_piercings(const Stroke& stroke, std::vector<double>& events) const {
     for (const int line : self_intersections_) {
       const Stroke& other = strokes_[line];
-      if (&other == &stroke || !share_host(other, stroke)) continue;
+      if (&other == &stroke || !share_supporting_surface(other, stroke)) continue;
       if (!runs_along(*stroke.curve, *other.curve)) {
-        for (const CurveMeeting& meeting : intersect(*stroke.curve, *other.curve).points) events.push_back(meeting.s);
+        for (const CurveIntersection& intersection : intersect(*stroke.curve, *other.curve).points)
+          events.push_back(intersection.s);
         continue;
       }
       // Then it lies on two sheets, and goes round either; to find it out as a common part would take long.
@@ -352,11 +357,13 @@ class Drawing {
       pieces.push_back({t, layers});
   }
 
-  int layers_at(int line, double t, double aside) { return layers_.before(strokes_[line], *curves_[line], t, aside); }
+  int layers_at(int line, double t, double outward_offset) {
+    return layers_.before(strokes_[line], *curves_[line], t, outward_offset);
+  }
 
   // Layers at places of a stretch: not so near its ends, where they can be farther, that rays nearly touch what ends
   // it.
-  std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double aside) {
+  std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double outward_offset) {
     const ProjectedCurve& curve = *curves_[line];
     const Vec2 middle = curve.point(t.middle());
     const double pixels = glm::length(curve.point(t.lo) - middle) + glm::length(curve.point(t.hi) - middle);
@@ -364,7 +371,7 @@ class Drawing {
     std::vector<std::pair<double, int>> seen;
     for (const double share : {first, 0.5, 1 - first}) {
       const double at = t.lo + share * t.width();
-      if (seen.empty() || at > seen.back().first) seen.emplace_back(at, layers_at(line, at, aside));
+      if (seen.empty() || at > seen.back().first) seen.emplace_back(at, layers_at(line, at, outward_offset));
     }
     return seen;
   }
@@ -374,9 +381,10 @@ class Drawing {
 
   void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
     // Where rays disagree they may be aimed too far beside a line that hardly leaves another; then nearer ones agree.
-    const double aside = layers_.room_beside(*curves_[line], t);
-    std::vector<std::pair<double, int>> seen = seen_on(line, t, aside);
-    for (double nearer = kNearer * aside; !agree(seen) && nearer > CoveringLayers::kLeastAside; nearer *= kNearer) {
+    const double outward_offset = layers_.room_beside(*curves_[line], t);
+    std::vector<std::pair<double, int>> seen = seen_on(line, t, outward_offset);
+    for (double nearer = kNearer * outward_offset; !agree(seen) && nearer > CoveringLayers::kMinAside;
+         nearer *= kNearer) {
       std::vector<std::pair<double, int>> again = seen_on(line, t, nearer);
       if (agree(again)) seen = std::move(again);
     }
@@ -386,7 +394,7 @@ class Drawing {
       double lo = seen[k].first, hi = seen[k + 1].first;
       while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
         const double middle = 0.5 * (lo + hi);
-        (layers_at(line, middle, aside) == seen[k].second ? lo : hi) = middle;
+        (layers_at(line, middle, outward_offset) == seen[k].second ? lo : hi) = middle;
       }
       add_piece({from, hi}, seen[k].second, pieces);
       from = hi;
@@ -401,7 +409,7 @@ class Drawing {
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> self_intersections_;  // lines of this kind
   std::vector<int> outline_of_;
-  std::vector<std::vector<int>> twins_;                           // lines along the whole of which another lies
+  std::vector<std::vector<int>> coincident_;                      // lines along the whole of which another lies
   std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
   CoveringLayers layers_;
   std::optional<Piercings> piercings_;

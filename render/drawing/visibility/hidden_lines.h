@@ -3,7 +3,7 @@
 // What a line is hidden by can change only
 //
 //   where its picture crosses an outline (silhouette, border, sharp edge) of something nearer,
-//   where it goes round its own surface: the way of sight touches that, i . (s_u x s_v) = 0 along it,
+//   where it goes round its own surface: the line of sight touches that, i . (s_u x s_v) = 0 along it,
 //   where it pierces a surface,
 //   at a cusp of its picture, where a silhouette goes behind its own surface.
 //

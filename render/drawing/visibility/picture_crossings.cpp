@@ -10,9 +10,9 @@ using geometry::Interval;
 
 namespace {
 
-constexpr double kLargestBin = 16, kLeastBin = 2;  // pixels
-constexpr double kCellsOfBin = 2;                  // about
-constexpr double kTouching = 1e-4;                 // pixels
+constexpr double kLargestBin = 16, kMinBin = 2;  // pixels
+constexpr double kCellsOfBin = 2;                // about
+constexpr double kTouching = 1e-4;               // pixels
 constexpr double kCellTurn = 0.27;  // how far directions of a cell are from its chord's, radians; projected_curve.cpp
 constexpr double kAnyTurn = 4;      // nothing is known
 constexpr double kLastStep = 1e-8;  // of a part: Newton's iteration has come to rounding behind it
@@ -22,7 +22,7 @@ constexpr double kEndSlack = 1e-9;  // of a cell: a crossing at its end is its o
 // A part of a cell: within `bulge` of its chord, its directions within `turn` of it.
 struct Part {
   Part(const ProjectedCurve& curve, const Interval& t, const Vec2& begin, const Vec2& end, double bulge, double bow,
-       double most_turn)
+       double max_turn)
       : curve(&curve),
         t(t),
         begin(begin),
@@ -31,11 +31,11 @@ struct Part {
         length(glm::length(chord)),
         bulge(bulge),
         bow(bow),
-        turn(most_turn) {
+        turn(max_turn) {
     // P' differs from the chord by the width by at most |P''| h = 2 bow/h, the chord being 2 h long by that. (A part so
     // short that a chord may stand for it where widths are asked for may bend all the same, or have a cusp.)
     const double sine = 4 * bow / length;
-    if (sine < std::min(1.0, most_turn)) turn = std::min(std::asin(sine), most_turn);
+    if (sine < std::min(1.0, max_turn)) turn = std::min(std::asin(sine), max_turn);
   }
   const ProjectedCurve* curve;
   Interval t;
@@ -293,10 +293,10 @@ class CellPair {
     if (std::max(of_first, of_second) < kTouching) {
       found_.push_back({a.t.middle(), b.t.middle(), true});
       ++touching_;
-      runs_along_ = touching_ > kMostTouching;
+      runs_along_ = touching_ > kMaxTouching;
       return;
     }
-    runs_along_ = runs_along_ || ++steps_ > kMostSteps;
+    runs_along_ = runs_along_ || ++steps_ > kMaxSteps;
     if (of_first > of_second) {
       const int first = parts_a_.halves(of_a);
       cross_parts(first, of_b);
@@ -309,10 +309,10 @@ class CellPair {
   }
   // The place of a part nearest to q, and how far q is to the left of it; none if q lies beyond its ends, or farther
   // beside it than `most`.
-  struct Foot {
+  struct FootPoint {
     double t, beside;
   };
-  static std::optional<Foot> foot_on(const Part& part, const Vec2& q, double most) {
+  static std::optional<FootPoint> foot_point_on(const Part& part, const Vec2& q, double most) {
     constexpr int kSteps = 6;
     const double square = glm::dot(part.chord, part.chord);
     double t = part.t.lo + part.t.width() * (square > 0 ? glm::dot(q - part.begin, part.chord) / square : 0.5);
@@ -321,19 +321,19 @@ class CellPair {
       const auto at = part.curve->place(t);
       const Vec2 off = q - at.p;
       const double speed = glm::length(at.tangent);
-      if (!(speed > 0)) return glm::length(off) <= kOneLine ? std::optional(Foot{t, 0}) : std::nullopt;
+      if (!(speed > 0)) return glm::length(off) <= kOneLine ? std::optional(FootPoint{t, 0}) : std::nullopt;
       const double ahead = glm::dot(off, at.tangent) / speed, beside = cross(at.tangent, off) / speed;
       // The part turns little: it does not come nearer to a place that is farther beside it than ahead.
       if (std::abs(beside) > most + 2 * std::abs(ahead)) break;
-      if (std::abs(ahead) <= kOneLine) return Foot{t, beside};
+      if (std::abs(ahead) <= kOneLine) return FootPoint{t, beside};
       if ((t == part.t.lo && ahead < 0) || (t == part.t.hi && ahead > 0)) break;
       t += ahead / speed;
     }
     return std::nullopt;
   }
   static std::optional<double> parameter_at(const Part& part, const Vec2& q) {
-    const std::optional<Foot> foot = foot_on(part, q, kOneLine);
-    return foot && std::abs(foot->beside) <= kOneLine ? std::optional(foot->t) : std::nullopt;
+    const std::optional<FootPoint> foot_point = foot_point_on(part, q, kOneLine);
+    return foot_point && std::abs(foot_point->beside) <= kOneLine ? std::optional(foot_point->t) : std::nullopt;
   }
 
   // The stretch of one part that lies on the other: its ends, which are ends of either, and its middle do.
@@ -343,7 +343,7 @@ class CellPair {
     if (parameter_at(b, a.end)) common = hull(common, Interval(a.t.hi));
     for (const Vec2& end : {b.begin, b.end})
       if (const auto t = parameter_at(a, end)) common = hull(common, Interval(*t));
-    if (common.width() > kLeastCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle()))) return common;
+    if (common.width() > kMinCommon * a.t.width() && parameter_at(b, a.curve->point(common.middle()))) return common;
     return std::nullopt;
   }
 
@@ -352,32 +352,32 @@ class CellPair {
   void change_sides(const Part& a, const Part& b) {
     constexpr int kPlaces = 256, kHalvings = 50;
     constexpr double kNoSide = 1e-9;  // pixels
-    const auto foot_of = [&](double t) { return foot_on(b, a.curve->point(t), geometry::kInfinity); };
+    const auto foot_point_of = [&](double t) { return foot_point_on(b, a.curve->point(t), geometry::kInfinity); };
     // At a break the curve's own place is that from the right.
     const Interval range{a.t.lo, geometry::next_down(a.t.hi)};
     std::optional<double> left, right;  // the last place there, since it changed sides
     for (int k = 0; k <= kPlaces; ++k) {
       const double t = range.lo + range.width() * k / kPlaces;
-      const std::optional<Foot> foot = foot_of(t);
-      if (!foot) left = right = std::nullopt;
-      if (!foot || std::abs(foot->beside) <= kNoSide) continue;
-      const bool is_left = foot->beside > 0;
+      const std::optional<FootPoint> foot_point = foot_point_of(t);
+      if (!foot_point) left = right = std::nullopt;
+      if (!foot_point || std::abs(foot_point->beside) <= kNoSide) continue;
+      const bool is_left = foot_point->beside > 0;
       std::optional<double>&here = is_left ? left : right, &before = is_left ? right : left;
       if (before) {
         Interval change{*before, t};
         for (int halving = 0; halving < kHalvings; ++halving) {
-          const std::optional<Foot> middle = foot_of(change.middle());
+          const std::optional<FootPoint> middle = foot_point_of(change.middle());
           (middle && (middle->beside > 0) == is_left ? change.hi : change.lo) = change.middle();
         }
-        const std::optional<Foot> there = foot_of(change.hi);
+        const std::optional<FootPoint> there = foot_point_of(change.hi);
         if (there && std::abs(there->beside) <= kOneLine) found_.push_back({change.hi, there->t, false});
       }
       here = t, before = std::nullopt;
     }
   }
 
-  static constexpr int kMostTouching = 16, kMostSteps = 4000;
-  static constexpr double kLeastCommon = 1e-3;
+  static constexpr int kMaxTouching = 16, kMaxSteps = 4000;
+  static constexpr double kMinCommon = 1e-3;
   Parts &parts_a_, &parts_b_;
   std::vector<PictureCrossing> found_;
   int touching_ = 0, steps_ = 0;
@@ -391,8 +391,8 @@ PictureCrossings::PictureCrossings(std::vector<const ProjectedCurve*> curves, do
     : curves_(std::move(curves)) {
   size_t cells = 0;
   for (const ProjectedCurve* curve : curves_) cells += curve->cells().size();
-  bin_ = std::clamp(std::sqrt(kCellsOfBin * width * height / static_cast<double>(std::max<size_t>(cells, 1))),
-                    kLeastBin, kLargestBin);
+  bin_ = std::clamp(std::sqrt(kCellsOfBin * width * height / static_cast<double>(std::max<size_t>(cells, 1))), kMinBin,
+                    kLargestBin);
   columns_ = std::max(1, static_cast<int>(std::ceil(width / bin_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(height / bin_)));
   bins_.resize(static_cast<size_t>(columns_) * rows_);

@@ -43,14 +43,16 @@ Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : w
   std::vector<Box3> boxes;
   std::map<const Surface*, std::vector<size_t>> copies;
   for (const Stroke& stroke : strokes)
-    for (const Stroke::Host& host : stroke.hosts) {
-      if (!host.surface->bounded()) continue;
-      std::vector<size_t>& known = copies[host.surface.get()];
-      if (std::any_of(known.begin(), known.end(), [&](size_t k) { return is_host(surfaces_[k], stroke); })) continue;
+    for (const Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces) {
+      if (!supporting_surface.surface->bounded()) continue;
+      std::vector<size_t>& known = copies[supporting_surface.surface.get()];
+      if (std::any_of(known.begin(), known.end(),
+                      [&](size_t k) { return is_supporting_surface(surfaces_[k], stroke); }))
+        continue;
       known.push_back(surfaces_.size());
-      const SurfacePtr placed = transformed(host.surface, stroke.to_world);
+      const SurfacePtr placed = transformed(supporting_surface.surface, stroke.to_world);
       boxes.push_back(bounds(*placed));
-      surfaces_.push_back({placed, host.surface, stroke.to_world, stroke.object, nullptr});
+      surfaces_.push_back({placed, supporting_surface.surface, stroke.to_world, stroke.object, nullptr});
     }
   tree_ = BoxTree(boxes);
   PlacedObjects(world.model().objects, is_pierced_shape)
@@ -89,23 +91,26 @@ void Piercings::add(const Stroke& stroke, const std::vector<const Stroke*>& alon
   std::optional<CurveCells> cells;
   tree_.around(box, [&](int number) {
     PlacedSurface& other = surfaces_[number];
-    if (is_host(other, stroke) ||
-        std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return is_host(other, *one); }))
+    if (is_supporting_surface(other, stroke) ||
+        std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return is_supporting_surface(other, *one); }))
       return;
     if (!cells) cells.emplace(*curve);
     if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
     const double near = kNear * world_.radius();
-    if (add_passages(*cells, *other.cells, near, kFewTouches, kManyPairs, places) || lies_on(*curve, other) ||
-        add_passages(*cells, *other.cells, near, kManyPairs, kManyPairs, places))
+    if (add_crossing_candidates(*cells, *other.cells, near, kFewTouches, kManyPairs, places) ||
+        lies_on(*curve, other) || add_crossing_candidates(*cells, *other.cells, near, kManyPairs, kManyPairs, places))
       return;
-    for (const SurfaceMeeting& meeting : intersect(*curve, *other.surface).points) places.push_back(meeting.t);
+    for (const SurfaceIntersection& intersection : intersect(*curve, *other.surface).points)
+      places.push_back(intersection.t);
   });
 }
 
-bool Piercings::is_host(const PlacedSurface& surface, const Stroke& stroke) {
+bool Piercings::is_supporting_surface(const PlacedSurface& surface, const Stroke& stroke) {
   return stroke.object == surface.object && same_map(stroke.to_world, surface.to_world) &&
-         std::any_of(stroke.hosts.begin(), stroke.hosts.end(),
-                     [&](const Stroke::Host& host) { return host.surface == surface.original; });
+         std::any_of(stroke.supporting_surfaces.begin(), stroke.supporting_surfaces.end(),
+                     [&](const Stroke::SupportingSurface& supporting_surface) {
+                       return supporting_surface.surface == surface.original;
+                     });
 }
 
 // A free curve that runs on a surface pierces it nowhere; to find that out as common parts takes long.

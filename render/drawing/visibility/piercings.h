@@ -35,7 +35,7 @@ class Piercings {
     geometry::ChordHits add_hits;
   };
   // Whether the line is known to lie on it.
-  static bool is_host(const PlacedSurface& surface, const Stroke& stroke);
+  static bool is_supporting_surface(const PlacedSurface& surface, const Stroke& stroke);
   bool lies_on(const geometry::Curve& curve, const PlacedSurface& other) const;
   void add_shape(const Object& object, const geometry::Affine& to_world, int placement);
 

@@ -14,9 +14,9 @@ class CoveringLayers {
   static constexpr double kTouch = 1e-9;
   // The same of a line that is known to lie on a surface, as exactly as lines are found: where it goes round the
   // surface another sheet comes near.
-  static constexpr double kOnHost = 2e-12;
+  static constexpr double kOnSupportingSurface = 2e-12;
   // The least that rays are aimed beside a line, of the scene's radius.
-  static constexpr double kLeastAside = 1e-11;
+  static constexpr double kMinAside = 1e-11;
 
   explicit CoveringLayers(const World& world);
 
@@ -24,7 +24,7 @@ class CoveringLayers {
   int before(const Vec3& point) { return count_before(point, {}).layers; }
   // Before the point of a line at t, its curve's parameter. `aside`: how far beside it rays may be aimed, of the
   // scene's radius.
-  int before(const Stroke& stroke, const ProjectedCurve& curve, double t, double aside);
+  int before(const Stroke& stroke, const ProjectedCurve& curve, double t, double outward_offset);
   // How far that may be on a stretch of a line: what is seen there is to be seen on the stretch too.
   double room_beside(const ProjectedCurve& curve, const geometry::Interval& t) const;
   // Of a central view: where all rays come from.
@@ -34,14 +34,15 @@ class CoveringLayers {
 
  private:
   // Which sheets before a point of a line are those on which it lies, of the scene's radius: those that pass it so
-  // near, and no farther before it along the way of sight.
+  // near, and no farther before it along the line of sight.
   struct Own {
     double across = kTouch, along = geometry::kInfinity;
   };
   Own own_sheets(const Stroke& stroke) const;
   std::optional<Vec3> normal_seen_edge_on(const Stroke& stroke, const ProjectedCurve& curve, double t) const;
-  Vec3 probe(const Stroke& stroke, const ProjectedCurve& curve, double t, double aside) const;
-  Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const geometry::SurfaceJet& s, double aside) const;
+  Vec3 probe(const Stroke& stroke, const ProjectedCurve& curve, double t, double outward_offset) const;
+  Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const geometry::SurfaceJet& s,
+                            double outward_offset) const;
   struct Count {
     int layers = 0;
     double nearest = geometry::kInfinity;  // of them across the line, of the scene's radius

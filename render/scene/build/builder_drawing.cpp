@@ -97,7 +97,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     panel.make_camera = model.make_camera;
     panel.camera_frames = model.camera_frames;
     // A view that frames all frames what the panel shows.
-    Shown all(panel.objects ? *panel.objects : model.objects);
+    FramedContent all(panel.objects ? *panel.objects : model.objects);
     all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
     if (panel.objects && scene_view_)
       panel.make_camera = [make = scene_view_, all](int w, int h) { return make(w, h, all); };

@@ -111,13 +111,13 @@ std::optional<std::vector<double>> Builder::read_numbers(const FieldType& type, 
 // One number is a count; a list or a range are the values themselves.
 std::optional<ParameterValues> Builder::read_counts(const FieldType& type, const Value& value,
                                                     const Counters& counters) {
-  constexpr int kMostLines = 10000;
+  constexpr int kMaxLines = 10000;
   ParameterValues result;
   if (value.is_scalar() && !is_range(value)) {
     const auto n = parameters_.integer(value, counters);
     if (!n) return std::nullopt;
-    if (*n < 1 || *n > kMostLines) {
-      diagnostics_.error(value.place, fmt::format("expected a count between 1 and {}, found {}", kMostLines, *n),
+    if (*n < 1 || *n > kMaxLines) {
+      diagnostics_.error(value.place, fmt::format("expected a count between 1 and {}, found {}", kMaxLines, *n),
                          fmt::format("a list says where: [{}]", *n));
       return std::nullopt;
     }

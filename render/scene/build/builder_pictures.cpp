@@ -102,7 +102,7 @@ std::optional<geometry::PictureSize> Builder::read_picture_size(const Value& val
       *sides[k] = *n;
       pixels = true;
     }
-    const double most = paper ? 5000 : Film::kMostSide;
+    const double most = paper ? 5000 : Film::kMaxSide;
     if (!(*sides[k] >= 1 && *sides[k] <= most)) {
       diagnostics_.error(item.place,
                          fmt::format("a side of a picture is between 1 and {:.9g} {}", most, paper ? "mm" : "pixels"));

@@ -12,7 +12,7 @@ namespace lekalo::render {
 
 namespace {
 
-constexpr size_t kMostRepeats = 1000000;  // of one repeat
+constexpr size_t kMaxRepeats = 1000000;  // of one repeat
 
 }  // namespace
 
@@ -32,8 +32,8 @@ std::optional<std::vector<double>> Builder::read_whole_numbers(const Value& valu
     diagnostics_.error(value.place, fmt::format("a range of whole numbers, found {:.9g}..{:.9g}", a, b));
     return std::nullopt;
   }
-  if (b - a >= static_cast<double>(kMostRepeats)) {
-    diagnostics_.error(value.place, fmt::format("more than {} repetitions", kMostRepeats));
+  if (b - a >= static_cast<double>(kMaxRepeats)) {
+    diagnostics_.error(value.place, fmt::format("more than {} repetitions", kMaxRepeats));
     return std::nullopt;
   }
   std::vector<double> all;
@@ -52,8 +52,8 @@ bool Builder::repeat(const Value& map, const Counters& counters,
   size_t total = 0;
   const auto run = [&](auto&& self, size_t level, const Counters& outer, const std::string& name) -> bool {
     if (level == loops->entries.size()) {
-      if (++total > kMostRepeats) {
-        diagnostics_.error(loops->place, fmt::format("more than {} repetitions", kMostRepeats));
+      if (++total > kMaxRepeats) {
+        diagnostics_.error(loops->place, fmt::format("more than {} repetitions", kMaxRepeats));
         return false;
       }
       visit(outer, name);

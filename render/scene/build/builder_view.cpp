@@ -21,10 +21,10 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kPixelsPerInch = 96;  // of drawings without a size on paper
-constexpr double kLeastFree = 2;       // millimetres between the margins of a page whose side is automatic
+constexpr double kMinFree = 2;         // millimetres between the margins of a page whose side is automatic
 
 // The picture's shape that fits what the camera shows: the ratio height / width of its image, within reason.
-double natural_aspect(const CameraFactory& factory, const Shown& shown) {
+double natural_aspect(const CameraFactory& factory, const FramedContent& shown) {
   const CameraPtr camera = factory(1000, 1000, shown);
   double x0 = geometry::kInfinity, x1 = -x0, y0 = x0, y1 = -x0;
   std::vector<Vec3> points = shown.points();
@@ -85,7 +85,7 @@ void Builder::build_camera(Model& model) {
   const auto image =
       read_fields(section_declaration("image").fields, given && given->is_map() ? *given : kEmptyMap, {}, "'image'");
   const Value* camera = section("camera");
-  Shown all(model.objects);
+  FramedContent all(model.objects);
   all.objects = std::make_shared<const std::vector<Object>>(names_frames() ? model.objects : std::vector<Object>());
   const Box3& box = all.box;
   std::optional<Built> factory;
@@ -131,16 +131,16 @@ void Builder::build_camera(Model& model) {
     // A page has its margins beside that: what is between them has the content's shape. Rendered pictures have none.
     if (const double margins = 2 * model.paper.margin; margins > 0) {
       const double free_width = model.paper.width - margins, free_height = model.paper.height - margins;
-      if (model.paper.auto_height) model.paper.height = margins + std::max(kLeastFree, free_width * aspect);
-      if (model.paper.auto_width) model.paper.width = margins + std::max(kLeastFree, free_height / aspect);
+      if (model.paper.auto_height) model.paper.height = margins + std::max(kMinFree, free_width * aspect);
+      if (model.paper.auto_width) model.paper.width = margins + std::max(kMinFree, free_height / aspect);
     }
     const double width = std::max(1.0, std::round(size.width * scale)),
                  height = std::max(1.0, std::round(size.height * scale));
-    if (width * height > Film::kMostPixels) {
+    if (width * height > Film::kMaxPixels) {
       const Value* place = given ? given->find("size") : nullptr;
       diagnostics_.error(place ? place->place : scene_.root.place,
                          fmt::format("a picture of {:.0f} x {:.0f} pixels is too large", width, height),
-                         fmt::format("at most {:.0f} million pixels", Film::kMostPixels / 1e6));
+                         fmt::format("at most {:.0f} million pixels", Film::kMaxPixels / 1e6));
       return false;
     }
     model.film.width = static_cast<int>(width);
@@ -162,10 +162,10 @@ void Builder::build_film(const Fields& image, Model& model) {
   film.seed = static_cast<uint32_t>(image.integer("seed"));
   model.background = rgb(image.vec3("background"));
   const Value* given = section("image");
-  if (film.filter_radius > 0 && film.filter_radius < kLeastFilterRadius)
+  if (film.filter_radius > 0 && film.filter_radius < kMinFilterRadius)
     diagnostics_.error(given->find("filter_radius")->place,
-                       fmt::format("the filter reaches less than {} pixels: it would miss samples", kLeastFilterRadius),
-                       fmt::format("from {} to {}, or 0 for the filter's own", kLeastFilterRadius, kMostFilterRadius));
+                       fmt::format("the filter reaches less than {} pixels: it would miss samples", kMinFilterRadius),
+                       fmt::format("from {} to {}, or 0 for the filter's own", kMinFilterRadius, kMaxFilterRadius));
   if (!model.background.is_finite())
     diagnostics_.error(given->find("background")->place, "too bright: pictures hold numbers up to 3.4e38");
   if (image.has("margin")) model.paper.margin = image.number("margin");

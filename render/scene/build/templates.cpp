@@ -17,7 +17,7 @@ namespace lekalo::render {
 
 namespace {
 
-constexpr int kMostDigits = 30;  // of a width or of decimals
+constexpr int kMaxDigits = 30;  // of a width or of decimals
 
 // Whole numbers as such, others with the decimals asked for, or as many as give the same number back.
 std::string formatted(double x, int width, int decimals) {
@@ -30,8 +30,8 @@ std::string formatted(double x, int width, int decimals) {
 int digits_at(const std::string& text, size_t& i) {
   int value = 0;
   for (; i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); ++i)
-    value = value < 0 || value > kMostDigits ? -1 : 10 * value + (text[i] - '0');
-  return value > kMostDigits ? -1 : value;
+    value = value < 0 || value > kMaxDigits ? -1 : 10 * value + (text[i] - '0');
+  return value > kMaxDigits ? -1 : value;
 }
 
 // The end of the formula whose opening parenthesis stands at `open`; npos if it does not end.
@@ -96,7 +96,7 @@ std::optional<Value> Builder::fill_templates(const Value& value, const Counters&
     int width = 0, decimals = -1;
     if (i < text.size() && text[i] == '0') width = digits_at(text, ++i);
     if (i < text.size() && text[i] == '.') decimals = digits_at(text, ++i);
-    if (width < 0 || decimals > kMostDigits) return fail(begin, i, "this many digits are not meant");
+    if (width < 0 || decimals > kMaxDigits) return fail(begin, i, "this many digits are not meant");
     std::string formula;
     size_t start = i;
     if (i < text.size() && text[i] == '(') {

@@ -42,7 +42,7 @@ std::vector<Field> image_fields() {
        "all pixels take all samples",
        false, "0.03"},
       {"filter", choice({"box", "gaussian", "mitchell"}), "how samples are weighted around a pixel", false, "box"},
-      {"filter_radius", number().non_negative().at_most(kMostFilterRadius),
+      {"filter_radius", number().non_negative().at_most(kMaxFilterRadius),
        "in pixels, at least 0.5; 0: the filter's own", false, "0"},
       {"seed", integer().non_negative(), "of the sample positions", false, "0"},
       {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},

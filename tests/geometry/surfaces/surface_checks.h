@@ -302,14 +302,14 @@ inline void check_hits(const Surface& surface, const Line& line, const Interval&
 }
 
 // No point of the surface lies beyond a tangent plane on a side that is said to be free.
-inline void check_free_sides(const Surface& surface, const Rectangle& range) {
+inline void check_convex_sides(const Surface& surface, const Rectangle& range) {
   std::mt19937_64 random(27);
   double size = 0, front = 0, back = 0;  // farthest beyond a plane on either side
   for (int sample = 0; sample < 2000; ++sample) {
     const Vec2 p = random_place(range, random), q = random_place(range, random);
     const Vec3 at = surface.point(p.x, p.y), to = surface.point(q.x, q.y) - at;
     const double height = surface.normal_sign() * glm::dot(surface.normal(p.x, p.y), to);
-    const Sides free = surface.free_sides(p.x, p.y);
+    const Sides free = surface.convex_sides(p.x, p.y);
     size = std::max({size, glm::length(to), 1e-3 * glm::length(at)});
     if (free.front) front = std::max(front, height);
     if (free.back) back = std::max(back, -height);
@@ -321,7 +321,7 @@ inline void check_free_sides(const Surface& surface, const Rectangle& range) {
 // `range` is the part of the domain aimed at (all of it for bounded surfaces).
 inline void check_line_hits(const Surface& surface, const Rectangle& range, const LineChecks& checks = {}) {
   ASSERT_TRUE(surface.has_line_formula());
-  check_free_sides(surface, range);
+  check_convex_sides(surface, range);
   std::mt19937_64 random(26);
   std::uniform_real_distribution<double> uniform(0, 1);
   Box3 box;
@@ -389,7 +389,7 @@ inline void check_surface(const Surface& surface, const LineChecks& checks = {})
   if (surface.has_line_formula())
     check_line_hits(surface, d, checks);
   else
-    check_free_sides(surface, d);
+    check_convex_sides(surface, d);
 }
 
 }  // namespace lekalo::geometry::checks

@@ -26,12 +26,12 @@
 namespace lekalo::geometry::body_mesh_test {
 namespace {
 
-void check(const Body& body, const TessellationTolerance& tolerance, double least_cosine = 0.5) {
+void check(const Body& body, const TessellationTolerance& tolerance, double min_cosine = 0.5) {
   const Mesh mesh = tessellate(body, tolerance);
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_TRUE(points_are_distinct(mesh));
   EXPECT_EQ(euler_characteristic(mesh), body.euler_characteristic());
-  expect_good_normals(mesh, least_cosine);
+  expect_good_normals(mesh, min_cosine);
   for (size_t face = 0; face < body.faces.size(); ++face)
     EXPECT_LE(measured_sag(mesh, *body.faces[face].surface, static_cast<int>(face)), tolerance.sag * 1.05)
         << "face " << face << " " << body.faces[face].origin.text();
@@ -241,7 +241,7 @@ TEST(BodyMesh, CylinderWithASaddleTop) {
 }
 
 // Middles of the sides that only one triangle uses.
-std::vector<Vec3> free_sides(const Mesh& mesh) {
+std::vector<Vec3> convex_sides(const Mesh& mesh) {
   std::map<std::pair<int, int>, int> sides;
   for (const auto& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++sides[std::minmax(t.point[k], t.point[(k + 1) % 3])];
@@ -322,7 +322,7 @@ TEST(BodyMesh, SewnTeapotHasNoCracks) {
     for (const Edge& edge : body.edges)
       if (edge.coedges.size() == 1 && edge.kind != EdgeKind::pole)
         for (int k = 0; k <= 200; ++k) border.push_back(edge.curve->point(edge.curve->domain().lo + k / 200.0));
-    for (const Vec3& middle : free_sides(mesh)) {
+    for (const Vec3& middle : convex_sides(mesh)) {
       double nearest = kInfinity;
       for (const Vec3& p : border) nearest = std::min(nearest, glm::length(p - middle));
       EXPECT_LE(nearest, sag + 0.01);

@@ -28,13 +28,13 @@ double measured_sag(const Curve& curve, const std::vector<double>& ts) {
 
 TessellationTolerance sag_only(double sag) { return {sag, kPi, {}}; }
 
-void check(const Curve& curve, double sag, size_t most_chords) {
+void check(const Curve& curve, double sag, size_t max_chords) {
   const std::vector<double> ts = polygon_parameters(curve, sag_only(sag));
   EXPECT_EQ(ts.front(), curve.domain().lo);
   EXPECT_EQ(ts.back(), curve.domain().hi);
   for (size_t i = 0; i + 1 < ts.size(); ++i) EXPECT_LT(ts[i], ts[i + 1]);
   EXPECT_LE(measured_sag(curve, ts), sag * (1 + 1e-9));
-  EXPECT_LE(ts.size() - 1, most_chords);
+  EXPECT_LE(ts.size() - 1, max_chords);
 }
 
 TEST(CurvePolygon, CircleNeedsTheExactCount) {

@@ -36,7 +36,7 @@ inline bool points_are_distinct(const Mesh& mesh) {
 }
 
 // Unit normals that agree with the triangles' own orientation.
-inline void expect_good_normals(const Mesh& mesh, double least_cosine = 0.5) {
+inline void expect_good_normals(const Mesh& mesh, double min_cosine = 0.5) {
   double worst = 1;
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.points[t.point[0]], b = mesh.points[t.point[1]], c = mesh.points[t.point[2]];
@@ -48,7 +48,7 @@ inline void expect_good_normals(const Mesh& mesh, double least_cosine = 0.5) {
       worst = std::min(worst, glm::dot(glm::normalize(n), m));
     }
   }
-  EXPECT_GE(worst, least_cosine);
+  EXPECT_GE(worst, min_cosine);
 }
 
 // Largest distance of surface points from their triangle's plane, over a fine set of places in every triangle. The

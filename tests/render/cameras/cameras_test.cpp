@@ -19,7 +19,7 @@ namespace {
 using geometry::Box3;
 using geometry::kPi;
 
-std::vector<Vec3> corners(const Box3& box) { return Shown(box).points(); }
+std::vector<Vec3> corners(const Box3& box) { return FramedContent(box).points(); }
 
 void check_round_trip(const Camera& camera) {
   std::mt19937 random(7);
@@ -174,11 +174,11 @@ TEST(Framing, FitsTheCornersExactly) {
 }
 
 TEST(Framing, FitsTheOutlineOfABall) {
-  // Seen from outside, a ball's outline in central projection is a conic about the line of sight; framed by points on
-  // the ball it fills the picture to the margin but for the grid's half a per cent.
+  // Interaction from outside, a ball's outline in central projection is a conic about the line of sight; framed by
+  // points on the ball it fills the picture to the margin but for the grid's half a per cent.
   SmallScene scene;
   scene.add(sphere({1, 2, 3}, 2), nullptr);
-  const Shown all(scene.model.objects);
+  const FramedContent all(scene.model.objects);
   const PerspectiveView view = framed_perspective(preset_view("isometric"), 0.6, 200, 200, all.points(), 0.1);
   const double distance = glm::length(view.from - Vec3(1, 2, 3));
   const double outline = std::tan(std::asin(2 / distance)) / std::tan(0.3);  // share of half the picture
@@ -209,7 +209,7 @@ TEST(Framing, LeavesOutWhatPlanesCutAway) {
     placed.shape = std::make_shared<const Group>(group);
     placed.transform = Affine::rotation(kPi / 2, {0, 0, 1});
     Box3 found;
-    const Shown all(std::vector<Object>{placed});
+    const FramedContent all(std::vector<Object>{placed});
     for (const Vec3& p : all.points()) found.include(p);
     // The group's x is the world's y.
     const double within = std::holds_alternative<ShapePtr>(shape) ? 4.0 / 32 : 0.002;

@@ -28,7 +28,7 @@ namespace {
 const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));  // where subjects off the origin lie
 constexpr double kJump = 1e-4;                      // of the size: a hit that a shift moves farther is another one
 constexpr int kAllRandom = 10000000, kAllAimed = 1000000;  // of all surfaces, in the full tier
-constexpr int kMostTries = 10;  // for each ray along a silhouette, which only some lines find
+constexpr int kMaxTries = 10;  // for each ray along a silhouette, which only some lines find
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> entries = bezier_entries();
@@ -181,11 +181,11 @@ class Comparison {
       const double lu = glm::length(at.du), lv = glm::length(at.dv);
       for (int u = -1; u <= 1; ++u)
         for (int v = -1; v <= 1; ++v) {
-          Vec3 aside(0);
-          if (u != 0 && lu > 0) aside += u / lu * at.du;
-          if (v != 0 && lv > 0) aside += v / lv * at.dv;
-          if (glm::length(aside) > 0) aside *= reach / glm::length(aside);
-          Vec3 shift = to_hit + aside;
+          Vec3 outward_offset(0);
+          if (u != 0 && lu > 0) outward_offset += u / lu * at.du;
+          if (v != 0 && lv > 0) outward_offset += v / lv * at.dv;
+          if (glm::length(outward_offset) > 0) outward_offset *= reach / glm::length(outward_offset);
+          Vec3 shift = to_hit + outward_offset;
           shift -= glm::dot(shift, ray.direction) * ray.direction;
           if (glm::length(shift) <= std::sqrt(3) * reach && changes(shift)) return true;
         }
@@ -255,7 +255,7 @@ TEST_P(Completeness, NoMissAndNoFalseHit) {
       comparison.compare(random_ray(subject, random), any);
     Ray ray;
     const int rays = static_cast<int>(part * share(kAllAimed));
-    for (int found = 0, tries = 0; found < rays && tries < kMostTries * rays; ++tries)
+    for (int found = 0, tries = 0; found < rays && tries < kMaxTries * rays; ++tries)
       if (aimed_ray(subject, world, random, ray)) comparison.compare(ray, aimed), ++found;
   }
   EXPECT_EQ(any.wrong, 0) << "of " << any.rays;
@@ -385,7 +385,7 @@ TEST_P(Parity, EveryRayFromOutsideCrossesAnEvenNumberOfTimes) {
     for (int k = static_cast<int>(part * share(kAllRandom)); k > 0; --k) follow(random_ray(subject, random), any);
     Ray ray;
     const int rays = static_cast<int>(part * share(kAllAimed));
-    for (int found = 0, tries = 0; found < rays && tries < kMostTries * rays; ++tries)
+    for (int found = 0, tries = 0; found < rays && tries < kMaxTries * rays; ++tries)
       if (aimed_ray(subject, world, random, ray)) follow(ray, aimed), ++found;
   }
   EXPECT_EQ(any.odd, 0) << "of " << any.rays;

@@ -103,7 +103,7 @@ const std::vector<std::string> kKinds{"sharp", "smooth", "silhouette"};
 void expect_right_with(const char* name, unsigned seed, int most, int least, const std::function<Leaf(Views&)>& make) {
   Views views(seed);
   Found found;
-  for (int k = 0; k < tests::tier_count(most, tests::least_of_slow(least)); ++k) {
+  for (int k = 0; k < tests::tier_count(most, tests::min_of_slow(least)); ++k) {
     SmallScene scene;
     const Part a = random_part(views, k, 0.5), b = random_part(views, k + 1 + k / 5, 1);
     const Leaf leaf = make(views);
@@ -143,7 +143,7 @@ TEST(CsgTruth, ImplicitCushion) {
 void expect_right_helix_with(const char* name, unsigned seed, const std::function<Leaf(Views&)>& make) {
   Views views(seed);
   Found found;
-  for (int k = 0; k < tests::tier_count(50, tests::least_of_slow(4)); ++k) {
+  for (int k = 0; k < tests::tier_count(50, tests::min_of_slow(4)); ++k) {
     SmallScene scene;
     const double radius = views.number(0.12, 0.2);
     const auto helix = std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "(t - 2*pi)*0.11"}, {"t"}),
@@ -187,7 +187,7 @@ TEST(CsgTruth, HelixCutByABall) {
 // A pipe seen along its axis: four circles, of which none is hidden and none changes.
 TEST(CsgTruth, PipeAlongItsAxis) {
   Views views(131);
-  for (int k = 0; k < tests::least_of_slow(12); ++k) {
+  for (int k = 0; k < tests::min_of_slow(12); ++k) {
     SmallScene scene;
     const Frame frame = k == 0 ? Frame() : anywhere(views, 1);
     Frame below = frame;

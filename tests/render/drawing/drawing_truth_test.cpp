@@ -60,7 +60,7 @@ TEST(DrawingTruth, SingleSolids) {
   for (int kind = 0; kind < 5; ++kind) {
     Views views(11 + static_cast<unsigned>(kind));
     Found found;
-    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+    for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
       SmallScene scene;
       const Part part = random_part(views, kind, 0.5);
       show(scene, std::make_shared<Body>(part.body), kAll, 5);
@@ -75,7 +75,7 @@ TEST(DrawingTruth, SingleSolids) {
 TEST(DrawingTruth, ManySolids) {
   Views views(29);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 4; ++i) {
@@ -92,7 +92,7 @@ TEST(DrawingTruth, ManySolids) {
 TEST(DrawingTruth, TwoCrossingTori) {
   Views views(31);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     std::vector<SolidPtr> solids;
     for (int i = 0; i < 2; ++i) {
@@ -110,7 +110,7 @@ TEST(DrawingTruth, TwoCrossingTori) {
 TEST(DrawingTruth, Csg) {
   Views views(37);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     const Part a = random_part(views, k, 0.3), b = random_part(views, k + 1 + k / 5, 0.7),
                c = random_part(views, k / 3, 0.9);
@@ -139,7 +139,7 @@ TEST(DrawingTruth, Csg) {
 TEST(DrawingTruth, HelixThroughASlottedPlate) {
   Views views(53);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     const double radius = views.number(0.12, 0.25), pitch = views.number(0.09, 0.16), turns = 2;
     const auto helix = std::make_shared<FormulaCurve>(
@@ -177,7 +177,7 @@ TEST(DrawingTruth, HelixThroughASlottedPlate) {
 TEST(DrawingTruth, Balls) {
   Views views(59);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(25)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(25)); ++k) {
     SmallScene scene;
     std::vector<Vec3> centers;
     std::vector<double> radii;
@@ -261,7 +261,7 @@ void expect_implicit(const char* name, const Vec3& half, bool is_ball, bool clos
   const auto truth = std::make_shared<oracle::sight::ImplicitSheets<F>>(-half, half, is_ball, closed);
   Views views(seed);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(least)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(least)); ++k) {
     SmallScene scene;
     const Affine map = Affine::translation(0.5 * views.direction());
     Look look;
@@ -298,7 +298,7 @@ TEST(DrawingTruth, ClosedImplicitCubic) { expect_implicit<Clebsch>("closed cubic
 TEST(DrawingTruth, Saddles) {
   Views views(41);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     Grid<Vec3> net{4, 4, {}};
     for (int i = 0; i < 4; ++i)
@@ -353,7 +353,7 @@ TEST(DrawingTruth, ParameterLineAlongABorderThatCrossesItself) {
 TEST(DrawingTruth, CrossingSheets) {
   Views views(43);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     SurfaceSet all;
     for (int n = 0; n < 2; ++n) {
@@ -370,7 +370,7 @@ TEST(DrawingTruth, CrossingSheets) {
 TEST(DrawingTruth, LinesThatLeaveThePicture) {
   Views views(49);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     SurfaceSet all;
     for (int n = 0; n < 3; ++n) {
@@ -398,7 +398,7 @@ TEST(DrawingTruth, Teapot) {
   const SurfaceSet patches = teapot();
   Views views(47);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     show(scene, patches, {"boundary", "silhouette"});
     views.look(scene, k % 2);

@@ -1,5 +1,5 @@
 // The visible and hidden pieces of all lines of Klein bottles by formulas against the zeros of an implicit function
-// along the way of sight (support/bottle_oracle.h).
+// along the line of sight (support/bottle_oracle.h).
 #include "geometry/point_formulas.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "render/drawing/line_truth.h"
@@ -32,7 +32,7 @@ Sheets sheets_of_bottle(const oracle::implicit::FigureEightBottle& bottle) {
 TEST(DrawingTruth, KleinBottles) {
   Views views(67);
   Found found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     const std::string a = std::to_string(views.number(1.8, 2.6));
     show(scene, figure_eight_bottle(a), {"boundary", "silhouette", "self_intersection", "parameter"}, 4);

@@ -72,7 +72,8 @@ class Truth {
     const Ray ray = camera_.ray(at.x, at.y);
     const Vec3 from = camera_.is_parallel() ? p - (at.depth + 5) * ray.direction : ray.origin;
     if (line.stroke.kind != "silhouette") return sheets_(from, p, 0);
-    // Where the surface hardly bends along the way of sight, as near cusps, crossings of one contact are farther apart.
+    // Where the surface hardly bends along the line of sight, as near cusps, crossings of one contact are farther
+    // apart.
     const int layers = sheets_(from, p, kContact);
     return layers >= 0 && layers == sheets_(from, p, kContactToo) ? layers : -1;
   }
@@ -156,7 +157,7 @@ class Truth {
       if (std::abs(t - cusp) < kFromCusp * line.stroke.curve->domain().width()) return true;
     // Outlines of tubes end at them.
     const Interval domain = line.stroke.curve->domain();
-    return line.stroke.aside && std::min(t - domain.lo, domain.hi - t) < kFromCusp * domain.width();
+    return line.stroke.outward_offset && std::min(t - domain.lo, domain.hi - t) < kFromCusp * domain.width();
   }
 
   void report(const VisibleLine& line, const VisiblePiece& piece, double t, const char* what) const {

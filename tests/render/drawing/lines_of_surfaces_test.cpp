@@ -40,7 +40,7 @@ int layers_at(const VisibleLine& line, double t) {
 TEST(LinesOfSurfaces, CreasesAreBordersOfTheirPieces) {
   Views views(17);
   int compared = 0, hidden = 0;
-  const int all = tests::tier_count(100, tests::least_of_slow(10));
+  const int all = tests::tier_count(100, tests::min_of_slow(10));
   for (int k = 0; k < all; ++k) {
     std::vector<Vec3> points;
     SurfaceSet parts;
@@ -118,7 +118,7 @@ std::map<int, double> lengths_of(const VisibleLines& found) {
 // A box that planes along its sides cut, with caps, is a smaller box; a ball beside it goes through the caps.
 TEST(LinesOfSurfaces, CappedCutsMakeASmallerBox) {
   Views views(23);
-  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(10)); ++k) {
+  for (int k = 0; k < tests::tier_count(100, tests::min_of_slow(10)); ++k) {
     const Vec3 size(views.number(1, 3), views.number(1, 3), views.number(1, 3));
     Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
     frame.origin = -frame.direction(0.5 * size);
@@ -192,7 +192,7 @@ TEST(LinesOfSurfaces, FormulasWithKinks) {
       {implicit("z - 0.3*abs(x*y)", 2, false), quarters},
   };
   Views views(23);
-  const int count = tests::tier_count(50, tests::least_of_slow(6));
+  const int count = tests::tier_count(50, tests::min_of_slow(6));
   for (const auto& [kinked, plain] : pairs)
     for (int k = 0; k < count; ++k) {
       std::map<int, double> lengths[2];  // in the picture, by layers, without what lies on other lines

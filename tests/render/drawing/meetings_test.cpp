@@ -23,7 +23,7 @@
 #include "render/drawing/visibility/hidden_lines.h"
 #include "render/lines/strokes.h"
 
-namespace lekalo::render::meetings_test {
+namespace lekalo::render::intersections_test {
 namespace {
 
 using namespace geometry;
@@ -61,7 +61,8 @@ struct Found {
   int incomplete = 0;
   std::vector<Vec3> ends;  // but those where a line closes
 };
-Found meetings(const Entity& shape, const Affine& transform, const Entity& with, const std::optional<Affine>& placed) {
+Found intersections(const Entity& shape, const Affine& transform, const Entity& with,
+                    const std::optional<Affine>& placed) {
   SmallScene scene;
   meet(scene, shape, transform, with);
   if (placed) {
@@ -86,13 +87,13 @@ Found meetings(const Entity& shape, const Affine& transform, const Entity& with,
   return found;
 }
 
-TEST(Meetings, OneBallInManyWays) {
+TEST(Intersections, OneBallInManyWays) {
   Frame frame = frame_from({0, 0, 0}, {1, 2, 3}, {0, 1, 0});
   const BodyPtr block = std::make_shared<Body>(box(frame, {2, 2, 2}));
   const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
                placed = Affine::translation({0.8, 0.9, 0.7});
   const BodyPtr exact = ball_at({0, 0, 0}, 1.3);
-  const Found expected = meetings(block, turned, exact, placed);
+  const Found expected = intersections(block, turned, exact, placed);
   ASSERT_GT(expected.length, 2);
   for (const Vec3& point : expected.points) {
     EXPECT_NEAR(glm::length(point - Vec3(0.8, 0.9, 0.7)), 1.3, 1e-9);
@@ -110,14 +111,15 @@ TEST(Meetings, OneBallInManyWays) {
                                                            std::make_shared<BodyShape>(ball_at({0, 0, 0.1}, 0.2))})),
       SurfaceSet{sphere({0, 0, 0}, 1.3), sphere({0, 0, 20}, 1)}};
   for (const Entity& other : others) {
-    const Found found = meetings(block, turned, other, placed), turned_round = meetings(other, placed, block, turned);
+    const Found found = intersections(block, turned, other, placed),
+                turned_round = intersections(other, placed, block, turned);
     EXPECT_NEAR(found.length, expected.length, 1e-6);
     EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
     EXPECT_TRUE(found.left_out.empty());
   }
 }
 
-TEST(Meetings, PlanesAndHalfSpacesCut) {
+TEST(Intersections, PlanesAndHalfSpacesCut) {
   const Entity cutting[] = {SurfacePtr(plane({0, 0, 0.5}, {0, 0, 1})),
                             ShapePtr(std::make_shared<HalfSpaceShape>(Vec3(0, 0, 0.5), Vec3(0, 0, 1)))};
   const auto segment = std::make_shared<Segment>(Vec3(0, 0, -3), Vec3(0, 0, 3));
@@ -126,28 +128,28 @@ TEST(Meetings, PlanesAndHalfSpacesCut) {
   for (const Entity& knife : cutting)
     for (const Entity& shape : cut)
       // One that no object shows stands as it is written, whatever the object's own transform.
-      EXPECT_NEAR(meetings(shape, Affine::translation({5, 6, 0}), knife, std::nullopt).length, kTwoPi * 1.2, 1e-6);
+      EXPECT_NEAR(intersections(shape, Affine::translation({5, 6, 0}), knife, std::nullopt).length, kTwoPi * 1.2, 1e-6);
 }
 
-TEST(Meetings, PlaneFacesCutTubes) {
+TEST(Intersections, PlaneFacesCutTubes) {
   const auto segment = std::make_shared<Segment>(Vec3(0, 0, -3), Vec3(0, 0, 3));
   const ShapePtr tube = std::make_shared<Tube>(segment, RadiusLaw(0.5), Caps::round);
   Frame frame;
   frame.origin = {0, -2, -1};
   // From below and above, each half a circle; the side x = 0 along two straight lines.
-  const Found found = meetings(std::make_shared<Body>(box(frame, {4, 4, 2})), Affine(), tube, Affine());
+  const Found found = intersections(std::make_shared<Body>(box(frame, {4, 4, 2})), Affine(), tube, Affine());
   EXPECT_NEAR(found.length, kTwoPi * 0.5 + 2 * 2, 1e-6);
   EXPECT_TRUE(found.left_out.empty());
 }
 
 // A bent tube and a ball, in several ways; two tubes at a right angle.
-TEST(Meetings, Tubes) {
+TEST(Intersections, Tubes) {
   const auto bow =
       std::make_shared<FormulaCurve>(point_formulas({"2*cos(t)", "2*sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
   const ShapePtr tube = std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat);
   const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
                placed = turned * Affine::translation({2.3, 0.5, 0.2});
-  const Found expected = meetings(tube, turned, ball_at({0, 0, 0}, 0.9), placed);
+  const Found expected = intersections(tube, turned, ball_at({0, 0, 0}, 0.9), placed);
   ASSERT_GT(expected.length, 2);
   for (const Vec3& point : expected.points) EXPECT_NEAR(glm::length(placed.inverse().point(point)), 0.9, 1e-9);
   const Entity others[] = {
@@ -161,7 +163,8 @@ TEST(Meetings, Tubes) {
       ShapePtr(std::make_shared<Tube>(std::make_shared<Segment>(Vec3(0, 0, -1e-7), Vec3(0, 0, 1e-7)), RadiusLaw(0.9),
                                       Caps::round))};
   for (const Entity& other : others) {
-    const Found found = meetings(tube, turned, other, placed), turned_round = meetings(other, placed, tube, turned);
+    const Found found = intersections(tube, turned, other, placed),
+                turned_round = intersections(other, placed, tube, turned);
     EXPECT_NEAR(found.length, expected.length, 1e-5);
     EXPECT_NEAR(turned_round.length, expected.length, 1e-5);
     EXPECT_TRUE(found.left_out.empty());
@@ -169,7 +172,7 @@ TEST(Meetings, Tubes) {
 }
 
 // What a line runs along does not count as what it goes through, whichever of the two it is a line of.
-TEST(Meetings, LinesThatRunAlongBoth) {
+TEST(Intersections, LinesThatRunAlongBoth) {
   const auto bow =
       std::make_shared<FormulaCurve>(point_formulas({"2*cos(t)", "2*sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
   const ShapePtr tube = std::make_shared<Tube>(bow, RadiusLaw(0.4), Caps::flat),
@@ -185,16 +188,16 @@ TEST(Meetings, LinesThatRunAlongBoth) {
 }
 
 // Solids by formulas, cut off by their regions, and balls, against the bodies that they are.
-TEST(Meetings, PartsMeetParts) {
+TEST(Intersections, PartsMeetParts) {
   const auto both = [](const char* what, std::initializer_list<Entity> ones, std::initializer_list<Entity> others,
                        const Affine& map_of_one, const Affine& map_of_other) {
-    const Found expected = meetings(*ones.begin(), map_of_one, *others.begin(), map_of_other);
+    const Found expected = intersections(*ones.begin(), map_of_one, *others.begin(), map_of_other);
     ASSERT_GT(expected.length, 1) << what;
     for (const Entity& one : ones)
       for (const Entity& other : others) {
         for (const bool round : {false, true}) {
-          const Found found =
-              round ? meetings(other, map_of_other, one, map_of_one) : meetings(one, map_of_one, other, map_of_other);
+          const Found found = round ? intersections(other, map_of_other, one, map_of_one)
+                                    : intersections(one, map_of_one, other, map_of_other);
           EXPECT_NEAR(found.length, expected.length, 1e-6) << what;
           EXPECT_TRUE(found.left_out.empty()) << what;
           EXPECT_EQ(found.incomplete, 0) << what;
@@ -230,7 +233,7 @@ TEST(Meetings, PartsMeetParts) {
 }
 
 // Sheets that end at their regions against the surfaces by the same formulas.
-TEST(Meetings, OpenSheetsMeet) {
+TEST(Intersections, OpenSheetsMeet) {
   const SurfacePtr saddle = std::make_shared<FormulaSurface>(point_formulas({"u", "v", "u*v"}, {"u", "v"}),
                                                              Rectangle{{-1, 1.2}, {-1.1, 1}}, FormulaSurface::Closed{});
   const Entity same = implicit("x*y - z", {{{-1, -1.1, -2}, {1.2, 1, 2}}}, false);
@@ -239,8 +242,9 @@ TEST(Meetings, OpenSheetsMeet) {
       implicit("cos(4*x) + cos(4*y) + cos(4*z)", {{{-1.1, -0.8, -0.9}, {0.9, 1.3, 0.4}}}, false)};
   const Affine turned = Affine::rotation(0.4, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0});
   for (const Entity& other : others) {
-    const Found expected = meetings(saddle, Affine(), other, turned), found = meetings(same, Affine(), other, turned),
-                turned_round = meetings(other, turned, same, Affine());
+    const Found expected = intersections(saddle, Affine(), other, turned),
+                found = intersections(same, Affine(), other, turned),
+                turned_round = intersections(other, turned, same, Affine());
     ASSERT_GT(expected.length, 2);
     EXPECT_NEAR(found.length, expected.length, 1e-6);
     EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
@@ -249,18 +253,18 @@ TEST(Meetings, OpenSheetsMeet) {
 }
 
 // Balls that overlap, each with the spheres of the other where neither is covered: by closed form, three pairs.
-TEST(Meetings, BallsMeetBalls) {
+TEST(Intersections, BallsMeetBalls) {
   const std::vector<Vec3> row{{0, 0, 0}, {1.2, 0, 0}, {2.4, 0, 0}}, single{{1.2, 0, 0.9}};
   const std::vector<double> one{0.9}, less{0.5};
-  const Found found = meetings(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
-                               ShapePtr(std::make_shared<Balls>(single, less)), Affine());
+  const Found found = intersections(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
+                                    ShapePtr(std::make_shared<Balls>(single, less)), Affine());
   // Only the middle ball meets it: |p - m| = 0.9, |p - s| = 0.5 at the distance 0.9 of both.
   const double height = (0.81 + 0.81 - 0.25) / 1.8, radius = std::sqrt(0.81 - height * height);
   // Covered by a neighbour where |p - (0, 0, 0)| < 0.9: where |x - 1.2| > 0.6.
   ASSERT_LT(radius, 0.6);
   EXPECT_NEAR(found.length, kTwoPi * radius, 1e-9);
-  const Found wide = meetings(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
-                              ShapePtr(std::make_shared<Balls>(single, one)), Affine());
+  const Found wide = intersections(ShapePtr(std::make_shared<Balls>(row, one)), Affine(),
+                                   ShapePtr(std::make_shared<Balls>(single, one)), Affine());
   // The circle about the middle ball, without what the neighbours cover; those meet the other ball in parts of circles.
   const double half = std::sqrt(0.81 - 0.2025), covered = 4 * std::acos(0.6 / half);
   const double apart = std::hypot(1.2, 0.9), side = std::sqrt(0.81 - apart * apart / 4);
@@ -293,7 +297,7 @@ MeshPtr block_of_triangles(int squares) {
 }
 
 // A block as triangles, large and small ones, against the block as a body.
-TEST(Meetings, Meshes) {
+TEST(Intersections, Meshes) {
   const BodyPtr block = std::make_shared<Body>(box(Frame(), {2, 2, 2}));
   const auto bow = std::make_shared<FormulaCurve>(point_formulas({"cos(t)", "sin(t)", "0.3*t"}, {"t"}), Interval{0, 4});
   const std::vector<Vec3> centers{{0, 0, 0}, {0.8, 0.3, 0}};
@@ -314,10 +318,10 @@ TEST(Meetings, Meshes) {
   const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
                placed = Affine::translation({1.9, 1.1, 0.6});
   for (const Entity& other : others) {
-    const Found expected = meetings(block, turned, other, placed);
+    const Found expected = intersections(block, turned, other, placed);
     ASSERT_GT(expected.length, 1);
     for (const int squares : {1, 4}) {
-      const Found found = meetings(block_of_triangles(squares), turned, other, placed);
+      const Found found = intersections(block_of_triangles(squares), turned, other, placed);
       EXPECT_NEAR(found.length, expected.length, 1e-5);
       EXPECT_TRUE(found.left_out.empty());
       EXPECT_EQ(found.incomplete, 0);
@@ -333,11 +337,11 @@ TEST(Meetings, Meshes) {
                   2);
       }
     }
-    EXPECT_NEAR(meetings(other, placed, block_of_triangles(2), turned).length, expected.length, 1e-5);
+    EXPECT_NEAR(intersections(other, placed, block_of_triangles(2), turned).length, expected.length, 1e-5);
   }
 }
 
-TEST(Meetings, FormulasWithKinks) {
+TEST(Intersections, FormulasWithKinks) {
   const BodyPtr block = std::make_shared<Body>(box(frame_from({-0.8, -0.8, -0.8}, {0, 0, 1}, {1, 0, 0}), Vec3(1.6)));
   const Entity cube = implicit("max(abs(x), abs(y), abs(z)) - 0.8", {{Vec3(-1), Vec3(1)}});
   const Entity others[] = {ball_at({0, 0, 0}, 1), implicit("x^2 + y^2 + z^2 - 1", {{Vec3(-1.1), Vec3(1.1)}}),
@@ -345,8 +349,9 @@ TEST(Meetings, FormulasWithKinks) {
   const Affine turned = Affine::rotation(0.7, glm::normalize(Vec3(1, -1, 2)), {0.1, 0, 0}),
                placed = Affine::translation({0.5, 0.4, 0.3});
   for (const Entity& other : others) {
-    const Found expected = meetings(block, turned, other, placed), found = meetings(cube, turned, other, placed),
-                turned_round = meetings(other, placed, cube, turned);
+    const Found expected = intersections(block, turned, other, placed),
+                found = intersections(cube, turned, other, placed),
+                turned_round = intersections(other, placed, cube, turned);
     ASSERT_GT(expected.length, 1);
     EXPECT_NEAR(found.length, expected.length, 1e-6);
     EXPECT_NEAR(turned_round.length, expected.length, 1e-6);
@@ -355,4 +360,4 @@ TEST(Meetings, FormulasWithKinks) {
 }
 
 }  // namespace
-}  // namespace lekalo::render::meetings_test
+}  // namespace lekalo::render::intersections_test

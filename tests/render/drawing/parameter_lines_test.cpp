@@ -90,7 +90,7 @@ void judge_body(const Body& body, const Solid& truth, const std::vector<Stroke>&
   for (const NetLine& line : parameter_lines(body, kNet))
     for (int k = 0; k < 3; ++k) {
       const double t = views.number(line.along.lo, line.along.hi);
-      const Vec2 uv = line.held == HeldParameter::u ? Vec2(line.at, t) : Vec2(t, line.at);
+      const Vec2 uv = line.held == IsoDirection::u ? Vec2(line.at, t) : Vec2(t, line.at);
       judge_place(is_boundary(truth, *line.surface, uv), strokes, line.surface->point(uv.x, uv.y), counts);
     }
 }
@@ -115,7 +115,7 @@ TEST(ParameterLines, OfSolidsPutTogether) {
   Views views(211);
   Found found;
   Counts counts;
-  for (int k = 0; k < tests::tier_count(300, tests::least_of_slow(8)); ++k) {
+  for (int k = 0; k < tests::tier_count(300, tests::min_of_slow(8)); ++k) {
     SmallScene scene;
     const Part a = random_part(views, k, 0.5), b = random_part(views, k + 1 + k / 5, 0.8);
     const Frame frame = anywhere(views, 0.4);
@@ -148,11 +148,11 @@ TEST(ParameterLines, OfSolidsPutTogether) {
     judge_body(b.body, *truth, work.strokes, views, counts);
     judge_rod(*rod, frame, radius, length, *truth, work.strokes, views, counts);
     for (const Stroke& stroke : work.strokes) {
-      if (stroke.kind != "parameter" || stroke.hosts.empty()) continue;
+      if (stroke.kind != "parameter" || stroke.supporting_surfaces.empty()) continue;
       const double t = views.number(stroke.curve->domain().lo, stroke.curve->domain().hi);
-      const Vec3 uv = stroke.hosts[0].image->point(t), p = stroke.curve->point(t);
-      EXPECT_NEAR(glm::length(stroke.hosts[0].surface->point(uv.x, uv.y) - p), 0, 1e-11);
-      const auto on = is_boundary(*truth, *stroke.hosts[0].surface, Vec2(uv));
+      const Vec3 uv = stroke.supporting_surfaces[0].image->point(t), p = stroke.curve->point(t);
+      EXPECT_NEAR(glm::length(stroke.supporting_surfaces[0].surface->point(uv.x, uv.y) - p), 0, 1e-11);
+      const auto on = is_boundary(*truth, *stroke.supporting_surfaces[0].surface, Vec2(uv));
       EXPECT_TRUE(!on || *on);
     }
     Truth(*world, sheets_of(std::vector<SolidPtr>{truth}), views, found, 3);

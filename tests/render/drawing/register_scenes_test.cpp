@@ -52,7 +52,7 @@ const std::vector<std::string> kScenes = {"figures/torus_outline",
 constexpr int kQuick = 4;
 
 // What a ray meets.
-struct Seen {
+struct Interaction {
   struct Sheet {
     int64_t instance;
     int face;
@@ -63,8 +63,8 @@ struct Seen {
   std::vector<std::pair<int64_t, int>> faces;
 };
 
-Seen seen_by(const World& world, const Ray& ray) {
-  Seen seen;
+Interaction seen_by(const World& world, const Ray& ray) {
+  Interaction seen;
   for (const Hit& hit : world.all_hits(ray)) {
     const SurfacePoint met = world.surface_point(ray, hit);
     seen.sheets.push_back({hit.instance, hit.face, met.position, met.geometric_normal});
@@ -76,11 +76,11 @@ Seen seen_by(const World& world, const Ray& ray) {
 
 // Whether some outline lies between two rays. Plane faces of parts that were united have none between them where they
 // lie in one plane.
-bool is_border(const Seen& a, const Seen& b, double size) {
+bool is_border(const Interaction& a, const Interaction& b, double size) {
   if (a.faces == b.faces) return false;
   if (a.sheets.size() != b.sheets.size()) return true;
   for (size_t k = 0; k < a.sheets.size(); ++k) {
-    const Seen::Sheet &one = a.sheets[k], &other = b.sheets[k];
+    const Interaction::Sheet &one = a.sheets[k], &other = b.sheets[k];
     if (one.instance == other.instance && one.face == other.face) continue;
     const bool in_plane = glm::length(one.normal - other.normal) < kInPlane &&
                           std::abs(glm::dot(one.normal, other.place - one.place)) < kInPlane * size;
@@ -90,9 +90,9 @@ bool is_border(const Seen& a, const Seen& b, double size) {
 }
 
 // Neither place lies about on the other's tangent plane, nor near.
-bool is_gap(const Seen& a, const Seen& b, double size) {
+bool is_gap(const Interaction& a, const Interaction& b, double size) {
   if (a.sheets.empty() || b.sheets.empty()) return a.sheets.empty() != b.sheets.empty();
-  const Seen::Sheet &one = a.sheets.front(), &other = b.sheets.front();
+  const Interaction::Sheet &one = a.sheets.front(), &other = b.sheets.front();
   const Vec3 way = other.place - one.place;
   const double length = glm::length(way);
   return length > kGap * size && std::abs(glm::dot(one.normal, way)) > 0.5 * length &&
@@ -141,7 +141,7 @@ class Picture {
   Ray ray(const Vec2& fine) const { return camera_->ray(fine.x / finer_, fine.y / finer_); }
 
   void find_borders() {
-    std::vector<Seen> above(columns_), row(columns_);
+    std::vector<Interaction> above(columns_), row(columns_);
     for (int j = 0; j < rows_; ++j, std::swap(above, row))
       for (int i = 0; i < columns_; ++i) {
         row[i] = seen_by(*world_, ray({i + 0.5, j + 0.5}));
@@ -149,7 +149,7 @@ class Picture {
         if (j > 0) add_border({i + 0.5, j}, above[i], row[i]);
       }
   }
-  void add_border(const Vec2& at, const Seen& a, const Seen& b) {
+  void add_border(const Vec2& at, const Interaction& a, const Interaction& b) {
     if (is_border(a, b, world_->radius())) borders_.push_back(at), on_borders_.add(at);
     if (is_gap(a, b, world_->radius())) gaps_.push_back(at);
     if (!a.sheets.empty() && !b.sheets.empty() &&
@@ -175,7 +175,7 @@ class Picture {
             if (line.stroke.kind == "smooth" || !is_inside(p)) continue;
             const Vec2 along = line.curve->place(t).tangent;
             // Edges at which one face meets itself are creases, of which only those that are seen are known.
-            const bool is_crease = line.stroke.kind == "sharp" && line.stroke.hosts.empty();
+            const bool is_crease = line.stroke.kind == "sharp" && line.stroke.supporting_surfaces.empty();
             if (!is_crease || piece.layers == 0)
               places_.push_back({p, glm::length(along) > 0 ? glm::normalize(along) : Vec2(0), is_crease});
           }
@@ -233,7 +233,7 @@ class Picture {
 
 TEST(Register, OutlinesOfSceneFilesLieOnBorders) {
   Found all;
-  const size_t scenes = tests::tier_count(static_cast<int>(kScenes.size()), tests::least_of_slow(kQuick));
+  const size_t scenes = tests::tier_count(static_cast<int>(kScenes.size()), tests::min_of_slow(kQuick));
   for (size_t k = 0; k < scenes; ++k) {
     Found found;
     const auto loaded = load_scene(std::filesystem::path(LEKALO_SOURCE_DIR) / "scenes" / (kScenes[k] + ".yaml"));

@@ -43,7 +43,7 @@ TEST(Register, LinesLieOnBordersOfFaces) {
   Views views(61);
   int borders = 0, places = 0;
   double worst_border = 0, worst_place = 0;
-  const int count = tests::tier_count(200, tests::least_of_slow(20));
+  const int count = tests::tier_count(200, tests::min_of_slow(20));
   for (int k = 0; k < count; ++k) {
     SmallScene scene;
     for (int i = 0; i < 3; ++i) {

@@ -238,7 +238,7 @@ TEST(PictureLines, LinesOnASphereAreSeenToTheOutline) {
       const double step = glm::length(seen[i] - seen[i - 1]);
       if (step < 1) expected += 1.5 * step;
     }
-    // Seen from 0.02 the front and the ends of the strip lie over one another.
+    // Interaction from 0.02 the front and the ends of the strip lie over one another.
     EXPECT_NEAR(ink_sum, expected, elevation < 0.1 ? 8 : 0.02 * expected) << elevation;
     // Without a gap: the middle of the line is black wherever it is seen, but for its ends.
     for (const Vec2& p : seen) {

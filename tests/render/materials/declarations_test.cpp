@@ -94,7 +94,7 @@ TEST(Declarations, CamerasWaitForThePictureAndTheScene) {
   fields.set("frame", std::string("all"));
   fields.set("margin", 0.1);
   const auto factory = std::any_cast<CameraFactory>(type(camera_types(), "parallel").build(fields));
-  const CameraPtr camera = factory(200, 100, Shown(geometry::Box3{Vec3(-1), Vec3(1)}));
+  const CameraPtr camera = factory(200, 100, FramedContent(geometry::Box3{Vec3(-1), Vec3(1)}));
   EXPECT_NEAR(camera->project({-1, 0, 1}).y, 10, 1e-9);
   fields.set("from", Vec3(0, -5, 0));
   EXPECT_THROW(type(camera_types(), "parallel").build(fields), geometry::FieldError);  // needs height

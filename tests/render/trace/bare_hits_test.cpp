@@ -1,5 +1,5 @@
-// Points of surfaces that know their feet, in a World that keeps no parameters: the same points and normals as with
-// parameters, but for rounding, and parameters where a material asks for them.
+// Points of surfaces that know their foot points, in a World that keeps no parameters: the same points and normals as
+// with parameters, but for rounding, and parameters where a material asks for them.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -101,9 +101,9 @@ TEST(BareHits, PointsAndNormalsAreTheSame) {
       EXPECT_LE(glm::length(p.normal - q.normal), 10 * p.error);
       EXPECT_LE(glm::length(p.geometric_normal - q.geometric_normal), 10 * p.error);
       EXPECT_NEAR(p.error, q.error, 1e-9 * p.error);
-      EXPECT_EQ(p.free_sides.front, q.free_sides.front);
-      EXPECT_EQ(p.free_sides.back, q.free_sides.back);
-      if (!all[a.instance]->knows_feet()) {
+      EXPECT_EQ(p.convex_sides.front, q.convex_sides.front);
+      EXPECT_EQ(p.convex_sides.back, q.convex_sides.back);
+      if (!all[a.instance]->has_closest_point()) {
         EXPECT_EQ(p.u, q.u);
         EXPECT_EQ(p.v, q.v);
       } else {
@@ -196,25 +196,25 @@ TEST(BareHits, SolidsOfSolids) {
 
 TEST(BareHits, FeetOfAllTheirPoints) {
   for (const SurfacePtr& surface : surfaces()) {
-    if (!surface->knows_feet()) continue;
+    if (!surface->has_closest_point()) continue;
     for (double u = 0.1; u < 6; u += 0.3)
       for (double v = -1.5; v < 1.5; v += 0.2) {
         const Vec3 p = surface->point(u, v);
-        const Foot foot = surface->foot(p);
-        EXPECT_LE(glm::length(foot.point - p), 1e-14);
-        EXPECT_LE(glm::length(foot.normal - surface->normal(u, v)), 1e-14);
+        const FootPoint foot_point = surface->foot_point(p);
+        EXPECT_LE(glm::length(foot_point.point - p), 1e-14);
+        EXPECT_LE(glm::length(foot_point.normal - surface->normal(u, v)), 1e-14);
       }
   }
   for (const SurfacePtr& surface : parts()) {
-    if (!surface->knows_feet()) continue;
+    if (!surface->has_closest_point()) continue;
     const Rectangle domain = surface->domain();
     for (double u = 0.1; u < 6; u += 0.3)
       for (double s = 0.01; s < 1; s += 0.1) {
         const double v = domain.v.lo + s * domain.v.width();
         const Vec3 p = surface->point(u, v);
-        const Foot foot = surface->foot(p);
-        EXPECT_LE(glm::length(foot.point - p), 1e-14);
-        EXPECT_LE(glm::length(foot.normal - surface->normal(u, v)), 1e-13);
+        const FootPoint foot_point = surface->foot_point(p);
+        EXPECT_LE(glm::length(foot_point.point - p), 1e-14);
+        EXPECT_LE(glm::length(foot_point.normal - surface->normal(u, v)), 1e-13);
       }
   }
 }

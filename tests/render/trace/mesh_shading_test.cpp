@@ -115,8 +115,8 @@ TEST(MeshShading, InterpolatedNormalsConvergeQuadratically) {
   EXPECT_NEAR(coarse / fine, 10, 3) << coarse << " " << fine;
 }
 
-// A foot beyond the facet's own parameters is moved to their border. So every normal is the surface's own where the
-// facet's point stands on it: to 2e-4 for facets of 0.06, whose corners' normals differ by 0.09.
+// A foot point beyond the facet's own parameters is moved to their border. So every normal is the surface's own where
+// the facet's point stands on it: to 2e-4 for facets of 0.06, whose corners' normals differ by 0.09.
 void expect_true_normals(const SurfacePtr& surface, const Entity& shape, double offset) {
   const World world(model_of(shape, Representation::mesh, 1e-3));
   const Rectangle d = surface->domain();

@@ -46,8 +46,8 @@ double residual(const OcctPair& pair, const OcctBranches& found) {
     for (int k = 0; k < kPlaces; ++k) {
       const Vec3 p = occt_place(piece, (k + 0.5) / kPlaces);
       for (const OcctTwin* twin : {&pair.a, &pair.b}) {
-        const SurfaceFeet feet = project(p, *twin->own);
-        if (!feet.feet.empty()) most = std::max(most, feet.feet.front().distance);
+        const SurfaceFootPoints foot_points = project(p, *twin->own);
+        if (!foot_points.foot_points.empty()) most = std::max(most, foot_points.foot_points.front().distance);
       }
     }
   return most / size_of(pair);
@@ -63,7 +63,7 @@ size_t occt_lines(const OcctPair& pair) {
 }
 
 void race(const std::string& name, const std::vector<OcctPair>& pairs, int runs) {
-  double ours = 0, theirs = 0, worst_ratio = 1e300, own_residual = 0, occt_residual = 0, least_residual = 0;
+  double ours = 0, theirs = 0, worst_ratio = 1e300, own_residual = 0, occt_residual = 0, min_residual = 0;
   size_t own_branches = 0, occt_found = 0, agree = 0;
   for (const OcctPair& pair : pairs) {
     Timed own_time, occt_time;
@@ -78,7 +78,7 @@ void race(const std::string& name, const std::vector<OcctPair>& pairs, int runs)
     const OcctBranches found = occt_branches(pair, kUsual, gap), least = occt_branches(pair, kLeast, gap);
     own_residual = std::max(own_residual, residual(pair, own));
     occt_residual = std::max(occt_residual, residual(pair, found));
-    least_residual = std::max(least_residual, residual(pair, least));
+    min_residual = std::max(min_residual, residual(pair, least));
     own_branches += own.branches.size(), occt_found += found.count();
     agree += found.count() == static_cast<int>(own.branches.size());
     fmt::print(stderr, "{:24} {:8.2f} ms, OCCT {:8.2f} ms; branches {} and {}\n", pair.name, 1e3 * own_time.least(),
@@ -89,7 +89,7 @@ void race(const std::string& name, const std::vector<OcctPair>& pairs, int runs)
       "\"worst_ratio\": {:.2f}, \"residual\": {:.1e}, \"occt_residual\": {:.1e}, \"occt_least_residual\": {:.1e}, "
       "\"branches\": {}, \"occt_branches\": {}, \"agree\": {}}}\n",
       name, pairs.size(), 1e3 * ours / pairs.size(), 1e3 * theirs / pairs.size(), theirs / ours, worst_ratio,
-      own_residual, occt_residual, least_residual, own_branches, occt_found, agree);
+      own_residual, occt_residual, min_residual, own_branches, occt_found, agree);
 }
 
 // Cut at n - 1 places in each direction: the same surface.

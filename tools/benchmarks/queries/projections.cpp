@@ -13,9 +13,9 @@ using namespace geometry;
 
 namespace {
 
-constexpr double kSame = 1e-6;  // feet of the two that are one
+constexpr double kSame = 1e-6;  // foot points of the two that are one
 
-// Feet of both, and how many of each the other has too.
+// FootPoints of both, and how many of each the other has too.
 struct Counts {
   size_t ours = 0, theirs = 0, of_ours = 0, of_theirs = 0;
 
@@ -40,17 +40,17 @@ std::vector<Vec3> points_about(unsigned seed, int count) {
 }
 
 // Where the distance is stationary: OCCT knows no others.
-template <class Feet>
-std::vector<Vec3> stationary(const Feet& found) {
+template <class FootPoints>
+std::vector<Vec3> stationary(const FootPoints& found) {
   std::vector<Vec3> points;
-  for (const auto& foot : found.feet)
-    if (foot.kind != FootKind::border) points.push_back(foot.point);
+  for (const auto& foot_point : found.foot_points)
+    if (foot_point.kind != FootPointKind::border) points.push_back(foot_point.point);
   return points;
 }
 
 // OCCT's object is made once and asked for each point with Perform.
 template <class Occt>
-std::vector<Vec3> feet_of(Occt& occt, const Vec3& p) {
+std::vector<Vec3> foot_points_of(Occt& occt, const Vec3& p) {
   occt.Perform(occt_point(p));
   std::vector<Vec3> points;
   for (int i = 1; i <= occt.NbPoints(); ++i) points.push_back(from_occt(occt.Point(i).XYZ()));
@@ -71,11 +71,11 @@ void race(int runs, const std::vector<Vec3>& points, const Projector& own, Occt&
     });
     ours.run([&] {
       size_t count = 0;
-      for (const Vec3& p : points) count += own.feet(p).feet.size();
+      for (const Vec3& p : points) count += own.foot_points(p).foot_points.size();
       return count;
     });
   }
-  for (const Vec3& p : points) counts.add(stationary(own.feet(p)), feet_of(occt, p));
+  for (const Vec3& p : points) counts.add(stationary(own.foot_points(p)), foot_points_of(occt, p));
 }
 
 void print(const std::string& name, size_t points, double ours, double theirs, const Counts& counts) {

@@ -3,7 +3,7 @@
 
 namespace lekalo::benchmarks {
 
-// All feet of points on curves and surfaces, against GeomAPI_ProjectPointOnCurve and -OnSurf.
+// All foot points of points on curves and surfaces, against GeomAPI_ProjectPointOnCurve and -OnSurf.
 void print_projections(int runs);
 // Intersections of two surfaces against GeomAPI_IntSS.
 void print_intersections(int runs);

@@ -49,7 +49,7 @@ struct CanonicalSurface {
       case Kind::paraboloid:
         return rho;
       case Kind::cone:
-        // The foot on the meridian: a flat cone's z, a steep one's rho tell little.
+        // The foot point on the meridian: a flat cone's z, a steep one's rho tell little.
         return (widening * (rho - radius) + height * z) / (widening * widening + height * height);
       case Kind::torus:
         return atan2(z, rho - major);
@@ -60,7 +60,7 @@ struct CanonicalSurface {
   // -1 at points of a cone whose meridian is beyond the apex, where u counts the other side.
   double side(double z) const { return kind == Kind::cone && radius + widening / height * z < 0 ? -1 : 1; }
 
-  // Planes in q on which the surface's borders lie; meetings with more than the borders may lie on them too.
+  // Planes in q on which the surface's borders lie; intersections with more than the borders may lie on them too.
   struct Border {
     Vec3 normal;
     double height;

@@ -21,8 +21,8 @@ constexpr double kResidual = 1e-14, kShort = 1e-6;
 constexpr int kSamples = 32;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
 
-// Two meetings of the same surfaces.
-void append(PlaneMeeting& all, const PlaneMeeting& more) {
+// Two intersections of the same surfaces.
+void append(PlaneIntersection& all, const PlaneIntersection& more) {
   all.conics.insert(all.conics.end(), more.conics.begin(), more.conics.end());
   all.contacts.insert(all.contacts.end(), more.contacts.begin(), more.contacts.end());
   all.crossings.insert(all.crossings.end(), more.crossings.begin(), more.crossings.end());
@@ -45,10 +45,10 @@ struct Pair {
   PlaneEquation plane_b() const { return b ? plane_of(*b) : plane; }
 };
 
-std::optional<PlaneMeeting> planes(const PlaneEquation& a, const PlaneEquation& b, const SectionScale& scale) {
+std::optional<PlaneIntersection> planes(const PlaneEquation& a, const PlaneEquation& b, const SectionScale& scale) {
   const Vec3 along = glm::cross(a.normal, b.normal);
   const double sine2 = glm::dot(along, along);
-  PlaneMeeting result;
+  PlaneIntersection result;
   constexpr double kUnclear = 10;
   if (std::sqrt(sine2) * scale.size <= kUnclear * scale.tolerance) {
     const double apart = std::abs(a.height - (glm::dot(a.normal, b.normal) > 0 ? b.height : -b.height));
@@ -65,8 +65,8 @@ TorusForm torus_of(const CanonicalSurface& surface, double scale, const Vec3& mi
 }
 
 // Planes, spheres, cylinders, cones and tori about the torus's axis.
-std::optional<PlaneMeeting> with_torus(const CanonicalSurface& surface, const CanonicalSurface& other,
-                                       const Pair& pair) {
+std::optional<PlaneIntersection> with_torus(const CanonicalSurface& surface, const CanonicalSurface& other,
+                                            const Pair& pair) {
   const std::optional<double> scale = surface.scale(), of_other = other.scale();
   if (!scale || !of_other) return std::nullopt;
   const TorusForm torus = torus_of(surface, *scale, pair.middle);
@@ -85,7 +85,7 @@ std::optional<PlaneMeeting> with_torus(const CanonicalSurface& surface, const Ca
   // rho = r + w z/h and, of the other nappe, its negative; z from `height` on.
   const double radius = other.radius / *of_other, slope = turn * other.widening / other.height;
   const double length = std::hypot(1.0, slope);
-  PlaneMeeting all;
+  PlaneIntersection all;
   for (const double nappe : {1.0, -1.0}) {
     if (nappe < 0 && slope == 0) break;
     const CoaxialMeridian line{true, Vec2(1, -nappe * slope) / length, nappe * (radius - slope * height) / length};
@@ -97,26 +97,27 @@ std::optional<PlaneMeeting> with_torus(const CanonicalSurface& surface, const Ca
 }
 
 // Where conics of one plane cross those of the other: on the planes' common line.
-bool add_crossings(const std::vector<Conic>& conics, const PlaneEquation& other, double size, PlaneMeeting& meeting) {
+bool add_crossings(const std::vector<Conic>& conics, const PlaneEquation& other, double size,
+                   PlaneIntersection& intersection) {
   for (const Conic& conic : conics) {
     const std::vector<double> roots = plane_roots(conic, other.normal, other.height);
     for (size_t k = 0; k < roots.size(); ++k) {
       const Vec3 p = conic.point(roots[k]);
       // They touch each other, or nearly.
       if (k > 0 && glm::length(p - conic.point(roots[k - 1])) < 1e-3 * size) return false;
-      meeting.crossings.push_back(p);
+      intersection.crossings.push_back(p);
     }
   }
   return true;
 }
 
-std::optional<PlaneMeeting> quadrics(const CanonicalSurface& a, const CanonicalSurface& b, const Pair& pair,
-                                     bool& coincident) {
+std::optional<PlaneIntersection> quadrics(const CanonicalSurface& a, const CanonicalSurface& b, const Pair& pair,
+                                          bool& coincident) {
   const auto first = a.quadric(pair.middle, pair.scale.size), second = b.quadric(pair.middle, pair.scale.size);
   if (!first || !second) return std::nullopt;
   const std::optional<CommonPlanes> common = common_planes(*first, *second, pair.scale);
   if (!common) return std::nullopt;
-  PlaneMeeting all;
+  PlaneIntersection all;
   coincident = common->coincident;
   std::vector<std::vector<Conic>> conics;
   for (const PlaneEquation& plane : common->planes) {
@@ -136,7 +137,7 @@ std::optional<PlaneMeeting> quadrics(const CanonicalSurface& a, const CanonicalS
   return all;
 }
 
-std::optional<PlaneMeeting> meeting_of(const Pair& pair, bool& coincident) {
+std::optional<PlaneIntersection> intersection_of(const Pair& pair, bool& coincident) {
   if (pair.b_is_plane()) {
     const PlaneEquation plane = pair.plane_b();
     if (pair.a.kind == Kind::plane) return planes(pair.plane_of(pair.a), plane, pair.scale);
@@ -299,8 +300,8 @@ bool is_whole(const CanonicalSurface& surface) {
 
 std::optional<Contours> closed_form(const Pair& pair) {
   bool coincident = false;
-  const std::optional<PlaneMeeting> meeting = meeting_of(pair, coincident);
-  if (!meeting) return std::nullopt;
+  const std::optional<PlaneIntersection> intersection = intersection_of(pair, coincident);
+  if (!intersection) return std::nullopt;
   if (coincident) {
     // The borders of regions are the search's, but closed surfaces that are the same have none.
     if (!pair.b || !is_whole(pair.a) || !is_whole(*pair.b)) return std::nullopt;
@@ -309,12 +310,12 @@ std::optional<Contours> closed_form(const Pair& pair) {
     return all;
   }
   Cutting cutting(pair);
-  const ContourKind kind = meeting->touching ? ContourKind::touching : ContourKind::crossing;
-  for (const Conic& conic : meeting->conics)
+  const ContourKind kind = intersection->touching ? ContourKind::touching : ContourKind::crossing;
+  for (const Conic& conic : intersection->conics)
     if (!cutting.add(conic, kind)) return std::nullopt;
-  for (const Vec3& point : meeting->contacts)
+  for (const Vec3& point : intersection->contacts)
     if (!cutting.add_point(point, ContourPointKind::contact)) return std::nullopt;
-  for (const Vec3& point : meeting->crossings)
+  for (const Vec3& point : intersection->crossings)
     if (!cutting.add_point(point, ContourPointKind::crossing)) return std::nullopt;
   Contours found = cutting.found();
   found.closed_form = true;
@@ -375,7 +376,7 @@ std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& or
   return closed_form({*first, std::nullopt, plane, box.center(), {box.diameter(), tolerance}});
 }
 
-// Where (a p + b) . i = 0 for the way of sight i; of an eye, i = p - e, with the surface's own p . a p + 2 b . p + c =
+// Where (a p + b) . i = 0 for the line of sight i; of an eye, i = p - e, with the surface's own p . a p + 2 b . p + c =
 // 0: (a e + b) . p + b . e + c = 0.
 std::optional<Contours> closed_silhouette(const SurfacePtr& surface, const ViewOf& view, double tolerance) {
   const auto known = canonical(surface);

@@ -99,7 +99,7 @@ class Section {
     const Rectangle domain = surface.domain();
     const double slope = glm::dot(plane_.normal, d), sine = std::abs(slope) / glm::length(d);
     if (sine <= kRounding)
-      return each_meeting(*curve, domain.u, [&](double u, ContourKind kind) {
+      return each_intersection(*curve, domain.u, [&](double u, ContourKind kind) {
         const Vec3 from = curve->point(u);
         // The segment's parameter is the share of [v.lo, v.hi].
         const auto line = std::make_shared<Segment>(from + domain.v.lo * d, from + domain.v.hi * d);
@@ -129,7 +129,7 @@ class Section {
     const double cosine = std::abs(glm::dot(plane_.normal, frame.z));
     const double sine = glm::length(glm::cross(plane_.normal, frame.z));
     if (sine <= kRounding)
-      return each_meeting(*curve, domain.u, [&](double u, ContourKind kind) {
+      return each_intersection(*curve, domain.u, [&](double u, ContourKind kind) {
         const Vec3 from = curve->point(u) - frame.origin;
         const Vec3 out = from - glm::dot(from, frame.z) * frame.z;
         const double radius = glm::length(out);
@@ -170,15 +170,15 @@ class Section {
 
   // Where the profile meets the plane.
   template <class Use>
-  bool each_meeting(const Curve& curve, const Interval& u, Use&& use) {
+  bool each_intersection(const Curve& curve, const Interval& u, Use&& use) {
     const Plane plane(frame_about(height_ * plane_.normal, plane_.normal));
-    const SurfaceMeetings meetings = intersect(curve, plane);
-    if (!meetings.on_surface.empty()) return false;
-    for (const SurfaceMeeting& meeting : meetings.points) {
-      const auto inside = within(u, meeting.t);
+    const SurfaceIntersections intersections = intersect(curve, plane);
+    if (!intersections.on_surface.empty()) return false;
+    for (const SurfaceIntersection& intersection : intersections.points) {
+      const auto inside = within(u, intersection.t);
       if (!inside) continue;
-      if (meeting.contact && meeting.distance > kRounding * size_) return false;
-      if (!use(*inside, meeting.contact ? ContourKind::touching : ContourKind::crossing)) return false;
+      if (intersection.contact && intersection.distance > kRounding * size_) return false;
+      if (!use(*inside, intersection.contact ? ContourKind::touching : ContourKind::crossing)) return false;
     }
     return true;
   }
@@ -255,12 +255,12 @@ class Section {
       if (!(length > kNearlyParallel)) continue;
       const Vec3 n = limit.normal / length;
       const Plane plane(frame_about(limit.height / length * n, n));
-      const SurfaceMeetings meetings = intersect(curve, plane);
-      for (const SurfaceMeeting& meeting : meetings.points) {
-        if (meeting.contact) return std::nullopt;
-        if (meeting.t > t.lo && meeting.t < t.hi) cuts.push_back(meeting.t);
+      const SurfaceIntersections intersections = intersect(curve, plane);
+      for (const SurfaceIntersection& intersection : intersections.points) {
+        if (intersection.contact) return std::nullopt;
+        if (intersection.t > t.lo && intersection.t < t.hi) cuts.push_back(intersection.t);
       }
-      if (!meetings.on_surface.empty()) return std::nullopt;
+      if (!intersections.on_surface.empty()) return std::nullopt;
     }
     std::sort(cuts.begin(), cuts.end());
     std::vector<Interval> kept;

@@ -59,9 +59,9 @@ double distance_at(const QuadricForm& quadric, const Vec3& p) {
 }
 
 // l1 (s - s0)^2 + k = 0: two lines, a double one or none.
-std::optional<PlaneMeeting> parallel_lines(const QuadricForm& quadric, const PlaneForm& form, double s0, double k,
-                                           double rounding, double tolerance) {
-  PlaneMeeting result;
+std::optional<PlaneIntersection> parallel_lines(const QuadricForm& quadric, const PlaneForm& form, double s0, double k,
+                                                double rounding, double tolerance) {
+  PlaneIntersection result;
   const Vec3 middle = form.base + s0 * form.x;
   if (std::abs(k) <= rounding) {
     result.touching = true;
@@ -76,9 +76,9 @@ std::optional<PlaneMeeting> parallel_lines(const QuadricForm& quadric, const Pla
 }
 
 // l1 s^2 + l2 t^2 + k = 0 about a center.
-std::optional<PlaneMeeting> central(const QuadricForm& quadric, const PlaneForm& form, const Vec3& center, double k,
-                                    double rounding, double tolerance) {
-  PlaneMeeting result;
+std::optional<PlaneIntersection> central(const QuadricForm& quadric, const PlaneForm& form, const Vec3& center,
+                                         double k, double rounding, double tolerance) {
+  PlaneIntersection result;
   const bool degenerate = std::abs(k) <= rounding;
   if (form.l1 * form.l2 > 0) {
     if (degenerate) {
@@ -111,11 +111,11 @@ std::optional<PlaneMeeting> central(const QuadricForm& quadric, const PlaneForm&
 
 }  // namespace
 
-std::optional<PlaneMeeting> plane_section(const QuadricForm& quadric, const PlaneEquation& plane,
-                                          const SectionScale& scale) {
+std::optional<PlaneIntersection> plane_section(const QuadricForm& quadric, const PlaneEquation& plane,
+                                               const SectionScale& scale) {
   const PlaneForm form = form_in(quadric, plane);
   const double whole = largest(quadric.a), rounding_of_b = quadric.rounding / scale.size;
-  PlaneMeeting result;
+  PlaneIntersection result;
   if (std::abs(form.l1) <= kRounding * whole) {
     // The plane holds a generatrix of a saddle, and another one lies at infinity.
     const double slope = std::hypot(form.b1, form.b2);

@@ -33,7 +33,7 @@ struct PlaneEquation {
   double height = 0;
 };
 
-struct PlaneMeeting {
+struct PlaneIntersection {
   std::vector<Conic> conics;
   bool touching = false;        // along them
   std::vector<Vec3> contacts;   // isolated points
@@ -45,8 +45,8 @@ struct PlaneMeeting {
 struct SectionScale {
   double size = 1, tolerance = 0;
 };
-std::optional<PlaneMeeting> plane_section(const QuadricForm& quadric, const PlaneEquation& plane,
-                                          const SectionScale& scale);
+std::optional<PlaneIntersection> plane_section(const QuadricForm& quadric, const PlaneEquation& plane,
+                                               const SectionScale& scale);
 
 struct CommonPlanes {
   std::vector<PlaneEquation> planes;

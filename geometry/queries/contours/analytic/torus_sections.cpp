@@ -17,17 +17,17 @@ Conic parallel(const TorusForm& torus, const Vec2& at) {
   return circle(torus.center + at.y * torus.axis, at.x * frame.x, at.x * frame.y);
 }
 
-// Two points at off^2 = `square` to both sides of a foot, one where they touch, or none.
-std::optional<PlaneMeeting> parallels(const TorusForm& torus, const Vec2& foot, const Vec2& along, double square,
-                                      const SectionScale& scale) {
+// Two points at off^2 = `square` to both sides of a foot point, one where they touch, or none.
+std::optional<PlaneIntersection> parallels(const TorusForm& torus, const Vec2& foot_point, const Vec2& along,
+                                           double square, const SectionScale& scale) {
   const double rounding = kRounding * scale.size * (torus.minor + scale.size);
-  PlaneMeeting result;
+  PlaneIntersection result;
   std::vector<Vec2> places;
   if (std::abs(square) <= rounding) {
     result.touching = true;
-    places = {foot};
+    places = {foot_point};
   } else if (square > 0) {
-    places = {foot - std::sqrt(square) * along, foot + std::sqrt(square) * along};
+    places = {foot_point - std::sqrt(square) * along, foot_point + std::sqrt(square) * along};
   } else if (!(-square > 2 * kUnclear * scale.tolerance * torus.minor)) {
     return std::nullopt;
   }
@@ -40,20 +40,20 @@ std::optional<PlaneMeeting> parallels(const TorusForm& torus, const Vec2& foot, 
 
 }  // namespace
 
-std::optional<PlaneMeeting> coaxial_section(const TorusForm& torus, const CoaxialMeridian& meridian,
-                                            const SectionScale& scale) {
+std::optional<PlaneIntersection> coaxial_section(const TorusForm& torus, const CoaxialMeridian& meridian,
+                                                 const SectionScale& scale) {
   const Vec2 center(torus.major, 0);
   if (meridian.is_line) {
     const Vec2 n = meridian.center_or_normal;
     const double height = meridian.radius_or_height - glm::dot(n, center);
     return parallels(torus, center + height * n, {-n.y, n.x}, (torus.minor - height) * (torus.minor + height), scale);
   }
-  // Two circles: the foot of their common chord on the line of centers.
+  // Two circles: the foot point of their common chord on the line of centers.
   const Vec2 apart = meridian.center_or_normal - center;
   const double d = glm::length(apart), r = meridian.radius_or_height;
   if (d <= 1e-3 * std::min(torus.minor, r)) {
     // Nearly one center: apart by the difference of the radii, if that is clear.
-    if (std::abs(torus.minor - r) > d + kUnclear * scale.tolerance) return PlaneMeeting{};
+    if (std::abs(torus.minor - r) > d + kUnclear * scale.tolerance) return PlaneIntersection{};
     return std::nullopt;
   }
   const double height = 0.5 * (d + (torus.minor - r) * (torus.minor + r) / d);
@@ -61,8 +61,8 @@ std::optional<PlaneMeeting> coaxial_section(const TorusForm& torus, const Coaxia
   return parallels(torus, center + height * n, {-n.y, n.x}, (torus.minor - height) * (torus.minor + height), scale);
 }
 
-std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEquation& plane,
-                                          const SectionScale& scale) {
+std::optional<PlaneIntersection> plane_section(const TorusForm& torus, const PlaneEquation& plane,
+                                               const SectionScale& scale) {
   const double cosine = glm::dot(plane.normal, torus.axis),
                height = plane.height - glm::dot(plane.normal, torus.center);
   const Vec3 across = glm::cross(torus.axis, plane.normal);
@@ -71,7 +71,7 @@ std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEqu
   // The others go through the center of a ring.
   if (std::abs(height) > kRounding * scale.size || !(torus.major > torus.minor)) return std::nullopt;
   const Vec3 node = across / sine, steepest = glm::cross(plane.normal, node);
-  PlaneMeeting result;
+  PlaneIntersection result;
   if (std::abs(cosine) <= kRounding) {
     for (const double side : {1.0, -1.0})
       result.conics.push_back(
@@ -89,8 +89,8 @@ std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEqu
   return result;
 }
 
-std::optional<PlaneMeeting> sphere_section(const TorusForm& torus, const Vec3& center, double radius,
-                                           const SectionScale& scale) {
+std::optional<PlaneIntersection> sphere_section(const TorusForm& torus, const Vec3& center, double radius,
+                                                const SectionScale& scale) {
   const Vec3 off = center - torus.center;
   const double height = glm::dot(off, torus.axis);
   const Vec3 out = off - height * torus.axis;
@@ -99,7 +99,7 @@ std::optional<PlaneMeeting> sphere_section(const TorusForm& torus, const Vec3& c
   if (std::abs(height) > near || std::abs(rho - torus.major) > near || std::abs(radius - torus.minor) > near ||
       !(torus.major > torus.minor))
     return std::nullopt;
-  PlaneMeeting result;
+  PlaneIntersection result;
   result.touching = true;
   result.conics = {circle(center, torus.minor / rho * out, torus.minor * torus.axis)};
   return result;

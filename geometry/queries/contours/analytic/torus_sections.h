@@ -22,15 +22,15 @@ struct CoaxialMeridian {
 };
 
 // Nothing where the plane cuts no circles, or where rounding or the tolerance would have to decide.
-std::optional<PlaneMeeting> plane_section(const TorusForm& torus, const PlaneEquation& plane,
-                                          const SectionScale& scale);
+std::optional<PlaneIntersection> plane_section(const TorusForm& torus, const PlaneEquation& plane,
+                                               const SectionScale& scale);
 
 // With a surface about the same axis.
-std::optional<PlaneMeeting> coaxial_section(const TorusForm& torus, const CoaxialMeridian& meridian,
-                                            const SectionScale& scale);
+std::optional<PlaneIntersection> coaxial_section(const TorusForm& torus, const CoaxialMeridian& meridian,
+                                                 const SectionScale& scale);
 
 // With a sphere: about the axis, or filling the tube.
-std::optional<PlaneMeeting> sphere_section(const TorusForm& torus, const Vec3& center, double radius,
-                                           const SectionScale& scale);
+std::optional<PlaneIntersection> sphere_section(const TorusForm& torus, const Vec3& center, double radius,
+                                                const SectionScale& scale);
 
 }  // namespace lekalo::geometry

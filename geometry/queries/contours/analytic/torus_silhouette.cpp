@@ -63,7 +63,7 @@ struct Outline {
 
 struct TurnSystem {
   const Outline& outline;
-  SystemValue<double, 1, 1> evaluate(const ParameterPlace<1>& u) const {
+  SystemValue<double, 1, 1> evaluate(const ParameterPoint<1>& u) const {
     const auto [value, slope] = outline.turn(u[0]);
     return {{value}, {{{slope}}}};
   }

@@ -221,7 +221,7 @@ TEST(TrimmedSurface, ParameterLinesEndAtHoles) {
       along_v -= chord(h, std::remainder(u - h.u, kTwoPi));
     }
     for (const NetLine& line : parameter_lines(sheet, {{0, {u}}, {0, {v}}}))
-      (line.held == HeldParameter::u ? along_v : along_u) -= line.along.width();
+      (line.held == IsoDirection::u ? along_v : along_u) -= line.along.width();
     EXPECT_NEAR(along_u, 0, 1e-9) << v;
     EXPECT_NEAR(along_v, 0, 1e-9) << u;
   }

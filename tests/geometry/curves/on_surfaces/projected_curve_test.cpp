@@ -119,7 +119,7 @@ TEST(ProjectedCurve, IsTheFootOfEachPoint) {
     for (int i = 0; i <= count; ++i) {
       const double t = static_cast<double>(i) / count;
       const Vec3 c = curve->point(t), p = shadow->point(t);
-      EXPECT_NEAR(glm::length(c - p), project(c, *patch).feet.front().distance, 1e-13) << t;
+      EXPECT_NEAR(glm::length(c - p), project(c, *patch).foot_points.front().distance, 1e-13) << t;
     }
     for (const CurvePiece& piece : shadow->pieces()) {
       if (piece.domain.width() < 0.01) continue;

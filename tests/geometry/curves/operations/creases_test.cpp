@@ -29,7 +29,7 @@ TEST(Creases, RingsOfTurnedPolylines) {
   const std::vector<Crease> found = creases(*surface);
   ASSERT_EQ(found.size(), 2u);
   for (int k = 0; k < 2; ++k) {
-    EXPECT_EQ(found[k].held, HeldParameter::u);
+    EXPECT_EQ(found[k].held, IsoDirection::u);
     EXPECT_EQ(found[k].along.lo, 0);
     EXPECT_EQ(found[k].along.hi, kTwoPi);
     EXPECT_LT(glm::length(surface->point(found[k].at, 0) - points[k + 1]), 1e-12);
@@ -67,7 +67,7 @@ TEST(Creases, OnlyWhereKnotsFold) {
   const NurbsSurface sheet(form);
   std::vector<Crease> across;
   for (const Crease& crease : creases(sheet))
-    if (crease.held == HeldParameter::u) across.push_back(crease);
+    if (crease.held == IsoDirection::u) across.push_back(crease);
   ASSERT_EQ(across.size(), 1u);
   EXPECT_EQ(across[0].at, 1);
   EXPECT_EQ(across[0].along.lo, 1);

@@ -1,4 +1,4 @@
-// All feet of points on curves and surfaces: the checks of Golovanov 2016, 4.1 and 4.2, closed forms, and counts
+// All foot points of points on curves and surfaces: the checks of Golovanov 2016, 4.1 and 4.2, closed forms, and counts
 // against a search by sampling.
 #include "geometry/queries/closest/closest_point.h"
 
@@ -21,46 +21,47 @@ namespace {
 
 TEST(PointOnCurve, AnEllipseSeenFromOutsideHasTwoFeet) {
   const Ellipse ellipse(Frame(), 3, 1);
-  const CurveFeet found = project({2, 2, 0}, ellipse);
-  ASSERT_EQ(found.feet.size(), 2u);
-  EXPECT_NEAR(found.feet[0].t, 0.95878005667540448735, 1e-15);
-  EXPECT_NEAR(found.feet[0].distance, 1.2134181759280895, 1e-15);
-  EXPECT_EQ(found.feet[0].kind, FootKind::minimum);
-  EXPECT_NEAR(found.feet[1].t, 3.2843076863330900374, 1e-15);
-  EXPECT_NEAR(found.feet[1].distance, 5.4115698877204800, 2e-15);
-  EXPECT_EQ(found.feet[1].kind, FootKind::maximum);
+  const CurveFootPoints found = project({2, 2, 0}, ellipse);
+  ASSERT_EQ(found.foot_points.size(), 2u);
+  EXPECT_NEAR(found.foot_points[0].t, 0.95878005667540448735, 1e-15);
+  EXPECT_NEAR(found.foot_points[0].distance, 1.2134181759280895, 1e-15);
+  EXPECT_EQ(found.foot_points[0].kind, FootPointKind::minimum);
+  EXPECT_NEAR(found.foot_points[1].t, 3.2843076863330900374, 1e-15);
+  EXPECT_NEAR(found.foot_points[1].distance, 5.4115698877204800, 2e-15);
+  EXPECT_EQ(found.foot_points[1].kind, FootPointKind::maximum);
 }
 
 TEST(PointOnCurve, AnEllipseSeenFromInsideItsEvoluteHasFour) {
   const Ellipse ellipse(Frame(), 3, 1);
-  const CurveFeet found = project({0.5, 0.25, 0}, ellipse);
-  ASSERT_EQ(found.feet.size(), 4u);
+  const CurveFootPoints found = project({0.5, 0.25, 0}, ellipse);
+  ASSERT_EQ(found.foot_points.size(), 4u);
   const double t[] = {1.3880560138528246, 4.9072895131392039, 6.2447076993398143, 3.1679100416171234};
   const double distance[] = {0.73473948417309830, 1.2337292720851672, 2.5143818735657148, 3.5098545222674713};
-  const FootKind kind[] = {FootKind::minimum, FootKind::minimum, FootKind::maximum, FootKind::maximum};
+  const FootPointKind kind[] = {FootPointKind::minimum, FootPointKind::minimum, FootPointKind::maximum,
+                                FootPointKind::maximum};
   for (int k = 0; k < 4; ++k) {
-    EXPECT_NEAR(found.feet[k].t, t[k], 2e-15);
-    EXPECT_NEAR(found.feet[k].distance, distance[k], 2e-15);
-    EXPECT_EQ(found.feet[k].kind, kind[k]);
+    EXPECT_NEAR(found.foot_points[k].t, t[k], 2e-15);
+    EXPECT_NEAR(found.foot_points[k].distance, distance[k], 2e-15);
+    EXPECT_EQ(found.foot_points[k].kind, kind[k]);
   }
 }
 
 TEST(PointOnCurve, TheCentreOfACircleIsAsFarFromAllOfIt) {
   const Circle circle(Frame(), 2);
-  const CurveFeet found = project({0, 0, 1}, circle);
+  const CurveFootPoints found = project({0, 0, 1}, circle);
   ASSERT_EQ(found.arcs.size(), 1u);
   EXPECT_EQ(found.arcs[0], circle.domain());
-  ASSERT_EQ(found.feet.size(), 1u);
-  EXPECT_NEAR(found.feet[0].distance, std::sqrt(5.0), 1e-15);
+  ASSERT_EQ(found.foot_points.size(), 1u);
+  EXPECT_NEAR(found.foot_points[0].distance, std::sqrt(5.0), 1e-15);
 }
 
 TEST(PointOnCurve, AnArcOfACircleHasEnds) {
   const Circle arc(Frame(), 2, {0, 1});
-  const CurveFeet found = project({0, -3, 0}, arc);
-  ASSERT_EQ(found.feet.size(), 1u);
-  EXPECT_EQ(found.feet[0].kind, FootKind::border);
-  EXPECT_EQ(found.feet[0].t, 0);
-  EXPECT_NEAR(found.feet[0].distance, std::sqrt(13.0), 1e-15);
+  const CurveFootPoints found = project({0, -3, 0}, arc);
+  ASSERT_EQ(found.foot_points.size(), 1u);
+  EXPECT_EQ(found.foot_points[0].kind, FootPointKind::border);
+  EXPECT_EQ(found.foot_points[0].t, 0);
+  EXPECT_NEAR(found.foot_points[0].distance, std::sqrt(13.0), 1e-15);
 }
 
 TEST(PointOnCurve, AKinkFarAlongAPolylineIsAFoot) {
@@ -69,8 +70,8 @@ TEST(PointOnCurve, AKinkFarAlongAPolylineIsAFoot) {
   for (int k = 0; k <= 100; ++k) points.emplace_back(0.1 * k, k % 2 ? 0.3 : 0.0, 0);
   const NurbsCurve zigzag = polyline(points);
   for (int k = 1; k < 100; k += 2) {
-    const CurveFoot nearest = project(Vec3(0.1 * k, 5, 0), zigzag).feet.at(0);
-    EXPECT_EQ(nearest.kind, FootKind::border);
+    const CurveFootPoint nearest = project(Vec3(0.1 * k, 5, 0), zigzag).foot_points.at(0);
+    EXPECT_EQ(nearest.kind, FootPointKind::border);
     EXPECT_NEAR(nearest.t, k, 1e-12);
     EXPECT_NEAR(nearest.distance, 4.7, 1e-14);
   }
@@ -78,36 +79,36 @@ TEST(PointOnCurve, AKinkFarAlongAPolylineIsAFoot) {
 
 TEST(PointOnSurface, ATorusHasFourFeet) {
   const TorusSurface torus(Frame(), 3, 1);
-  const SurfaceFeet found = project({1, 2, 2}, torus);
-  ASSERT_EQ(found.feet.size(), 4u);
-  EXPECT_NEAR(found.feet[0].u, 1.1071487177940905, 1e-15);
-  EXPECT_NEAR(found.feet[0].v, 1.9356601549083798, 1e-15);
-  EXPECT_NEAR(found.feet[0].distance, 1.1409325386385396, 1e-15);
-  EXPECT_EQ(found.feet[0].kind, FootKind::minimum);
-  EXPECT_EQ(found.feet[3].kind, FootKind::maximum);
+  const SurfaceFootPoints found = project({1, 2, 2}, torus);
+  ASSERT_EQ(found.foot_points.size(), 4u);
+  EXPECT_NEAR(found.foot_points[0].u, 1.1071487177940905, 1e-15);
+  EXPECT_NEAR(found.foot_points[0].v, 1.9356601549083798, 1e-15);
+  EXPECT_NEAR(found.foot_points[0].distance, 1.1409325386385396, 1e-15);
+  EXPECT_EQ(found.foot_points[0].kind, FootPointKind::minimum);
+  EXPECT_EQ(found.foot_points[3].kind, FootPointKind::maximum);
 }
 
 TEST(PointOnSurface, ASphereHasTwoFeet) {
   const SphereSurface sphere(Frame(), 2);
-  const SurfaceFeet found = project({1, 2, 2}, sphere);
-  ASSERT_EQ(found.feet.size(), 2u);
-  EXPECT_NEAR(found.feet[0].distance, 1, 1e-15);
-  EXPECT_NEAR(found.feet[1].distance, 5, 1e-15);
-  const SurfaceFeet above = project({0, 0, 5}, sphere);
-  ASSERT_EQ(above.feet.size(), 2u);
-  EXPECT_NEAR(above.feet[0].distance, 3, 1e-15);
-  EXPECT_NEAR(above.feet[1].distance, 7, 1e-15);
+  const SurfaceFootPoints found = project({1, 2, 2}, sphere);
+  ASSERT_EQ(found.foot_points.size(), 2u);
+  EXPECT_NEAR(found.foot_points[0].distance, 1, 1e-15);
+  EXPECT_NEAR(found.foot_points[1].distance, 5, 1e-15);
+  const SurfaceFootPoints above = project({0, 0, 5}, sphere);
+  ASSERT_EQ(above.foot_points.size(), 2u);
+  EXPECT_NEAR(above.foot_points[0].distance, 3, 1e-15);
+  EXPECT_NEAR(above.foot_points[1].distance, 7, 1e-15);
 }
 
 TEST(PointOnSurface, CornersEdgesAndInsideOfASquare) {
   const NurbsSurface square = bezier_surface(Grid<Vec3>{2, 2, {{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}}});
-  const auto nearest = [&](const Vec3& p) { return project(p, square).feet.at(0); };
-  EXPECT_EQ(nearest({1, 0.5, 3}).kind, FootKind::minimum);
+  const auto nearest = [&](const Vec3& p) { return project(p, square).foot_points.at(0); };
+  EXPECT_EQ(nearest({1, 0.5, 3}).kind, FootPointKind::minimum);
   EXPECT_NEAR(nearest({1, 0.5, 3}).distance, 3, 1e-15);
-  EXPECT_EQ(nearest({3, 0.5, 0}).kind, FootKind::border);
+  EXPECT_EQ(nearest({3, 0.5, 0}).kind, FootPointKind::border);
   EXPECT_NEAR(nearest({3, 0.5, 0}).distance, 1, 1e-15);
   EXPECT_NEAR(nearest({5, 6, 0}).distance, 5, 1e-15);
-  EXPECT_EQ(project({5, 6, 0}, square).feet.size(), 1u);
+  EXPECT_EQ(project({5, 6, 0}, square).foot_points.size(), 1u);
 }
 
 // Random points against halving of Bernstein forms.
@@ -126,9 +127,9 @@ Bernstein<3> way_from(const Vec3& p, const std::vector<Vec3>& points, const std:
   return way;
 }
 
-TEST(RandomFeet, NoneOnACurveIsLost) {
+TEST(RandomFootPoints, NoneOnACurveIsLost) {
   std::mt19937_64 random(3);
-  int compared = 0, feet = 0, unclear_points = 0;
+  int compared = 0, foot_points = 0, unclear_points = 0;
   for (int trial = tests::tier_count(10000); trial > 0; --trial) {
     const int n = 2 + trial % 6;
     std::vector<Vec3> points(n + 1);
@@ -144,27 +145,30 @@ TEST(RandomFeet, NoneOnACurveIsLost) {
       continue;
     }
     const NurbsCurve curve = bezier_curve(points);
-    const CurveFeet found = project(p, curve);
-    const auto stationary = std::count_if(found.feet.begin(), found.feet.end(),
-                                          [](const CurveFoot& foot) { return foot.kind != FootKind::border; });
+    const CurveFootPoints found = project(p, curve);
+    const auto stationary =
+        std::count_if(found.foot_points.begin(), found.foot_points.end(),
+                      [](const CurveFootPoint& foot_point) { return foot_point.kind != FootPointKind::border; });
     ++compared;
-    feet += static_cast<int>(truth.size());
+    foot_points += static_cast<int>(truth.size());
     EXPECT_EQ(stationary, static_cast<int>(truth.size())) << "trial " << trial;
     for (const auto& root : truth)
-      EXPECT_TRUE(std::any_of(found.feet.begin(), found.feet.end(),
-                              [&](const CurveFoot& foot) { return std::abs(foot.t - root[0]) < 1e-7; }))
+      EXPECT_TRUE(
+          std::any_of(found.foot_points.begin(), found.foot_points.end(),
+                      [&](const CurveFootPoint& foot_point) { return std::abs(foot_point.t - root[0]) < 1e-7; }))
           << "trial " << trial << " at " << root[0];
     // The first is the nearest of all points.
-    for (int k = 0; k <= 64; ++k) EXPECT_LE(found.feet[0].distance, glm::length(curve.point(k / 64.0) - p) + 1e-15);
+    for (int k = 0; k <= 64; ++k)
+      EXPECT_LE(found.foot_points[0].distance, glm::length(curve.point(k / 64.0) - p) + 1e-15);
   }
   EXPECT_LT(unclear_points, compared / 50 + 2);
   tests::report_figure("points", compared);
-  tests::report_figure("feet", feet);
+  tests::report_figure("feet", foot_points);
 }
 
-TEST(RandomFeet, NoneOnASurfaceIsLost) {
+TEST(RandomFootPoints, NoneOnASurfaceIsLost) {
   std::mt19937_64 random(4);
-  int compared = 0, feet = 0, unclear_points = 0;
+  int compared = 0, foot_points = 0, unclear_points = 0;
   using Two = std::array<Bernstein<1>, 2>;
   for (int trial = tests::tier_count(1000); trial > 0; --trial) {
     const int n = 1 + trial % 3, m = 1 + trial / 3 % 3;
@@ -187,26 +191,28 @@ TEST(RandomFeet, NoneOnASurfaceIsLost) {
       continue;
     }
     const NurbsSurface surface = bezier_surface(Grid<Vec3>{n + 1, m + 1, points});
-    const SurfaceFeet found = project(p, surface);
-    const auto stationary = std::count_if(found.feet.begin(), found.feet.end(),
-                                          [](const SurfaceFoot& foot) { return foot.kind != FootKind::border; });
+    const SurfaceFootPoints found = project(p, surface);
+    const auto stationary =
+        std::count_if(found.foot_points.begin(), found.foot_points.end(),
+                      [](const SurfaceFootPoint& foot_point) { return foot_point.kind != FootPointKind::border; });
     ++compared;
-    feet += static_cast<int>(truth.size());
+    foot_points += static_cast<int>(truth.size());
     EXPECT_EQ(stationary, static_cast<int>(truth.size())) << "trial " << trial;
     for (const auto& root : truth)
-      EXPECT_TRUE(std::any_of(found.feet.begin(), found.feet.end(),
-                              [&](const SurfaceFoot& foot) {
-                                return std::abs(foot.u - root[0]) < 1e-6 && std::abs(foot.v - root[1]) < 1e-6;
+      EXPECT_TRUE(std::any_of(found.foot_points.begin(), found.foot_points.end(),
+                              [&](const SurfaceFootPoint& foot_point) {
+                                return std::abs(foot_point.u - root[0]) < 1e-6 &&
+                                       std::abs(foot_point.v - root[1]) < 1e-6;
                               }))
           << "trial " << trial << " at " << root[0] << ", " << root[1];
     for (int i = 0; i <= 16; ++i)
       for (int j = 0; j <= 16; ++j)
-        EXPECT_LE(found.feet[0].distance, glm::length(surface.point(i / 16.0, j / 16.0) - p) + 1e-15);
+        EXPECT_LE(found.foot_points[0].distance, glm::length(surface.point(i / 16.0, j / 16.0) - p) + 1e-15);
   }
-  EXPECT_GT(feet, compared / 4);
+  EXPECT_GT(foot_points, compared / 4);
   EXPECT_LT(unclear_points, compared / 20 + 2);
   tests::report_figure("points", compared);
-  tests::report_figure("feet", feet);
+  tests::report_figure("feet", foot_points);
 }
 
 // Rational pieces are searched by the signs of polynomials, others by intervals: the same shape is seen as both.
@@ -230,16 +236,16 @@ class WithoutBezierPoints final : public Surface {
   SurfacePtr surface_;
 };
 
-template <class Feet>
-void expect_same_feet(const Feet& a, const Feet& b) {
-  ASSERT_EQ(a.feet.size(), b.feet.size());
-  std::vector<bool> taken(b.feet.size());
-  for (const auto& foot : a.feet) {
+template <class FootPoints>
+void expect_same_foot_points(const FootPoints& a, const FootPoints& b) {
+  ASSERT_EQ(a.foot_points.size(), b.foot_points.size());
+  std::vector<bool> taken(b.foot_points.size());
+  for (const auto& foot_point : a.foot_points) {
     size_t k = 0;
-    while (k < b.feet.size() &&
-           (taken[k] || b.feet[k].kind != foot.kind || !(glm::length(b.feet[k].point - foot.point) < 1e-10)))
+    while (k < b.foot_points.size() && (taken[k] || b.foot_points[k].kind != foot_point.kind ||
+                                        !(glm::length(b.foot_points[k].point - foot_point.point) < 1e-10)))
       ++k;
-    ASSERT_LT(k, b.feet.size()) << "no partner at the distance " << foot.distance;
+    ASSERT_LT(k, b.foot_points.size()) << "no partner at the distance " << foot_point.distance;
     taken[k] = true;
   }
 }
@@ -261,9 +267,9 @@ Vec3 random_place(std::mt19937_64& random, const Vec3& on) {
   return kind == 0 ? on : kind == 1 ? on + 1e-5 * p : kind == 2 ? 300.0 * p : p;
 }
 
-TEST(RandomFeet, OfCurvesByPolynomialsAndByIntervals) {
+TEST(RandomFootPoints, OfCurvesByPolynomialsAndByIntervals) {
   std::mt19937_64 random(8);
-  int feet = 0;
+  int foot_points = 0;
   for (int trial = tests::tier_count(5000); trial > 0; --trial) {
     SCOPED_TRACE(trial);
     CurvePtr curve;
@@ -283,17 +289,17 @@ TEST(RandomFeet, OfCurvesByPolynomialsAndByIntervals) {
     for (int k = 0; k < 4; ++k) {
       const Interval t = curve->domain();
       const Vec3 p = random_place(random, curve->point(t.lo + t.width() * unit(random)));
-      const CurveFeet found = by_polynomials.feet(p);
-      feet += static_cast<int>(found.feet.size());
-      expect_same_feet(found, by_intervals.feet(p));
+      const CurveFootPoints found = by_polynomials.foot_points(p);
+      foot_points += static_cast<int>(found.foot_points.size());
+      expect_same_foot_points(found, by_intervals.foot_points(p));
     }
   }
-  tests::report_figure("feet", feet);
+  tests::report_figure("feet", foot_points);
 }
 
-TEST(RandomFeet, OfSurfacesByPolynomialsAndByIntervals) {
+TEST(RandomFootPoints, OfSurfacesByPolynomialsAndByIntervals) {
   std::mt19937_64 random(9);
-  int feet = 0;
+  int foot_points = 0;
   for (int trial = tests::tier_count(1000); trial > 0; --trial) {
     SCOPED_TRACE(trial);
     SurfacePtr surface;
@@ -316,12 +322,12 @@ TEST(RandomFeet, OfSurfacesByPolynomialsAndByIntervals) {
       const Rectangle domain = surface->domain();
       const Vec3 p = random_place(random, surface->point(domain.u.lo + domain.u.width() * unit(random),
                                                          domain.v.lo + domain.v.width() * unit(random)));
-      const SurfaceFeet found = by_polynomials.feet(p);
-      feet += static_cast<int>(found.feet.size());
-      expect_same_feet(found, by_intervals.feet(p));
+      const SurfaceFootPoints found = by_polynomials.foot_points(p);
+      foot_points += static_cast<int>(found.foot_points.size());
+      expect_same_foot_points(found, by_intervals.foot_points(p));
     }
   }
-  tests::report_figure("feet", feet);
+  tests::report_figure("feet", foot_points);
 }
 
 }  // namespace

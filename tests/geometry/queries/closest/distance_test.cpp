@@ -81,7 +81,7 @@ TEST(CurveDistance, OfCoaxialCirclesIsTheSameAllAround) {
   EXPECT_EQ(found.minima[0].range_b[0], b.domain());
 }
 
-TEST(CurveDistance, MeetingsAreMinima) {
+TEST(CurveDistance, IntersectionsAreMinima) {
   const Circle circle(Frame(), 2);
   const Segment chord({-3, 1, 0}, {3, 1, 0}), tangent({-3, 2, 0}, {3, 2, 0});
   const Distance crossing = distance(&circle, &chord);
@@ -167,11 +167,11 @@ TEST(SurfaceDistance, OfSpheres) {
   ASSERT_EQ(concentric.minima.size(), 1u);
   EXPECT_FALSE(concentric.minima[0].isolated);
   EXPECT_LE(concentric.bound, concentric.distance);
-  const Distance meeting = distance(&a, &across);
-  EXPECT_TRUE(meeting.meet);
-  ASSERT_EQ(meeting.minima.size(), 1u);
-  EXPECT_NEAR(glm::length(meeting.minima[0].a.point), 1, 1e-14);
-  EXPECT_NEAR(glm::length(meeting.minima[0].a.point - Vec3(1, 0, 0)), 1, 1e-14);
+  const Distance intersection = distance(&a, &across);
+  EXPECT_TRUE(intersection.meet);
+  ASSERT_EQ(intersection.minima.size(), 1u);
+  EXPECT_NEAR(glm::length(intersection.minima[0].a.point), 1, 1e-14);
+  EXPECT_NEAR(glm::length(intersection.minima[0].a.point - Vec3(1, 0, 0)), 1, 1e-14);
 }
 
 TEST(SurfaceDistance, OfPlanes) {
@@ -264,7 +264,7 @@ TEST(BodyDistance, TrimsAreKept) {
 }
 
 TEST(BodyDistance, OfATrimmedSphereByItsRim) {
-  // A round patch of the parameter plane: the foot on the sphere where that lies in the patch, else on the rim.
+  // A round patch of the parameter plane: the foot point on the sphere where that lies in the patch, else on the rim.
   const auto sphere = std::make_shared<SphereSurface>(Frame(), 1);
   Frame middle;
   middle.origin = {2, 0.3, 0};
@@ -276,9 +276,9 @@ TEST(BodyDistance, OfATrimmedSphereByItsRim) {
   const int points = tests::tier_count(1000, 20);
   for (int k = 0; k < points; ++k) {
     const Vec3 p(number(), number(), number());
-    const Vec2 foot(std::atan2(p.y, p.x), std::asin(p.z / glm::length(p)));
+    const Vec2 foot_point(std::atan2(p.y, p.x), std::asin(p.z / glm::length(p)));
     double expected = std::abs(glm::length(p) - 1);
-    if (!(glm::length(foot - Vec2(middle.origin)) < 0.6)) {
+    if (!(glm::length(foot_point - Vec2(middle.origin)) < 0.6)) {
       ++on_rim;
       expected = kInfinity;
       for (int i = 0; i < 20000; ++i) {

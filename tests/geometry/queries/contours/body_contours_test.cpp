@@ -99,7 +99,7 @@ TEST(BodyContours, SolidsMeetInLoops) {
     }
   };
   int loops = 0, incomplete = 0, pairs = 0;
-  for (int k = 0; k < tests::tier_count(2000, tests::least_of_slow(100)); ++k, ++pairs) {
+  for (int k = 0; k < tests::tier_count(2000, tests::min_of_slow(100)); ++k, ++pairs) {
     const BodyContours found = intersect(solid(k), solid(k / 5));
     if (!found.complete) {
       ++incomplete;

@@ -424,7 +424,7 @@ TEST(Contours, IsophotesOfASphereAreParallels) {
     EXPECT_NEAR(glm::dot(found.branches[0].curve->point(0.5 * k) - Vec3(1, 2, 3), Vec3(1, 2, 2)) / 3, 1, 1e-13);
 }
 
-// Each point of a reflection line sends the way of sight to the lamp.
+// Each point of a reflection line sends the line of sight to the lamp.
 TEST(Contours, ReflectionLinesMeetTheLamp) {
   const SurfacePtr ring = torus(3, 1);
   const Vec3 eye(2, -9, 5);

@@ -100,8 +100,8 @@ TEST(PoleContours, OutlinesOfEllipsoidsAreImagesOfCircles) {
   }
 }
 
-// The lemon (sin v cos u, sin v sin u, v) has the normal (cos u, sin u, -cos v). Seen along (1, 0, k) its outline is
-// cos u = k cos v: two curves from tip to tip for |k| < 1, else one about the middle.
+// The lemon (sin v cos u, sin v sin u, v) has the normal (cos u, sin u, -cos v). Interaction along (1, 0, k) its
+// outline is cos u = k cos v: two curves from tip to tip for |k| < 1, else one about the middle.
 TEST(PoleContours, OutlinesOfALemonRunThroughItsTips) {
   const SurfacePtr lemon =
       formula_surface({"cos(u)*sin(v)", "sin(u)*sin(v)", "v"}, {kRound, kColatitudes}, {true, false});

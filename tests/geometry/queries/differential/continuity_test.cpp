@@ -89,9 +89,9 @@ TEST(SurfaceContinuity, EachOrderHasItsJumpAtItsWorstPlace) {
         const NurbsSurface sheet = power_sheet(k, 0.25, shear, edge);
         const std::vector<SurfaceJoint> found = joints(floor, sheet);
         ASSERT_EQ(found.size(), 1u) << edge;
-        EXPECT_EQ(found[0].a.held, HeldParameter::u);
+        EXPECT_EQ(found[0].a.held, IsoDirection::u);
         EXPECT_EQ(found[0].a.at, 1);
-        EXPECT_EQ(found[0].b.held, edge < 2 ? HeldParameter::u : HeldParameter::v);
+        EXPECT_EQ(found[0].b.held, edge < 2 ? IsoDirection::u : IsoDirection::v);
         EXPECT_EQ(found[0].b.at, edge % 2);
         const Continuity& joint = found[0].continuity;
         EXPECT_EQ(joint.order, k - 1);

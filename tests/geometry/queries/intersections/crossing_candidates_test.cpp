@@ -1,4 +1,4 @@
-// Places where curves may pass through surfaces: none of the certified meetings may be missing among them.
+// Places where curves may pass through surfaces: none of the certified intersections may be missing among them.
 #include "geometry/queries/intersections/crossing_candidates.h"
 
 #include <gtest/gtest.h>
@@ -22,11 +22,11 @@ namespace {
 constexpr double kTouch = 1e-9;
 constexpr int kMany = 1 << 20;
 
-std::vector<double> passages(const Curve& curve, const Surface& surface, double end_share = 1e-6) {
+std::vector<double> crossing_candidates(const Curve& curve, const Surface& surface, double end_share = 1e-6) {
   CurveCells cells(curve, end_share);
   SurfaceCells of_surface(surface);
   std::vector<double> places;
-  EXPECT_TRUE(add_passages(cells, of_surface, kTouch, kMany, kMany, places));
+  EXPECT_TRUE(add_crossing_candidates(cells, of_surface, kTouch, kMany, kMany, places));
   std::sort(places.begin(), places.end());
   // A place on a border of cells comes from each of them.
   places.erase(std::unique(places.begin(), places.end(), [](double a, double b) { return b - a < 1e-8; }),
@@ -36,29 +36,30 @@ std::vector<double> passages(const Curve& curve, const Surface& surface, double 
 
 TEST(Passages, OfASegmentThroughASphere) {
   const SphereSurface sphere(Frame(), 1);
-  const std::vector<double> places = passages(Segment({-2, 0.6, 0}, {2, 0.6, 0}), sphere);
+  const std::vector<double> places = crossing_candidates(Segment({-2, 0.6, 0}, {2, 0.6, 0}), sphere);
   ASSERT_EQ(places.size(), 2u);
   EXPECT_NEAR(places[0], 0.3, 1e-14);
   EXPECT_NEAR(places[1], 0.7, 1e-14);
-  EXPECT_TRUE(passages(Segment({-2, 1.0001, 0}, {2, 1.0001, 0}), sphere).empty());
+  EXPECT_TRUE(crossing_candidates(Segment({-2, 1.0001, 0}, {2, 1.0001, 0}), sphere).empty());
 }
 
 // A line through a cell's corner, an edge of the domain and a pole.
 TEST(Passages, AtBordersOfCells) {
   const SphereSurface sphere(Frame(), 1);
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
-    const std::vector<double> places = passages(Segment(-2.0 * glm::normalize(way), 2.0 * glm::normalize(way)), sphere);
+    const std::vector<double> places =
+        crossing_candidates(Segment(-2.0 * glm::normalize(way), 2.0 * glm::normalize(way)), sphere);
     for (const double expected : {0.25, 0.75})
       EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - expected) < 1e-9; }))
           << way.x << way.y << way.z;
   }
 }
 
-TEST(Passages, AreTheCertifiedMeetings) {
+TEST(Passages, AreTheCertifiedIntersections) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1, 1), weight(0.3, 3);
   const auto point = [&] { return Vec3(unit(random), unit(random), unit(random)); };
-  int meetings = 0, more = 0;
+  int intersections = 0, more = 0;
   for (int k = 0; k < tests::tier_count(5000, 100); ++k) {
     Grid<Vec3> net{4, 3, {}};
     for (int i = 0; i < 4; ++i)
@@ -67,16 +68,16 @@ TEST(Passages, AreTheCertifiedMeetings) {
     std::vector<Vec3> points{point(), point(), point(), point()};
     const std::vector<double> weights{1, weight(random), weight(random), 1};
     const NurbsCurve curve = bezier_curve(points, weights);
-    const std::vector<double> places = passages(curve, patch, 0);
-    const SurfaceMeetings met = intersect(curve, patch);
-    for (const SurfaceMeeting& one : met.points) {
-      ++meetings;
+    const std::vector<double> places = crossing_candidates(curve, patch, 0);
+    const SurfaceIntersections met = intersect(curve, patch);
+    for (const SurfaceIntersection& one : met.points) {
+      ++intersections;
       EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - one.t) < 1e-7; })) << k;
     }
     more += static_cast<int>(places.size() > met.points.size());
   }
-  EXPECT_GT(meetings, 50);
-  tests::report_figure("meetings", meetings);
+  EXPECT_GT(intersections, 50);
+  tests::report_figure("meetings", intersections);
   tests::report_figure("with_more_places", more);
 }
 
@@ -85,7 +86,7 @@ TEST(Passages, OfCurvesThatBeginOnABorder) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto point = [&] { return Vec3(unit(random), unit(random), unit(random)); };
-  int meetings = 0, more = 0;
+  int intersections = 0, more = 0;
   for (int k = 0; k < tests::tier_count(20000, 200); ++k) {
     Grid<Vec3> net{4, 4, {}};
     for (int i = 0; i < 4; ++i)
@@ -99,28 +100,28 @@ TEST(Passages, OfCurvesThatBeginOnABorder) {
     std::vector<Vec3> points{at.point(), at.point() + 0.5 * tangent, 1.5 * point(), 1.5 * point()};
     if (k % 5 == 0) std::reverse(points.begin(), points.end());
     const NurbsCurve curve = bezier_curve(points, {});
-    const std::vector<double> places = passages(curve, patch);
+    const std::vector<double> places = crossing_candidates(curve, patch);
     size_t expected = 0;
-    for (const SurfaceMeeting& one : intersect(curve, patch).points) {
+    for (const SurfaceIntersection& one : intersect(curve, patch).points) {
       if (one.t < 2e-6 || one.t > 1 - 2e-6 || one.contact) continue;
-      ++meetings, ++expected;
+      ++intersections, ++expected;
       // Or the ends of a stretch where it is nearer than kTouch.
       EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double t) { return std::abs(t - one.t) < 1e-5; })) << k;
     }
     more += static_cast<int>(places.size() > expected);
   }
-  EXPECT_GT(meetings, 50);
-  tests::report_figure("meetings", meetings);
+  EXPECT_GT(intersections, 50);
+  tests::report_figure("meetings", intersections);
   tests::report_figure("with_more_places", more);
 }
 
 TEST(Passages, KnowWhatRunsAlong) {
   const auto ring = std::make_shared<TorusSurface>(Frame(), 2.0, 0.7);
-  const ParameterLine line(ring, HeldParameter::v, 0.4);
+  const ParameterLine line(ring, IsoDirection::v, 0.4);
   CurveCells cells(line);
   SurfaceCells of_ring(*ring);
   std::vector<double> places{0.5};
-  EXPECT_FALSE(add_passages(cells, of_ring, kTouch, 6, kMany, places));
+  EXPECT_FALSE(add_crossing_candidates(cells, of_ring, kTouch, 6, kMany, places));
   EXPECT_EQ(places, std::vector<double>{0.5});
   for (const double t : {0.1, 2.0, 5.5}) EXPECT_TRUE(of_ring.holds(line.point(t), 1e-12));
   EXPECT_FALSE(of_ring.holds(line.point(1.0) + Vec3(0, 0, 1e-9), 1e-12));
@@ -130,8 +131,8 @@ TEST(Passages, KnowWhatRunsAlong) {
 TEST(Passages, EndsThatTouchAreNone) {
   const auto ball = std::make_shared<SphereSurface>(Frame(), 1.0);
   const SphereSurface cap(Frame(), 1.0, Rectangle{{0, kTwoPi}, {0.3, kPi / 2}});
-  const ParameterLine below(ball, HeldParameter::u, 1.1, Interval(-1.2, 0.3));
-  EXPECT_TRUE(passages(below, cap).empty());
+  const ParameterLine below(ball, IsoDirection::u, 1.1, Interval(-1.2, 0.3));
+  EXPECT_TRUE(crossing_candidates(below, cap).empty());
 }
 
 }  // namespace

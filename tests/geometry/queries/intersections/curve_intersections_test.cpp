@@ -1,4 +1,4 @@
-// Meetings of curves with curves and surfaces: the checks of Golovanov 2016, 4.3 and 4.4, closed forms, and random
+// Intersections of curves with curves and surfaces: the checks of Golovanov 2016, 4.3 and 4.4, closed forms, and random
 // pairs against counts of chords.
 #include "geometry/queries/intersections/curve_intersections.h"
 
@@ -27,7 +27,7 @@ Frame at(const Vec3& origin) {
 }
 
 TEST(TwoCurves, SegmentsCrossInTheMiddle) {
-  const CurveMeetings met = intersect(Segment({0, 0, 0}, {4, 2, 0}), Segment({1, 3, 0}, {3, -1, 0}));
+  const CurveIntersections met = intersect(Segment({0, 0, 0}, {4, 2, 0}), Segment({1, 3, 0}, {3, -1, 0}));
   ASSERT_EQ(met.points.size(), 1u);
   EXPECT_NEAR(met.points[0].s, 0.5, 1e-15);
   EXPECT_NEAR(met.points[0].t, 0.5, 1e-15);
@@ -42,9 +42,9 @@ TEST(TwoCurves, SegmentsThatPassEachOtherInSpaceDoNotMeet) {
 TEST(TwoCurves, CrossedEllipsesMeetInFourPoints) {
   Frame turned;
   turned.x = {0, 1, 0}, turned.y = {-1, 0, 0};
-  const CurveMeetings met = intersect(Ellipse(Frame(), 3, 1), Ellipse(turned, 3, 1));
+  const CurveIntersections met = intersect(Ellipse(Frame(), 3, 1), Ellipse(turned, 3, 1));
   ASSERT_EQ(met.points.size(), 4u);
-  for (const CurveMeeting& one : met.points) {
+  for (const CurveIntersection& one : met.points) {
     EXPECT_NEAR(std::abs(one.point.x), std::sqrt(0.9), 1e-15);
     EXPECT_NEAR(std::abs(one.point.y), std::sqrt(0.9), 1e-15);
     EXPECT_FALSE(one.contact);
@@ -53,7 +53,7 @@ TEST(TwoCurves, CrossedEllipsesMeetInFourPoints) {
 
 TEST(TwoCurves, CirclesTouchFromOutsideAndFromInside) {
   for (const double x : {3.0, 1.0}) {
-    const CurveMeetings met = intersect(Circle(Frame(), 2), Circle(at({x, 0, 0}), 1));
+    const CurveIntersections met = intersect(Circle(Frame(), 2), Circle(at({x, 0, 0}), 1));
     ASSERT_EQ(met.points.size(), 1u) << x;
     EXPECT_TRUE(met.points[0].contact);
     EXPECT_LT(glm::length(met.points[0].point - Vec3(2, 0, 0)), 1e-14);
@@ -68,7 +68,7 @@ TEST(TwoCurves, CirclesThatNearlyTouchAreToldApart) {
 // Cubics through the origin, flat there to the second order: a crossing with parallel tangents.
 TEST(TwoCurves, AnInflectionCrossesItsTangent) {
   const NurbsCurve cubic = bezier_curve(std::vector<Vec3>{{-1, -1, 0}, {-1.0 / 3, 1, 0}, {1.0 / 3, -1, 0}, {1, 1, 0}});
-  const CurveMeetings met = intersect(cubic, Segment({-1, 0, 0}, {1, 0, 0}));
+  const CurveIntersections met = intersect(cubic, Segment({-1, 0, 0}, {1, 0, 0}));
   ASSERT_EQ(met.points.size(), 1u);
   EXPECT_TRUE(met.points[0].contact);
   EXPECT_NEAR(met.points[0].s, 0.5, 1e-3);  // y stays below the tolerance as far as its cube root
@@ -76,7 +76,7 @@ TEST(TwoCurves, AnInflectionCrossesItsTangent) {
 
 TEST(TwoCurves, AlmostParallelSegmentsCross) {
   for (const double slope : {1e-3, 1e-5, 1e-7}) {
-    const CurveMeetings met = intersect(Segment({-1, 0, 0}, {1, 0, 0}), Segment({-1, -slope, 0}, {1, slope, 0}));
+    const CurveIntersections met = intersect(Segment({-1, 0, 0}, {1, 0, 0}), Segment({-1, -slope, 0}, {1, slope, 0}));
     ASSERT_EQ(met.points.size(), 1u) << slope;
     EXPECT_NEAR(met.points[0].s, 0.5, 1e-15 / slope) << slope;
   }
@@ -84,7 +84,7 @@ TEST(TwoCurves, AlmostParallelSegmentsCross) {
 
 TEST(TwoCurves, ArcsOfOneCircleHaveAPartInCommon) {
   const Circle whole(Frame(), 2), arc(Frame(), 2, {-1, 1});
-  const CurveMeetings met = intersect(arc, whole);
+  const CurveIntersections met = intersect(arc, whole);
   EXPECT_TRUE(met.points.empty());
   ASSERT_EQ(met.common.size(), 1u);
   EXPECT_NEAR(met.common[0].s.lo, -1, 1e-12);
@@ -93,7 +93,7 @@ TEST(TwoCurves, ArcsOfOneCircleHaveAPartInCommon) {
 }
 
 TEST(TwoCurves, SegmentsOnOneLineShareWhatBothCover) {
-  const CurveMeetings met = intersect(Segment({0, 0, 0}, {4, 2, 0}), Segment({6, 3, 0}, {2, 1, 0}));
+  const CurveIntersections met = intersect(Segment({0, 0, 0}, {4, 2, 0}), Segment({6, 3, 0}, {2, 1, 0}));
   EXPECT_TRUE(met.points.empty());
   ASSERT_EQ(met.common.size(), 1u);
   EXPECT_NEAR(met.common[0].s.lo, 0.5, 1e-12);
@@ -103,17 +103,17 @@ TEST(TwoCurves, SegmentsOnOneLineShareWhatBothCover) {
 }
 
 TEST(CurveAndSurface, ALineMeetsAPlane) {
-  const SurfaceMeetings met = intersect(Segment({0, 0, 5}, {0, 5, -5}), Plane(at({0, 0, 1})));
+  const SurfaceIntersections met = intersect(Segment({0, 0, 5}, {0, 5, -5}), Plane(at({0, 0, 1})));
   ASSERT_EQ(met.points.size(), 1u);
   EXPECT_LT(glm::length(met.points[0].point - Vec3(0, 2, 1)), 1e-15);
 }
 
 TEST(CurveAndSurface, ALineMeetsTouchesOrMissesASphere) {
   const SphereSurface sphere(Frame(), 2);
-  const SurfaceMeetings through = intersect(Segment({-5, 0.5, 0.25}, {5, 0.5, 0.25}), sphere);
+  const SurfaceIntersections through = intersect(Segment({-5, 0.5, 0.25}, {5, 0.5, 0.25}), sphere);
   ASSERT_EQ(through.points.size(), 2u);
-  for (const SurfaceMeeting& one : through.points) EXPECT_NEAR(glm::length(one.point), 2, 1e-15);
-  const SurfaceMeetings along =
+  for (const SurfaceIntersection& one : through.points) EXPECT_NEAR(glm::length(one.point), 2, 1e-15);
+  const SurfaceIntersections along =
       intersect(Segment({-5, 2 * std::cos(0.3), 2 * std::sin(0.3)}, {5, 2 * std::cos(0.3), 2 * std::sin(0.3)}), sphere);
   ASSERT_EQ(along.points.size(), 1u);
   EXPECT_TRUE(along.points[0].contact);
@@ -123,7 +123,7 @@ TEST(CurveAndSurface, ALineMeetsTouchesOrMissesASphere) {
 
 TEST(CurveAndSurface, ASmallCurveMeetsALargeSurface) {
   const SphereSurface sphere(Frame(), 1000);
-  const SurfaceMeetings met = intersect(Segment({999.999, 0.5, 0.25}, {1000.001, 0.5, 0.25}), sphere);
+  const SurfaceIntersections met = intersect(Segment({999.999, 0.5, 0.25}, {1000.001, 0.5, 0.25}), sphere);
   ASSERT_EQ(met.points.size(), 1u);
   EXPECT_NEAR(glm::length(met.points[0].point), 1000, 1e-12);
   EXPECT_TRUE(met.on_surface.empty());
@@ -131,7 +131,7 @@ TEST(CurveAndSurface, ASmallCurveMeetsALargeSurface) {
 
 TEST(CurveAndSurface, ACircleLiesOnACylinderAsFarAsThatGoes) {
   const CylinderSurface half(at({0, 0, -1}), 2, 2, {{0, kPi}, {0, 1}});
-  const SurfaceMeetings met = intersect(Circle(Frame(), 2), half);
+  const SurfaceIntersections met = intersect(Circle(Frame(), 2), half);
   EXPECT_TRUE(met.points.empty());
   ASSERT_EQ(met.on_surface.size(), 1u);
   EXPECT_NEAR(met.on_surface[0].lo, 0, 1e-9);
@@ -182,7 +182,7 @@ bool boxes_meet(const Pair& pair) {
   return true;
 }
 
-TEST(RandomCurves, NoMeetingInThePlaneIsLost) {
+TEST(RandomCurves, NoIntersectionInThePlaneIsLost) {
   std::mt19937_64 random(1);
   int compared = 0, met = 0, unclear_pairs = 0;
   for (int trial = tests::tier_count(10000); trial > 0; --trial) {
@@ -202,18 +202,19 @@ TEST(RandomCurves, NoMeetingInThePlaneIsLost) {
       ++unclear_pairs;
       continue;
     }
-    const CurveMeetings found = intersect(bezier_curve(pa.points, pa.weights), bezier_curve(pb.points, pb.weights));
+    const CurveIntersections found =
+        intersect(bezier_curve(pa.points, pa.weights), bezier_curve(pb.points, pb.weights));
     ++compared;
     met += static_cast<int>(truth.size());
     EXPECT_EQ(found.points.size(), truth.size()) << "pair " << trial;
     EXPECT_TRUE(found.common.empty());
     for (const auto& root : truth)
       EXPECT_TRUE(std::any_of(found.points.begin(), found.points.end(),
-                              [&](const CurveMeeting& one) {
+                              [&](const CurveIntersection& one) {
                                 return std::abs(one.s - root[0]) < 1e-6 && std::abs(one.t - root[1]) < 1e-6;
                               }))
           << "pair " << trial << " at " << root[0] << ", " << root[1];
-    for (const CurveMeeting& one : found.points) EXPECT_LT(one.distance, 1e-13);
+    for (const CurveIntersection& one : found.points) EXPECT_LT(one.distance, 1e-13);
   }
   EXPECT_GT(met, compared / 2);
   EXPECT_LT(unclear_pairs, compared / 50 + 2);
@@ -221,7 +222,7 @@ TEST(RandomCurves, NoMeetingInThePlaneIsLost) {
   tests::report_figure("meetings", met);
 }
 
-TEST(RandomCurves, NoMeetingWithASurfaceIsLost) {
+TEST(RandomCurves, NoIntersectionWithASurfaceIsLost) {
   std::mt19937_64 random(2);
   int compared = 0, met = 0, unclear_pairs = 0;
   for (int trial = tests::tier_count(1000); trial > 0; --trial) {
@@ -242,19 +243,19 @@ TEST(RandomCurves, NoMeetingWithASurfaceIsLost) {
       ++unclear_pairs;
       continue;
     }
-    const SurfaceMeetings found =
+    const SurfaceIntersections found =
         intersect(bezier_curve(curve.points, curve.weights), bezier_surface(Grid<Vec3>{4, 4, net.points}, net.weights));
     ++compared;
     met += static_cast<int>(truth.size());
     EXPECT_EQ(found.points.size(), truth.size()) << "pair " << trial;
     for (const auto& root : truth)
       EXPECT_TRUE(std::any_of(found.points.begin(), found.points.end(),
-                              [&](const SurfaceMeeting& one) {
+                              [&](const SurfaceIntersection& one) {
                                 return std::abs(one.t - root[0]) < 1e-4 && std::abs(one.u - root[1]) < 1e-4 &&
                                        std::abs(one.v - root[2]) < 1e-4;
                               }))
           << "pair " << trial << " at " << root[0];
-    for (const SurfaceMeeting& one : found.points) EXPECT_LT(one.distance, 1e-13);
+    for (const SurfaceIntersection& one : found.points) EXPECT_LT(one.distance, 1e-13);
   }
   EXPECT_GT(met, compared / 4);
   tests::report_figure("pairs", compared);

@@ -33,95 +33,98 @@ SurfacePtr surface(const std::array<std::string, 3>& point, const Rectangle& dom
   return std::make_shared<FormulaSurface>(point_formulas(point, {"u", "v"}, Coordinates::cartesian), domain, closed);
 }
 
-void check_meets(const Curve& one, const CurveSelfMeetings& found) {
-  for (const CurveSelfMeeting& meeting : found.points) {
-    EXPECT_LE(meeting.s, meeting.t);
-    EXPECT_LT(glm::length(one.point(meeting.s) - one.point(meeting.t)), 1e-12);
-    EXPECT_LT(glm::length(one.point(meeting.s) - meeting.point), 1e-12);
-    EXPECT_EQ(meeting.kind == SelfMeetingKind::cusp, meeting.s == meeting.t);
+void check_meets(const Curve& one, const CurveSelfIntersections& found) {
+  for (const CurveSelfIntersection& intersection : found.points) {
+    EXPECT_LE(intersection.s, intersection.t);
+    EXPECT_LT(glm::length(one.point(intersection.s) - one.point(intersection.t)), 1e-12);
+    EXPECT_LT(glm::length(one.point(intersection.s) - intersection.point), 1e-12);
+    EXPECT_EQ(intersection.kind == SelfIntersectionKind::cusp, intersection.s == intersection.t);
   }
 }
 // The same with the number of points of one kind, and none of another.
-CurveSelfMeetings meetings_of(const Curve& one, size_t count, SelfMeetingKind kind = SelfMeetingKind::crossing) {
-  const CurveSelfMeetings found = self_intersections(one);
+CurveSelfIntersections intersections_of(const Curve& one, size_t count,
+                                        SelfIntersectionKind kind = SelfIntersectionKind::crossing) {
+  const CurveSelfIntersections found = self_intersections(one);
   EXPECT_EQ(found.points.size(), count);
-  for (const CurveSelfMeeting& meeting : found.points) EXPECT_EQ(meeting.kind, kind) << meeting.s << " " << meeting.t;
+  for (const CurveSelfIntersection& intersection : found.points)
+    EXPECT_EQ(intersection.kind, kind) << intersection.s << " " << intersection.t;
   check_meets(one, found);
   return found;
 }
 
 TEST(CurveWithItself, NodesOfPlaneCurves) {
-  const CurveSelfMeetings node = meetings_of(curve({"t^2-1", "t^3-t", "0"}, {-2, 1.7}), 1);
+  const CurveSelfIntersections node = intersections_of(curve({"t^2-1", "t^3-t", "0"}, {-2, 1.7}), 1);
   EXPECT_NEAR(node.points[0].s, -1, 1e-14);
   EXPECT_NEAR(node.points[0].t, 1, 1e-14);
-  const CurveSelfMeetings limacon =
-      meetings_of(curve({"(1+2*cos(t))*cos(t)", "(1+2*cos(t))*sin(t)", "0"}, {0, kTurn}, true), 1);
+  const CurveSelfIntersections limacon =
+      intersections_of(curve({"(1+2*cos(t))*cos(t)", "(1+2*cos(t))*sin(t)", "0"}, {0, kTurn}, true), 1);
   EXPECT_NEAR(limacon.points[0].s, kTurn / 3, 1e-14);
   EXPECT_NEAR(limacon.points[0].t, 2 * kTurn / 3, 1e-14);
-  meetings_of(curve({"sin(t)+2*sin(2*t)", "cos(t)-2*cos(2*t)", "0"}, {0, kTurn}, true), 3);
+  intersections_of(curve({"sin(t)+2*sin(2*t)", "cos(t)-2*cos(2*t)", "0"}, {0, kTurn}, true), 3);
   // A loop of a part in 10000 of the curve.
-  meetings_of(curve({"t^2-1e-8", "t^3-1e-8*t", "0"}, {-2, 1.7}), 1);
+  intersections_of(curve({"t^2-1e-8", "t^3-1e-8*t", "0"}, {-2, 1.7}), 1);
 }
 
 // sin(a t), sin(b t + phase) crosses itself in 2 a b - a - b points.
 TEST(CurveWithItself, LissajousFiguresHaveTheirNumberOfNodes) {
-  meetings_of(curve({"sin(3*t)", "sin(2*t+0.3)", "0"}, {0, kTurn}, true), 7);
-  meetings_of(curve({"sin(9*t)", "sin(8*t+0.3)", "0"}, {0, kTurn}, true), 127);
+  intersections_of(curve({"sin(3*t)", "sin(2*t+0.3)", "0"}, {0, kTurn}, true), 7);
+  intersections_of(curve({"sin(9*t)", "sin(8*t+0.3)", "0"}, {0, kTurn}, true), 127);
 }
 
 TEST(CurveWithItself, ANodeOnTheSeamCountsOnce) {
-  const CurveSelfMeetings eight = meetings_of(curve({"sin(t)", "sin(2*t)", "0"}, {0, kTurn}, true), 1);
+  const CurveSelfIntersections eight = intersections_of(curve({"sin(t)", "sin(2*t)", "0"}, {0, kTurn}, true), 1);
   EXPECT_NEAR(eight.points[0].s, 0, 1e-14);
   EXPECT_NEAR(eight.points[0].t, kPi, 1e-14);
 }
 
 TEST(CurveWithItself, KnotsSeamsAndCornersAreNone) {
-  meetings_of(Circle(Frame(), 2), 0);
-  meetings_of(curve({"sin(t)+2*sin(2*t)", "cos(t)-2*cos(2*t)", "-sin(3*t)"}, {0, kTurn}, true), 0);
-  meetings_of(curve({"cos(t)", "sin(t)", "0"}, {0, kTurn}), 0);
+  intersections_of(Circle(Frame(), 2), 0);
+  intersections_of(curve({"sin(t)+2*sin(2*t)", "cos(t)-2*cos(2*t)", "-sin(3*t)"}, {0, kTurn}, true), 0);
+  intersections_of(curve({"cos(t)", "sin(t)", "0"}, {0, kTurn}), 0);
   const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  meetings_of(polyline(square, true), 0);
+  intersections_of(polyline(square, true), 0);
   const std::vector<Vec3> needle{{0, 0, 0}, {1, 0, 0}, {0, 0.002, 0}};
-  meetings_of(polyline(needle, false), 0);
+  intersections_of(polyline(needle, false), 0);
 }
 
 TEST(CurveWithItself, CrossingsOfAPentagram) {
   std::vector<Vec3> points;
   for (int k = 0; k < 5; ++k) points.push_back({std::cos(2 * k * kTurn / 5), std::sin(2 * k * kTurn / 5), 0});
-  const CurveSelfMeetings found = meetings_of(polyline(points, true), 5);
-  for (const CurveSelfMeeting& one : found.points)
+  const CurveSelfIntersections found = intersections_of(polyline(points, true), 5);
+  for (const CurveSelfIntersection& one : found.points)
     EXPECT_NEAR(glm::length(one.point), std::cos(kTurn / 5) / std::cos(kTurn / 10), 1e-14);
 }
 
 TEST(CurveWithItself, CuspsAreNamed) {
-  EXPECT_NEAR(meetings_of(curve({"t^2", "t^3", "0"}, {-2, 1.7}), 1, SelfMeetingKind::cusp).points[0].s, 0, 1e-15);
-  meetings_of(curve({"t^2", "t^3", "t^4"}, {-1, 1}), 1, SelfMeetingKind::cusp);
-  meetings_of(curve({"t-sin(t)", "1-cos(t)", "0"}, {-7, 14}), 4, SelfMeetingKind::cusp);
-  meetings_of(curve({"cos(t)^3", "sin(t)^3", "0"}, {0, kTurn}, true), 4, SelfMeetingKind::cusp);
+  EXPECT_NEAR(intersections_of(curve({"t^2", "t^3", "0"}, {-2, 1.7}), 1, SelfIntersectionKind::cusp).points[0].s, 0,
+              1e-15);
+  intersections_of(curve({"t^2", "t^3", "t^4"}, {-1, 1}), 1, SelfIntersectionKind::cusp);
+  intersections_of(curve({"t-sin(t)", "1-cos(t)", "0"}, {-7, 14}), 4, SelfIntersectionKind::cusp);
+  intersections_of(curve({"cos(t)^3", "sin(t)^3", "0"}, {0, kTurn}, true), 4, SelfIntersectionKind::cusp);
   // On its way back the parabola leaves the way there: no part is common.
-  meetings_of(curve({"t^2", "t^4+t^5/2", "0"}, {-1, 1}), 1, SelfMeetingKind::cusp);
+  intersections_of(curve({"t^2", "t^4+t^5/2", "0"}, {-1, 1}), 1, SelfIntersectionKind::cusp);
 }
 
 TEST(CurveWithItself, TouchesItself) {
-  const CurveSelfMeetings found =
-      meetings_of(curve({"cos(t)", "sin(t)*cos(t)^2", "0"}, {0.1, kTurn - 0.1}), 1, SelfMeetingKind::contact);
+  const CurveSelfIntersections found =
+      intersections_of(curve({"cos(t)", "sin(t)*cos(t)^2", "0"}, {0.1, kTurn - 0.1}), 1, SelfIntersectionKind::contact);
   EXPECT_NEAR(found.points[0].s, kPi / 2, 1e-9);
   EXPECT_NEAR(found.points[0].t, 3 * kPi / 2, 1e-9);
 }
 
 TEST(CurveWithItself, PartsRunTwice) {
-  const CurveSelfMeetings twice = meetings_of(curve({"cos(t)", "sin(t)", "0"}, {0, 2 * kTurn}), 0);
+  const CurveSelfIntersections twice = intersections_of(curve({"cos(t)", "sin(t)", "0"}, {0, 2 * kTurn}), 0);
   ASSERT_EQ(twice.common.size(), 1u);
   EXPECT_NEAR(twice.common[0].s.lo, 0, 1e-12);
   EXPECT_NEAR(twice.common[0].s.hi, kTurn, 1e-12);
   EXPECT_NEAR(twice.common[0].begin, kTurn, 1e-12);
   EXPECT_NEAR(twice.common[0].end, 2 * kTurn, 1e-12);
   const std::vector<Vec3> there_and_back{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-  const CurveSelfMeetings back = meetings_of(polyline(there_and_back, false), 0);
+  const CurveSelfIntersections back = intersections_of(polyline(there_and_back, false), 0);
   ASSERT_EQ(back.common.size(), 1u);
   EXPECT_NEAR(back.common[0].begin, 2, 1e-12);
   EXPECT_NEAR(back.common[0].end, 1, 1e-12);
-  const CurveSelfMeetings folded = meetings_of(curve({"t^2", "t^4", "0"}, {-1, 1}), 0);
+  const CurveSelfIntersections folded = intersections_of(curve({"t^2", "t^4", "0"}, {-1, 1}), 0);
   ASSERT_EQ(folded.common.size(), 1u);
   EXPECT_NEAR(folded.common[0].s.hi, 0, 1e-8);
   // Three times over a half turn: each pair of runs.
@@ -149,7 +152,7 @@ TEST(CurveWithItself, RandomPlaneCurvesAgainstChords) {
   std::mt19937 random(71);
   std::uniform_real_distribution<double> d(-1, 1);
   const int curves = tests::tier_count(2000, 40);
-  int meetings = 0, unclear = 0;
+  int intersections = 0, unclear = 0;
   for (int k = 0; k < curves; ++k) {
     std::vector<Vec3> points;
     std::vector<double> weights;
@@ -163,14 +166,14 @@ TEST(CurveWithItself, RandomPlaneCurvesAgainstChords) {
       ++unclear;
       continue;
     }
-    const CurveSelfMeetings found = self_intersections(one);
+    const CurveSelfIntersections found = self_intersections(one);
     EXPECT_EQ(static_cast<int>(found.points.size()), fine) << k;
     check_meets(one, found);
-    meetings += fine;
+    intersections += fine;
   }
-  EXPECT_GT(meetings, curves / 4);
+  EXPECT_GT(intersections, curves / 4);
   EXPECT_LE(unclear, 1 + curves / 100);
-  tests::report_figure("self_meetings_of_curves", meetings);
+  tests::report_figure("self_meetings_of_curves", intersections);
 }
 
 // What each branch promises.
@@ -292,7 +295,7 @@ TEST(SurfaceWithItself, WhatIsNoCurveIsSaidToBeLeftOut) {
 }
 
 // Triangles of a grid of so many sides, and the segments in which those that have no common corner meet.
-std::vector<std::array<Vec3, 2>> meetings_of_triangles(const Surface& of, int sides) {
+std::vector<std::array<Vec3, 2>> intersections_of_triangles(const Surface& of, int sides) {
   struct Triangle {
     std::array<Vec3, 3> p;
     int i, j;
@@ -367,7 +370,7 @@ TEST(SurfaceWithItself, RandomBentPatchesAgainstTriangles) {
     const Contours found = self_intersection(patch);
     EXPECT_TRUE(found.complete) << k;
     check_promises(patch, found);
-    const std::vector<std::array<Vec3, 2>> segments = meetings_of_triangles(*patch, kSides);
+    const std::vector<std::array<Vec3, 2>> segments = intersections_of_triangles(*patch, kSides);
     // Places of our branches, as segments.
     std::vector<std::array<Vec3, 2>> ours;
     std::vector<Vec3> ends;

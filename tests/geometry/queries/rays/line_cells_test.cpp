@@ -55,10 +55,10 @@ void compare(const RandomPatch& patch, std::mt19937_64& random, int count, doubl
   const CellModel model = model_of(patch.view());
   for (int k = 0; k < count; ++k) {
     const Line line = random_line(random, distance);
-    // As callers do: the line's foot near the patch.
-    const double foot = glm::dot(model.point - line.origin, line.direction);
+    // As callers do: the line's foot point near the patch.
+    const double foot_point = glm::dot(model.point - line.origin, line.direction);
     CellHits cell_hits;
-    intersect(patch.view(), PatchCell(patch.view(), model, {}), LineBasis({line.at(foot), line.direction}),
+    intersect(patch.view(), PatchCell(patch.view(), model, {}), LineBasis({line.at(foot_point), line.direction}),
               {-kInfinity, kInfinity}, cell_hits);
     std::vector<CellHit> found;
     for (int i = 0; i < cell_hits.size(); ++i) found.push_back(cell_hits[i]);
@@ -71,12 +71,12 @@ void compare(const RandomPatch& patch, std::mt19937_64& random, int count, doubl
       // weights); a point of the patch on the line is a root whatever the oracle's last digits.
       const CellHit& hit = found[i];
       const Vec3 on_patch = truth.point((hit.x + 1) / 2, (hit.y + 1) / 2);
-      const double residual = glm::length(line.at(foot + hit.t) - on_patch);
+      const double residual = glm::length(line.at(foot_point + hit.t) - on_patch);
       tally.worst = std::max(tally.worst, residual);
       // The parameters are doubles: half a unit in their last place moves the point by so much.
       const PatchPoint at = evaluate(patch.view(), (hit.x + 1) / 2, (hit.y + 1) / 2);
       const double unit = 1.2e-16 * (glm::length(at.ds) + glm::length(at.dt));
-      same = residual <= 1e-12 + 4 * unit && std::abs(foot + hit.t - roots[i].t) <= 1e-6;
+      same = residual <= 1e-12 + 4 * unit && std::abs(foot_point + hit.t - roots[i].t) <= 1e-6;
     }
     tally.hits += static_cast<int>(roots.size());
     if (same) continue;

@@ -70,14 +70,14 @@ Report compare(const Surface& surface, const SurfacePtr& owner, int count, unsig
     const Line line = lines.next();
     const std::vector<SurfaceHit> hits = intersector.all_hits(line);
     // The oracle's own arithmetic starts near the surface.
-    const double foot = glm::dot(box.center() - line.origin, line.direction);
-    const Line near{line.at(foot), line.direction};
+    const double foot_point = glm::dot(box.center() - line.origin, line.direction);
+    const Line near{line.at(foot_point), line.direction};
     const std::vector<double> truth = roots_of(near);
     ++report.lines;
     report.hits += static_cast<int>(truth.size());
     bool same = truth.size() == hits.size();
     for (size_t i = 0; same && i < truth.size(); ++i) {
-      const double error = std::abs(hits[i].t - (foot + truth[i])) / size;
+      const double error = std::abs(hits[i].t - (foot_point + truth[i])) / size;
       same = error <= 1e-9;
       report.largest_error = std::max(report.largest_error, error);
     }

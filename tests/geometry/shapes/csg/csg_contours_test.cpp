@@ -256,7 +256,7 @@ TEST(CsgLines, ParameterLines) {
     double sum = 0;
     for (const CsgLine& line : found.lines) {
       const Interval t = line.curve->domain();
-      if (line.hosts.empty()) sum += arc_length(*line.curve, t.lo, t.hi).value;
+      if (line.supporting_surfaces.empty()) sum += arc_length(*line.curve, t.lo, t.hi).value;
     }
     return sum;
   };

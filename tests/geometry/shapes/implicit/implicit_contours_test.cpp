@@ -80,10 +80,10 @@ TEST(ImplicitContours, OutlineOfASphere) {
     });
     EXPECT_NEAR(lekalo::checks::chord_length(*line.curve, kChords), kTwoPi * radius, 1e-4);
     // Aside is away from the centre.
-    ASSERT_TRUE(line.aside);
+    ASSERT_TRUE(line.outward_offset);
     for (const double share : {0.1, 0.4, 0.9}) {
       const double t = share * line.curve->domain().hi;
-      EXPECT_LT(glm::length(line.aside->point(t) - line.curve->point(t) / 1.5), 1e-3);
+      EXPECT_LT(glm::length(line.outward_offset->point(t) - line.curve->point(t) / 1.5), 1e-3);
     }
   }
 }
@@ -95,7 +95,7 @@ TEST(ImplicitContours, OutlineOfATorusAsOfTheParametricOne) {
   const SurfacePtr torus = std::make_shared<TorusSurface>(Frame(), R, r);
   Dice dice(5);
   int cusps = 0;
-  const int count = tests::tier_count(1000, tests::least_of_slow(30));
+  const int count = tests::tier_count(1000, tests::min_of_slow(30));
   for (int k = 0; k < count; ++k) {
     const ViewOf view = dice.view(1.4, k % 2);
     const ImplicitContours found = silhouette(ring, view);
@@ -505,7 +505,7 @@ struct Cayley {
 
 TEST(ImplicitContours, LinesLeadIntoNodesOfACubic) {
   expect_ends_at_nodes<Cayley>("cubic", {{1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, -1}},
-                               tests::tier_count(500, tests::least_of_slow(20)), 23);
+                               tests::tier_count(500, tests::min_of_slow(20)), 23);
 }
 
 // The corners of a dodecahedron and of an icosidodecahedron: 50 of the 65 nodes, the others are at infinity.
@@ -530,7 +530,7 @@ TEST(ImplicitContours, LinesLeadIntoNodesOfASextic) {
       }
     }
   ASSERT_EQ(nodes.size(), 50u);
-  expect_ends_at_nodes<Barth>("sextic", nodes, tests::tier_count(40, tests::least_of_slow(3)), 29);
+  expect_ends_at_nodes<Barth>("sextic", nodes, tests::tier_count(40, tests::min_of_slow(3)), 29);
 }
 
 // Creases are not found, and said to be missing.

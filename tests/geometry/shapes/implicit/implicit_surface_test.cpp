@@ -87,7 +87,7 @@ Interval inside(const Line& line, const Box3& box) {
 
 template <class F, class Lines>
 void compare(const ImplicitSurface& shape, const Box3& box, int count, const char* name, const Lines& next_line,
-             double most_doubtful = 0.002) {
+             double max_doubtful = 0.002) {
   oracle::SignOracle<F> oracle;
   const double size = box.diameter();
   int hits = 0, doubtful = 0;
@@ -112,7 +112,7 @@ void compare(const ImplicitSurface& shape, const Box3& box, int count, const cha
     }
   }
   EXPECT_GT(hits, count / 2) << name;
-  EXPECT_LE(doubtful, most_doubtful * count + 1) << name;
+  EXPECT_LE(doubtful, max_doubtful * count + 1) << name;
   tests::report_figure(std::string(name) + "_worst_of_allowed", worst);
   tests::report_figure(std::string(name) + "_doubtful_lines", doubtful);
 }
@@ -131,7 +131,7 @@ TEST(ImplicitSurface, LinesMeetASphereWhereItsClosedFormSays) {
           const Line line = random_line(random, shape.bounds(), distance);
           // Far away the line itself is known to an ulp of its origin.
           const Vec3 o = line.origin - center;
-          const double foot = -glm::dot(o, line.direction), across = glm::length(o + foot * line.direction);
+          const double foot_point = -glm::dot(o, line.direction), across = glm::length(o + foot_point * line.direction);
           if (std::abs(across - 1) < 1e-6) continue;
           const std::vector<double> t = places(shape, line);
           ASSERT_EQ(t.size(), across < 1 ? 2U : 0U) << "line " << i;
@@ -139,7 +139,7 @@ TEST(ImplicitSurface, LinesMeetASphereWhereItsClosedFormSays) {
           const double allowed =
               2e-12 + (4e-16 * (glm::length(o) + glm::length(center)) + 1e-15) / std::max(half, 1e-3);
           for (size_t k = 0; k < t.size(); ++k)
-            ASSERT_NEAR(t[k], foot + (k == 0 ? -half : half), allowed) << "line " << i << " at " << distance;
+            ASSERT_NEAR(t[k], foot_point + (k == 0 ? -half : half), allowed) << "line " << i << " at " << distance;
         }
       }
 }

@@ -43,7 +43,7 @@ TEST(BallOutlines, SectionsByPlanes) {
   EXPECT_NEAR(length_of(plane_section(balls, {-0.6, 0, 0}, {1, 0, 0}, view), {-0.6, 0, 0}, {1, 0, 0}), kTwoPi * 0.8,
               1e-13);
   EXPECT_TRUE(plane_section(balls, {4, 0, 0}, {1, 0, 0}, view).lines.empty());
-  // Seen from above a circle in a plane that holds the way of sight turns away at its top and bottom.
+  // Interaction from above a circle in a plane that holds the line of sight turns away at its top and bottom.
   const auto upright =
       plane_section(Balls(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{2}), {0, 0, 0}, {0, 1, 0}, view);
   ASSERT_EQ(upright.lines.size(), 1u);

@@ -76,8 +76,8 @@ void each_point(const ShapeOutlines& found, int places, const Visit& visit) {
   }
 }
 
-ShapeOutlines meeting_of(const Tube& tube, const SurfacePtr& surface) {
-  return TubeBoundary(tube).meeting(surface, kView);
+ShapeOutlines intersection_of(const Tube& tube, const SurfacePtr& surface) {
+  return TubeBoundary(tube).intersection(surface, kView);
 }
 
 TEST(TubeLines, ClosedForms) {
@@ -86,21 +86,21 @@ TEST(TubeLines, ClosedForms) {
   Frame frame;
   // Cylinders and balls about the axis of a ring: circles.
   for (const double r : {2.5, 3.0, 3.7})
-    EXPECT_NEAR(length_of(of_ring.meeting(
+    EXPECT_NEAR(length_of(of_ring.intersection(
                     std::make_shared<CylinderSurface>(frame_from({0, 0, -2}, {0, 0, 1}, {1, 0, 0}), r, 4), kView)),
                 2 * kTwoPi * r, 1e-9);
   // p^2 = 9 + 1 + 6 cos a for the angle a about the ring.
   const double cosine = (3.3 * 3.3 - 10) / 6;
-  EXPECT_NEAR(length_of(of_ring.meeting(std::make_shared<SphereSurface>(frame, 3.3), kView)), 2 * kTwoPi * (3 + cosine),
-              1e-9);
+  EXPECT_NEAR(length_of(of_ring.intersection(std::make_shared<SphereSurface>(frame, 3.3), kView)),
+              2 * kTwoPi * (3 + cosine), 1e-9);
   EXPECT_TRUE(of_ring.edges(kView).lines.lines.empty());
   // A rod and a ball on its axis, a thicker rod with flat ends.
   const CurvePtr axis = std::make_shared<NurbsCurve>(polyline(std::vector<Vec3>{{0, 0, -2}, {0, 0, 2}}));
   const SurfacePtr ball = std::make_shared<SphereSurface>(frame, 1);
-  EXPECT_NEAR(length_of(meeting_of(Tube(axis, RadiusLaw(0.6), Caps::round), ball)), 2 * kTwoPi * 0.6, 1e-10);
+  EXPECT_NEAR(length_of(intersection_of(Tube(axis, RadiusLaw(0.6), Caps::round), ball)), 2 * kTwoPi * 0.6, 1e-10);
   const CurvePtr half = std::make_shared<NurbsCurve>(polyline(std::vector<Vec3>{{0, 0, -2}, {0, 0, 0.28}}));
-  EXPECT_NEAR(length_of(meeting_of(Tube(half, RadiusLaw(1.5), Caps::flat), ball)), kTwoPi * 0.96, 1e-10);
-  EXPECT_NEAR(length_of(meeting_of(Tube(half, RadiusLaw(1.5), Caps::none), ball)), 0, 0);
+  EXPECT_NEAR(length_of(intersection_of(Tube(half, RadiusLaw(1.5), Caps::flat), ball)), kTwoPi * 0.96, 1e-10);
+  EXPECT_NEAR(length_of(intersection_of(Tube(half, RadiusLaw(1.5), Caps::none), ball)), 0, 0);
 }
 
 // All points are as far from the curve as the radius says, and on the other surface.
@@ -114,7 +114,7 @@ TEST(TubeLines, PointsAreOnBoth) {
     const TubeBoundary boundary(tube);
     const double same = 1e-9 * tube.bounds().diameter();
     const SurfacePtr sphere = std::make_shared<SphereSurface>(frame, 1.1);
-    const ShapeOutlines on_sphere = boundary.meeting(sphere, kView);
+    const ShapeOutlines on_sphere = boundary.intersection(sphere, kView);
     EXPECT_TRUE(on_sphere.complete);
     EXPECT_GE(on_sphere.lines.size(), 2u);
     each_point(on_sphere, 7, [&](const Vec3& p, const ShapeOutline& line, double t) {
@@ -125,7 +125,7 @@ TEST(TubeLines, PointsAreOnBoth) {
     });
     const Affine map =
         Affine::translation({0.6, 0.3, 0.2}) * Affine::rotation(0.4, {1, 0, 0}) * Affine::scaling({1.1, 1, 0.9});
-    const ShapeOutlines on_both = boundary.meeting(boundary, map, kView);
+    const ShapeOutlines on_both = boundary.intersection(boundary, map, kView);
     EXPECT_TRUE(on_both.complete);
     EXPECT_GE(on_both.lines.size(), 2u);
     each_point(on_both, 4, [&](const Vec3& p, const ShapeOutline&, double) {
@@ -251,7 +251,7 @@ TEST(TubeLines, NoneIsMissingOnBalls) {
     Frame frame;
     frame.origin = tube.bounds().center() + 0.5 * direction(random);
     const double radius = number(random, 0.3, 1.2);
-    const ShapeOutlines found = TubeBoundary(tube).meeting(std::make_shared<SphereSurface>(frame, radius), kView);
+    const ShapeOutlines found = TubeBoundary(tube).intersection(std::make_shared<SphereSurface>(frame, radius), kView);
     // Where a curve bends more than the radius the search for contours does not always end.
     if (!found.complete) {
       ++(bends_more_than(*curve, R) ? incomplete_at_bends : incomplete);

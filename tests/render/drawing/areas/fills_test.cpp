@@ -138,7 +138,7 @@ TEST(Fills, OfManySolids) {
   for (const Fill::Shading shading : {Fill::Shading::flat, Fill::Shading::two_tone}) {
     Views views(71);
     Judged found;
-    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(12)); ++k) {
+    for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(12)); ++k) {
       SmallScene scene;
       for (int i = 0; i < 4; ++i) show(scene, std::make_shared<Body>(random_part(views, k + i, 1.5).body), {"sharp"});
       views.look(scene, k % 2);
@@ -152,7 +152,7 @@ TEST(Fills, OfCsg) {
   for (const Fill::Shading shading : {Fill::Shading::two_tone, Fill::Shading::gradient}) {
     Views views(73);
     Judged found;
-    for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
+    for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(10)); ++k) {
       SmallScene scene;
       const auto shape = [&](int kind) -> ShapePtr {
         return std::make_shared<BodyShape>(std::make_shared<Body>(random_part(views, kind, 0.5).body));
@@ -200,7 +200,7 @@ TEST(Fills, GradientsOfCsg) {
   Views views(97);
   Judged found;
   for (const Solid& solid : solids) {
-    for (int k = 0; k < tests::least_of_slow(2); ++k) {
+    for (int k = 0; k < tests::min_of_slow(2); ++k) {
       SmallScene scene;
       world_of(scene, solid);
       views.look(scene, k % 2);
@@ -225,7 +225,7 @@ TEST(Fills, GradientsOfCsg) {
 TEST(Fills, OfSheetsThatPierceOneAnother) {
   Views views(79);
   Judged found;
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(10)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(10)); ++k) {
     SmallScene scene;
     for (int n = 0; n < 2; ++n) {
       show(scene, sheet_through_the_middle(views, n == 0), {"boundary"});
@@ -242,7 +242,7 @@ TEST(Fills, OfTheTeapot) {
   const SurfaceSet teapot = std::get<SurfaceSet>(loaded.model->objects.front().shape);
   Views views(83);
   Judged found;
-  for (int k = 0; k < tests::tier_count(100, tests::least_of_slow(2)); ++k) {
+  for (int k = 0; k < tests::tier_count(100, tests::min_of_slow(2)); ++k) {
     SmallScene scene;
     show(scene, teapot, {"silhouette"});
     views.look(scene, k % 2);

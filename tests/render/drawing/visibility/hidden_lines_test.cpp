@@ -30,7 +30,7 @@ Vec3 towards(const Camera& camera, const Vec3& p) {
 // faces look away.
 TEST(VisibleLines, EdgesOfBoxes) {
   Views views(3);
-  for (int k = 0; k < tests::tier_count(500, tests::least_of_slow(50)); ++k) {
+  for (int k = 0; k < tests::tier_count(500, tests::min_of_slow(50)); ++k) {
     SmallScene scene;
     const Vec3 size(views.number(1, 3), views.number(1, 3), views.number(1, 3));
     Frame frame = frame_from({0, 0, 0}, views.direction(), views.direction());
@@ -47,8 +47,8 @@ TEST(VisibleLines, EdgesOfBoxes) {
       EXPECT_EQ(line.pieces[0].t.hi, domain.hi);
       const Vec3 middle = line.stroke.curve->point(domain.middle());
       bool seen = false;
-      for (const Stroke::Host& host : line.stroke.hosts) {
-        Vec3 normal = host.surface->normal(0, 0);
+      for (const Stroke::SupportingSurface& supporting_surface : line.stroke.supporting_surfaces) {
+        Vec3 normal = supporting_surface.surface->normal(0, 0);
         if (glm::dot(normal, middle) < 0) normal = -normal;  // outward: the box stands about the origin
         seen = seen || glm::dot(normal, towards(*world->model().camera, middle)) > 0;
       }
@@ -58,11 +58,11 @@ TEST(VisibleLines, EdgesOfBoxes) {
 }
 
 // Of a sphere's outline all is seen, of its parameter lines what looks at the viewer: the change is where the normal
-// stands across the way of sight.
+// stands across the line of sight.
 TEST(VisibleLines, ParameterLinesOfSpheres) {
   Views views(5);
   int changes = 0;
-  const int count = tests::tier_count(500, tests::least_of_slow(50));
+  const int count = tests::tier_count(500, tests::min_of_slow(50));
   for (int k = 0; k < count; ++k) {
     SmallScene scene;
     const double radius = views.number(1, 2.5);

@@ -58,7 +58,7 @@ TEST(Builder, TheSmallestSceneTakesAllDefaults) {
 TEST(Builder, AFlatSceneIsSeenFromAbove) {
   const BuiltText scene = built("geometry: { c: { type: circle, radius: 1 } }\nlights: {}\n");
   EXPECT_EQ(scene.defaults.back(), "plan view");
-  // Seen from above, the middle of the picture is the middle of the circle and up is y.
+  // Interaction from above, the middle of the picture is the middle of the circle and up is y.
   const PicturePoint middle = scene.model.camera->project({0, 0, 0}), top = scene.model.camera->project({0, 1, 0});
   EXPECT_NEAR(middle.x, top.x, 1e-9);
   EXPECT_LT(top.y, middle.y);

@@ -384,7 +384,7 @@ TEST(ClosedContours, AreThoseOfTheSearch) {
           const Vec3 p = one.curve->point(t.lo + share * t.width());
           double nearest = kInfinity;
           for (const Contour& candidate : searched.branches)
-            nearest = std::min(nearest, project(p, *candidate.curve).feet.front().distance);
+            nearest = std::min(nearest, project(p, *candidate.curve).foot_points.front().distance);
           // Rounding moves a curve by more where the surfaces meet at a small angle.
           const Vec3 on_a = one.images[0]->point(t.lo + share * t.width()),
                      on_b = one.images[1]->point(t.lo + share * t.width());
