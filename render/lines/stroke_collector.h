@@ -62,6 +62,9 @@ class StrokeCollector {
 
   void stroke(geometry::CurvePtr curve, const Style& style, const HiddenLines& hidden);
 
+  // The object's curve, or the polygon that stands for it.
+  geometry::CurvePtr shown_curve(const geometry::CurvePtr& curve) const;
+
   void polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden);
 
   void mark(const Vec3& point, const std::string& sign, const Style& style, const HiddenLines& hidden);

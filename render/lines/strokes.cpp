@@ -14,6 +14,7 @@
 #include "render/model/look.h"
 #include "render/model/objects.h"
 #include "render/model/placed_objects.h"
+#include "render/scene/mesh_tolerance.h"
 #include "render/scene/values/color_names.h"
 
 namespace lekalo::render {
@@ -304,9 +305,18 @@ void StrokeCollector::add_lines(const Lines& lines) {
   undrawn_ = outlines_ = false;
 }
 
+CurvePtr StrokeCollector::shown_curve(const CurvePtr& curve) const {
+  if (object_->representation != Representation::mesh || !(curve->domain().width() < kInfinity)) return curve;
+  try {
+    return polygon_of(*curve, mesh_tolerance(*object_, to_world_, model_.camera));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("object {}: {}", name_of_object(), error.what()));
+  }
+}
+
 void StrokeCollector::add_kind(std::string_view kind, const Style& style, const Lines& lines) {
   if (kind == "curve") {
-    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(*curve, style, lines.hidden);
+    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(shown_curve(*curve), style, lines.hidden);
     const auto* point = std::get_if<Vec3>(&object_->shape);
     if (point && style.marker != "none") mark(*point, style.marker, style, lines.hidden);
   } else if (kind == "silhouette") {

@@ -34,6 +34,9 @@ geometry::Mesh parse_mesh(MeshFormat format, std::string_view bytes, const std::
 // doubles) repeats a point for each of its normals; STL (binary) has single-precision corners and facet normals.
 std::string mesh_bytes(MeshFormat format, const geometry::Mesh& mesh);
 
+// Polylines for the end of an OBJ file that has `points` points already: the vertices of each and an `l` element.
+std::string obj_lines(size_t points, const std::vector<std::vector<geometry::Vec3>>& polylines);
+
 // Writes mesh_bytes in the format of the extension, in one step. Throws MeshFileError for the extension and ImageError
 // when the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const geometry::Mesh& mesh);

@@ -142,4 +142,16 @@ std::string obj_bytes(const Mesh& mesh) {
   return fmt::to_string(out);
 }
 
+std::string obj_lines(size_t points, const std::vector<std::vector<Vec3>>& polylines) {
+  fmt::memory_buffer out;
+  auto at = std::back_inserter(out);
+  for (const std::vector<Vec3>& polyline : polylines) {
+    for (const Vec3& p : polyline) fmt::format_to(at, "v {} {} {}\n", p.x, p.y, p.z);
+    fmt::format_to(at, "l");
+    for (size_t i = 0; i < polyline.size(); ++i) fmt::format_to(at, " {}", ++points);
+    fmt::format_to(at, "\n");
+  }
+  return fmt::to_string(out);
+}
+
 }  // namespace lekalo::render

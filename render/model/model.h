@@ -51,6 +51,7 @@ struct Object {
   Representation representation = Representation::direct;
   double sag = 0;  // of the mesh in scene units; 0: sag_pixels
   double sag_pixels = 0.25;
+  double mesh_angle = 0;      // largest turn of the normal, of curves of the tangent; 0: 10 degrees, of curves any
   bool flat_shading = false;  // mesh facets show their own normals
   uint32_t visible_to = kVisibleToAll;
   std::vector<ClipPlane> clips;      // where it is placed: in the world, or in its group

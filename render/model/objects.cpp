@@ -1,6 +1,7 @@
 #include "render/model/objects.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "geometry/shapes/implicit/implicit_surface.h"
@@ -117,6 +118,13 @@ void check_caps(const Object& object) {
   }
 }
 
+// The sag of a chord as long as the shape that turns by the mesh's angle: larger ones do not occur.
+double sag_of_angle(const Object& object) {
+  const Mat3& a = object.transform.linear;
+  const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
+  return 0.5 * scale * bounds(object.shape).diameter() * std::tan(object.mesh_angle / 4);
+}
+
 Objects objects_of(const Fields& fields) {
   Object object;
   if (fields.has("material")) object.material = fields.get<MaterialPtr>("material");
@@ -125,6 +133,7 @@ Objects objects_of(const Fields& fields) {
   const Fields& mesh = fields.group("mesh");
   if (mesh.has("sag")) object.sag = mesh.number("sag");
   object.sag_pixels = mesh.number("sag_pixels");
+  if (mesh.has("angle")) object.mesh_angle = mesh.number("angle");
   object.flat_shading = fields.text("shading") == "flat";
   object.visible_to = visibility(fields.get<std::vector<std::string>>("visible_to"));
   if (fields.has("clip"))
@@ -145,6 +154,7 @@ Objects objects_of(const Fields& fields) {
   for (const std::any& one : fields.references("shape")) {
     object.name = fields.has("name") ? fields.text("name") : names[all.size()];
     object.shape = entity_of(one);
+    if (object.mesh_angle > 0 && !mesh.has("sag") && !mesh.given("sag_pixels")) object.sag = sag_of_angle(object);
     check_caps(object);
     check_unbounded(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
@@ -180,10 +190,17 @@ TypeDeclaration object_type() {
       .optional("material", reference({Category::material}),
                 "name or inline map; a neutral grey by default. Of a group: for members without a material")
       .optional("back_material", reference({Category::material}), "of the side that the normals look away from")
-      .field("representation", choice({"direct", "mesh"}), "rays meet the exact surface, or triangles", "direct")
+      .field("representation", choice({"direct", "mesh"}),
+             "rays meet the exact surface, or triangles; a curve is seen as itself, or as a polygon", "direct")
       .field("mesh",
              group({{"sag", length().positive(), "largest distance from the surface, in scene units", false, {}},
-                    {"sag_pixels", number().positive(), "the same in pixels, where no sag is given", false, "0.25"}}),
+                    {"sag_pixels", number().positive(), "the same in pixels, where no sag is given", false, "0.25"},
+                    {"angle",
+                     angle().positive().at_most(kPi / 2),
+                     "largest turn of the normal along a side, of a curve's tangent along a chord; given alone, it "
+                     "decides alone. Without it 10 of surfaces",
+                     false,
+                     {}}}),
              "fineness of the mesh representation", "{}")
       .field("shading", choice({"smooth", "flat"}), "normals of the surface, or of the facets of a mesh", "smooth")
       .field("visible_to", words({"camera", "shadow", "reflection"}), "which rays see it",

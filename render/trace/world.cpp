@@ -16,6 +16,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
 #include "render/model/placed_objects.h"
+#include "render/scene/mesh_tolerance.h"
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"
@@ -38,12 +39,8 @@ constexpr double kMaxPairs = 1e7;
 // Boxes of clear bodies that are asked for every ray of the eye.
 constexpr size_t kMaxMedia = 32;
 
-// Largest turn of the normal along a side of a triangle, whatever the sag: shading takes the surface's own normals, so
-// this only keeps shapes of some pixels round and the way from a facet to its surface short enough for one step.
-constexpr double kMeshAngle = 10 * geometry::kPi / 180;
-
 // What one leaf is made from; equal keys share a compiled child.
-using ShareKey = std::tuple<std::vector<const void*>, int, double, double, bool, bool>;
+using ShareKey = std::tuple<std::vector<const void*>, int, double, double, double, bool, bool>;
 
 // All that it consists of.
 std::vector<const void*> identity(const Entity& entity) {
@@ -74,6 +71,7 @@ ShareKey key_of(const Object& object) {
           static_cast<int>(object.representation),
           object.sag,
           object.sag_pixels,
+          object.mesh_angle,
           object.flat_shading,
           uses_parameters(object)};
 }
@@ -128,7 +126,7 @@ struct World::Compiled {
   void count_uses(const std::vector<Object>& list) {
     for (const Object& object : list) {
       if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-        if (uses[{{group->get()}, -1, 0, 0, false, false}]++ == 0) count_uses((*group)->objects);
+        if (uses[{{group->get()}, -1, 0, 0, 0, false, false}]++ == 0) count_uses((*group)->objects);
       } else {
         ++uses[key_of(object)];
       }
@@ -162,25 +160,6 @@ struct World::Compiled {
     const Vec3 sizes = size(point.position) + size(point.position - ray.origin);
     point.error += geometry::kHitRounding * (sizes.x + sizes.y + sizes.z);
     if (leaf.parameters && camera) point.pixel_size = camera->pixel_size(point.position);
-  }
-
-  // Sag of a mesh at a place of its own space, for the map that shows it largest among those given.
-  geometry::TessellationTolerance tolerance_of(const Object& object, const Affine& to_world) const {
-    geometry::TessellationTolerance tolerance;
-    tolerance.angle = kMeshAngle;
-    const geometry::Mat3& a = to_world.linear;
-    const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2]), 1e-300});
-    if (object.sag > 0) {
-      tolerance.sag = object.sag / scale;
-    } else if (camera) {
-      const double pixels = object.sag_pixels;
-      tolerance.sag_at = [camera = camera, to_world, pixels, scale](const Vec3& p) {
-        return pixels * camera->pixel_size(to_world.point(p)) / scale;
-      };
-    } else {
-      tolerance.sag = 1e-3 * bounds(object.shape).diameter();
-    }
-    return tolerance;
   }
 
   // The area below which cells of a surface with these bounds are not cut, in the space of its leaf.
@@ -281,7 +260,7 @@ struct World::Compiled {
             else
               set = shape;
             if (as_mesh && set.front()->bounded()) {
-              const auto tolerance = tolerance_of(object, to_world);
+              const auto tolerance = mesh_tolerance(object, to_world, camera);
               if (set.size() > 1) {
                 use_mesh_of(geometry::sew(set), tolerance, leaf);
                 return;
@@ -299,7 +278,7 @@ struct World::Compiled {
             leaf.signs.assign(set.size(), 1);
           } else if constexpr (std::is_same_v<T, BodyPtr>) {
             if (as_mesh) {
-              use_mesh_of(*shape, tolerance_of(object, to_world), leaf);
+              use_mesh_of(*shape, mesh_tolerance(object, to_world, camera), leaf);
             } else if (capped) {
               leaf.clips.clear();
               leaf.shape = std::make_shared<ClippedBody>(shape, cuts_of(object), false);

@@ -1,5 +1,6 @@
 """Drawings: which lines an SVG holds, how hidden ones look, the same bytes again, formats, errors."""
 
+import math
 import re
 import unittest
 import xml.etree.ElementTree as tree
@@ -44,6 +45,20 @@ class Draw(ProgramTest):
             self.assertRegex(path.get("d"), r"^M[-\d. ]+( L[-\d. ]+)+$")
         self.assertTrue(all(path.get("stroke-dasharray") for path in paths["sharp hidden layers-1"]))
         self.assertFalse(any(path.get("stroke-dasharray") for path in paths["sharp"]))
+
+    def test_curves_as_polygons(self):
+        """A circle as the polygon of a sag or of an angle, in drawings as long as the sag says and inscribed."""
+        for mesh, sides in (("sag: 0.1", 7), ("angle: 30", 12), ("sag: 0.1, angle: 30", 12), ("sag: 0.01, angle: 90", 23)):
+            self.write("rim.yaml", "lekalo: 1\ngeometry: { rim: { type: circle, radius: 1 } }\nobjects: { shape: rim, "
+                       f"representation: mesh, mesh: {{ {mesh} }}, lines: {{ curve: thick }} }}\n"
+                       "image: { size: [60 mm, auto] }\n")
+            self.run_program("draw", "rim.yaml", "-o", "rim.svg", "--quiet")
+            corners = [tuple(map(float, pair)) for path in self.paths("rim.svg")["curve"]
+                       for pair in re.findall(r"([-\d.]+) ([-\d.]+)", path.get("d"))]
+            self.assertEqual(len(set(corners)), sides, mesh)
+            x, y = (sum(pair[k] for pair in set(corners)) / sides for k in (0, 1))
+            radii = [math.dist(pair, (x, y)) for pair in corners]
+            self.assert_near(radii, [radii[0]] * len(radii), 0.01)
 
     def test_same_bytes(self):
         self.write("block.yaml", BLOCK)

@@ -1,5 +1,6 @@
 """Pictures and meshes as files: the same bits for any number of threads and after an interruption, no half files."""
 
+import math
 import os
 import re
 import signal
@@ -7,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import DONE, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest
+from program import DONE, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest, USAGE
 
 SCENE = """
 lekalo: 1
@@ -175,6 +176,29 @@ class Pictures(ProgramTest):
         triangles = int.from_bytes(self.bytes_of("scene.stl")[80:84], "little")
         self.assertIn(f"{triangles} triangles", note)
         self.assertEqual(len(self.bytes_of("scene.stl")), 84 + 50 * triangles)
+
+    def test_exported_curves(self):
+        """Polylines of OBJ: their corners lie on the circle, their chords keep the sag, as few as there can be."""
+        self.write("rim.yaml", "lekalo: 1\ngeometry:\n  rim: { type: circle, radius: 1 }\n"
+                   "  ball: { type: ball, radius: 1 }\n"
+                   "objects:\n  - { shape: rim, transform: [{ scale: 2 }, { translate: [5, 0, 0] }] }\n")
+        for names, radius, middle in ([], 2, 5), (["rim"], 1, 0):
+            self.run_program("export", "rim.yaml", *names, "--sag", "0.01", "-o", "rim.obj")
+            lines = [line.split() for line in self.bytes_of("rim.obj").decode().splitlines()]
+            points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+            self.assertEqual([[int(i) for i in line[1:]] for line in lines if line[0] == "l"],
+                             [list(range(1, len(points) + 1))])
+            self.assertEqual(len(points) - 1, math.ceil(math.pi / math.acos(1 - 0.01 / radius)))
+            for (x, y, _), (a, b, _) in zip(points, points[1:]):
+                self.assert_near(math.hypot(x - middle, y), radius, 1e-14)
+                self.assertGreaterEqual(math.hypot((x + a) / 2 - middle, (y + b) / 2), radius - 0.01 - 1e-12)
+        self.run_program("export", "rim.yaml", "ball", "rim", "--sag", "0.01", "-o", "both.obj")
+        lines = [line.split() for line in self.bytes_of("both.obj").decode().splitlines()]
+        points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+        for i in next(line[1:] for line in lines if line[0] == "l"):
+            self.assert_near(points[int(i) - 1][2], 0, 0)
+        self.assertIn("only OBJ", self.run_program("export", "rim.yaml", "ball", "rim", "-o", "both.stl")[1])
+        self.assertIn("nothing to export", self.run_program("export", "rim.yaml", "-o", "rim.stl", code=USAGE)[1])
 
     def test_export_of_a_finer_mesh(self):
         """Half the size of triangles costs about four times as many and a quarter of the sag."""

@@ -1,4 +1,5 @@
-// lekalo export: what a scene shows as one triangle mesh for another program, or the whole scene for POV-Ray.
+// lekalo export: what a scene shows as one triangle mesh for another program, curves as polylines, or the whole scene
+// for POV-Ray.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,7 @@
 #include "render/image/atomic_file.h"
 #include "render/mesh_files/mesh_files.h"
 #include "render/pov/pov_export.h"
+#include "render/scene/mesh_tolerance.h"
 
 namespace lekalo::command {
 
@@ -17,9 +19,6 @@ namespace {
 
 using geometry::Affine;
 using geometry::Mesh;
-
-// Sag of an object that has none of its own, in parts of its size.
-constexpr double kDefaultSag = 1e-3;
 
 struct Options {
   SceneOptions scene;
@@ -35,15 +34,19 @@ class Collection {
  public:
   explicit Collection(double sag) : sag_(sag) {}
 
-  void add(const render::Entity& entity, const Affine& to_world, double own_sag, const std::string& name) {
-    const double size = bounds(entity).diameter();
+  // The object says how the shape is to be meshed; its own transform is in to_world.
+  void add_shape(const render::Object& object, const Affine& to_world) {
+    const render::Entity& entity = object.shape;
+    const std::string& name = object.name;
+    const auto tolerance = [&] { return tolerance_of(object, to_world); };
     if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
-      add_surface(**surface, to_world, tolerance(own_sag, size, to_world), name);
+      add_surface(**surface, to_world, tolerance(), name);
     } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
-      for (const geometry::SurfacePtr& one : *set)
-        add_surface(*one, to_world, tolerance(own_sag, size, to_world), name);
+      for (const geometry::SurfacePtr& one : *set) add_surface(*one, to_world, tolerance(), name);
+    } else if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+      add_curve(**curve, to_world, tolerance(), name);
     } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
-      append(tessellate(**body, tolerance(own_sag, size, to_world)), to_world);
+      append(tessellate(**body, tolerance()), to_world);
     } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
       append(**mesh, to_world);
     } else if (const auto* group = std::get_if<render::GroupPtr>(&entity)) {
@@ -51,14 +54,21 @@ class Collection {
     } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
       left_out_.insert(fmt::format("'{}' is met by rays only and has no triangles", name));
     } else {
-      left_out_.insert(fmt::format("'{}' is a point or a curve and has no triangles", name));
+      left_out_.insert(fmt::format("'{}' is a point and has no triangles", name));
     }
   }
 
   void add(const render::Object& object, const Affine& to_world) {
     if (!object.clips.empty())
       left_out_.insert(fmt::format("'{}' is written whole: its clip planes are not applied", object.name));
-    add(object.shape, to_world * object.transform, object.sag, object.name);
+    add_shape(object, to_world * object.transform);
+  }
+
+  void add(const std::string& name, const render::Entity& entity) {
+    render::Object object;
+    object.name = name;
+    object.shape = entity;
+    add_shape(object, Affine());
   }
 
   // Corners without normals or parameters get them where others have some: a file has them for all or none.
@@ -81,15 +91,29 @@ class Collection {
     return std::move(all_);
   }
 
+  // The polygons of curves.
+  const std::vector<std::vector<geometry::Vec3>>& lines() const { return lines_; }
+
   const std::set<std::string>& left_out() const { return left_out_; }
 
  private:
-  geometry::TessellationTolerance tolerance(double own_sag, double size, const Affine& to_world) const {
-    const geometry::Mat3& a = to_world.linear;
-    const double scale = std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2]), 1e-300});
-    geometry::TessellationTolerance result;
-    result.sag = sag_ > 0 ? sag_ / scale : own_sag > 0 ? own_sag / scale : kDefaultSag * size;
+  geometry::TessellationTolerance tolerance_of(render::Object object, const Affine& to_world) const {
+    if (sag_ > 0) object.sag = sag_;
+    auto result = render::mesh_tolerance(object, to_world, nullptr);
+    // What another program shades smooth with the normals of the file needs no finer steps.
+    if (object.mesh_angle == 0 && !std::holds_alternative<geometry::CurvePtr>(object.shape))
+      result.angle = geometry::TessellationTolerance().angle;
     return result;
+  }
+
+  void add_curve(const geometry::Curve& curve, const Affine& to_world, const geometry::TessellationTolerance& tolerance,
+                 const std::string& name) {
+    if (!(curve.domain().width() < geometry::kInfinity)) {
+      left_out_.insert(fmt::format("'{}' is left out: it has no ends", name));
+      return;
+    }
+    lines_.emplace_back();
+    for (const double t : polygon_parameters(curve, tolerance)) lines_.back().push_back(to_world.point(curve.point(t)));
   }
 
   void add_surface(const geometry::Surface& surface, const Affine& to_world,
@@ -125,6 +149,7 @@ class Collection {
 
   double sag_;
   Mesh all_;
+  std::vector<std::vector<geometry::Vec3>> lines_;
   int32_t faces_ = 0;
   bool with_normals_ = false, without_normals_ = false, without_parameters_ = false;
   std::set<std::string> left_out_;
@@ -161,29 +186,37 @@ int run(const Options& options) {
   Collection collection(options.sag);
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) collection.add(object, Affine());
-  for (const std::string& name : options.names) collection.add(find_geometry(scene, name), Affine(), 0, name);
+  for (const std::string& name : options.names) collection.add(name, find_geometry(scene, name));
   const Mesh mesh = collection.finish();
   for (const std::string& note : collection.left_out()) fmt::print(stderr, "note: {}\n", note);
-  if (mesh.triangles.empty()) throw UsageError("there is nothing to export: no surface, body or mesh is shown");
-  render::write_file_atomically(output, render::mesh_bytes(format, mesh));
+  const bool has_lines = format == render::MeshFormat::obj && !collection.lines().empty();
+  if (!has_lines && !collection.lines().empty())
+    fmt::print(stderr, "note: curves are left out: only OBJ files hold polylines\n");
+  if (mesh.triangles.empty() && !has_lines)
+    throw UsageError("there is nothing to export: no surface, body, mesh or (to OBJ) curve is shown");
+  std::string bytes = render::mesh_bytes(format, mesh);
+  if (has_lines) bytes += render::obj_lines(mesh.points.size(), collection.lines());
+  render::write_file_atomically(output, bytes);
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} points, {} triangles\n", output, mesh.points.size(), mesh.triangles.size());
+    fmt::print(stderr, "{}: {} points, {} triangles{}\n", output, mesh.points.size(), mesh.triangles.size(),
+               has_lines ? fmt::format(", {} polylines", collection.lines().size()) : "");
   return kDone;
 }
 
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto* sub =
-      app.add_subcommand("export", "Write what a scene shows as triangles (OBJ, PLY, STL), or the scene for POV-Ray");
+  auto* sub = app.add_subcommand(
+      "export", "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), or the scene for POV-Ray");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
       "  lekalo export plate.yaml plate --format stl\n"
       "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
-      "Without names everything that the scene's objects show is written, moved as they are. Triangles keep the sag "
-      "of\n"
-      "--sag in scene units, else of their object's mesh, else a thousandth of their shape's size. PLY has double\n"
+      "Without names everything that the scene's objects show is written, moved as they are. Triangles and "
+      "the\n"
+      "chords of curves keep the sag of --sag in scene units, else of their object's mesh, else a thousandth of their\n"
+      "shape's size. PLY has double\n"
       "precision; OBJ has shared points and a group for every face; STL has corners in single precision.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
@@ -192,7 +225,7 @@ void add_export(CLI::App& app, Action& action) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"obj", "ply", "stl", "pov"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
-  sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface")
+  sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")
       ->check(CLI::PositiveNumber);
   sub->add_option("--flatness", options->pov.flatness, "pov: flatness of Bezier patches, in scene units")
