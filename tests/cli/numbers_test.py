@@ -106,7 +106,33 @@ class Numbers(ProgramTest):
                          ["x_max", "x_min", "y_max", "y_min", "z_max", "z_min"])
         for edge in block["edges"]:
             self.assertEqual(len(edge["faces"]), 2)
+        # Every edge is used once along and once against its direction; four of each face's loop, end to end.
+        uses = [use for face in block["faces"] for loop in face["coedges"] for use in loop]
+        self.assertEqual(sorted((use["edge"], use["forward"]) for use in uses),
+                         [(edge, forward) for edge in range(12) for forward in (False, True)])
+        points = [vertex["point"] for vertex in block["vertices"]]
+        for face in block["faces"]:
+            self.assertEqual([len(loop) for loop in face["coedges"]], [4])
+            walk = []
+            for use in face["coedges"][0]:
+                edge = block["edges"][use["edge"]]
+                walk.append((edge["start"], edge["end"]) if use["forward"] else (edge["end"], edge["start"]))
+            self.assertEqual([end for _, end in walk], [start for start, _ in walk[1:] + walk[:1]])
+            # Counter-clockwise seen against the outward normal: the area vector looks where the name says.
+            axis, side = "xyz".index(face["name"][0]), 1 if face["name"].endswith("max") else -1
+            a, b = ((axis + 1) % 3, (axis + 2) % 3)
+            corners = [points[start] for start, _ in walk]
+            area = sum(p[a] * q[b] - p[b] * q[a] for p, q in zip(corners, corners[1:] + corners[:1]))
+            self.assertGreater(side * area, 0, face["name"])
+        text = self.run_program("measure", "scene.yaml", "block", "--topology")[0]
+        self.assertRegex(text, r"z_max +\+ loop( [+-]\d+){4}\n")
         ring = self.measure("ring", "--topology")
+        # Golovanov 2016, 5.6e: the loop of a torus +e1 +e2 -e1 -e2.
+        (loop,) = ring["faces"][0]["coedges"]
+        first, second = loop[0]["edge"], loop[1]["edge"]
+        self.assertEqual([(use["edge"], use["forward"]) for use in loop],
+                         [(first, True), (second, True), (first, False), (second, False)])
+        self.assertTrue(ring["faces"][0]["forward"])
         self.assertEqual(ring["euler_characteristic"], 0)
         self.assertEqual([edge["kind"] for edge in ring["edges"]], ["seam", "seam"])
         tile = self.measure("tile", "--topology")

@@ -25,6 +25,18 @@ const char* kind_name(geometry::EdgeKind kind) {
   return kind == geometry::EdgeKind::seam ? "seam" : kind == geometry::EdgeKind::pole ? "pole" : "regular";
 }
 
+// The loops of a face, the outer one first: the uses of edges in their order, with the face on the left.
+ordered_json coedges_of(const Body& body, const geometry::Face& face) {
+  ordered_json loops = ordered_json::array();
+  for (int loop : face.loops) {
+    ordered_json uses = ordered_json::array();
+    for (int coedge : body.loops[loop].coedges)
+      uses.push_back({{"edge", body.coedges[coedge].edge}, {"forward", body.coedges[coedge].forward}});
+    loops.push_back(std::move(uses));
+  }
+  return loops;
+}
+
 ordered_json faces_of(const Body& body) {
   ordered_json faces = ordered_json::array();
   for (size_t i = 0; i < body.faces.size(); ++i) {
@@ -36,7 +48,9 @@ ordered_json faces_of(const Body& body) {
                      {"name", name_or_null(face.origin)},
                      {"shell", face.shell},
                      {"loops", face.loops.size()},
-                     {"edges", edges}});
+                     {"edges", edges},
+                     {"forward", face.forward},
+                     {"coedges", coedges_of(body, face)}});
   }
   return faces;
 }
@@ -108,6 +122,18 @@ std::string numbers_text(const ordered_json& numbers) {
   return text;
 }
 
+char sign(const ordered_json& forward) { return forward.get<bool>() ? '+' : '-'; }
+
+// "loop +0 +3 -1 -2, loop -4": the edges with the direction in which the loop runs along them.
+std::string loops_text(const ordered_json& loops) {
+  std::string text;
+  for (const auto& loop : loops) {
+    text += text.empty() ? "loop" : ", loop";
+    for (const auto& use : loop) text += fmt::format(" {}{}", sign(use["forward"]), use["edge"].get<int>());
+  }
+  return text;
+}
+
 }  // namespace
 
 void put_open_sides(ordered_json& out, const geometry::MeshSides& sides) {
@@ -153,7 +179,8 @@ void print_topology(const ordered_json& found) {
   fmt::print("{} shell{}, {} loops\n{} faces\n", found["shells"].get<size_t>(),
              found["shells"].get<size_t>() == 1 ? "" : "s", found["loops"].get<size_t>(), found["faces"].size());
   for (const auto& face : found["faces"])
-    fmt::print("  {:<3} {:<16} edges {}\n", face["index"].get<int>(), name_text(face), numbers_text(face["edges"]));
+    fmt::print("  {:<3} {:<16} {} {}\n", face["index"].get<int>(), name_text(face), sign(face["forward"]),
+               loops_text(face["coedges"]));
   fmt::print("{} edges\n", found["edges"].size());
   for (const auto& edge : found["edges"])
     fmt::print("  {:<3} {:<16} {:<8} vertices {} {}, faces {}\n", edge["index"].get<int>(), name_text(edge),
