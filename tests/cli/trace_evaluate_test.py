@@ -1,5 +1,6 @@
 """What trace finds, evaluate gives back: every type of surface, faces of bodies and patches, unmoved and moved."""
 
+import math
 import random
 import re
 import unittest
@@ -74,6 +75,70 @@ class TraceThenEvaluate(ProgramTest):
                    [0, 0, 0])
         self.check(["wedge"], 0, 6, "lekalo: 1\ngeometry: { wedge: { type: wedge, size: [2, 3, 1], top: 1 } }\n",
                    [0.5, 1, 0.5])
+
+    def test_frames_of_curves(self):
+        """The twisted cubic at t = 1 and the ellipse at pi/3 (Golovanov 2016, 2.1), and helices of both hands."""
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n"
+                   "  cubic: { type: formula_curve, point: [t, t^2, t^3], domain: [0, 2] }\n"
+                   "  oval: { type: ellipse, semi_axes: [3, 2] }\n"
+                   "  right: { type: formula_curve, point: [2*cos(t), 2*sin(t), 0.5*t], domain: [0, 9] }\n"
+                   "  left: { type: formula_curve, point: [2*cos(t), 2*sin(t), -0.5*t], domain: [0, 9] }\n")
+        cubic = self.json_of("evaluate", "scene.yaml", "cubic", "--at", "1", "--order", "3")
+        self.assert_near(cubic["point"] + sum(cubic["derivatives"], []), [1, 1, 1, 1, 2, 3, 0, 2, 6, 0, 0, 6], 1e-14)
+        self.assert_near(cubic["curvature"], math.sqrt(19 / 686), 1e-15)
+        self.assert_near(cubic["torsion"], 3 / 19, 1e-15)
+        self.assert_near(cubic["tangent"], [x / math.sqrt(14) for x in (1, 2, 3)], 1e-15)
+        self.assert_near(cubic["normal"], [-0.674453273433462, -0.490511471587973, 0.551825405536469], 1e-14)
+        self.assert_near(cubic["binormal"], [x / math.sqrt(19) for x in (3, -3, 1)], 1e-15)
+        self.assert_near(self.json_of("evaluate", "scene.yaml", "oval", "--at", "pi/3")["curvature"], 0.278098532170490,
+                         1e-14)
+        # k = r/(r^2 + c^2), torsion c/(r^2 + c^2): positive of a right-handed helix.
+        for name, sign in ("right", 1), ("left", -1):
+            helix = self.json_of("evaluate", "scene.yaml", name, "--at", "4")
+            self.assert_near([helix["curvature"], helix["torsion"]], [2 / 4.25, sign * 0.5 / 4.25], 1e-15)
+
+    def test_straight_lines_and_cusps(self):
+        """No noise: a straight line has no torsion, at a cusp the tangent is the limit."""
+        third = "[[0.1, 0.7, 0.3], [0.4, 0.8, 0.5], [0.7, 0.9, 0.7], [1, 1, 0.9]]"
+        self.write("scene.yaml", f"lekalo: 1\ngeometry:\n  line: {{ type: bezier_curve, points: {third} }}\n"
+                   "  cardioid: { type: formula_curve, point: [2*(1 - cos(t))*cos(t), 2*(1 - cos(t))*sin(t), 0], "
+                   "domain: [0, 2*pi] }\n"
+                   "  cusp: { type: formula_curve, point: [t^2, t^3, 0], domain: [-1, 1] }\n"
+                   "  flex: { type: formula_curve, point: [t, t^3, 0], domain: [-1, 1] }\n")
+        for t in "0", "0.3", "0.77", "1":
+            line = self.json_of("evaluate", "scene.yaml", "line", "--at", t)
+            self.assertEqual([line[key] for key in ("curvature", "torsion", "normal", "binormal")], [0, 0, None, None])
+            self.assert_near(line["tangent"], [x / math.sqrt(14) for x in (3, 1, 2)], 1e-14)
+        flex = self.json_of("evaluate", "scene.yaml", "flex", "--at", "0")
+        self.assertEqual([flex[key] for key in ("curvature", "torsion", "normal")], [0, None, None])
+        # From greater t, at the end of the domain from smaller.
+        for name, t, tangent in ("cusp", "0", [1, 0, 0]), ("cardioid", "0", [1, 0, 0]), ("cardioid", "2*pi", [-1, 0, 0]):
+            found = self.json_of("evaluate", "scene.yaml", name, "--at", t)
+            self.assert_near(found["tangent"], tangent, 1e-12)
+            self.assertEqual([found[key] for key in ("curvature", "torsion", "normal")], [None, None, None])
+
+    def test_parameters(self):
+        """Domain, period, closure; and a note outside of the domain, on parts of periodic shapes too."""
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  rim: { type: circle, radius: 1 }\n"
+                   "  arc: { type: circle, radius: 1, arc: [0, 90] }\n"
+                   "  wave: { type: bezier_curve, points: [[0, 0], [1, 2], [2, 0]] }\n"
+                   "  pipe: { type: cylinder_surface, radius: 1, height: 3 }\n")
+        turn = 2 * math.pi
+        for name, at, expected in (
+                ("rim", "1", [("t", [0, turn], turn, True)]), ("arc", "1", [("t", [0, turn / 4], turn, False)]),
+                ("wave", "1", [("t", [0, 1], None, False)]),
+                ("pipe", "1,1", [("u", [0, turn], turn, True), ("v", [0, 1], None, False)])):
+            for found in (self.json_of("evaluate", "scene.yaml", name, "--at", at),
+                          self.json_of("measure", "scene.yaml", name)):
+                self.assertEqual([tuple(one.values()) for one in found["parameters"]], expected)
+            self.assertNotIn("note", self.run_program("evaluate", "scene.yaml", name, "--at", at)[1])
+        self.assertIn("domain of u           0 to 6.2831853071795862, period 6.2831853071795862, closed\n"
+                      "domain of v           0 to 1\n", self.run_program("measure", "scene.yaml", "pipe")[0])
+        self.assertEqual(self.run_program("evaluate", "scene.yaml", "rim", "--at", "7")[1], "")
+        for name, at, note in (("arc", "7", "by the period the place is 0.716814693"),
+                               ("arc", "2", "outside the domain 0 to 1.57079633, this is the continuation"),
+                               ("wave", "1.5", "t = 1.5 lies outside"), ("pipe", "7,4", "v = 4 lies outside")):
+            self.assertIn(note, self.run_program("evaluate", "scene.yaml", name, "--at", at)[1])
 
     def test_curvatures_at_a_pole(self):
         self.write("scene.yaml", "lekalo: 1\ngeometry:\n  dish: { type: formula_surface, coordinates: cylindrical, "

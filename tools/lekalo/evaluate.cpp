@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "geometry/queries/differential/curvature.h"
-#include "json.h"
+#include "parameters.h"
 
 namespace lekalo::command {
 
@@ -15,19 +15,20 @@ using geometry::Vec3;
 ordered_json json_or_null(bool known, double x) { return known ? ordered_json(x) : ordered_json(nullptr); }
 
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
-  const geometry::CurveJet jet = curve.evaluate(t, std::max(order, 3));
+  const geometry::CurveJet jet = curve.evaluate(t, order);
   ordered_json out;
   out["t"] = t;
   out["point"] = to_json(jet.point());
   ordered_json derivatives = ordered_json::array();
   for (int k = 1; k <= order; ++k) derivatives.push_back(to_json(jet.d[k]));
   out["derivatives"] = derivatives;
-  const geometry::CurveCurvature c = geometry::curvature(jet);
+  const geometry::CurveCurvature c = geometry::curvature(curve, t);
   out["tangent"] = c.has_tangent ? to_json(c.tangent) : ordered_json(nullptr);
   out["normal"] = c.has_normal ? to_json(c.normal) : ordered_json(nullptr);
   out["binormal"] = c.has_normal ? to_json(c.binormal) : ordered_json(nullptr);
-  out["curvature"] = json_or_null(c.has_tangent, c.curvature);
-  out["torsion"] = json_or_null(c.has_normal, c.torsion);
+  out["curvature"] = json_or_null(c.has_curvature, c.curvature);
+  out["torsion"] = json_or_null(c.has_normal || c.is_straight, c.torsion);
+  out["parameters"] = parameters_of(curve);
   return out;
 }
 
@@ -49,12 +50,15 @@ ordered_json evaluate_surface(const geometry::Surface& surface, double u, double
   out["mean_curvature"] = json_or_null(c.regular, c.mean);
   out["principal_curvatures"] =
       c.regular ? ordered_json::array({c.principal[0], c.principal[1]}) : ordered_json(nullptr);
+  out["parameters"] = parameters_of(surface);
   return out;
 }
 
 void print(const ordered_json& out) {
   for (const auto& [key, value] : out.items()) {
-    if (value.is_null()) {
+    if (key == "parameters") {
+      print_parameters(value);
+    } else if (value.is_null()) {
       fmt::print("{:<21} -\n", key);
     } else if (value.is_array() && !value.empty() && value[0].is_array()) {
       for (size_t k = 0; k < value.size(); ++k)
@@ -96,13 +100,6 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   if (options.face.empty())
     throw UsageError(fmt::format("'{}' has {} faces; say which one: {}", options.name, count, hint));
   throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
-}
-
-// Outside its domain a curve or surface goes on by a rule; who asks for it should know.
-void note_outside(const char* name, double x, const geometry::Interval& domain, double period) {
-  if (period > 0 || domain.contains(x)) return;
-  fmt::print(stderr, "note: {} = {:.9g} lies outside the domain {:.9g} to {:.9g}, this is the continuation\n", name, x,
-             domain.lo, domain.hi);
 }
 
 int run(const Options& options) {

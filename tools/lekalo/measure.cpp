@@ -14,6 +14,7 @@
 #include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/queries/measures/shape_measures.h"
+#include "parameters.h"
 
 namespace lekalo::command {
 
@@ -247,12 +248,14 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       out["kind"] = "curve";
       put(out, "length", measured.length);
       put_centroid(out, measured.centroid, measured.centroid_error);
+      out["parameters"] = parameters_of(**curve);
       // A line found by steps says how far it may be from the one that is meant.
       const auto* line = dynamic_cast<const geometry::SurfaceCurve*>(curve->get());
       if (line && line->error() > 0) out["deviation"] = line->error();
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));
+      out["parameters"] = parameters_of(**surface);
     } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
       out["kind"] = "patches";
       put(out, measure_set(*set));
@@ -288,6 +291,10 @@ void print_measures(const ordered_json& measured) {
                                                  : "");
   for (const auto& [key, value] : measured.items()) {
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
+    if (key == "parameters") {
+      print_parameters(value);
+      continue;
+    }
     const bool is_matrix = value.is_array() && value[0].is_array();
     std::string label = key;
     std::replace(label.begin(), label.end(), '_', ' ');

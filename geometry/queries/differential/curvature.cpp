@@ -84,6 +84,18 @@ double elsewhere(const Interval& range, double x, double part) {
   return y <= range.hi ? y : y - range.width();
 }
 
+// What rounding leaves of a derivative that vanishes, over the range of its piece and in parts of its size.
+constexpr double kRoundingOfJets = 1e-12;
+
+// Width of the smooth piece that holds t; beyond the domain of the one at the end. Of an unbounded curve 1.
+double piece_width(const Curve& curve, double t) {
+  if (!(curve.domain().width() < kInfinity)) return 1;
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  for (const CurvePiece& piece : pieces)
+    if (t < piece.domain.hi) return piece.domain.width();
+  return pieces.empty() ? curve.domain().width() : pieces.back().domain.width();
+}
+
 }  // namespace
 
 CurveCurvature curvature(const CurveJet& jet) {
@@ -91,7 +103,7 @@ CurveCurvature curvature(const CurveJet& jet) {
   const Vec3 &r1 = jet.d[1], &r2 = jet.d[2], &r3 = jet.d[3];
   const double speed = glm::length(r1);
   if (!(speed > 0)) return c;
-  c.has_tangent = true;
+  c.has_tangent = c.has_curvature = true;
   c.tangent = r1 / speed;
   const Vec3 b = glm::cross(r1, r2);
   const double area = glm::length(b);
@@ -102,6 +114,37 @@ CurveCurvature curvature(const CurveJet& jet) {
   c.binormal = b / area;
   c.normal = glm::cross(c.binormal, c.tangent);
   c.torsion = glm::dot(b, r3) / (area * area);
+  return c;
+}
+
+CurveCurvature curvature(const Curve& curve, double t) {
+  const CurveJet jet = curve.evaluate(t, kMaxCurveOrder);
+  const double width = piece_width(curve, t);
+  // Derivatives over the piece's parameter range: lengths of the size of the piece, as their rounding is.
+  std::array<Vec3, kMaxCurveOrder + 1> scaled;
+  double size = glm::length(jet.d[0]);
+  for (int k = 1; k <= kMaxCurveOrder; ++k) {
+    scaled[k] = jet.d[k] * std::pow(width, k);
+    if (k <= 3) size = std::max(size, glm::length(scaled[k]));
+  }
+  const double rounding = kRoundingOfJets * size;
+  int first = 1;
+  while (first <= kMaxCurveOrder && !(glm::length(scaled[first]) > rounding)) ++first;
+  if (first > kMaxCurveOrder) return {};
+  const Vec3 direction = glm::normalize(scaled[first]);
+  if (first > 1) {
+    CurveCurvature c;
+    c.has_tangent = true;
+    c.tangent = t >= curve.domain().hi && first % 2 == 0 ? -direction : direction;
+    return c;
+  }
+  const auto across = [&](int k) { return glm::length(glm::cross(direction, scaled[k])) > rounding; };
+  if (across(2)) return curvature(jet);
+  CurveCurvature c;
+  c.has_tangent = c.has_curvature = true;
+  c.tangent = direction;
+  c.is_straight = true;
+  for (int k = 3; k <= kMaxCurveOrder; ++k) c.is_straight = c.is_straight && !across(k);
   return c;
 }
 

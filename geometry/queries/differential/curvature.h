@@ -10,12 +10,19 @@ namespace lekalo::geometry {
 // at a straightening point (r' parallel to r'') the curvature is 0 and normal, binormal and torsion are not defined.
 struct CurveCurvature {
   bool has_tangent = false;
+  bool has_curvature = false;
   bool has_normal = false;
+  bool is_straight = false;  // part of a straight line: curvature and torsion are 0, there is no normal
   Vec3 tangent{0}, normal{0}, binormal{0};
   double curvature = 0;  // >= 0, 1/length
   double torsion = 0;    // positive for a right-handed helix
 };
 CurveCurvature curvature(const CurveJet& jet);  // order >= 3
+
+// The same at a parameter, where the curve tells what is rounding: derivatives below 1e-12 of its smooth piece are
+// none. At a singular point the tangent is the limit from greater t (at the end of the domain from smaller), along the
+// first derivative that does not vanish; a cusp's other side has the opposite one.
+CurveCurvature curvature(const Curve& curve, double t);
 
 // Gaussian, mean and principal curvatures, signed by the normal: a convex surface seen from outside has negative ones
 // (Golovanov 2016, 3.1.4-3.1.12). principal[0] >= principal[1]; directions are unit vectors of space.

@@ -160,5 +160,42 @@ TEST(SurfaceCurvature, IsNotKnownWithoutALimit) {
   EXPECT_TRUE(curvature(bent, 0.3, 0.01).regular);
 }
 
+// Collinear points at equal distances: second and third derivatives are rounding, also far from the origin.
+TEST(CurveCurvature, StraightLinesHaveNoNoise) {
+  for (const double far : {0.0, 1e6}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 5; ++i)
+      points.push_back(Vec3(0.1 + far, 0.7, 0.3) + Vec3(0.3, 0.1, 0.2) * static_cast<double>(i));
+    const auto line = bezier_curve(points);
+    for (const double t : {0.0, 0.1, 0.37, 1.0}) {
+      const CurveCurvature c = curvature(line, t);
+      EXPECT_TRUE(c.has_tangent && c.has_curvature && c.is_straight && !c.has_normal) << far << " " << t;
+      EXPECT_EQ(c.curvature, 0);
+      EXPECT_EQ(c.torsion, 0);
+      EXPECT_LT(glm::length(c.tangent - Vec3(3, 1, 2) / std::sqrt(14.0)), 1e-9);
+    }
+  }
+  // Bent by little, but bent: y = 1e-6 x^2 has the curvature 2e-6.
+  const std::vector<Vec3> bent{{0, 0, 0}, {0.5, 0, 0}, {1, 1e-6, 0}};
+  const CurveCurvature c = curvature(bezier_curve(bent), 0.0);
+  EXPECT_TRUE(c.has_normal && !c.is_straight);
+  EXPECT_NEAR(c.curvature, 2e-6, 1e-18);
+}
+
+// Cubic with control points of a cusp at 1/2: r'' there is along -y, and the arriving tangent along +y.
+TEST(CurveCurvature, TangentOfACuspIsTheLimit) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}};
+  const auto cusp = bezier_curve(points);
+  const CurveCurvature c = curvature(cusp, 0.5);
+  EXPECT_TRUE(c.has_tangent && !c.has_curvature && !c.has_normal);
+  EXPECT_LT(glm::length(c.tangent - Vec3(0, -1, 0)), 1e-12);
+  const Vec3 beside = glm::normalize(cusp.evaluate(0.5 + 1e-7, 1).d[1]);
+  EXPECT_LT(glm::length(c.tangent - beside), 1e-6);
+  // Points that coincide at both ends: the limits lie inside, in the direction of the parameter.
+  const std::vector<Vec3> resting{{0, 0, 0}, {0, 0, 0}, {1, 2, 0}, {1, 2, 0}};
+  for (const double t : {0.0, 1.0})
+    EXPECT_LT(glm::length(curvature(bezier_curve(resting), t).tangent - Vec3(1, 2, 0) / std::sqrt(5.0)), 1e-12) << t;
+}
+
 }  // namespace
 }  // namespace lekalo::geometry::curvature_test
