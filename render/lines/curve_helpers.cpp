@@ -101,12 +101,25 @@ std::vector<Vec3> helper_points(const Object& object) {
         const Rectangle domain = surface->domain();
         for (const double u : {domain.u.lo, domain.u.middle(), domain.u.hi})
           for (const double v : {domain.v.lo, domain.v.middle(), domain.v.hi})
-            points.push_back(surface->point(u, v) + f.number("length") * surface->normal(u, v));
+            for (const Vec3& tip : normal_tips(*surface, u, v, helper)) points.push_back(tip);
       }
     }
   }
   std::erase_if(points, [](const Vec3& p) { return !std::isfinite(p.x + p.y + p.z); });
   return points;
+}
+
+std::vector<Vec3> normal_tips(const Surface& surface, double u, double v, const Helper& helper) {
+  const double length = helper.values.number("length");
+  const SurfaceJet jet = surface.evaluate(u, v, 1);
+  const Vec3 normal = surface.normal(u, v);
+  std::vector<Vec3> tips{jet.point() + length * normal};
+  // At a pole rounding leaves r_u a direction.
+  const bool vanishes = !(glm::length(jet.du()) > 1e-12 * glm::length(jet.dv()));
+  if (!helper.values.boolean("frames") || vanishes) return tips;
+  const Vec3 tangent = glm::normalize(jet.du());
+  for (const Vec3& axis : {tangent, glm::cross(tangent, normal)}) tips.push_back(jet.point() + length * axis);
+  return tips;
 }
 
 std::vector<Frame> helper_frames(const Curve& curve, const Helper& helper) {

@@ -29,6 +29,10 @@ std::vector<geometry::Frame> rotation_minimizing_frames(const geometry::Curve& c
 // Those that a helper `frames` asks for.
 std::vector<geometry::Frame> helper_frames(const geometry::Curve& curve, const Helper& helper);
 
+// Ends of what a helper `normals` shows at a place: the normal n, and with `frames` the unit tangent t along u and t x
+// n (Grezdov, Filippenko 2010, 10).
+std::vector<geometry::Vec3> normal_tips(const geometry::Surface& surface, double u, double v, const Helper& helper);
+
 // What the helpers of an object reach: control points, tips of combs, frames and normals.
 std::vector<geometry::Vec3> helper_points(const Object& object);
 

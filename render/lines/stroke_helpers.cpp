@@ -69,12 +69,15 @@ void StrokeCollector::add_helper(const Helper& helper) {
   });
 }
 
-// De Boor's points of each level (Golovanov 2016, 2.9), which for a Bezier curve are de Casteljau's:
+// De Boor's points of each level (Golovanov 2016, 2.10), which for a Bezier curve are de Casteljau's:
 //
 //   d_i^r = (1 - a) d_(i-1)^(r-1) + a d_i^(r-1),   a = (t - t_i)/(t_(i+p-r+1) - t_i)
+//
+// In the span t_s <= t < t_(s+1) those of level r have the indices s-p+r to s; de Casteljau's count from 0.
 void StrokeCollector::add_triangle(const NurbsCurveForm& form, const std::string& sign, const Helper& helper) {
   const int p = form.degree, last = static_cast<int>(form.points.size()) - 1;
   const double t = helper.values.number("t");
+  const bool de_boor = helper.type == "de_boor";
   int span = p;
   while (span < last && form.knots[span + 1] <= t) ++span;
   std::vector<Vec4> points(form.points.begin() + (span - p), form.points.begin() + (span + 1));
@@ -92,10 +95,7 @@ void StrokeCollector::add_triangle(const NurbsCurveForm& form, const std::string
     polygon(shown, false, helper.style, helper.hidden);
     for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
     for (size_t i = 0; i < shown.size(); ++i)
-      label(shown[i],
-            {static_cast<double>(i + (form.degree + 1 == static_cast<int>(form.points.size()) ? 0 : span - p)),
-             static_cast<double>(level)},
-            helper);
+      label(shown[i], {static_cast<double>(i) + (de_boor ? span - p + level : 0), static_cast<double>(level)}, helper);
   }
 }
 
@@ -162,14 +162,13 @@ void StrokeCollector::add_frames(const Curve& curve, const Helper& helper) {
 
 void StrokeCollector::add_normals(const Surface& surface, const Helper& helper) {
   const Rectangle domain = surface.domain();
-  const double length = helper.values.number("length");
   for (const double u :
        values_in(helper.values.get<ParameterValues>("at_u"), domain.u, is_closed_in(surface, IsoDirection::u)))
     for (const double v :
          values_in(helper.values.get<ParameterValues>("at_v"), domain.v, is_closed_in(surface, IsoDirection::v))) {
       const Vec3 foot_point = surface.point(u, v);
-      stroke(std::make_shared<Segment>(foot_point, foot_point + length * surface.normal(u, v)), helper.style,
-             helper.hidden);
+      for (const Vec3& tip : normal_tips(surface, u, v, helper))
+        stroke(std::make_shared<Segment>(foot_point, tip), helper.style, helper.hidden);
     }
 }
 

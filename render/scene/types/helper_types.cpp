@@ -97,7 +97,9 @@ TypeDeclaration normals() {
   TypeDeclaration type = helper("normals", "Unit normals of a surface.", "thin");
   type.field("at_u", counts(), "parameters u: how many, or where", "5")
       .field("at_v", counts(), "parameters v: how many, or where", "5")
-      .field("length", length().positive(), "in scene units", "1");
+      .field("length", length().positive(), "in scene units", "1")
+      .field("frames", boolean(),
+             "with the unit tangent t along u and t x n beside the normal n (not where r_u vanishes)", "false");
   return finish(type);
 }
 

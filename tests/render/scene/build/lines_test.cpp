@@ -148,6 +148,81 @@ TEST(LinesOfScenes, TrianglesEndOnTheCurve) {
   EXPECT_EQ(work_of("  - { shape: r, show: { de_casteljau: { t: 0.3, levels: [2] } } }\n").marks.size(), 1u);
 }
 
+// What a drawing shows of one object of these shapes.
+LineWork drawn_of(const std::string& objects) {
+  const BuiltText text = build_text(R"(
+geometry:
+  spline:
+    type: nurbs_curve
+    degree: 3
+    knots: [0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6]
+    points: [[0, 0], [1, 2], [2, -1], [3, 3], [4, 0], [5, 2], [6, -2], [7, 1], [8, 0]]
+  cubic: { type: bezier_curve, points: [[0, 0, 0], [1, 0, 0], [2, 3, 1], [0, 1, 2]], weights: [1, 2, 3, 0.5] }
+  ball: { type: sphere_surface, center: [1, 2, 3], radius: 2 }
+lights: {}
+image: { size: [96, 72] }
+objects:
+)" + objects);
+  EXPECT_EQ(text.said, "");
+  return drawing_work(World(std::make_shared<const Model>(text.model)));
+}
+
+// De Boor's triangle of Golovanov 2016, 2.10 and 2.11: in the span t_5 <= t < t_6 level k has the indices 2 + k to 5.
+TEST(LinesOfScenes, DeBoorsTriangleHasItsIndices) {
+  const LineWork work = drawn_of("  - { shape: spline, show: { de_boor: { t: 2.5, label: '%i|%k' } } }\n");
+  const std::vector<std::pair<std::string, Vec3>> expected{
+      {"3|1", {17.0 / 6, 7.0 / 3, 0}},   {"4|1", {3.5, 1.5, 0}},
+      {"5|1", {25.0 / 6, 1.0 / 3, 0}},   {"4|2", {10.0 / 3, 41.0 / 24, 0}},
+      {"5|2", {11.0 / 3, 29.0 / 24, 0}}, {"5|3", {3.5, 35.0 / 24, 0}}};
+  ASSERT_EQ(work.texts.size(), expected.size());
+  for (size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_EQ(work.texts[k].text, expected[k].first);
+    EXPECT_LT(glm::length(work.texts[k].point - expected[k].second), 1e-14) << expected[k].first;
+  }
+  // De Casteljau's count from 0 on every level.
+  const LineWork bezier = drawn_of("  - { shape: cubic, show: { de_casteljau: { t: 0.5, label: '%i|%k' } } }\n");
+  std::vector<std::string> labels;
+  for (const PointText& text : bezier.texts) labels.push_back(text.text);
+  EXPECT_EQ(labels, (std::vector<std::string>{"0|1", "1|1", "2|1", "0|2", "1|2", "0|3"}));
+}
+
+std::vector<Vec3> ends_of(const LineWork& work, const std::string& kind) {
+  std::vector<Vec3> ends;
+  for (const Stroke& stroke : work.strokes)
+    if (stroke.kind == kind) ends.push_back(stroke.to_world.point(stroke.curve->point(stroke.curve->domain().hi)));
+  return ends;
+}
+
+// Grezdov, Filippenko 2010, 10: t along u, n, t x n, where u = v = 0 on a sphere.
+TEST(LinesOfScenes, FramesOfSurfaces) {
+  const LineWork work =
+      drawn_of("  - { shape: ball, show: { normals: { at_u: [0], at_v: [0], length: 0.5, frames: true } } }\n");
+  const std::vector<Vec3> ends = ends_of(work, "normals"), expected{{3.5, 2, 3}, {3, 2.5, 3}, {3, 2, 2.5}};
+  ASSERT_EQ(ends.size(), 3u);
+  for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(ends[k] - expected[k]), 1e-14) << k;
+  // At a pole r_u vanishes: the normal alone.
+  EXPECT_EQ(ends_of(drawn_of("  - { shape: ball, show: { normals: { at_u: [0], at_v: [90 deg], frames: true } } }\n"),
+                    "normals")
+                .size(),
+            1u);
+}
+
+// The vectors of curvature at the ends of a rational cubic (Korotkij, Studenova 2024): of the length
+// 2/3 w0 w2/w1^2 |R0Q x QP| / |R0Q|^3, across the tangent towards P.
+TEST(LinesOfScenes, CurvatureVectorsAtTheEnds) {
+  const LineWork work = drawn_of(
+      "  - { shape: cubic, show: { comb: { count: 2, scale: -1, envelope: false, style: { arrows: end } } } }\n");
+  const std::vector<Vec3> ends = ends_of(work, "comb");
+  ASSERT_EQ(ends.size(), 2u);
+  const auto vector = [](const Vec3& end, const Vec3& next, const Vec3& far, double weights) {
+    const Vec3 a = next - end, b = far - next, across = glm::cross(glm::cross(a, b), a);
+    return 2.0 / 3 * weights * glm::length(glm::cross(a, b)) / std::pow(glm::length(a), 3) * glm::normalize(across);
+  };
+  const Vec3 r0{0, 0, 0}, q{1, 0, 0}, p{2, 3, 1}, r1{0, 1, 2};
+  EXPECT_LT(glm::length(ends[0] - (r0 + vector(r0, q, p, 1.0 * 3 / (2 * 2)))), 1e-14);
+  EXPECT_LT(glm::length(ends[1] - (r1 + vector(r1, p, q, 2.0 * 0.5 / (3 * 3)))), 1e-14);
+}
+
 TEST(LinesOfScenes, LooksAreInPixels) {
   const LineWork work = work_of(R"(  - { shape: c, lines: { curve: { width: 3 px, color: cycle }, hidden: faded } }
   - { shape: c, lines: { curve: { width: 0.5 px, color: cycle } } }
