@@ -12,6 +12,17 @@ ROWS = {"golovanov": 379, "zavyalov_splines": 69, "zavyalov_visualisation": 35, 
         "coursework": 20}
 
 
+# What rows speak of, in words of their titles, and the kinds of types that can provide it.
+SPOKEN = [(r"\bcurves?\b", {"curves", "helpers", "objects", "annotations"}),
+          (r"\bsurfaces?\b", {"surfaces", "curves", "bodies", "shapes", "helpers", "objects", "materials", "textures"}),
+          (r"\bbod(y|ies)\b", {"bodies", "shapes", "objects"}),
+          (r"\b(mesh|triangulation)", {"meshes", "objects"}),
+          (r"\b(lights?|shadows?)\b", {"lights", "integrators", "materials"})]
+# What the C++ of types is called where it is not called like them.
+CALLED = {"object": ["representation", "tessellate"], "intersection_curve": ["intersect"], "union": ["unite"],
+          "difference": ["subtract"]}
+
+
 class Capabilities(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -49,6 +60,48 @@ class Capabilities(ProgramTest):
                             self.assertIn(option, helps[command])
                     else:
                         self.assertIn(provider, types)
+
+    def kinds_of_types(self):
+        """Of every type the sections of `lekalo types` that it stands in."""
+        kinds, section = {}, None
+        for line in self.run_program("types")[0].splitlines():
+            name = re.match(r"  (\w+)  ", line)
+            if name:
+                kinds.setdefault(name[1], set()).add(section)
+            elif line:
+                section = line
+        return kinds
+
+    def test_providers_are_of_the_kind_spoken_of(self):
+        """By the title up to a bracket: a row of curves is not provided by a reader of meshes."""
+        kinds = self.kinds_of_types()
+        for name, row in self.rows():
+            types = [provider for provider in row["provided_by"] if provider in kinds]
+            title = re.split(r"[(;]", row["title"])[0]
+            fitting = [of for word, of in SPOKEN if re.search(word, title, re.IGNORECASE)]
+            if types and fitting:
+                with self.subTest(source=name, id=row["id"], types=types):
+                    self.assertTrue(any(kinds[one] & set().union({"groups"}, *fitting) for one in types))
+
+    def test_tests_mention_what_they_hold(self):
+        """Each type stands in one of the row's tests, or in a figure that a test of the program reads: as scenes call it,
+        or as C++ does. Tests of the program run the command; which C++ stands behind a command cannot be told."""
+        types = self.kinds_of_types()
+        for name, row in self.rows():
+            texts = [(ROOT / path).read_text() for path in row.get("tests", [])]
+            if any(path.endswith(".py") for path in row.get("tests", [])):
+                texts += [(ROOT / path).read_text() for path in row.get("figures", [])]
+            for provider in row["provided_by"] if texts else []:
+                if provider in types:
+                    stem = re.sub(r"_(curve|surface|body|line|light)$", "", provider)
+                    words = [stem, "".join(part.capitalize() for part in stem.split("_")),
+                             *CALLED.get(provider, [])]
+                elif all(path.endswith(".py") for path in row["tests"]):
+                    words = [provider.split()[1]] if "/" not in provider else []
+                else:
+                    continue
+                with self.subTest(source=name, id=row["id"], provider=provider, tests=row["tests"]):
+                    self.assertTrue(not words or any(re.search(rf"\b{word}", text) for word in words for text in texts))
 
     def test_what_is_missing_is_not_tested(self):
         for name, row in self.rows():

@@ -125,6 +125,16 @@ class FigureNumbers(ProgramTest):
             self.assert_near(at_origin, mass / 3 * (p * p + q * q), 1e-13)
             self.assert_near(block["inertia"][i][(i + 1) % 3], 0, 1e-14)
 
+    def test_operations_on_bodies(self):
+        """A block and a post that stands out of it: their union, intersection and difference by the common part."""
+        r, h, off = 0.7, 1.2, 0.5  # what lies beyond x = 1 is a segment of the circle about x = 1/2
+        common = h * (math.pi * r * r - (r * r * math.acos(off / r) - off * math.sqrt(r * r - off * off)))
+        block, post = 2 * 2 * h, math.pi * r * r * 2.2
+        for name, volume in ("both", block + post - common), ("common", common), ("less", block - common):
+            found = self.json_of("measure", FIGURES / "plate_csg.yaml", name)
+            self.assert_near(found["volume"], volume, max(found["volume_error"], 1e-9))
+            self.assertLess(found["volume_error"], 0.02 * volume)
+
     def test_moving_lamp(self):
         """A whole turn brings the first picture back, half a turn another shadow."""
         self.run_program("render", FIGURES / "moving_lamp.yaml", "--frames", "azimuth=0..360:3", "--size", "60x40",

@@ -4,6 +4,7 @@ repository validates, typical slips do not. The pages of docs/reference are what
 import json
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -48,9 +49,11 @@ class Schema(unittest.TestCase):
         sections = {"curves": "geometry", "surfaces": "geometry", "bodies": "geometry", "meshes": "geometry",
                     "shapes": "geometry", "materials": "materials", "lights": "lights", "groups": "geometry"}
         for page, section in sections.items():
-            for line in (ROOT / "docs/reference" / f"{page}.md").read_text().splitlines():
-                if line.startswith("    { type: "):
-                    self.assertTrue(self.valid(f"{section}: {{ a: {line.strip()} }}"), line)
+            text = (ROOT / "docs/reference" / f"{page}.md").read_text()
+            examples = re.findall(r"^    (\{ type: (\w+).*)$", text, re.MULTILINE)
+            self.assertEqual([name for _, name in examples], re.findall(r"^## (\w+)$", text, re.MULTILINE))
+            for example, _ in examples:
+                self.assertTrue(self.valid(f"{section}: {{ a: {example} }}"), example)
 
     def test_slips_do_not(self):
         self.assertTrue(self.valid("geometry: { a: { type: circle, radius: 2*r, center: [1, 0, 0], normal: -y } }"))

@@ -134,13 +134,18 @@ void each_line_of_face(const FaceRegion& face, IsoDirection held, double at,
     for (double x = at + shift_into(room, at, held_period) + held_period; is_in_room(x); x += held_period)
       copies.push_back(x);
   std::vector<double> cuts{along.lo, along.hi};
+  const auto cut_at = [&](double s) {
+    const double cut = reach.lo + s * reach.width();
+    cuts.push_back(cut > along.hi ? cut - period * std::ceil((cut - along.hi) / period) : cut);
+  };
   for (const double copy : copies) {
     const Segment line(place(held, copy, reach.lo), place(held, copy, reach.hi));
-    for (const Curve2Ptr& border : face.borders)
-      for (const CurveIntersection& intersection : intersect(line, *border).points) {
-        const double cut = reach.lo + intersection.s * reach.width();
-        cuts.push_back(cut > along.hi ? cut - period * std::ceil((cut - along.hi) / period) : cut);
-      }
+    for (const Curve2Ptr& border : face.borders) {
+      const CurveIntersections intersections = intersect(line, *border);
+      for (const CurveIntersection& intersection : intersections.points) cut_at(intersection.s);
+      // Where a border runs along the line.
+      for (const CommonPart& part : intersections.common) cut_at(part.s.lo), cut_at(part.s.hi);
+    }
   }
   // Loops may go over the seam, where the surface's own lines end.
   if (period > 0)

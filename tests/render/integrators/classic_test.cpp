@@ -283,6 +283,25 @@ TEST(ClassicIntegrator, ClearBodiesTintTheirShadows) {
   EXPECT_NEAR(at()[0], 1, kFloat);
 }
 
+// A ball of radius 1 below a lamp 7 above its middle: the cone that touches it leaves a disc of 10 tan(asin(1/7)) dark.
+TEST(ClassicIntegrator, ShadowEndsWhereTheConeTouches) {
+  SmallScene scene;
+  scene.add(sphere({0, 0, 3}, 1), make_material(Diffuse{}));
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
+  scene.light(PointLight{{0, 0, 10}, {}});
+  const double radius = 10 / std::sqrt(48.0);
+  for (const double turn : {0.0, 1.0, 4.0}) {
+    const auto lit = [&](double distance) {
+      const Vec3 at(distance * std::cos(turn), distance * std::sin(turn), 0), eye = 3.0 * at + Vec3(0, 0, 1);
+      return trace(*scene.world(), eye, at - eye).radiance[0];
+    };
+    EXPECT_EQ(lit(radius - 1e-6), 0) << turn;
+    EXPECT_GT(lit(radius + 1e-6), 0.9) << turn;
+  }
+  scene.model.lights = {make_light(PointLight{{0, 0, 10}, {.shadows = false}})};
+  EXPECT_GT(trace(*scene.world(), {3, 0, 1}, {-3, 0, -1}).radiance[0], 0.9);
+}
+
 TEST(ClassicIntegrator, ShadowCatcherShowsTheBackgroundLessItsShadows) {
   SmallScene scene;
   scene.model.background = {0.5f, 0.6f, 0.7f};

@@ -20,6 +20,7 @@
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/queries/rays/line_intersections.h"
 #include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/swept/revolution.h"
@@ -225,6 +226,29 @@ TEST(TrimmedSurface, ParameterLinesEndAtHoles) {
     EXPECT_NEAR(along_u, 0, 1e-9) << v;
     EXPECT_NEAR(along_v, 0, 1e-9) << u;
   }
+}
+
+// A border may run along a parameter line: beyond its ends the line goes on inside, or not at all.
+TEST(TrimmedSurface, ParameterLinesAlongABorder) {
+  const auto sheet = std::make_shared<Plane>(Frame{}, Rectangle{{-9, 9}, {-9, 9}});
+  const std::vector<Vec3> narrow{{1, 0, 0}, {3, 0, 0}, {3.5, 2, 0}, {0.5, 2, 0}},
+      step{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {5, 1, 0}, {5, 3, 0}, {0, 3, 0}};
+  const auto along = [&](const std::vector<Vec3>& corners, double v) {
+    Interval all{kInfinity, -kInfinity};
+    const Curve2Ptr loop = std::make_shared<NurbsCurve>(polyline(corners, true));
+    for (const NetLine& line : parameter_lines(trimmed_surface(sheet, {loop}), {{0, {}}, {0, {v}}}))
+      all = {std::min(all.lo, line.along.lo), std::max(all.hi, line.along.hi)};
+    return all;
+  };
+  // On the border itself rounding may take either side.
+  for (const auto& [corners, v, within] :
+       {std::tuple{narrow, 0.0, Interval{1, 3}}, {narrow, 2.0, {0.5, 3.5}}, {step, 0.0, {0, 2}}, {step, 1.0, {0, 5}}}) {
+    const Interval found = along(corners, v);
+    EXPECT_GE(found.lo, within.lo - 1e-12) << v;
+    EXPECT_LE(found.hi, within.hi + 1e-12) << v;
+  }
+  EXPECT_LE(along(step, 1).lo, 1e-12);
+  EXPECT_GE(along(step, 1).hi, 2 - 1e-12);
 }
 
 // Loops between which no way keeps climbing, long slots that overlap all round, and islands in holes.

@@ -1,5 +1,7 @@
 #include "geometry/surfaces/splines/nurbs_surface.h"
 
+#include <set>
+
 #include "geometry/curves/spline_oracle.h"
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/surfaces/surface_checks.h"
@@ -237,16 +239,29 @@ TEST(NurbsSurface, NeighbouringPiecesShareTheirBorders) {
   for (int sample = 0; sample < 6; ++sample) {
     const NurbsSurface s = some.surface(3, 2, 7, 5, 1);
     const auto pieces = s.pieces();
+    int neighbours_u = 0, neighbours_v = 0;
     for (const SurfacePiece& a : pieces)
       for (const SurfacePiece& b : pieces) {
         const int p = a.degree_u, q = a.degree_v;
         if (a.domain.u.hi == b.domain.u.lo && a.domain.v == b.domain.v) {
+          ++neighbours_u;
           for (int j = 0; j <= q; ++j) EXPECT_EQ(a.points[p * (q + 1) + j], b.points[j]);
         }
         if (a.domain.v.hi == b.domain.v.lo && a.domain.u == b.domain.u) {
+          ++neighbours_v;
           for (int i = 0; i <= p; ++i) EXPECT_EQ(a.points[i * (q + 1) + q], b.points[i * (q + 1)]);
         }
       }
+    // Rows of spans between the different knots of the domain.
+    const auto spans = [](const SplineAxis& axis) {
+      const std::set<double> knots(axis.knots().begin() + axis.degree(), axis.knots().end() - axis.degree());
+      return static_cast<int>(knots.size()) - 1;
+    };
+    const int m = spans(s.axis_u()), n = spans(s.axis_v());
+    EXPECT_EQ(static_cast<int>(pieces.size()), m * n);
+    EXPECT_EQ(neighbours_u, (m - 1) * n);
+    EXPECT_EQ(neighbours_v, m * (n - 1));
+    EXPECT_GT(neighbours_u + neighbours_v, 0);
   }
 }
 

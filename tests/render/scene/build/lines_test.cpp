@@ -159,6 +159,7 @@ geometry:
     points: [[0, 0], [1, 2], [2, -1], [3, 3], [4, 0], [5, 2], [6, -2], [7, 1], [8, 0]]
   cubic: { type: bezier_curve, points: [[0, 0, 0], [1, 0, 0], [2, 3, 1], [0, 1, 2]], weights: [1, 2, 3, 0.5] }
   ball: { type: sphere_surface, center: [1, 2, 3], radius: 2 }
+  rim: { type: circle, radius: 2 }
 lights: {}
 image: { size: [96, 72] }
 objects:
@@ -205,6 +206,14 @@ TEST(LinesOfScenes, FramesOfSurfaces) {
                     "normals")
                 .size(),
             1u);
+}
+
+// Frenet's frame on a circle: along it, to its middle, across its plane.
+TEST(LinesOfScenes, FramesOfCurves) {
+  const LineWork work = drawn_of("  - { shape: rim, show: { frames: { at: [90 deg], length: 0.5 } } }\n");
+  const std::vector<Vec3> ends = ends_of(work, "frames"), expected{{-0.5, 2, 0}, {0, 1.5, 0}, {0, 2, 0.5}};
+  ASSERT_EQ(ends.size(), 3u);
+  for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(ends[k] - expected[k]), 1e-14) << k;
 }
 
 // The vectors of curvature at the ends of a rational cubic (Korotkij, Studenova 2024): of the length
