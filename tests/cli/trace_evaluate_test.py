@@ -104,6 +104,9 @@ class TraceThenEvaluate(ProgramTest):
                    "  cardioid: { type: formula_curve, point: [2*(1 - cos(t))*cos(t), 2*(1 - cos(t))*sin(t), 0], "
                    "domain: [0, 2*pi] }\n"
                    "  cusp: { type: formula_curve, point: [t^2, t^3, 0], domain: [-1, 1] }\n"
+                   "  ball: { type: sphere_surface, radius: 2 }\n"
+                   "  great: { type: geodesic_curve, of: ball, from: [0.3, 0], direction: 90, length: 5 }\n"
+                   "  shadow: { type: projected_curve, of: { type: segment, from: [3, 0, 0], to: [0, 3, 1] }, onto: ball }\n"
                    "  flex: { type: formula_curve, point: [t, t^3, 0], domain: [-1, 1] }\n")
         for t in "0", "0.3", "0.77", "1":
             line = self.json_of("evaluate", "scene.yaml", "line", "--at", t)
@@ -111,6 +114,10 @@ class TraceThenEvaluate(ProgramTest):
             self.assert_near(line["tangent"], [x / math.sqrt(14) for x in (3, 1, 2)], 1e-14)
         flex = self.json_of("evaluate", "scene.yaml", "flex", "--at", "0")
         self.assertEqual([flex[key] for key in ("curvature", "torsion", "normal")], [0, None, None])
+        # Curves on surfaces have few derivatives: great circles.
+        for name in "great", "shadow":
+            found = self.json_of("evaluate", "scene.yaml", name, "--at", "0.6")
+            self.assert_near([found["curvature"], found["torsion"]], [0.5, 0], 1e-9)
         # From greater t, at the end of the domain from smaller.
         for name, t, tangent in ("cusp", "0", [1, 0, 0]), ("cardioid", "0", [1, 0, 0]), ("cardioid", "2*pi", [-1, 0, 0]):
             found = self.json_of("evaluate", "scene.yaml", name, "--at", t)

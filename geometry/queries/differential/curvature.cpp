@@ -87,13 +87,13 @@ double elsewhere(const Interval& range, double x, double part) {
 // What rounding leaves of a derivative that vanishes, over the range of its piece and in parts of its size.
 constexpr double kRoundingOfJets = 1e-12;
 
-// Width of the smooth piece that holds t; beyond the domain of the one at the end. Of an unbounded curve 1.
-double piece_width(const Curve& curve, double t) {
-  if (!(curve.domain().width() < kInfinity)) return 1;
+// Of the smooth piece that holds t; beyond the domain of the one at the end. Of an unbounded curve of length 1.
+Interval piece_at(const Curve& curve, double t) {
+  if (!(curve.domain().width() < kInfinity)) return {t, t + 1};
   const std::vector<CurvePiece> pieces = curve.pieces();
   for (const CurvePiece& piece : pieces)
-    if (t < piece.domain.hi) return piece.domain.width();
-  return pieces.empty() ? curve.domain().width() : pieces.back().domain.width();
+    if (t < piece.domain.hi) return piece.domain;
+  return pieces.empty() ? curve.domain() : pieces.back().domain;
 }
 
 }  // namespace
@@ -118,33 +118,35 @@ CurveCurvature curvature(const CurveJet& jet) {
 }
 
 CurveCurvature curvature(const Curve& curve, double t) {
-  const CurveJet jet = curve.evaluate(t, kMaxCurveOrder);
-  const double width = piece_width(curve, t);
+  constexpr int kOrder = 3;  // all curves have so many derivatives
+  const CurveJet jet = curve.evaluate(t, kOrder);
+  const Interval piece = piece_at(curve, t);
   // Derivatives over the piece's parameter range: lengths of the size of the piece, as their rounding is.
-  std::array<Vec3, kMaxCurveOrder + 1> scaled;
+  std::array<Vec3, kOrder + 1> scaled;
   double size = glm::length(jet.d[0]);
-  for (int k = 1; k <= kMaxCurveOrder; ++k) {
-    scaled[k] = jet.d[k] * std::pow(width, k);
-    if (k <= 3) size = std::max(size, glm::length(scaled[k]));
+  for (int k = 1; k <= kOrder; ++k) {
+    scaled[k] = jet.d[k] * std::pow(piece.width(), k);
+    size = std::max(size, glm::length(scaled[k]));
   }
   const double rounding = kRoundingOfJets * size;
   int first = 1;
-  while (first <= kMaxCurveOrder && !(glm::length(scaled[first]) > rounding)) ++first;
-  if (first > kMaxCurveOrder) return {};
-  const Vec3 direction = glm::normalize(scaled[first]);
+  while (first <= kOrder && !(glm::length(scaled[first]) > rounding)) ++first;
+  if (first > kOrder) return {};
+  CurveCurvature c;
+  c.has_tangent = true;
+  c.tangent = glm::normalize(scaled[first]);
   if (first > 1) {
-    CurveCurvature c;
-    c.has_tangent = true;
-    c.tangent = t >= curve.domain().hi && first % 2 == 0 ? -direction : direction;
+    if (t >= curve.domain().hi && first % 2 == 0) c.tangent = -c.tangent;
     return c;
   }
-  const auto across = [&](int k) { return glm::length(glm::cross(direction, scaled[k])) > rounding; };
-  if (across(2)) return curvature(jet);
-  CurveCurvature c;
-  c.has_tangent = c.has_curvature = true;
-  c.tangent = direction;
-  c.is_straight = true;
-  for (int k = 3; k <= kMaxCurveOrder; ++k) c.is_straight = c.is_straight && !across(k);
+  const auto across = [&](const Vec3& v) { return glm::length(glm::cross(c.tangent, v)) > rounding; };
+  if (across(scaled[2])) return curvature(jet);
+  c.has_curvature = true;
+  c.is_straight = !across(scaled[3]);
+  for (int k = 0; k <= 4; ++k) {
+    const Vec3 elsewhere = curve.evaluate(piece.lo + piece.width() * k / 4, 1).d[1];
+    c.is_straight = c.is_straight && !across(elsewhere * piece.width());
+  }
   return c;
 }
 

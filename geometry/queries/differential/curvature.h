@@ -21,7 +21,7 @@ CurveCurvature curvature(const CurveJet& jet);  // order >= 3
 
 // The same at a parameter, where the curve tells what is rounding: derivatives below 1e-12 of its smooth piece are
 // none. At a singular point the tangent is the limit from greater t (at the end of the domain from smaller), along the
-// first derivative that does not vanish; a cusp's other side has the opposite one.
+// second or third derivative, the first that does not vanish; a cusp's other side has the opposite one.
 CurveCurvature curvature(const Curve& curve, double t);
 
 // Gaussian, mean and principal curvatures, signed by the normal: a convex surface seen from outside has negative ones

@@ -175,6 +175,12 @@ TEST(CurveCurvature, StraightLinesHaveNoNoise) {
       EXPECT_LT(glm::length(c.tangent - Vec3(3, 1, 2) / std::sqrt(14.0)), 1e-9);
     }
   }
+  // A flat point of a bent curve is no straight line, whatever the order.
+  std::vector<Vec3> flat;
+  for (int i = 0; i < 6; ++i) flat.push_back({i / 5.0, i == 5 ? 1.0 : 0.0, 0});  // (t, t^5)
+  const CurveCurvature point = curvature(bezier_curve(flat), 0.0);
+  EXPECT_TRUE(point.has_curvature && !point.has_normal && !point.is_straight);
+  EXPECT_EQ(point.curvature, 0);
   // Bent by little, but bent: y = 1e-6 x^2 has the curvature 2e-6.
   const std::vector<Vec3> bent{{0, 0, 0}, {0.5, 0, 0}, {1, 1e-6, 0}};
   const CurveCurvature c = curvature(bezier_curve(bent), 0.0);
