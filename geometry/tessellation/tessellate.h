@@ -12,7 +12,7 @@ namespace lekalo::geometry {
 
 struct TessellationTolerance {
   double sag = 1e-3;              // largest distance of a triangle from the surface, in scene units
-  double angle = 20 * kPi / 180;  // largest turn of the normal along one edge of a triangle
+  double angle = 20 * kPi / 180;  // largest turn of the normal along u and v; more across both
   // Sag as a function of place, for tolerances in pixels; used in place of `sag` when set.
   std::function<double(const Vec3&)> sag_at;
   double sag_near(const Vec3& point) const { return sag_at ? sag_at(point) : sag; }

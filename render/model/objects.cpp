@@ -197,8 +197,8 @@ TypeDeclaration object_type() {
                     {"sag_pixels", number().positive(), "the same in pixels, where no sag is given", false, "0.25"},
                     {"angle",
                      angle().positive().at_most(kPi / 2),
-                     "largest turn of the normal along a side, of a curve's tangent along a chord; given alone, it "
-                     "decides alone. Without it 10 of surfaces",
+                     "largest turn of the normal along u and along v, of a curve's tangent along a chord; given alone, "
+                     "it decides alone. Without it 10 of surfaces",
                      false,
                      {}}}),
              "fineness of the mesh representation", "{}")

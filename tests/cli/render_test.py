@@ -200,6 +200,27 @@ class Pictures(ProgramTest):
         self.assertIn("only OBJ", self.run_program("export", "rim.yaml", "ball", "rim", "-o", "both.stl")[1])
         self.assertIn("nothing to export", self.run_program("export", "rim.yaml", "-o", "rim.stl", code=USAGE)[1])
 
+    def test_meshes_by_angle(self):
+        """The angle of an object's mesh bounds the turn of the normal along parallels and meridians, and is made use of;
+        the diagonals of their cells turn by up to the root of 2 times more."""
+        for angle in 10, 30:
+            self.write("ball.yaml", "lekalo: 1\ngeometry: { ball: { type: sphere_surface, radius: 3 } }\n"
+                       f"objects: {{ shape: ball, representation: mesh, mesh: {{ angle: {angle} }} }}\n")
+            self.run_program("export", "ball.yaml", "-o", "ball.obj", "--quiet")
+            lines = [line.split() for line in self.bytes_of("ball.obj").decode().splitlines()]
+            points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+            along, diagonal = [], []
+            for line in lines:
+                if line[0] == "f":
+                    corners = [points[int(word.split("/")[0]) - 1] for word in line[1:]]
+                    for p, q in zip(corners, corners[1:] + corners[:1]):
+                        cosine = sum(a * b for a, b in zip(p, q)) / 9
+                        across = abs(p[2] - q[2]) > 1e-9 and abs(p[0] * q[1] - p[1] * q[0]) > 1e-9
+                        (diagonal if across else along).append(math.degrees(math.acos(min(1, cosine))))
+            self.assertLessEqual(max(along), angle * 1.001)
+            self.assertGreater(max(along), angle / 2)
+            self.assertLessEqual(max(diagonal), angle * 1.001 * math.sqrt(2))
+
     def test_export_of_a_finer_mesh(self):
         """Half the size of triangles costs about four times as many and a quarter of the sag."""
         def triangles(sag):
