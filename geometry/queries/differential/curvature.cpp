@@ -143,8 +143,8 @@ CurveCurvature curvature(const Curve& curve, double t) {
   if (across(scaled[2])) return curvature(jet);
   c.has_curvature = true;
   c.is_straight = !across(scaled[3]);
-  for (int k = 0; k <= 4; ++k) {
-    const Vec3 elsewhere = curve.evaluate(piece.lo + piece.width() * k / 4, 1).d[1];
+  for (int k = 0; k < 5; ++k) {  // inside: at the ends corners may begin
+    const Vec3 elsewhere = curve.evaluate(piece.lo + piece.width() * (k + 0.5) / 5, 1).d[1];
     c.is_straight = c.is_straight && !across(elsewhere * piece.width());
   }
   return c;

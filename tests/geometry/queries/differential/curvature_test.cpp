@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/surfaces/splines/bezier_surface.h"
 #include "geometry/surfaces/swept/revolution.h"
@@ -174,6 +175,13 @@ TEST(CurveCurvature, StraightLinesHaveNoNoise) {
       EXPECT_EQ(c.torsion, 0);
       EXPECT_LT(glm::length(c.tangent - Vec3(3, 1, 2) / std::sqrt(14.0)), 1e-9);
     }
+  }
+  // Sides of a polyline, up to the corners.
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  for (const double t : {0.0, 0.4, 1.0, 1.7, 2.0}) {
+    const CurveCurvature c = curvature(polyline(corners), t);
+    EXPECT_TRUE(c.is_straight && c.torsion == 0 && !c.has_normal) << t;
+    EXPECT_EQ(c.tangent, t < 1 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)) << t;
   }
   // A flat point of a bent curve is no straight line, whatever the order.
   std::vector<Vec3> flat;
