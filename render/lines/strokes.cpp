@@ -14,7 +14,7 @@
 #include "render/model/look.h"
 #include "render/model/objects.h"
 #include "render/model/placed_objects.h"
-#include "render/scene/mesh_tolerance.h"
+#include "render/model/mesh_tolerance.h"
 #include "render/scene/values/color_names.h"
 
 namespace lekalo::render {

@@ -16,7 +16,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
 #include "render/model/placed_objects.h"
-#include "render/scene/mesh_tolerance.h"
+#include "render/model/mesh_tolerance.h"
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"

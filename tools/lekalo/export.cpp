@@ -11,7 +11,7 @@
 #include "render/image/atomic_file.h"
 #include "render/mesh_files/mesh_files.h"
 #include "render/pov/pov_export.h"
-#include "render/scene/mesh_tolerance.h"
+#include "render/model/mesh_tolerance.h"
 
 namespace lekalo::command {
 

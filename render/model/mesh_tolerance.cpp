@@ -1,4 +1,4 @@
-#include "render/scene/mesh_tolerance.h"
+#include "render/model/mesh_tolerance.h"
 
 #include <algorithm>
 
