@@ -125,6 +125,14 @@ void AtomicFile::fail(const std::string& what, int error_number) {
   throw ImageError(path_, what + ": " + std::strerror(error_number), remedy_for(error_number));
 }
 
+fs::path resolved_path(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  fs::path resolved = fs::weakly_canonical(whole, error);
+  if (error) resolved = whole.lexically_normal();
+  return resolved.has_filename() ? resolved : resolved.parent_path();  // "folder/" and "folder" are one
+}
+
 void write_file_atomically(const fs::path& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);

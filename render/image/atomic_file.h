@@ -46,6 +46,9 @@ class AtomicFile {
   int error_number_ = 0;  // of the first failure
 };
 
+// Where `path` leads, whether it exists or not: absolute, links resolved. Two names of one file give the same.
+std::filesystem::path resolved_path(const std::filesystem::path& path);
+
 // The whole of `text` at once.
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "geometry/expression/nearest_name.h"
+#include "render/image/atomic_file.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
 #include "render/scene/yaml/data_path.h"
@@ -85,6 +86,7 @@ class SuiteReader {
 
  private:
   fs::path folder(const char* key, const char* otherwise);
+  void check_folders();
   void check_sections();
   void read_tests(const Value& tests);
   void read_test(const Value& given, const Counters& counters);
@@ -115,6 +117,20 @@ fs::path SuiteReader::folder(const char* key, const char* otherwise) {
   else
     return *text;
   return otherwise;
+}
+
+// A run removes earlier results before it makes them anew.
+void SuiteReader::check_folders() {
+  if (resolved_path(suite_.golden) != resolved_path(suite_.results)) return;
+  const Value* results = file_.root.find("results");
+  const Value* golden = file_.root.find("golden");
+  diagnostics_.error((results  ? *results
+                      : golden ? *golden
+                               : file_.root)
+                         .place,
+                     fmt::format("'golden' and 'results' are one folder, {}: a run would destroy the golden pictures",
+                                 suite_.golden.string()),
+                     "golden lies beside the suite, results in the current folder; give one of them another name");
 }
 
 void SuiteReader::check_sections() {
@@ -290,6 +306,7 @@ Suite SuiteReader::read() {
   suite_.file = path_;
   suite_.golden = path_.parent_path() / folder("golden", "golden");
   suite_.results = folder("results", "results");
+  check_folders();
   const Value* defaults = file_.root.find("defaults");
   if (defaults && !defaults->invalid) {
     if (!defaults->is_map())

@@ -63,6 +63,22 @@ class Suites(ProgramTest):
         # The golden picture holds the compared layer and nothing else.
         self.assertLess(len(self.bytes_of("golden/ring.exr")), len(self.bytes_of("out/ring.exr")) / 2)
 
+    def test_results_never_lie_among_the_golden_pictures(self):
+        """One folder under two names: the run would compare each picture with itself, and the golden one be gone."""
+        self.suite("name: ring, scene: ring.yaml")
+        self.run_suite(code=DIFFERS)
+        self.accept("ring")
+        before = self.bytes_of("golden/ring.exr")
+        (self.folder / "link").symlink_to("golden")
+        for golden, results in [("golden", "golden"), ("golden", "./golden/"), ("golden", "link"),
+                                ("golden", self.folder / "golden"), ("none/.", "link/../none"), ("results", None)]:
+            line = f"results: '{results}'" if results else "defaults: {}"
+            self.write("suite.yaml", f"lekalo_suite: 1\ngolden: {golden}\n{line}\n"
+                       "tests: [{ name: ring, scene: ring.yaml, size: [32, 24] }]\n")
+            errors = self.run_program("test", "suite.yaml", code=SCENE_ERROR)[1]
+            self.assertIn("suite.yaml:3:10: 'golden' and 'results' are one folder" if results else "suite.yaml:2:9: ", errors)
+            self.assertEqual(self.bytes_of("golden/ring.exr"), before)
+
     def test_accepting_needs_a_test_a_picture_and_a_reason(self):
         self.suite("name: ring, scene: ring.yaml", "name: mesh, scene: ring.yaml, representation: mesh, against: ring")
         self.assertIn("run the suite first", self.run_program("test", "suite.yaml", "--accept", "ring", "--reason", "x",
