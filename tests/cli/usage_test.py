@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import time
 import unittest
@@ -166,6 +167,30 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         done = subprocess.run(f"'{LEKALO}' measure ball.yaml ball --json | head -c 1", shell=True, cwd=self.folder,
                               capture_output=True, timeout=20)
         self.assertEqual(done.stdout, b"{")
+
+    def test_lost_output_is_an_error(self):
+        """/dev/full takes nothing: neither a line that waits in the buffer nor a long table passes for written."""
+        self.write("ball.yaml", BALL + "lights: {}\n")
+        self.write("rays.csv", "0,0,5,0,0,-1\n" * 200)
+        for arguments in (["--version"], ["--help"], ["render", "--help"], ["check", "ball.yaml"], ["types"], ["schema"],
+                          ["measure", "ball.yaml", "ball"], ["measure", "ball.yaml", "ball", "--json"],
+                          ["trace", "ball.yaml", "--rays", "rays.csv"], ["test", "suite.yaml"]):
+            if arguments[0] == "test":
+                self.write("suite.yaml", "lekalo_suite: 1\ntests: [{ name: a, scene: ball.yaml, size: [8, 8], samples: 1 }]\n")
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([LEKALO, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, FILE_ERROR, arguments)
+            self.assertIn("lekalo: standard output: cannot write", done.stderr)
+
+    def test_a_closed_pipe_ends_quietly(self):
+        """By the signal where that is not ignored, else by the error."""
+        self.write("ball.yaml", BALL)
+        self.write("rays.csv", "0,0,5,0,0,-1\n" * 2000)
+        for arguments in "trace ball.yaml --rays rays.csv", "--version":
+            for trap in "", "trap '' PIPE; ":
+                done = subprocess.run(["bash", "-c", f"{trap}(sleep 0.3; exec '{LEKALO}' {arguments}) | true; "
+                                       "exit ${PIPESTATUS[0]}"], cwd=self.folder, capture_output=True, text=True, timeout=20)
+                self.assertEqual((done.returncode, done.stderr), (FILE_ERROR if trap else 128 + signal.SIGPIPE, ""))
 
 
 if __name__ == "__main__":

@@ -1,14 +1,18 @@
 // The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "command.h"
 #include "geometry/expression/nearest_name.h"
@@ -55,10 +59,17 @@ void tell_early_end() {
   if (render::tell_library_call("ended the program")) _exit(command::kFileError);
 }
 
-}  // namespace
+// `error_number`: why, 0 if it is not known any more. A pipe that nobody reads on needs no message.
+int tell_lost_output(int error_number) {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  const bool unread = poll(&output, 1, 0) > 0 && (output.revents & POLLERR);
+  if (!unread)
+    fmt::print(stderr, "lekalo: standard output: cannot write{}{}\n", error_number ? ": " : " all of it",
+               error_number ? std::strerror(error_number) : "");
+  return command::kFileError;
+}
 
-int main(int argc, char** argv) {
-  std::atexit(tell_early_end);
+int run(int argc, char** argv) {
   CLI::App app{"Renders and draws geometric models from scene files.\n\n  lekalo render scenes/primer/teapot.yaml\n",
                "lekalo"};
   app.formatter(std::make_shared<ExamplesFirst>());
@@ -113,8 +124,22 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "lekalo: not enough memory\n");
     return command::kFileError;
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout)) return tell_lost_output(error.code().value());
+    fmt::print(stderr, "lekalo: {}\n", error.what());
+    return command::kFileError;
   } catch (const std::exception& error) {
     fmt::print(stderr, "lekalo: {}\n", error.what());
     return command::kFileError;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::atexit(tell_early_end);
+  const int code = run(argc, argv);
+  if (code == command::kFileError) return code;
+  errno = 0;
+  return std::fflush(stdout) != 0 || std::ferror(stdout) ? tell_lost_output(errno) : code;
 }
