@@ -1,23 +1,44 @@
 // OUTPUT.partial: what a stopped picture has got so far, in the machine's own byte order (it is continued by the same
 // build on the same kind of machine or not at all).
 //
-//   "lekalo partial 1\n", identity, settings hash, number of finished tiles, tally (8-byte integers), then for each
-//   tile its number, its sums (floats) where the filter needs them, and its pixels' layers that stand in the image
-//   already, layer by layer, row by row.
+//   "lekalo partial 2\n", instruction set (8 characters), identity, settings hash, number of finished tiles, tally
+//   (8-byte integers), then for each tile its number, its sums (floats) where the filter needs them, and its pixels'
+//   layers that stand in the image already, layer by layer, row by row; at the end the checksum of all before it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "render/film/render.h"
 #include "render/film/tiles.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_error.h"
+#include "render/trace/device.h"
 
 namespace lekalo::render {
 
 namespace {
 
-constexpr std::string_view kMagic = "lekalo partial 1\n";
+constexpr std::string_view kMagic = "lekalo partial 2\n";
+constexpr const char* kRenderAnew = "render without --resume";
+
+// FNV-1a, 64 bits.
+struct Checksum {
+  uint64_t value = 14695981039346656037u;
+  void add(const void* bytes, size_t count) {
+    const auto* next = static_cast<const unsigned char*>(bytes);
+    for (size_t i = 0; i < count; ++i) value = (value ^ next[i]) * 1099511628211u;
+  }
+};
+
+// As the file has it.
+std::string own_instruction_set() {
+  std::string name = instruction_set();
+  name.resize(8);
+  return name;
+}
 
 // Calls visit(pointer, bytes) for each run of data-layer values of a tile.
 template <class Visit>
@@ -41,26 +62,37 @@ void for_each_data_run(TiledFilm& film, int tile, Visit visit) {
 void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, const std::vector<int>& done,
                    const Tally& tally) {
   AtomicFile out(file);
-  const auto number = [&](uint64_t value) { out.write(&value, sizeof value); };
-  out.write(kMagic);
+  Checksum checksum;
+  const auto write = [&](const void* bytes, size_t count) {
+    checksum.add(bytes, count);
+    out.write(bytes, count);
+  };
+  const auto number = [&](uint64_t value) { write(&value, sizeof value); };
+  write(kMagic.data(), kMagic.size());
+  write(own_instruction_set().data(), 8);
   for (const uint64_t value : {identity, film.settings_hash(), static_cast<uint64_t>(done.size()), tally.camera_rays,
                                tally.shadow_rays, tally.other_rays, tally.not_finite})
     number(value);
   for (const int tile : done) {
     number(static_cast<uint64_t>(tile));
     const std::span<const float> values = film.sums()[tile].values;
-    out.write(values.data(), values.size_bytes());
-    for_each_data_run(film, tile, [&](const void* run, size_t bytes) { out.write(run, bytes); });
+    write(values.data(), values.size_bytes());
+    for_each_data_run(film, tile, write);
   }
+  number(checksum.value);
   out.commit();
 }
 
 std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t identity, Tally& tally) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw ImageError(file, "the partial picture cannot be read", "render without --resume");
+  std::error_code ignored;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, ignored)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw ImageError(file, "the partial picture cannot be read", kRenderAnew);
+  Checksum checksum;
   const auto read = [&](void* to, size_t bytes) {
     if (!in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
-      throw ImageError(file, "the partial picture is damaged: it ends too early", "render without --resume");
+      throw ImageError(file, "the partial picture is damaged: it ends too early", kRenderAnew);
+    checksum.add(to, bytes);
   };
   const auto number = [&] {
     uint64_t value = 0;
@@ -69,11 +101,22 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
   };
   std::string magic(kMagic.size(), '\0');
   read(magic.data(), magic.size());
-  if (magic != kMagic) throw ImageError(file, "this is no partial picture", "render without --resume");
+  if (magic != kMagic)
+    throw ImageError(file,
+                     magic.starts_with(kPartialMagic) ? "the partial picture is of another version of the program"
+                                                      : "this is no partial picture",
+                     kRenderAnew);
+  std::string set(8, '\0');
+  read(set.data(), set.size());
   const uint64_t of_scene = number(), of_settings = number(), count = number();
   if (of_scene != identity || of_settings != film.settings_hash())
     throw ImageError(file, "the partial picture is of another scene, other settings or another version of the program",
                      "repeat the options of the first run (-o decides the layers as well), or render without --resume");
+  if (set != own_instruction_set())
+    throw ImageError(file,
+                     fmt::format("the partial picture was made with the instruction set {}, this run has {}",
+                                 set.c_str(), instruction_set()),
+                     fmt::format("add --isa {}, or render without --resume", set.c_str()));
   tally.camera_rays = number();
   tally.shadow_rays = number();
   tally.other_rays = number();
@@ -82,13 +125,16 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
   for (uint64_t i = 0; i < count; ++i) {
     const uint64_t tile = number();
     if (tile >= static_cast<uint64_t>(film.tile_count()))
-      throw ImageError(file, "the partial picture is damaged", "render without --resume");
+      throw ImageError(file, "the partial picture is damaged", kRenderAnew);
     TileSums& sums = film.sums()[tile];
     read(sums.values.data(), sums.values.size_bytes());
     sums.done = true;
     for_each_data_run(film, static_cast<int>(tile), read);
     done.push_back(static_cast<int>(tile));
   }
+  const uint64_t sum = checksum.value;
+  if (number() != sum || in.peek() != std::ifstream::traits_type::eof())
+    throw ImageError(file, "the partial picture is damaged: its checksum does not fit", kRenderAnew);
   return done;
 }
 

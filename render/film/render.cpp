@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "render/film/tiles.h"
+#include "render/image/image_error.h"
 #include "render/lines/picture_lines.h"
 #include "render/model/placed_objects.h"
 
@@ -22,7 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kProgressInterval{100};
-constexpr std::chrono::seconds kSaveInterval{60};
 
 // Materials numbered from 1 in the order in which objects first use them.
 class MaterialNumbers {
@@ -379,7 +379,8 @@ class TileTracer {
 // What is done so far, kept by all threads together.
 class Ledger {
  public:
-  Ledger(TiledFilm& film, const RenderOptions& options) : film_(film), options_(options) {
+  Ledger(TiledFilm& film, const RenderOptions& options)
+      : film_(film), options_(options), save_interval_(options.save_interval) {
     if (options.resume_file.empty()) return;
     done_ = read_partial(options.resume_file, film, options.identity, tally_);
   }
@@ -400,7 +401,7 @@ class Ledger {
         last_progress_ = now;
         report();
       }
-      if (!options_.partial_file.empty() && now - last_save_ >= kSaveInterval) {
+      if (!options_.partial_file.empty() && now - last_save_ >= save_interval_) {
         last_save_ = now;
         save = true;
       }
@@ -414,10 +415,11 @@ class Ledger {
                         tally_.camera_rays + tally_.shadow_rays + tally_.other_rays);
   }
 
-  // The finished tiles do not change any more, so others may go on while this is written.
-  void write() {
+  // The finished tiles do not change any more, so others may go on while this is written. A full disk costs what could
+  // be resumed, not the picture. Whether it was written.
+  bool write() {
     std::unique_lock writing(write_mutex_, std::try_to_lock);
-    if (!writing) return;
+    if (!writing) return false;
     std::vector<int> done;
     Tally tally;
     {
@@ -425,13 +427,22 @@ class Ledger {
       done = done_;
       tally = tally_;
     }
-    write_partial(options_.partial_file, film_, options_.identity, done, tally);
+    try {
+      write_partial(options_.partial_file, film_, options_.identity, done, tally);
+      return true;
+    } catch (const ImageError& error) {
+      if (options_.warning && !warned_) options_.warning(error.what());
+      warned_ = true;
+      return false;
+    }
   }
 
  private:
   TiledFilm& film_;
   const RenderOptions& options_;
+  const std::chrono::duration<double> save_interval_;
   std::mutex mutex_, write_mutex_;
+  bool warned_ = false;  // guarded by write_mutex_
   std::vector<int> done_;
   Tally tally_;
   Clock::time_point last_progress_ = Clock::now(), last_save_ = Clock::now();
@@ -480,7 +491,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
 
   RenderResult result;
   result.complete = ledger.complete();
-  if (!result.complete && !options.partial_file.empty()) ledger.write();
+  result.saved = !result.complete && !options.partial_file.empty() && ledger.write();
   film.develop();
   describe(film.image(), model);
   result.image = std::move(film.image());

@@ -10,6 +10,9 @@
 
 namespace lekalo::render {
 
+// What every partial file begins with, whatever its version.
+inline constexpr std::string_view kPartialMagic = "lekalo partial ";
+
 // Names of the layers that a film can keep: color (R G B A), direct, depth (Z), position (P), normal (N),
 // geometric_normal (Ng), uv, id (id.object id.material), albedo, samples.
 const std::vector<std::string>& film_layers();
@@ -21,14 +24,18 @@ struct RenderOptions {
   std::function<void(double done, uint64_t rays)> progress;
   const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: tiles not yet done are left out
   std::string resume_file;                  // OUTPUT.partial to continue from, empty: none
-  std::string partial_file;  // where to keep the work done when stopped, and once a minute; empty: nowhere
-  uint64_t identity = 0;     // of scene and build: a partial file is continued only with the same identity and film
-  bool key_layer = false;    // add the layer id.key (see RaySample::key), folded to 32 bits
+  std::string partial_file;   // where to keep the work done when stopped, and now and then; empty: nowhere
+  double save_interval = 60;  // seconds
+  // Called once if the partial file cannot be written on the way; the picture goes on.
+  std::function<void(const std::string& reason)> warning;
+  uint64_t identity = 0;   // of scene and build: a partial file is continued only with the same identity and film
+  bool key_layer = false;  // add the layer id.key (see RaySample::key), folded to 32 bits
 };
 
 struct RenderResult {
   Image image;  // see below
   bool complete = true;
+  bool saved = false;  // not complete, but kept in the partial file
   uint64_t camera_rays = 0;
   uint64_t shadow_rays = 0;
   uint64_t other_rays = 0;

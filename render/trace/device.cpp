@@ -18,6 +18,15 @@ DeviceOptions device_options;
 bool device_exists = false;
 std::atomic<ptrdiff_t> device_bytes = 0;
 
+// What Embree compiles its kernels for.
+bool has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+}
+bool has_avx512() {
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
+}
+
 }  // namespace
 
 RTCDevice device() {
@@ -48,14 +57,14 @@ void set_device_options(const DeviceOptions& options) {
   const std::string& set = options.instruction_set;
   const bool known = set.empty() || set == "sse2" || set == "avx2" || set == "avx512";
   if (!known) throw std::invalid_argument("there is no instruction set '" + set + "'; take sse2, avx2 or avx512");
-  // What Embree compiles its kernels for.
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512cd");
-  if ((set == "avx2" && !avx2) || (set == "avx512" && !avx512))
+  if ((set == "avx2" && !has_avx2()) || (set == "avx512" && !has_avx512()))
     throw std::invalid_argument("this processor has no " + set + "; every one has sse2");
   device_options = options;
+}
+
+std::string instruction_set() {
+  if (!device_options.instruction_set.empty()) return device_options.instruction_set;
+  return has_avx512() ? "avx512" : has_avx2() ? "avx2" : "sse2";
 }
 
 void with_device_threads(const std::function<void()>& build) {

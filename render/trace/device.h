@@ -16,6 +16,9 @@ struct DeviceOptions {
 // std::logic_error once a World has been made.
 void set_device_options(const DeviceOptions& options);
 
+// What this process runs with: sse2, avx2 or avx512. Pictures of two instruction sets may differ in last bits.
+std::string instruction_set();
+
 // Runs the work of building a World with the threads it may have.
 void with_device_threads(const std::function<void()>& build);
 

@@ -2,6 +2,7 @@
 
 import math
 import os
+import pathlib
 import re
 import signal
 import subprocess
@@ -109,6 +110,65 @@ class Pictures(ProgramTest):
         self.render(*samples, "-o", "part.exr", "--resume", "part.exr.partial")
         self.assertFalse((self.folder / "part.exr.partial").exists())
         self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
+
+    def interrupted(self, *arguments):
+        """A picture that would take for ever, stopped once its work is under way; what it said."""
+        process = subprocess.Popen([LEKALO, "render", "scene.yaml", "--samples", "20000", *arguments], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        notes = process.communicate(timeout=60)[1]
+        return process.returncode, notes
+
+    def test_an_interruption_leaves_a_good_picture_alone(self):
+        self.render("-o", "old.png")
+        before = self.bytes_of("old.png")
+        code, notes = self.interrupted("-o", "old.png", "-o", "new.exr", "--isa", "sse2")
+        self.assertEqual(code, INTERRUPTED, notes)
+        self.assertIn("old.png stays as it was", notes)
+        self.assertEqual(self.bytes_of("old.png"), before)
+        self.assertTrue((self.folder / "new.exr").exists())
+        self.assertTrue(self.bytes_of("old.png.partial").startswith(b"lekalo partial 2\nsse2\0"))
+
+    def test_resume_with_another_instruction_set_is_refused(self):
+        code, notes = self.interrupted("-o", "a.exr", "--isa", "sse2")
+        self.assertEqual(code, INTERRUPTED, notes)
+        if "avx2" not in pathlib.Path("/proc/cpuinfo").read_text():
+            self.skipTest("this processor has one instruction set")
+        _, errors = self.render("--samples", "20000", "-o", "a.exr", "--resume", "a.exr.partial", "--isa", "avx2", code=FILE_ERROR)
+        self.assertIn("made with the instruction set sse2, this run has avx2 (add --isa sse2", errors)
+
+    def test_inputs_are_not_overwritten(self):
+        """The scene, what it includes and reads, by whatever name; files whose names follow from an output's."""
+        self.run_program("export", "scene.yaml", "ball", "-o", "ball.stl", "--quiet")
+        self.render("-o", "wood.png")
+        self.write("part.exr", "lekalo: 1\nmaterials: { w: { type: diffuse, color: { type: image, file: wood.png } } }\n")
+        self.write("points.obj", "0, 0\n1, 1\n2, 0\n")
+        self.write("all.yaml", "lekalo: 1\ninclude: part.exr\ngeometry:\n  m: { type: mesh, file: ball.stl }\n"
+                   "  s: { type: polyline, points: { file: points.obj } }\n"
+                   "objects: [{ shape: m, material: w }, { shape: s }]\noutputs: [wood.png]\n")
+        os.link(self.folder / "all.yaml", self.folder / "all.pov")
+        (self.folder / "link.png").symlink_to("wood.png")
+        before = {path.name: path.read_bytes() for path in self.folder.iterdir()}
+        for arguments, name in [(["render", "all.yaml"], "wood.png"), (["make", "all.yaml"], "wood.png"),
+                                (["render", "all.yaml", "-o", "x.png", "-o", "./link.png"], "./link.png"),
+                                (["render", "all.yaml", "-o", "part.exr"], "part.exr"),
+                                (["draw", "all.yaml", "-o", self.folder / "wood.png"], "wood.png"),
+                                (["export", "all.yaml", "-o", "ball.stl"], "ball.stl"),
+                                (["export", "all.yaml", "-o", "points.obj"], "points.obj"),
+                                (["export", "all.yaml", "--format", "stl", "-o", "all.yaml"], "all.yaml")]:
+            errors = self.run_program(*arguments, code=USAGE)[1]
+            self.assertIn(f"{name}' is read by the scene and would be overwritten", errors)
+        self.write("f.tex", "my thesis")
+        self.write("f.png.partial", "half of a song")
+        self.assertIn("'f.tex' is no LaTeX file of lekalo", self.run_program("draw", "scene.yaml", "--latex", "-o", "f.pdf", code=USAGE)[1])
+        self.assertIn("'f.png.partial' is no partial picture of lekalo", self.run_program("render", "scene.yaml", "-o", "f.png", code=USAGE)[1])
+        self.assertEqual((self.bytes_of("f.tex"), self.bytes_of("f.png.partial")), (b"my thesis", b"half of a song"))
+        (self.folder / "f.tex").unlink(), (self.folder / "f.png.partial").unlink()
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, before)
+        for _ in range(2):  # our own are made anew
+            self.run_program("draw", "scene.yaml", "--latex", "-o", "f.pdf")
 
     def test_what_is_not_traced_yet_ends_at_once(self):
         """SIGTERM while a mesh of millions of triangles is made, with nothing to be saved."""

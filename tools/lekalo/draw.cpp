@@ -48,6 +48,21 @@ bool is_lit(const render::Model& model) {
                                               [&](const render::Panel& panel) { return shaded(panel.drawing); });
 }
 
+std::filesystem::path overlay_of(const std::string& drawing) {
+  return std::filesystem::path(drawing).replace_extension(".tex");
+}
+
+void check_overwriting(const render::LoadedScene& scene, const std::vector<render::OutputFile>& outputs, bool latex) {
+  std::vector<std::string> written;
+  for (const render::OutputFile& file : outputs) {
+    written.push_back(file.path);
+    if (!latex) continue;
+    written.push_back(overlay_of(file.path).string());
+    check_is_ours(overlay_of(file.path), render::kOverlayMagic, "LaTeX file");
+  }
+  check_inputs_stay(scene, written);
+}
+
 int draw(const Options& options) {
   options.engine.apply();
   const render::LoadedScene scene = options.scene.load();
@@ -69,6 +84,7 @@ int draw(const Options& options) {
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
          "drawing"});
+  check_overwriting(scene, outputs, options.settings.latex);
   const auto model = std::make_shared<render::Model>(*scene.model);
   if (!options.size.empty()) set_size(parse_size(options.size), *model);
   if (!options.crop.empty()) set_crop(options.crop, *model);
@@ -150,7 +166,7 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       write_pixels(file.path, sheet, *model);
     if (!settings.quiet) fmt::print(stderr, "{}\n", file.path);
     if (!settings.latex) continue;
-    const std::filesystem::path overlay = std::filesystem::path(file.path).replace_extension(".tex");
+    const std::filesystem::path overlay = overlay_of(file.path);
     render::write_file_atomically(overlay,
                                   render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()));
     if (!settings.quiet) fmt::print(stderr, "{}\n", overlay.string());

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "geometry/tessellation/tessellate.h"
+#include "picture.h"
 #include "render/image/atomic_file.h"
 #include "render/mesh_files/mesh_files.h"
 #include "render/pov/pov_export.h"
@@ -159,7 +160,9 @@ int export_pov(const Options& options, const std::string& output) {
   if (!options.names.empty()) throw UsageError("--format pov writes the whole scene; leave the names out");
   render::PovOptions pov = options.pov;
   pov.sag = options.sag;
-  const render::PovScene scene = render::pov_scene(*options.scene.load().model, pov);
+  const render::LoadedScene loaded = options.scene.load();
+  check_inputs_stay(loaded, {output});
+  const render::PovScene scene = render::pov_scene(*loaded.model, pov);
   render::write_file_atomically(output, scene.text);
   if (!options.quiet) {
     for (const std::string& note : scene.notes) fmt::print(stderr, "not exact: {}\n", note);
@@ -183,6 +186,7 @@ int run(const Options& options) {
     throw UsageError(fmt::format("{}; or give --format obj|ply|stl|pov", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
+  check_inputs_stay(scene, {output});
   Collection collection(options.sag);
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) collection.add(object, Affine());

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 #include "command.h"
 #include "render/image/atomic_file.h"
@@ -95,6 +96,26 @@ void check_writable(const std::vector<render::OutputFile>& files) {
         std::filesystem::is_directory(status))
       render::AtomicFile probe(file.path);
   }
+}
+
+void check_inputs_stay(const render::LoadedScene& scene, const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs)
+    for (const std::filesystem::path& input : scene.files)
+      if (render::resolved_path(output) == render::resolved_path(input))
+        throw UsageError(
+            fmt::format("'{}' is read by the scene and would be overwritten; write another file with -o", output));
+}
+
+void check_is_ours(const std::filesystem::path& path, std::string_view beginning, const char* what) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  std::string found(beginning.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (file.read(found.data(), static_cast<std::streamsize>(found.size())) && found == beginning) return;
+  throw UsageError(
+      fmt::format("'{}' is no {} of lekalo and would be overwritten; move it away, or write another file "
+                  "with -o",
+                  path.string(), what));
 }
 
 std::string left_to_drawings(const render::Model& model) {

@@ -1,8 +1,10 @@
 // From a loaded scene to picture files: what render, make and test share.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,12 @@ void add_metadata(render::RenderResult& result, const render::Model& model, cons
 
 // Throws ImageError if one of the files could not be written: before hours of tracing, not after.
 void check_writable(const std::vector<render::OutputFile>& files);
+
+// Throws UsageError if one of the outputs is a file that the scene was read from.
+void check_inputs_stay(const render::LoadedScene& scene, const std::vector<std::string>& outputs);
+// Throws UsageError if `path`, whose name follows from that of an output, exists and does not begin as `what` does: it
+// is somebody else's.
+void check_is_ours(const std::filesystem::path& path, std::string_view beginning, const char* what);
 
 // What the scene shows that only drawings have: "lines (silhouette), annotations"; empty if there is nothing.
 std::string left_to_drawings(const render::Model& model);

@@ -190,8 +190,14 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
   const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
                                               [](const OutputFile& file) { return file.kind == "render"; });
+  std::vector<std::string> written;
+  for (const OutputFile& file : outputs) written.push_back(file.path);
   const std::vector<OutputFile> drawn(drawings, outputs.end());
   outputs.erase(drawings, outputs.end());
+  const std::string partial = outputs.empty() ? "" : outputs.front().path + ".partial";
+  if (!partial.empty()) written.push_back(partial);
+  check_inputs_stay(scene, written);
+  if (!partial.empty()) check_is_ours(partial, render::kPartialMagic, "partial picture");
   if (!drawn.empty())
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;
@@ -213,7 +219,10 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   settings.stop = &stop_tracing;
   settings.progress = [&](double done, uint64_t rays) { progress(done, rays); };
   settings.identity = scene.hash;
-  settings.partial_file = outputs.front().path + ".partial";
+  settings.partial_file = partial;
+  settings.warning = [](const std::string& reason) {
+    fmt::print(stderr, "warning: what is done cannot be kept for --resume: {}\n", reason);
+  };
   settings.resume_file = options.resume;
   render::RenderResult result = render_watched(run, world, settings);
   progress.end();
@@ -224,6 +233,11 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   }
   add_metadata(result, *model, options.scene.file, options.stamp);
   for (const OutputFile& file : outputs) {
+    // A picture that is there may be a good one.
+    if (!result.complete && std::filesystem::exists(file.path)) {
+      fmt::print(stderr, "interrupted: {} stays as it was\n", file.path);
+      continue;
+    }
     write_picture(file, result.image);
     if (!options.quiet) fmt::print(stderr, "{}\n", file.path);
   }
@@ -232,10 +246,10 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (result.not_finite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
+  if (!result.complete && !result.saved) return kFileError;  // the warning has said why
   if (!result.complete) {
-    fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command{} and --resume {}\n",
-               outputs.front().path, frame.setting ? of_one_frame(*frame.setting, outputs) : "",
-               shell_word(settings.partial_file));
+    fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command{} and --resume {}\n", partial,
+               frame.setting ? of_one_frame(*frame.setting, outputs) : "", shell_word(partial));
     return kInterrupted;
   }
   // What an interrupted run has left, or this one has saved on the way.

@@ -4,10 +4,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "render/drawing/sheet.h"
 
 namespace lekalo::render {
+
+// What the file begins with.
+inline constexpr std::string_view kOverlayMagic = "% Texts of ";
 
 Sheet without_texts(const Sheet& sheet);
 

@@ -32,6 +32,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   result.hash = 14695981039346656037u;
   for (const auto& file : scene.files) {
     if (options.files_read && !file->path.empty()) options.files_read->push_back(file->path);
+    if (!file->path.empty()) result.files.push_back(file->path);
     mix(result.hash, file->text);
   }
   for (const ParameterSetting& setting : options.set_parameters) {
@@ -50,6 +51,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   result.model = std::make_shared<Model>(builder.build());
   const std::vector<std::filesystem::path>& data = builder.files_named();
   if (options.files_read) options.files_read->insert(options.files_read->end(), data.begin(), data.end());
+  result.files.insert(result.files.end(), data.begin(), data.end());
   if (diagnostics.has_errors()) throw SceneError(diagnostics);
   for (const std::filesystem::path& file : data) {
     std::string reason;

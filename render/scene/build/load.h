@@ -25,7 +25,8 @@ struct LoadedScene {
   std::shared_ptr<Model> model;
   std::vector<std::string> defaults_taken;
   std::vector<ExternalNote> external_notes;
-  uint64_t hash = 0;  // of all texts, data files and --set values
+  std::vector<std::filesystem::path> files;  // all that were read
+  uint64_t hash = 0;                         // of all texts, data files and --set values
 };
 
 // Throws SceneError with all errors of the scene.

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "render/image/image_error.h"
 #include "render/small_scene.h"
@@ -168,6 +170,64 @@ TEST(Render, ResumedPictureIsTheSameBits) {
   options.resume_file = file + ".missing";
   EXPECT_THROW(render(*world, options), ImageError);
   std::filesystem::remove(file);
+}
+
+// A byte that has changed, or one too many or too few, is never taken for pixels.
+TEST(Render, DamagedPartialPicturesAreRefused) {
+  const std::string file = (std::filesystem::temp_directory_path() / "lekalo_damaged_test.partial").string();
+  const auto world = ball_on_ground("gaussian").world();
+  RenderOptions options{.threads = 1, .partial_file = file, .save_interval = 0, .identity = 42};
+  render(*world, options);
+  std::ifstream in(file, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  ASSERT_GT(good.size(), 10000u);
+  options.partial_file.clear();
+  options.resume_file = file;
+  const auto write = [&](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
+  const auto message = [&]() -> std::string {
+    try {
+      render(*world, options);
+    } catch (const ImageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(), "");
+  for (size_t at = 0; at < good.size(); at += at < 100 ? 7 : 4999) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 4);
+    write(bad);
+    EXPECT_NE(message(), "") << at;
+  }
+  write(good.substr(0, good.size() - 1));
+  EXPECT_NE(message().find("ends too early"), std::string::npos);
+  write(good + "x");
+  EXPECT_NE(message().find("checksum"), std::string::npos);
+  std::string other = good;
+  other.replace(17, 8, std::string("sse9\0\0\0\0", 8));
+  write(other);
+  EXPECT_NE(message().find("made with the instruction set sse9"), std::string::npos);
+  EXPECT_NE(message().find("add --isa sse9"), std::string::npos);
+  other = good;
+  other[15] = '1';
+  write(other);
+  EXPECT_NE(message().find("another version"), std::string::npos);
+  std::filesystem::remove(file);
+}
+
+// A full disk, or a folder that is gone, is told once, and the picture is made.
+TEST(Render, PictureGoesOnWithoutItsPartialFile) {
+  const auto world = ball_on_ground("gaussian").world();
+  int warnings = 0;
+  RenderOptions options{.threads = 2, .partial_file = "/no/such/folder/x.partial", .save_interval = 0};
+  options.warning = [&](const std::string& reason) {
+    ++warnings;
+    EXPECT_NE(reason.find("/no/such/folder/x.partial"), std::string::npos);
+  };
+  const RenderResult result = render(*world, options);
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(warnings, 1);
+  EXPECT_TRUE(same(result.image, render(*world, {.threads = 2}).image));
 }
 
 // The tile in work is given up, and nothing of it stays in the picture.
