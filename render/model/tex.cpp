@@ -363,7 +363,7 @@ class Parser {
         i_ += 6;
         return row;
       }
-      if (c == '_' || c == '^' || c == '\'') {
+      if (is_script(c)) {
         if (row.parts.empty()) row.parts.emplace_back();
         add_script(row.parts.back(), face);
         continue;
@@ -382,9 +382,16 @@ class Parser {
     }
   }
 
+  static bool is_script(char c) { return c == '_' || c == '^' || c == '\''; }
+
   static bool is_number(const TexNode& node) {
     return node.kind == Kind::symbol && !node.text.empty() &&
            std::all_of(node.text.begin(), node.text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+  }
+
+  static bool is_primes(const TexNode& node) {
+    return node.kind == Kind::row && !node.parts.empty() &&
+           std::all_of(node.parts.begin(), node.parts.end(), [](const TexNode& one) { return one.text == kPrime; });
   }
 
   void add_script(TexNode& base, const Face& face) {
@@ -401,14 +408,13 @@ class Parser {
     ++i_;
     if (c == '\'') {
       TexNode& above = base.parts[2];
+      if (!above.parts.empty() && !is_primes(above))
+        fail(at, "a prime behind a superscript", "primes come first: x'^2, or x^{2\\prime}");
       above.parts.push_back(symbol(std::string(kPrime), Role::ordinary, face));
       return;
     }
     TexNode& place = base.parts[c == '_' ? 1 : 2];
-    const bool primes =
-        c == '^' && !place.parts.empty() && place.kind == Kind::row &&
-        std::all_of(place.parts.begin(), place.parts.end(), [](const TexNode& one) { return one.text == kPrime; });
-    if (!place.parts.empty() && !primes)
+    if (!place.parts.empty() && !(c == '^' && is_primes(place)))
       fail(at, c == '_' ? "two subscripts at one place" : "two superscripts at one place", "put them into one: x_{ij}");
     place.parts.push_back(argument(face, at));
   }
@@ -416,7 +422,9 @@ class Parser {
   // What a script or a command stands for: {..} or one item.
   TexNode argument(const Face& face, std::size_t at) {
     while (!at_end() && std::isspace(static_cast<unsigned char>(here()))) ++i_;
-    if (at_end() || here() == '$' || here() == '}') fail(at, "something is missing behind this", "like x_{i+1}");
+    // LaTeX takes no bare script here, and ^^ for the code of a character.
+    if (at_end() || here() == '$' || here() == '}' || is_script(here()))
+      fail(at, "something is missing behind this", "like x_{i+1}");
     if (here() == '{') {
       const std::size_t begin = i_++;
       return formula_row(face, '}', begin);
@@ -538,6 +546,7 @@ class Parser {
     }
     if (name == "sqrt") {
       TexNode node;
+      if (!at_end() && here() == '[') fail(at, "labels know square roots only", "write a power: x^{1/3}");
       node.kind = Kind::root;
       node.in_formula = true;
       node.parts = {argument(face, at)};
@@ -558,16 +567,17 @@ class Parser {
 
   std::string fence(std::size_t at) {
     while (!at_end() && here() == ' ') ++i_;
-    if (at_end()) fail(at, "a bracket belongs behind \\left and \\right", "\\left( .. \\right)");
-    std::string text = character();
+    std::string text = at_end() ? "" : character();
     if (text == "\\") {
       const std::string name = command();
       if (name == "{" || name == "}") return name;
       for (const Symbol& one : kSymbols)
-        if (one.name == name) return std::string(one.text);
-      fail(at, "a bracket belongs behind \\left and \\right", "\\left( .. \\right)");
+        if (one.name == name && (one.role == Role::opening || one.role == Role::closing || name == "|"))
+          return std::string(one.text);
     }
-    return text == "." ? "" : text;
+    if (text == ".") return {};
+    if (text.size() == 1 && std::string_view("()[]|/<>").find(text[0]) != std::string_view::npos) return text;
+    fail(at, "a bracket belongs behind \\left and \\right", "\\left( .. \\right)");
   }
 
   std::string_view text_;
@@ -575,6 +585,18 @@ class Parser {
 };
 
 }  // namespace
+
+std::string formula_command_of(std::string_view character) {
+  for (const auto& [plain, board] : kBlackboard)
+    if (board == character) return fmt::format("\\mathbb{{{}}}", plain);
+  // LaTeX has no \degree of its own.
+  if (character == "°") return "^\\circ";
+  for (const Symbol& one : kSymbols)
+    if (one.text == character) return "\\" + std::string(one.name);
+  return {};
+}
+
+bool takes_text(std::string_view command) { return contains(kTextFonts, command); }
 
 std::variant<TexNode, TextSlip> parse_tex(std::string_view text) {
   try {

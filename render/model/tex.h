@@ -48,6 +48,12 @@ struct TexNode {
   std::vector<TexNode> parts;
 };
 
+// What LaTeX writes in a formula for a character that is not ASCII ("≤": \le); empty if labels have no command for it.
+std::string formula_command_of(std::string_view character);
+
+// Whether the argument of this command (without its backslash) is text, also within a formula.
+bool takes_text(std::string_view command);
+
 // The text as a row, or what is wrong in it, where. `percent`: a percent sign begins a template (text_template.h) and
 // stands for a number.
 std::variant<TexNode, TextSlip> parse_tex(std::string_view text);

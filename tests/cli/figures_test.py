@@ -73,8 +73,14 @@ class Figures(ProgramTest):
         except FileNotFoundError:
             self.skipTest("pdflatex is not installed")
         self.run_program("draw", str(FIGURES / "basis_functions.yaml"), "-o", "basis.pdf", "--latex", "--quiet")
-        self.write("document.tex", "\\documentclass{article}\\usepackage{graphicx,color}\\begin{document}"
-                   "\\input{basis.tex}\\end{document}\n")
+        labels = ("a_b^c ^^5cinput{x} <x> | # & 50\\,\\%% \\textbf{d_e $f_g$} 90° ≤ α × ⌀ ℝ ∞",
+                  "$x''^2_{\\text{a_b}} \\degree 90° ≤ αx ∈ ℝ² \\bm{r} \\div v \\tfrac12 − \\left\\langle x\\right\\rangle$")
+        self.write("labels.yaml", "lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\ndrawing:\n  annotations:\n" + "".join(
+            f"    - {{ type: label, at: [0, {i}/2], text: '{text}' }}\n" for i, text in enumerate(labels)))
+        self.run_program("draw", "labels.yaml", "-o", "a_b c~^^5c&.pdf", "--latex", "--quiet")
+        (self.folder / "a_b c~^^5c&.tex").rename(self.folder / "labels.tex")
+        self.write("document.tex", "\\documentclass{article}\\usepackage{graphicx,color,amsmath,amssymb}\\begin{document}"
+                   "\\input{basis.tex}\\input{labels.tex}\\end{document}\n")
         done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "document.tex"],
                               cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:])

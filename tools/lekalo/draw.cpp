@@ -57,6 +57,8 @@ void check_overwriting(const render::LoadedScene& scene, const std::vector<rende
   for (const render::OutputFile& file : outputs) {
     written.push_back(file.path);
     if (!latex) continue;
+    if (!render::latex_takes_file(std::filesystem::path(file.path).filename().string()))
+      throw UsageError(fmt::format("'{}': LaTeX takes no file with # % $ \\ {{ }} \" in its name", file.path));
     written.push_back(overlay_of(file.path).string());
     check_is_ours(overlay_of(file.path), render::kOverlayMagic, "LaTeX file");
   }
@@ -157,6 +159,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
     }
     const render::Sheet whole = found->figure.sheet;
     const render::Sheet sheet = settings.latex ? render::without_texts(whole) : whole;
+    const std::string texts =
+        settings.latex ? render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()) : "";
     const std::string ending = std::filesystem::path(file.path).extension().string();
     if (ending == ".svg")
       render::write_file_atomically(file.path, render::svg_of(sheet, {settings.outlines}));
@@ -167,8 +171,7 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
     if (!settings.quiet) fmt::print(stderr, "{}\n", file.path);
     if (!settings.latex) continue;
     const std::filesystem::path overlay = overlay_of(file.path);
-    render::write_file_atomically(overlay,
-                                  render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()));
+    render::write_file_atomically(overlay, texts);
     if (!settings.quiet) fmt::print(stderr, "{}\n", overlay.string());
   }
 }

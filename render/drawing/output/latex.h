@@ -1,6 +1,6 @@
 // A drawing whose texts LaTeX sets: the drawing without them, and a file that puts it into a picture with the texts
-// over it, in the fonts of the document that says \input{figure.tex}. It needs the packages graphicx and color (or
-// xcolor), and for Cyrillic texts a font encoding that has it (\usepackage[T2A,T1]{fontenc}).
+// over it, in the fonts of the document that says \input{figure.tex}. It needs the packages graphicx, color (or
+// xcolor), amsmath and amssymb, and for Cyrillic texts a font encoding that has it (\usepackage[T2A,T1]{fontenc}).
 #pragma once
 
 #include <string>
@@ -15,8 +15,13 @@ inline constexpr std::string_view kOverlayMagic = "% Texts of ";
 
 Sheet without_texts(const Sheet& sheet);
 
+// Whether LaTeX can be told of a file with this name: without control characters and # % $ \ { } ".
+bool latex_takes_file(std::string_view name);
+
 // The file; `drawing` is the name by which LaTeX finds the drawing. The picture is as wide as the sheet, or as
-// \lekalowidth if the document has set that.
+// \lekalowidth if the document has set that. LaTeX shows what the other outputs show: `a_b` outside of formulas is no
+// subscript. Throws std::invalid_argument for characters that LaTeX's fonts do not have, and for a name that it does
+// not take.
 std::string latex_overlay(const Sheet& sheet, const std::string& drawing);
 
 }  // namespace lekalo::render

@@ -335,5 +335,51 @@ TEST(Sheets, Formats) {
   EXPECT_NE(overlay.find("50\\,\\%"), std::string::npos) << overlay;
 }
 
+// One text as LaTeX gets it.
+std::string for_latex(const std::string& tex) {
+  Sheet sheet;
+  sheet.width = 40, sheet.height = 30;
+  SheetText text = laid_out(tex, "serif", 4);
+  text.at = {10, 20};
+  sheet.items.push_back(text);
+  const std::string overlay = latex_overlay(sheet, "a.pdf");
+  const size_t begin = overlay.find("\\smash{") + 7;
+  return overlay.substr(begin, overlay.find("}}}%", begin) - begin);
+}
+
+// Expected: what The TeXbook and fntguide say that LaTeX shows, which must be what the label shows elsewhere.
+TEST(Latex, ShowsWhatTheLabelMeans) {
+  EXPECT_EQ(for_latex("a_b^c"), "a\\_b\\textasciicircum{}c");
+  EXPECT_EQ(for_latex("$a_b^c$"), "$a_b^c$");
+  EXPECT_EQ(for_latex("^^5cinput"), "\\textasciicircum{}\\textasciicircum{}5cinput");
+  EXPECT_EQ(for_latex("$a_{\\text{b_c $d_e$ f_g}}^2$ h_i"), "$a_{\\text{b\\_c $d_e$ f\\_g}}^2$ h\\_i");
+  EXPECT_EQ(for_latex("\\textbf{a_b} 50 % #1 <x> | \"y\""),
+            "\\textbf{a\\_b} 50 \\% \\#1 \\textless{}x\\textgreater{} \\textbar{} \\string\"y\\string\"");
+  EXPECT_EQ(for_latex("$<x|y>$"), "$<x|y>$");
+  EXPECT_EQ(for_latex("90° ≤ α × ⌀"),
+            "90\\ensuremath{^\\circ} \\ensuremath{\\le} \\ensuremath{\\alpha} \\ensuremath{\\times} "
+            "\\ensuremath{\\text{\\O}}");
+  EXPECT_EQ(for_latex("$90° ≤ αx ∈ ℝ$"), "$90{^\\circ} \\le  \\alpha x \\in  {\\mathbb{R}}$");
+  EXPECT_EQ(for_latex("$\\bm{x}\\degree \\div v$"), "$\\boldsymbol{x}{^\\circ} \\operatorname{div} v$");
+  EXPECT_EQ(for_latex("ось x é"), "\\lekaloletters{T2A}{ось} x \\lekaloletters{T1}{é}");
+  EXPECT_EQ(for_latex("$r_{ось}$"), "$r_{\\text{\\lekaloletters{T2A}{ось}}}$");
+  EXPECT_THROW(for_latex("ǎ"), std::invalid_argument);
+  const auto refused = [](const char* tex) { return std::holds_alternative<TextSlip>(parse_tex(tex)); };
+  for (const char* tex : {"$x^^5c$", "$^^5c$", "$x_^2$", "$x_'$", "$\\hat^2$", "$x^2'$", "$\\sqrt[3]{x}$",
+                          "$\\left a x\\right)$", "$\\left\\sum x\\right)$"})
+    EXPECT_TRUE(refused(tex)) << tex;
+  for (const char* tex : {"$x'^2$", "$x''_1$", "$\\left\\{ x \\right.$", "$\\left\\| x \\right\\rangle$", "$\\sqrt x$"})
+    EXPECT_FALSE(refused(tex)) << tex;
+}
+
+TEST(Latex, FileNames) {
+  Sheet sheet;
+  sheet.width = 40, sheet.height = 30;
+  EXPECT_NE(latex_overlay(sheet, "a_b c~^^5c&.pdf").find("{a_b c\\string~\\string^\\string^5c\\string&.pdf}"),
+            std::string::npos);
+  for (const char* name : {"a\n\\input{x}.pdf", "a%.pdf", "a#.pdf", "a$.pdf", "a}.pdf", "a\\b.pdf"})
+    EXPECT_THROW(latex_overlay(sheet, name), std::invalid_argument) << name;
+}
+
 }  // namespace
 }  // namespace lekalo::render::texts_test
