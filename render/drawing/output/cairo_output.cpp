@@ -194,6 +194,8 @@ std::string pdf_of(const Sheet& sheet) {
     if (!sheet.title.empty())
       cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, sheet.title.c_str());
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "Lekalo");
+    // As long in every time zone.
+    cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
     const cairo_rectangle_t extents{0, 0, width * kFiner, height * kFiner};
     const SurfacePtr large(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, &extents));
     {
@@ -210,7 +212,7 @@ std::string pdf_of(const Sheet& sheet) {
     cairo_surface_finish(surface.get());
     check(cairo_surface_status(surface.get()));
   }
-  // Cairo writes the hour, whether one wants it or not: blanks instead, so that all places in the file stay.
+  // Cairo writes a date, whether one wants it or not: blanks instead, so that all places in the file stay.
   const std::string_view key = "/CreationDate (";
   if (const size_t at = bytes.find(key); at != std::string::npos)
     std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
