@@ -1,6 +1,7 @@
 """Drawings: which lines an SVG holds, how hidden ones look, the same bytes again, formats, errors."""
 
 import math
+import os
 import re
 import unittest
 import xml.etree.ElementTree as tree
@@ -191,6 +192,40 @@ camera: { view: top }
         paths = self.paths("x.svg")
         self.assertEqual(len(paths["sharp"]), 2)
         self.assertEqual(len(paths["silhouette"]), 4)
+
+    def test_names_that_latex_does_not_take(self):
+        self.write("a.yaml", "lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\n")
+        for name in "a%.pdf", "{a.pdf", "a\n\\include x.pdf", "a$x$.pdf":
+            errors = self.run_program("draw", "a.yaml", "--latex", "-o", name, code=USAGE)[1]
+            self.assertIn("LaTeX takes no file with # % $ \\ { } \" in its name", errors)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["a.yaml"])
+
+    def test_characters_that_latex_does_not_have(self):
+        self.write("a.yaml", "lekalo: 1\ngeometry: { c: { type: circle, radius: 1 } }\n"
+                   "drawing: { annotations: [{ type: label, at: [0, 0], text: 'aǎ' }] }\n")
+        errors = self.run_program("draw", "a.yaml", "--latex", code=SCENE_ERROR)[1]
+        self.assertIn("the text 'aǎ': LaTeX's fonts do not have the character 'ǎ' (U+01CE)", errors)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["a.yaml"])
+
+    def test_the_same_bytes_in_any_time_zone(self):
+        self.write("a.yaml", "lekalo: 1\ninfo: { title: A }\ngeometry: { c: { type: circle, radius: 1 } }\n")
+        bytes_of_zones = set()
+        for zone in "UTC", "Asia/Kolkata", "America/Los_Angeles", "<+0545>-5:45":
+            os.environ["TZ"] = zone
+            self.addCleanup(os.environ.pop, "TZ", None)
+            self.run_program("draw", "a.yaml", "-o", "a.pdf", "-o", "a.svg", "-o", "a.png", "--quiet")
+            bytes_of_zones.add((self.bytes_of("a.pdf"), self.bytes_of("a.svg"), self.bytes_of("a.png")))
+        self.assertEqual(len(bytes_of_zones), 1)
+
+    def test_characters_that_xml_forbids(self):
+        """U+FFFE and U+FFFF (XML 1.0, 2.2), as they are and as escapes; whatever else a title holds is read back."""
+        for title in '"a\\uFFFE"', '"a\\uffff"', "'a\uFFFE'", "'a\uFFFF'":
+            self.write("a.yaml", f"lekalo: 1\ninfo: {{ title: {title} }}\n")
+            self.assertRegex(self.run_program("check", "a.yaml", code=SCENE_ERROR)[1], "a.yaml:2:[0-9]+: the character U\\+FFF[EF] is not allowed")
+        title = 'é<&>"\uFFFD\uE000\U00010000\U0001FFFE|'
+        self.write("a.yaml", f"lekalo: 1\ninfo: {{ title: '{title}' }}\ngeometry: {{ c: {{ type: circle, radius: 1 }} }}\n")
+        self.run_program("draw", "a.yaml", "--quiet")
+        self.assertEqual(tree.parse(self.folder / "a.svg").getroot()[0].text, title)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include "render/image/atomic_file.h"
 #include "render/image/exr.h"
 #include "render/image/layers.h"
+#include "render/scene/values/characters.h"
 #include "render/scene/yaml/include.h"
 #include "render/suite/report.h"
 #include "suite.h"
@@ -59,26 +60,6 @@ render::DisplayImage shown(const Suite& suite, const render::SuiteTest& test) {
   return render::quantize(render::display_values(layer, render::finite_range(layer.image)));
 }
 
-// XML 1.0 has no control characters but tab and line feed.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\n')
-      result += "&#10;";
-    else if (static_cast<unsigned char>(c) >= 32 || c == '\t')
-      result += c;
-  }
-  return result;
-}
-
 }  // namespace
 
 void write_suite_report(const fs::path& folder, const Suite& suite, const std::vector<TestResult>& results) {
@@ -107,13 +88,13 @@ void write_junit(const fs::path& file, const Suite& suite, const std::vector<Tes
   const auto count = [&](auto&& is) { return std::count_if(results.begin(), results.end(), is); };
   double seconds = 0;
   for (const TestResult& result : results) seconds += result.seconds;
-  const std::string name = escaped(suite.file.stem().string());
+  const std::string name = render::xml_text(suite.file.stem().string());
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n", name,
                      results.size(), count([](const TestResult& r) { return r.verdict == Verdict::failed; }),
                      count([](const TestResult& r) { return r.verdict > Verdict::failed; }), seconds);
   for (const TestResult& result : results) {
-    xml += fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", name, escaped(result.name),
+    xml += fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", name, render::xml_text(result.name),
                        result.seconds);
     if (result.verdict == Verdict::passed) {
       xml += "/>\n";
@@ -121,9 +102,9 @@ void write_junit(const fs::path& file, const Suite& suite, const std::vector<Tes
     }
     const char* element = result.verdict == Verdict::failed ? "failure" : "error";
     const std::string first = result.messages.empty() ? "" : result.messages.front();
-    xml +=
-        fmt::format(">\n<{0} message=\"{1}\" type=\"{2}\">{3}</{0}>\n</testcase>\n", element,
-                    escaped(first.substr(0, first.find('\n'))), word(result.verdict), escaped(joined(result.messages)));
+    xml += fmt::format(">\n<{0} message=\"{1}\" type=\"{2}\">{3}</{0}>\n</testcase>\n", element,
+                       render::xml_text(first.substr(0, first.find('\n'))), word(result.verdict),
+                       render::xml_text(joined(result.messages)));
   }
   xml += "</testsuite>\n</testsuites>\n";
   render::write_file_atomically(file, xml);

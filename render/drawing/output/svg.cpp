@@ -11,6 +11,7 @@
 #include "render/drawing/output/cairo_output.h"
 #include "render/drawing/text/fonts.h"
 #include "render/image/display.h"
+#include "render/scene/values/characters.h"
 
 namespace lekalo::render {
 
@@ -25,23 +26,6 @@ std::string number(double x) {
 }
 
 std::string point(const Vec2& p) { return fmt::format("{} {}", number(p.x), number(p.y)); }
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '&')
-      result += "&amp;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 std::string color_text(const Spectrum& color) {
   const auto byte = [](double linear) {
@@ -115,7 +99,7 @@ class Writer {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" "
         "width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {0} {1}\">\n",
         number(sheet_.width), number(sheet_.height), point(sheet_.corner));
-    if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", escaped(sheet_.title));
+    if (!sheet_.title.empty()) text_ += fmt::format("<title>{}</title>\n", xml_text(sheet_.title));
     write_fonts();
     text_ += definitions_;
     text_ += fmt::format("<rect class=\"paper\"{} width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", paper_corner(),
@@ -163,8 +147,8 @@ class Writer {
     const std::string id = id_of(group), within = std::exchange(within_, id), panel = panel_;
     const int before = std::exchange(number_, 0);
     if (group.kind == "panel") panel_ = id + "-";
-    text_ += fmt::format("<g id=\"{}\" class=\"{}\"", id, escaped(group.kind));
-    if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", escaped(group.object));
+    text_ += fmt::format("<g id=\"{}\" class=\"{}\"", id, xml_text(group.kind));
+    if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", xml_text(group.object));
     if (group.clip_at) {
       const std::string clip = unique("clip");
       definitions_ += fmt::format(
@@ -242,9 +226,9 @@ class Writer {
       for (const TextRun& run : text.runs) {
         used_[run.font] += run.text;
         text_ += fmt::format("<tspan x=\"{}\" y=\"{}\" font-family=\"{}\" font-size=\"{}\"{}{}>{}</tspan>",
-                             number(run.at.x), number(run.at.y), escaped(run.font.family), number(run.size),
+                             number(run.at.x), number(run.at.y), xml_text(run.font.family), number(run.size),
                              run.font.italic ? " font-style=\"italic\"" : "",
-                             run.font.bold ? " font-weight=\"bold\"" : "", escaped(run.text));
+                             run.font.bold ? " font-weight=\"bold\"" : "", xml_text(run.text));
       }
       text_ += "</text>";
     }

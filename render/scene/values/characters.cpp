@@ -110,11 +110,42 @@ std::string describe_character(char32_t code) {
   if (code == 0xA0) return "the no-break space (" + number + ")";
   if (is_unusual_space(code)) return "the invisible character " + number;
   if (code < 0x20 || (code >= 0x7F && code < 0xA0)) return "the control character " + number;
+  if (is_forbidden(code)) return "the character " + number;
   const char* kind = "character";
   if (code >= 0x370 && code <= 0x3FF) kind = "Greek letter";
   if (code >= 0x400 && code <= 0x52F) kind = "Cyrillic letter";
   if (code >= 0xFF01 && code <= 0xFF5E) kind = "full-width character";
   return fmt::format("the {} '{}' ({})", kind, encode_utf8(code), number);
+}
+
+bool is_forbidden(char32_t code) {
+  return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7F && code < 0xA0) || code == 0xFFFE ||
+         code == 0xFFFF;
+}
+
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const CodePoint c = decode_utf8(text, i);
+    if (c.code == '&')
+      result += "&amp;";
+    else if (c.code == '<')
+      result += "&lt;";
+    else if (c.code == '>')
+      result += "&gt;";
+    else if (c.code == '"')
+      result += "&quot;";
+    else if (c.code == '\n')
+      result += "&#10;";
+    else if (c.code == '\t')
+      result += "&#9;";
+    else if (!c.valid || is_forbidden(c.code))
+      result += encode_utf8(0xFFFD);
+    else
+      result += text.substr(i, static_cast<std::size_t>(c.length));
+    i += static_cast<std::size_t>(c.length);
+  }
+  return result;
 }
 
 std::optional<CharacterFault> find_bad_character(std::string_view text) {
@@ -133,7 +164,7 @@ std::optional<CharacterFault> find_bad_character(std::string_view text) {
     if (c.code == 0)
       return CharacterFault{i, 1, "this file holds a zero byte: it is not a text file",
                             "scene files are plain UTF-8 text"};
-    if ((c.code < 0x20 && c.code != '\t' && c.code != '\n') || (c.code >= 0x7F && c.code < 0xA0))
+    if (is_forbidden(c.code))
       return CharacterFault{i, length, describe_character(c.code) + " is not allowed in a scene file", "remove it"};
     i += length;
   }

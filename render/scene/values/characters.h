@@ -38,14 +38,21 @@ bool is_unusual_space(char32_t code);
 /// "the Cyrillic letter 'с' (U+0441)", "the character 'é' (U+00E9)", "the no-break space (U+00A0)".
 std::string describe_character(char32_t code);
 
+/// Characters that texts may not hold, since no XML may: control characters other than tab and line feed (those from
+/// U+007F on for their own sake), U+FFFE and U+FFFF.
+bool is_forbidden(char32_t code);
+
+/// The text between the tags of XML or in an attribute's double quotes. What XML has no place for becomes U+FFFD.
+std::string xml_text(std::string_view text);
+
 struct CharacterFault {
   std::size_t offset = 0;  ///< byte offset
   std::size_t length = 1;
   std::string message, hint;
 };
 
-/// The first byte or character that no scene file may hold: bytes that are not UTF-8, control characters other than tab
-/// and line break, NUL; UTF-16 is recognized as such.
+/// The first byte or character that no scene file may hold: bytes that are not UTF-8, forbidden characters; UTF-16 is
+/// recognized as such.
 std::optional<CharacterFault> find_bad_character(std::string_view text);
 
 }  // namespace lekalo::render

@@ -96,7 +96,7 @@ void SyntaxChecker::escape(bool dollar) {
     const Span number{at, at + 6};
     if (code >= 0xD800 && code < 0xE000)
       fail(number, "half of a surrogate pair", "write the character itself instead of two '\\u' escapes");
-    if ((code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7F && code < 0xA0))
+    if (is_forbidden(static_cast<char32_t>(code)))
       fail(number, describe_character(static_cast<char32_t>(code)) + " is not allowed in texts", "remove it");
     at_ += 4;
     return;
