@@ -151,7 +151,7 @@ Image read_checked(const std::filesystem::path& path) {
   const std::int64_t height = extent(data.min.y, data.max.y);
   if (width < 1 || height < 1 || width > kMaximumPixels || height > kMaximumPixels || width * height > kMaximumPixels) {
     throw ImageError(path, "claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
-                     "the file is damaged, or too large for this program");
+                     kTooManyPixels);
   }
   std::int64_t pixel_bytes = 0;
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {

@@ -43,8 +43,10 @@ struct Image {
   std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-// No picture that is read may have more pixels than this (a damaged header must not ask for all memory).
-inline constexpr std::int64_t kMaximumPixels = std::int64_t{1} << 28;
+// No picture that is read may have more pixels than this, the most that a picture of this program has: in a file of a
+// few kilobytes they may be packed, and unpacked take gigabytes.
+inline constexpr std::int64_t kMaximumPixels = 100'000'000;
+inline constexpr const char* kTooManyPixels = "the file is damaged, or too large: at most 100 million pixels are read";
 
 // Deflate (RFC 1951), the packing of PNG and most OpenEXR files, makes at most 1032 bytes of one. A file whose header
 // promises more is damaged.

@@ -26,7 +26,8 @@ extern "C" __attribute__((visibility("default"))) bool lekalo_oiio_read(const ch
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
         std::int64_t{spec.width} * spec.height > kMaximumPixels) {
       error = "unusual size: " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
-              std::to_string(spec.depth) + " pixels, " + std::to_string(spec.nchannels) + " channels";
+              std::to_string(spec.depth) + " pixels, " + std::to_string(spec.nchannels) + " channels; " +
+              lekalo::render::kTooManyPixels;
       return false;
     }
     const std::size_t channels = static_cast<std::size_t>(spec.nchannels);

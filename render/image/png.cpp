@@ -113,8 +113,7 @@ Image read_png(const std::filesystem::path& path, SampleEncoding encoding) {
   const int bits = png_get_bit_depth(reader.png, reader.info);
   const std::size_t channels = png_get_channels(reader.png, reader.info);
   if (std::int64_t{width} * height > kMaximumPixels) {
-    throw ImageError(path, "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
-                     "the file is damaged, or too large for this program");
+    throw ImageError(path, "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels", kTooManyPixels);
   }
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
   // Palettes and low bit depths are expanded by at most 32 (1 bit to RGBA).

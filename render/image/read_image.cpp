@@ -100,11 +100,13 @@ Image read_other(const fs::path& path, SampleEncoding encoding) {
 
 Image read_image(const fs::path& path, SampleEncoding encoding) {
   std::array<char, 8> first{};
+  // Opening a pipe would wait for its writer.
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    throw ImageError(path, "cannot read: it is no regular file", "a pipe or a folder is no picture");
   std::ifstream file(path, std::ios::binary);
-  if (!file || fs::is_directory(path)) {
-    throw ImageError(path, std::string("cannot read: ") + std::strerror(file ? EISDIR : errno),
-                     "check the name and the permissions");
-  }
+  if (!file)
+    throw ImageError(path, std::string("cannot read: ") + std::strerror(errno), "check the name and the permissions");
   file.read(first.data(), first.size());
   const std::string_view magic(first.data(), static_cast<std::size_t>(file.gcount()));
   file.close();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/image/image_error.h"
 #include "render/image/read_image.h"
 #include "render/materials/textures.h"
 
@@ -100,7 +101,11 @@ TypeDeclaration image_type() {
              "white")
       .built_by([](const Fields& f) {
         ImageTexture texture;
-        texture.image = read_image(f.text("file"));
+        try {
+          texture.image = read_image(f.text("file"));
+        } catch (const ImageError& error) {
+          throw FieldError("file", error.what());
+        }
         if (!has_color(texture.image))
           throw FieldError("file", "the picture has no colour channels", "R, G, B or Y are needed");
         texture.spacing = {f.u<double>("spacing"), f.v<double>("spacing")};

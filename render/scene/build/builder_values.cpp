@@ -154,6 +154,12 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
                            "looked for beside the scene file and in the shipped scenes");
         return std::nullopt;
       }
+      std::error_code ignored;
+      if (!std::filesystem::is_regular_file(*path, ignored)) {
+        diagnostics_.error(value.place, fmt::format("'{}' is no regular file", *name),
+                           "a pipe or a folder cannot be read");
+        return std::nullopt;
+      }
       files_named_.push_back(*path);
       return std::any(path->string());
     }
