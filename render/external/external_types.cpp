@@ -24,7 +24,8 @@ void declare_source(TypeDeclaration& type, const std::string& signature, const s
       .optional("command", command(),
                 "in place of a library: a program that reads a line '" + request +
                     "' and answers with a line of numbers, the point and its derivatives up to the order")
-      .field("timeout", number().positive().at_most(86400), "seconds that the program may take for an answer", "10");
+      .field("timeout", number().positive().at_most(86400),
+             "seconds that a call of the function, or an answer of the program, may take", "10");
 }
 
 void declare_fit(TypeDeclaration& type, int highest) {
@@ -54,10 +55,9 @@ Source read_source(const Fields& f, int parameter_count) {
     const auto& command = f.get<std::vector<std::string>>("command");
     return {start_evaluator(command, parameter_count, f.number("timeout")), "command"};
   }
-  if (f.given("timeout")) throw FieldError("timeout", "'timeout' belongs to a program: a library cannot be stopped");
   if (!f.has("function")) throw FieldError("library", "which function of the library?", "write function: NAME");
   return {load_function(f.text("library"), f.text("function"), parameter_count, f.numbers("parameters"),
-                        f.text("threads") == "safe"),
+                        f.text("threads") == "safe", f.number("timeout")),
           "function"};
 }
 

@@ -122,7 +122,7 @@ class Library(External):
                 self.refused(self.faulty(function, ", parameters: [1]"), "scene.yaml:4:", *words)
         self.refused(self.faulty("good", ", closed: true"), "the surface is not closed along u")
         self.refused(self.faulty("good", ", command: [python3]"), "'library' and 'command' exclude each other")
-        self.refused(self.faulty("good", ", timeout: 3"), "'timeout' belongs to a program")
+        self.run_program("check", self.faulty("good", ", timeout: 3"), ALLOW)
 
     def test_calls_are_serialized(self):
         # Meshes are shaded by the surface itself: many threads ask it.
@@ -149,6 +149,21 @@ class Library(External):
         error = self.run_program("check", self.faulty("aborts", "", "external_curve", "[0, 3]"), ALLOW,
                                  code=-signal.SIGABRT)[1]
         self.assertEqual(error, "lekalo: 'aborts' was ended by a signal (Aborted) at t = 0\n")
+
+    def test_stuck_library_ends_the_program(self):
+        """While the scene is read, later, and where the library is loaded."""
+        stuck = r"^lekalo: '{}' has not returned for 0.3 s, its timeout at u = {}, v = \S+\n$"
+        for words in ["check"], ["render", "-o", "x.png"]:
+            error = self.run_program(words[0], self.faulty("stuck_at_some", ", timeout: 0.3"), *words[1:], ALLOW, code=FILE_ERROR)[1]
+            self.assertRegex(error, stuck.format("stuck_at_some", r"0\.\d+"))
+        self.assertFalse((self.folder / "x.png").exists())
+        out, error = self.run_program("evaluate", self.faulty("stuck_at_one", ", timeout: 0.3"), "theirs", "--at", "0.123,0.5",
+                                      ALLOW, code=FILE_ERROR)
+        self.assertRegex(error, stuck.format("stuck_at_one", "0.123"))
+        self.assertEqual(out, "")
+        os.mkfifo(self.folder / "pipe.so")
+        self.write("scene.yaml", "lekalo: 1\ngeometry: { a: { type: external_curve, library: pipe.so, function: f, domain: [0, 1] } }\n")
+        self.refused("scene.yaml", "scene.yaml:2:49: 'pipe.so' is no regular file")
 
     def test_wrong_derivatives_are_doubted(self):
         error = self.run_program("check", self.faulty("wrong_dv"), ALLOW)[1]

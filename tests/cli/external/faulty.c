@@ -19,6 +19,8 @@ LEKALO_SURFACE(constant)
 LEKALO_SURFACE(exits_at_some)
 LEKALO_SURFACE(exits_at_one)
 LEKALO_SURFACE(crashes_at_one)
+LEKALO_SURFACE(stuck_at_some)
+LEKALO_SURFACE(stuck_at_one)
 LEKALO_CURVE(aborts)
 LEKALO_CURVE(wrong_second_derivative)
 
@@ -139,4 +141,20 @@ int crashes_at_one(const double* parameters, double u, double v, int order, doub
 int aborts(const double* parameters, double t, int order, double* out) {
   (void)parameters, (void)t, (void)order, (void)out;
   abort();
+}
+
+int stuck_at_some(const double* parameters, double u, double v, int order, double* out) {
+  (void)parameters;
+  saddle(u, v, order, out);
+  for (volatile int spin = 1; spin && u > 0.7 && v > 0.6;) {
+  }
+  return 0;
+}
+
+int stuck_at_one(const double* parameters, double u, double v, int order, double* out) {
+  (void)parameters;
+  saddle(u, v, order, out);
+  for (volatile int spin = 1; spin && u == 0.123;) {
+  }
+  return 0;
 }
