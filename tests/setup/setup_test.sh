@@ -26,7 +26,8 @@ fresh_tree() {
     case \$* in
       --preset*) echo 'CMAKE_HOME_DIRECTORY:INTERNAL=$scratch/tree' >build/release/CMakeCache.txt; touch build/release/build.ninja ;;
       --build*) printf '#!/bin/bash\nprintf \"<%%s>\" \"\$PWD\" \"\$@\"\nexit 3\n' >$scratch/tree/build/release/bin/lekalo
-                chmod +x $scratch/tree/build/release/bin/lekalo ;;
+                chmod +x $scratch/tree/build/release/bin/lekalo
+                mkdir -p $scratch/tree/build/release/lib/lekalo; touch $scratch/tree/build/release/lib/lekalo/lekalo_oiio.so ;;
     esac"
 }
 
@@ -98,6 +99,12 @@ expect 'changed presets are configured' $? 3 'configuring'
 rm "$scratch/tree/build/release/bin/lekalo"
 run
 expect 'a removed program is built again' $? 3 'building'
+
+rm "$scratch/tree/build/release/lib/lekalo/lekalo_oiio.so"
+run
+expect 'a removed module is built again' $? 3 'building'
+run
+expect '... once' $? 3 '!building'
 
 ln -sf "$scratch/tree/tools/run" "$scratch/link"
 (cd / && PATH="$scratch/bin:$PATH" "$scratch/link" x) >"$scratch/result.out" 2>"$scratch/error.out"
