@@ -89,6 +89,10 @@ void AtomicFile::commit() {
   // A library between us and the caller may have swallowed the exception (OpenEXR does when it closes a file).
   if (error_number_ != 0) fail("cannot write", error_number_);
   flush();
+  // Else the new name may reach the disk before the bytes do: after a power cut it would stand for an empty file.
+  // Some file systems have nothing to synchronise and say so.
+  if (!temporary_.empty() && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+    fail("cannot write", errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail("cannot write", errno);

@@ -12,8 +12,8 @@ namespace lekalo::render {
 
 // Without commit() (an exception, an early return) the temporary file vanishes and an older file of that name stays
 // as it was. Symbolic links are followed; devices and pipes (/dev/stdout) are written directly.
-// A new file has the usual permissions (0666 less umask), a replaced one keeps its own. Nothing is synchronised to
-// the disk: a power cut is not a failure this guards against.
+// A new file has the usual permissions (0666 less umask), a replaced one keeps its own. The bytes are
+// on the disk before the name is: after a power cut it stands for the old file or the new one.
 class AtomicFile {
  public:
   // Throws ImageError if the folder does not exist or cannot be written to.

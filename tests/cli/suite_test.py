@@ -185,6 +185,23 @@ class Suites(ProgramTest):
         self.assertEqual([(r["name"], r["passed"]) for r in results], [("ring", True), ("mesh", False)])
         self.assertNotIn("passed  ring", self.run_suite("--quiet", code=DIFFERS))
 
+    def test_outputs_are_tried_before_the_work(self):
+        self.suite("name: slow, scene: ring.yaml, samples: 1000000", "name: same, scene: ring.yaml, against: slow")
+        begin = time.monotonic()
+        for file, code, said in [("no/such/junit.xml", FILE_ERROR, "no/such/junit.xml"), (".", FILE_ERROR, "Is a directory"),
+                                 ("suite.yaml", USAGE, "is a file of the suite"), ("./ring.yaml", USAGE, "is a file of the suite"),
+                                 ("golden/slow.exr", USAGE, "is a file of the suite")]:
+            self.assertIn(said, self.run_program("test", "suite.yaml", "--junit", file, code=code)[1])
+        self.assertLess(time.monotonic() - begin, 5)
+        self.assertEqual((self.folder / "ring.yaml").read_text(), SCENE)
+
+    def test_junit_is_xml_whatever_a_name_holds(self):
+        self.suite("name: ring, scene: ring.yaml")
+        name = os.fsdecode("su<\xef\xbf\xbe\xff\x01>.yaml".encode("latin-1"))
+        (self.folder / "suite.yaml").rename(self.folder / name)
+        self.run_program("test", name, "--junit", "junit.xml", code=DIFFERS)
+        self.assertEqual(xml.etree.ElementTree.parse(self.folder / "junit.xml").getroot()[0].get("name"), "su<\ufffd\ufffd\ufffd>")
+
     def test_same_pictures_for_any_jobs_and_threads(self):
         self.suite("repeat: { k: 1..3 }, name: ring_%k, scene: ring.yaml, set: { r: k/2 - 0.2 }")
         self.run_suite(code=DIFFERS)

@@ -2,11 +2,14 @@
 
 import os
 import re
+import resource
 import shutil
 import signal
+import struct
 import subprocess
 import time
 import unittest
+import zlib
 
 from program import DIFFERS, FILE_ERROR, LEKALO, ProgramTest, ROOT, SCENE_ERROR, USAGE
 
@@ -191,6 +194,63 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
                 done = subprocess.run(["bash", "-c", f"{trap}(sleep 0.3; exec '{LEKALO}' {arguments}) | true; "
                                        "exit ${PIPESTATUS[0]}"], cwd=self.folder, capture_output=True, text=True, timeout=20)
                 self.assertEqual((done.returncode, done.stderr), (FILE_ERROR if trap else 128 + signal.SIGPIPE, ""))
+
+    def test_bad_pictures_are_errors_of_the_scene(self):
+        """Each at its place, among the others; a pipe does not hang."""
+        self.write("text.png", "no picture")
+        self.write("cut.png", "")
+        (self.folder / "cut.png").write_bytes((ROOT / "tests/data/flip/ldr1_test.png").read_bytes()[:1000])
+        os.mkfifo(self.folder / "pipe.png")
+        self.write("ball.yaml", BALL + "materials:\n" + "".join(
+            f"  m{k}: {{ type: diffuse, color: {{ type: image, file: {name} }} }}\n"
+            for k, name in enumerate(["text.png", "cut.png", "pipe.png", "."])) + "objects: [{ shape: bal }]\n")
+        begin = time.perf_counter()
+        errors = self.run_program("check", "ball.yaml", code=SCENE_ERROR)[1]
+        for line, said in (4, "text.png: "), (5, "cut.png: "), (6, "'pipe.png' is no regular file"), (7, "'.' is no regular file"):
+            self.assertRegex(errors, f"ball.yaml:{line}:52: .*{said}")
+        self.assertIn("did you mean 'ball'?", errors)
+        for pair in ("pipe.png", "text.png"), ("cut.png", "pipe.png"):
+            self.assertIn("cannot read: ", self.run_program("compare", *pair, code=FILE_ERROR)[1])
+        self.assertLess(time.perf_counter() - begin, 10)
+
+    def test_pictures_of_very_many_pixels_are_refused(self):
+        """16384 x 16384 pixels in 33 kilobytes: found out before the memory for them is taken."""
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        side = 16384
+        (self.folder / "large.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(bytes(side * (side // 8 + 1)), 9)) + chunk(b"IEND", b""))
+        limit = 600 << 20
+        done = subprocess.run([LEKALO, "compare", "large.png", "large.png"], cwd=self.folder, capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(done.returncode, FILE_ERROR)
+        self.assertIn("large.png: has 16384 x 16384 pixels (the file is damaged, or too large: at most 100 million", done.stderr)
+
+    def test_numbers_of_options_are_finite(self):
+        self.write("ball.yaml", BALL)
+        self.write("rays.csv", "0,0,nan,0,0,-1\n")
+        for arguments in (["compare", "a.png", "b.png", "--threshold", "X"], ["export", "ball.yaml", "-o", "b.stl", "--sag", "X"],
+                          ["export", "ball.yaml", "-o", "b.pov", "--flatness", "X"],
+                          ["measure", "ball.yaml", "ball", "--against", "ball", "--tolerance", "X"]):
+            for word in "nan", "-nan", "inf", "NAN", "1e999":
+                errors = self.run_program(*(word if one == "X" else one for one in arguments), code=USAGE)[1]
+                self.assertIn(arguments[-2], errors)
+        for arguments in (["trace", "ball.yaml", "--ray", "0,0,1/0,0,0,1"], ["evaluate", "ball.yaml", "ball", "--at", "0/0,1"],
+                          ["render", "ball.yaml", "--crop", "0,0,1/0,5"]):
+            errors = self.run_program(*arguments, code=USAGE)[1]
+            self.assertRegex(errors, "'./0' is no finite number|is a body")
+        self.assertIn("rays.csv:1:5", self.run_program("trace", "ball.yaml", "--rays", "rays.csv", code=SCENE_ERROR)[1])
+
+    def test_large_weights_are_no_curve(self):
+        """Weights of 1e14 and more draw all but a rim of a bilinear surface to its diagonal: its corners still span it."""
+        points = "[[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]]"
+        for weight in "1e9", "1e12", "1e14", "1e20", "1e100":
+            for weights in f"[[1, {weight}], [{weight}, 1]]", f"[[1, {weight}], [1, 1]]", f"[[{weight}, {weight}], [{weight}, {weight}]]":
+                self.write("s.yaml", f"lekalo: 1\ngeometry: {{ s: {{ type: bezier_surface, points: {points}, weights: {weights} }} }}\n")
+                self.run_program("check", "s.yaml")
+        self.write("s.yaml", "lekalo: 1\ngeometry: { s: { type: bezier_surface, points: [[[0, 0, 0], [0, 1, 0]], [[0, 2, 0], [0, 3, 0]]] } }\n")
+        self.assertIn("has no area", self.run_program("check", "s.yaml", code=SCENE_ERROR)[1])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "geometry/expression/expression.h"
@@ -89,6 +91,13 @@ render::Table load_table(const std::string& path) {
 std::string digits(double x) { return fmt::format("{:.17g}", x); }
 std::string digits(const geometry::Vec3& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v.x, v.y, v.z); }
 
+std::string not_finite(const std::string& number) {
+  char* end = nullptr;
+  const double value = std::strtod(number.c_str(), &end);
+  // What is no number at all others refuse.
+  return end == number.c_str() || std::isfinite(value) ? "" : fmt::format("'{}' is no finite number", number);
+}
+
 std::vector<double> parse_numbers(const std::string& text, size_t count, const std::string& option) {
   std::vector<double> numbers;
   size_t begin = 0;
@@ -105,6 +114,7 @@ std::vector<double> parse_numbers(const std::string& text, size_t count, const s
     if (const auto error = expression.bind({}))
       throw UsageError(fmt::format("{}: '{}': {}", option, part, error->message));
     numbers.push_back(expression());
+    if (!std::isfinite(numbers.back())) throw UsageError(fmt::format("{}: '{}' is no finite number", option, part));
   }
   if (count > 0 && numbers.size() != count)
     throw UsageError(fmt::format("{} takes {} numbers with commas between, found {}", option, count, numbers.size()));

@@ -66,7 +66,11 @@ void add_schema(CLI::App& app, Action& action);
 std::string digits(double x);
 std::string digits(const geometry::Vec3& v);
 
-// The numbers of "1,2.5,-3": comma separated formulas without names.
+// For CLI::Option::check: why the number is refused (NaN, infinity), empty if it is not. CLI11's own limits let NaN
+// pass.
+std::string not_finite(const std::string& number);
+
+// The numbers of "1,2.5,-3": comma separated formulas without names, all finite.
 std::vector<double> parse_numbers(const std::string& text, size_t count, const std::string& option);
 
 // Wrong usage found after parsing the command line; exits with kUsage.

@@ -102,7 +102,8 @@ void add_compare(CLI::App& app, Action& action) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"flip", "rmse", "psnr", "ssim", "max"}));
   sub->add_option("--threshold", options->threshold, "worst value that passes [without: only equal pictures]")
-      ->type_name("X");
+      ->type_name("X")
+      ->check(not_finite);
   sub->add_option("--layer", options->layer,
                   "color, normal, geometric_normal, depth, position, uv, albedo or an OpenEXR layer [color]")
       ->type_name("NAME");

@@ -231,10 +231,12 @@ void add_export(CLI::App& app, Action& action) {
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(not_finite);
   sub->add_option("--flatness", options->pov.flatness, "pov: flatness of Bezier patches, in scene units")
       ->type_name("LENGTH")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(not_finite);
   sub->add_option("--patch-steps", options->pov.patch_steps, "pov: u_steps and v_steps of Bezier patches")
       ->check(CLI::Range(1, 8));
   sub->add_flag("--quiet", options->quiet, "print no summary");

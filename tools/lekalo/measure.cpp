@@ -411,7 +411,8 @@ void add_measure(CLI::App& app, Action& action) {
                               "are one [{:g}]; of --continuity the relative jump that passes [{:g}]",
                               geometry::kSamePoint, kSmooth))
       ->type_name("X")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(not_finite);
   sub->add_option("--samples", options->samples,
                   fmt::format("of --against, places in each direction [{}]; of curves that surfaces make, points along "
                               "each branch",

@@ -9,6 +9,8 @@
 #include "command.h"
 #include "engine.h"
 #include "geometry/expression/nearest_name.h"
+#include "picture.h"
+#include "render/image/atomic_file.h"
 #include "render/image/image_error.h"
 #include "suite.h"
 
@@ -83,12 +85,30 @@ void print_summary(const Options& options, const std::vector<TestResult>& result
   if (!options.report.empty()) fmt::print("{}/index.html\n", options.report);
 }
 
+// Before the work of hours: --junit can be written, and is none of the suite's own files.
+void check_outputs(const Options& options, const render::Suite& suite) {
+  if (options.junit.empty()) return;
+  std::vector<std::filesystem::path> own{suite.file};
+  for (const render::SuiteTest& test : suite.tests) {
+    own.insert(own.end(), {test.scene, golden_file(suite, test.name), golden_note(suite, test.name),
+                           result_file(suite, test.name)});
+    own.insert(own.end(), test.includes.begin(), test.includes.end());
+    for (const render::Expectation& expected : test.expectations)
+      if (!expected.samples.empty()) own.push_back(expected.samples);
+  }
+  for (const std::filesystem::path& file : own)
+    if (render::resolved_path(file) == render::resolved_path(options.junit))
+      throw UsageError(fmt::format("--junit {}: this is a file of the suite and would be overwritten", options.junit));
+  check_writable({render::OutputFile{options.junit, ""}});
+}
+
 int run(const Options& options) {
   options.engine.apply();
   const render::Suite suite = render::read_suite(options.suite);
   if (!options.accept.empty()) return accept_pictures(options, suite);
   if (!options.reason.empty()) throw UsageError("--reason belongs to --accept NAME");
 
+  check_outputs(options, suite);
   std::error_code error;
   std::filesystem::create_directories(suite.results, error);
   if (error) throw render::ImageError(suite.results, "cannot make this folder: " + error.message(), "check the rights");

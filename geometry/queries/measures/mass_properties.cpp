@@ -250,12 +250,16 @@ bool spans_area(const Surface& surface) {
     return lo + fraction * (hi - lo);
   };
   const Rectangle domain = surface.domain();
+  const auto at = [&](double x, double y) { return surface.evaluate(inside(domain.u, x), inside(domain.v, y), 1); };
+  const auto area = [](const SurfaceJet& jet) { return glm::length(glm::cross(jet.du(), jet.dv())); };
+  const auto parallel = [](const SurfaceJet& jet) { return 1e-12 * glm::length(jet.du()) * glm::length(jet.dv()); };
   for (const double x : {0.382, 0.113, 0.647, 0.923, 0.271})
-    for (const double y : {0.618, 0.157, 0.389, 0.877, 0.731}) {
-      const SurfaceJet jet = surface.evaluate(inside(domain.u, x), inside(domain.v, y), 1);
-      const double sides = glm::length(jet.du()) * glm::length(jet.dv());
-      if (!(glm::length(glm::cross(jet.du(), jet.dv())) <= 1e-12 * sides)) return true;
-    }
+    for (const double y : {0.618, 0.157, 0.389, 0.877, 0.731})
+      if (const SurfaceJet jet = at(x, y); !(area(jet) <= parallel(jet))) return true;
+  // Very large weights draw all but a rim to one point or curve.
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 1.0})
+      if (const SurfaceJet jet = at(x, y); area(jet) > parallel(jet)) return true;
   return false;
 }
 
