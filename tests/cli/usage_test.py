@@ -185,6 +185,20 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
             self.assertEqual(done.returncode, FILE_ERROR, arguments)
             self.assertIn("lekalo: standard output: cannot write", done.stderr)
 
+    def test_lost_messages_end_no_work(self):
+        """Neither a full nor a closed standard error; what is written never lands in a picture."""
+        self.write("ball.yaml", BALL)
+        self.run_program("render", "ball.yaml", "--size", "8x8", "-o", "good.png")
+        for closed in "2>/dev/full", "2>&-", "2>&- <&-":
+            command = f"'{LEKALO}' render ball.yaml --size 8x8 -o ball.png {closed}"
+            self.assertEqual(subprocess.run(command, shell=True, cwd=self.folder).returncode, 0, closed)
+            self.assertEqual(self.bytes_of("ball.png"), self.bytes_of("good.png"))
+            (self.folder / "ball.png").unlink()
+            command = f"'{LEKALO}' check none.yaml {closed}"
+            self.assertEqual(subprocess.run(command, shell=True, cwd=self.folder).returncode, FILE_ERROR, closed)
+        done = subprocess.run(f"'{LEKALO}' check ball.yaml >&-", shell=True, cwd=self.folder, capture_output=True)
+        self.assertEqual(done.returncode, FILE_ERROR)
+
     def test_a_closed_pipe_ends_quietly(self):
         """By the signal where that is not ignored, else by the error."""
         self.write("ball.yaml", BALL)

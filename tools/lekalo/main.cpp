@@ -1,4 +1,5 @@
 // The `lekalo` command: finds the subcommand, runs it, turns exceptions into messages and exit codes.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -57,6 +58,27 @@ std::string failure(const CLI::App* app, const CLI::Error& error) {
 // A library that calls exit() must not pass for success; nothing of this program's output is written any more.
 void tell_early_end() {
   if (render::tell_library_call("ended the program")) _exit(command::kFileError);
+}
+
+// A file opened by this program must not become its standard output or error because that was closed. What stands in
+// for them cannot be written either.
+void hold_closed_files() {
+  for (int file = 0; file <= STDERR_FILENO; ++file)
+    if (fcntl(file, F_GETFD) < 0 && open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+}
+
+ssize_t write_message(void*, const char* text, size_t size) {
+  (void)!write(STDERR_FILENO, text, size);
+  return static_cast<ssize_t>(size);
+}
+
+// A message that cannot be written (disk full, closed) ends no work: fmt throws where a stream fails, this one does
+// not.
+void lose_messages_quietly() {
+  std::FILE* messages = fopencookie(nullptr, "w", {nullptr, write_message, nullptr, nullptr});
+  if (!messages) return;
+  std::setvbuf(messages, nullptr, _IONBF, 0);
+  stderr = messages;
 }
 
 // `error_number`: why, 0 if it is not known any more. A pipe that nobody reads on needs no message.
@@ -138,6 +160,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::atexit(tell_early_end);
+  hold_closed_files();
+  lose_messages_quietly();
   const int code = run(argc, argv);
   if (code == command::kFileError) return code;
   errno = 0;
