@@ -95,6 +95,11 @@ std::vector<bool> clear_non_finite(Image& a, Image& b) {
   return mismatch;
 }
 
+bool same_pixel(const Image& a, const Image& b, std::size_t i) {
+  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    [i](const Channel& p, const Channel& q) { return value_at(p, i) == value_at(q, i); });
+}
+
 std::vector<float> luminance(const Image& image) {
   const ColorPlanes planes = color_planes(image);
   std::vector<float> result(image.pixel_count());
@@ -194,6 +199,12 @@ ComparisonResult compare_images(const Image& image_a, const Image& image_b, cons
   const bool bounded = options.metric == Metric::flip || options.metric == Metric::ssim;
   for (std::size_t i = 0; i < mismatch.size(); ++i) {
     if (mismatch[i]) result.error.values[i] = bounded ? 1.0f : std::numeric_limits<float>::infinity();
+  }
+  // Values near the largest float may leave no number, which sorting and maxima would forget.
+  for (std::size_t i = 0; i < mismatch.size(); ++i) {
+    float& error = result.error.values[i];
+    if (!std::isnan(error)) continue;
+    error = same_pixel(a.image, b.image, i) ? 0.0f : bounded ? 1.0f : std::numeric_limits<float>::infinity();
   }
   result.statistics = pool(result.error);
   if (options.metric == Metric::flip) result.value = result.statistics.mean;

@@ -35,6 +35,7 @@
 #include "geometry/surfaces/swept/revolution.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::mass_test {
 namespace {
@@ -96,7 +97,7 @@ class OcctMass : public testing::Test {
   void TearDown() override { tests::report_figure("largest_relative_difference", worst_); }
 
   void expect_near(double own, double theirs, const char* what) {
-    worst_ = std::max(worst_, std::abs(own - theirs) / std::abs(theirs));
+    worst_ = tests::worse(worst_, std::abs(own - theirs) / std::abs(theirs));
     EXPECT_NEAR(own, theirs, kIntegrals * std::abs(theirs)) << what;
   }
 

@@ -31,6 +31,7 @@
 #include "geometry/surfaces/swept/revolution.h"
 #include "occt/occt_shapes.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::values_test {
 namespace {
@@ -51,12 +52,12 @@ class OcctValues : public testing::Test {
 
   void expect_value(double difference, double largest, double size, const std::string& name) {
     const double scale = largest + 1e-3 * size;
-    worst_value_ = std::max(worst_value_, difference / scale);
+    worst_value_ = tests::worse(worst_value_, difference / scale);
     EXPECT_LE(difference, kValues * scale) << name;
   }
   void expect_curvature(double difference, double largest, double size, const char* name) {
     const double scale = largest + 1e-3 / size;
-    worst_curvature_ = std::max(worst_curvature_, difference / scale);
+    worst_curvature_ = tests::worse(worst_curvature_, difference / scale);
     EXPECT_LE(difference, kCurvatures * scale) << name;
   }
   void expect_same(const Curve& own, const Handle(Geom_Curve) & theirs, double rate);
@@ -80,12 +81,12 @@ void OcctValues::expect_same(const Curve& own, const Handle(Geom_Curve) & theirs
     double factor = 1;
     for (int k = 0; k <= kMaxCurveOrder; ++k, factor *= rate) {
       const Vec3 d = k == 0 ? from_occt(theirs->Value(s).XYZ()) : factor * from_occt(theirs->DN(s, k).XYZ());
-      worst.difference[k] = std::max(worst.difference[k], glm::length(jet.d[k] - d));
+      worst.difference[k] = tests::worse(worst.difference[k], glm::length(jet.d[k] - d));
       worst.largest[k] = std::max(worst.largest[k], glm::length(d));
     }
     GeomLProp_CLProps properties(theirs, s, 2, 1e-12);
     const double c = properties.Curvature();
-    worst.curvature_difference = std::max(worst.curvature_difference, std::abs(curvature(jet).curvature - c));
+    worst.curvature_difference = tests::worse(worst.curvature_difference, std::abs(curvature(jet).curvature - c));
     worst.largest_curvature = std::max(worst.largest_curvature, c);
   }
   const double size = worst.largest[0];
@@ -127,7 +128,7 @@ void OcctValues::expect_same(const Surface& own, const Handle(Geom_Surface) & th
       for (int j = 0; i + j <= order; ++j) {
         const Vec3 d = std::pow(rates.x, i) * std::pow(rates.y, j) * (swapped ? other_jet.d(j, i) : other_jet.d(i, j));
         const int k = SurfaceJet::index(i, j);
-        difference[k] = std::max(difference[k], glm::length(jet.d(i, j) - d));
+        difference[k] = tests::worse(difference[k], glm::length(jet.d(i, j) - d));
         largest[k] = std::max(largest[k], glm::length(d));
       }
     GeomLProp_SLProps properties(theirs, swapped ? b : a, swapped ? a : b, 2, 1e-12);
@@ -140,7 +141,7 @@ void OcctValues::expect_same(const Surface& own, const Handle(Geom_Surface) & th
     const std::array<double, 4> ours{c.gaussian, c.mean, c.principal[0], c.principal[1]};
     const std::array<double, 4> other{properties.GaussianCurvature(), side * properties.MeanCurvature(), upper, lower};
     for (int k = 0; k < 4; ++k) {
-      curvature_difference[k] = std::max(curvature_difference[k], std::abs(ours[k] - other[k]));
+      curvature_difference[k] = tests::worse(curvature_difference[k], std::abs(ours[k] - other[k]));
       largest_curvature[k] = std::max(largest_curvature[k], std::abs(other[k]));
     }
   }

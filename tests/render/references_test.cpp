@@ -17,6 +17,7 @@
 #include "render/image/exr.h"
 #include "render/pov/pov_export.h"
 #include "render/scene/build/load.h"
+#include "support/worst.h"
 
 namespace lekalo::render::references_test {
 namespace {
@@ -77,7 +78,7 @@ void compare(const std::string& name, const Image& ours, const Image& exact, dou
       }
       double here = 0;
       for (const auto& [p, q] : {std::pair{a.r, b.r}, std::pair{a.g, b.g}, std::pair{a.b, b.b}})
-        here = std::max(here, std::abs(double{p[i]} - q[i]) / (allowed + allowed_relative * q[i]));
+        here = tests::worse(here, std::abs(double{p[i]} - q[i]) / (allowed + allowed_relative * q[i]));
       if (here > 1) ++wrong;
       if (here > worst) {
         worst = here;
@@ -91,6 +92,14 @@ void compare(const std::string& name, const Image& ours, const Image& exact, dou
               100 * share);
   EXPECT_EQ(wrong, 0) << "worst at " << where.str();
   EXPECT_LE(share, kMaxExcluded);
+}
+
+TEST(Worst, NoNumberIsWorseThanAnyNumber) {
+  const double nan = std::nan("");
+  EXPECT_EQ(tests::worse(1, 2), 2);
+  EXPECT_EQ(tests::worse(2, 1), 2);
+  EXPECT_GT(tests::worse(2, nan), 1e300);
+  EXPECT_GT(tests::worse(tests::worse(2, nan), 1), 1e300);
 }
 
 class Reference : public testing::TestWithParam<std::string> {

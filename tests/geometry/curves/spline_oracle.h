@@ -10,6 +10,7 @@
 #include "geometry/numerics/jet.h"
 #include "geometry/quad.h"
 #include "geometry/surface.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::oracle {
 
@@ -125,7 +126,7 @@ inline double error_in_eps(const Vec3& computed, const Exact& exact) {
   double worst = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double error = std::abs(computed[axis] - exact.value[axis]);
-    if (error > 0) worst = std::max(worst, error / (2.220446049250313e-16 * exact.terms[axis]));
+    if (error != 0) worst = tests::worse(worst, error / (2.220446049250313e-16 * exact.terms[axis]));
   }
   return worst;
 }

@@ -9,6 +9,7 @@
 #include "geometry/describe.h"
 #include "geometry/external_stub.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::external_curve_test {
 namespace {
@@ -43,7 +44,7 @@ TEST(ExternalCurve, SplineIsAsNearAsItSays) {
       std::uniform_real_distribution<double> t(truth->domain().lo, truth->domain().hi);
       for (int i = 0; i < lekalo::tests::tier_count(100000); ++i) {
         const double x = t(random);
-        worst = std::max(worst, glm::length(spline.point(x) - truth->point(x)) / (tolerance * one.report().size));
+        worst = tests::worse(worst, glm::length(spline.point(x) - truth->point(x)) / (tolerance * one.report().size));
       }
     }
   lekalo::tests::report_figure("largest_distance_over_tolerance", worst);

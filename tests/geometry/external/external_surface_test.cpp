@@ -18,6 +18,7 @@
 #include "geometry/surfaces/swept/extrusion.h"
 #include "geometry/transformed.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::external_surface_test {
 namespace {
@@ -66,7 +67,7 @@ TEST(ExternalSurface, SplineIsAsNearAsItSays) {
       for (int i = 0; i < lekalo::tests::tier_count(100000); ++i) {
         const double a = u(random), b = v(random);
         const double off = glm::length(spline.point(a, b) - surface->point(a, b)) / one.report().size;
-        worst = std::max(worst, off / tolerance);
+        worst = tests::worse(worst, off / tolerance);
       }
     }
   lekalo::tests::report_figure("largest_distance_over_tolerance", worst);
@@ -132,7 +133,7 @@ TEST(ExternalSurface, LinesMeetItAsTheSurface) {
     }
     for (size_t k = 0; k < a.size(); ++k) {
       const double sine = std::abs(glm::dot(truth->normal(b[k].u, b[k].v), line.direction));
-      worst = std::max(worst, std::abs(a[k].t - b[k].t) * sine);
+      worst = tests::worse(worst, std::abs(a[k].t - b[k].t) * sine);
       ++hits;
     }
   }

@@ -10,6 +10,7 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/tessellation/tessellate.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::curve_polygon_test {
 namespace {
@@ -20,7 +21,7 @@ double measured_sag(const Curve& curve, const std::vector<double>& ts) {
     const Vec3 a = curve.point(ts[i]), b = curve.point(ts[i + 1]), d = glm::normalize(b - a);
     for (int k = 1; k < 50; ++k) {
       const Vec3 p = curve.point(ts[i] + (ts[i + 1] - ts[i]) * k / 50) - a;
-      worst = std::max(worst, glm::length(p - glm::dot(p, d) * d));
+      worst = tests::worse(worst, glm::length(p - glm::dot(p, d) * d));
     }
   }
   return worst;

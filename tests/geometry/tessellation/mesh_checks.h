@@ -9,6 +9,7 @@
 
 #include "geometry/mesh.h"
 #include "geometry/surface.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry {
 
@@ -66,7 +67,7 @@ inline double measured_sag(const Mesh& mesh, const Surface& surface, int face = 
       for (int j = 0; i + j <= kSteps; ++j) {
         const double x = double(i) / kSteps, y = double(j) / kSteps;
         const Vec2 uv = (1 - x - y) * p + x * q + y * r;
-        worst = std::max(worst, std::abs(glm::dot(surface.point(uv.x, uv.y) - a, n)));
+        worst = tests::worse(worst, std::abs(glm::dot(surface.point(uv.x, uv.y) - a, n)));
       }
   }
   return worst;

@@ -21,6 +21,7 @@
 #include "render/completeness/shape_entries.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::completeness::completeness_test {
 namespace {
@@ -95,7 +96,7 @@ struct Tally {
   double worst = 0;                                        // difference of t, of the size
   void add(const Tally& t) {
     rays += t.rays, hits += t.hits, wrong += t.wrong, band += t.band, other += t.other;
-    worst = std::max(worst, t.worst);
+    worst = tests::worse(worst, t.worst);
   }
 };
 
@@ -142,9 +143,9 @@ class Comparison {
         const double slope = std::abs(glm::dot(at.geometric_normal, ray.direction));
         if (off > subject_.same * size_ + rounding(ray) / std::max(slope, 1e-5)) return false;
       }
-      largest = std::max(largest, off / size_);
+      largest = tests::worse(largest, off / size_);
     }
-    worst = std::max(worst, largest);
+    worst = tests::worse(worst, largest);
     return true;
   }
   bool in_band(const Ray& ray, const std::vector<Hit>& found, const std::vector<double>& truth) const {
@@ -163,7 +164,7 @@ class Comparison {
       for (size_t i = 0; i < truth.size(); ++i) {
         const double moved = std::abs(there[i] - truth[i]);
         if (moved > kJump * size_) return true;  // not the same hit: one is gone, and there is another
-        moves[i] = std::max(moves[i], moved);
+        moves[i] = tests::worse(moves[i], moved);
       }
       return false;
     };

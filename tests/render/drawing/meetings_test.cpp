@@ -22,6 +22,7 @@
 #include "render/drawing/random_views.h"
 #include "render/drawing/visibility/hidden_lines.h"
 #include "render/lines/strokes.h"
+#include "support/worst.h"
 
 namespace lekalo::render::intersections_test {
 namespace {
@@ -100,7 +101,7 @@ TEST(Intersections, OneBallInManyWays) {
     const Vec3 in_box = turned.inverse().point(point) - frame.origin;
     double outside = -kInfinity;
     for (const Vec3& axis : {frame.x, frame.y, frame.z})
-      outside = std::max(outside, std::abs(glm::dot(in_box, axis) - 1) - 1);
+      outside = tests::worse(outside, std::abs(glm::dot(in_box, axis) - 1) - 1);
     EXPECT_NEAR(outside, 0, 1e-9);
   }
   const Entity others[] = {

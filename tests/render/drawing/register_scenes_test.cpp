@@ -12,6 +12,7 @@
 #include "render/scene/build/load.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::register_scenes_test {
 namespace {
@@ -195,7 +196,7 @@ class Picture {
 
   void compare() {
     const auto note = [&](double distance, double& worst, const char* what, const Vec2& p) {
-      worst = std::max(worst, distance);
+      worst = tests::worse(worst, distance);
       if (!(distance > kRegister) || ++failures_ > 3) return;
       ADD_FAILURE() << name_ << ": " << what << " at " << p.x << ", " << p.y << " of " << columns_ << " x " << rows_
                     << " is " << distance << " off";
@@ -255,8 +256,8 @@ TEST(Register, OutlinesOfSceneFilesLieOnBorders) {
     EXPECT_LE(found.narrow, 1 + found.places / 20) << kScenes[k];
     all.pictures += found.pictures, all.borders += found.borders, all.gaps += found.gaps, all.places += found.places;
     all.narrow += found.narrow;
-    all.border = std::max(all.border, found.border), all.gap = std::max(all.gap, found.gap);
-    all.place = std::max(all.place, found.place);
+    all.border = tests::worse(all.border, found.border), all.gap = tests::worse(all.gap, found.gap);
+    all.place = tests::worse(all.place, found.place);
   }
   tests::report_figure("scenes", static_cast<double>(scenes));
   tests::report_figure("pictures", all.pictures);

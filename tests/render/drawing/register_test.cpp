@@ -10,6 +10,7 @@
 #include "render/drawing/random_views.h"
 #include "render/drawing/visibility/hidden_lines.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::register_test {
 namespace {
@@ -95,8 +96,8 @@ TEST(Register, LinesLieOnBordersOfFaces) {
           if (p.x > 2 && p.y > 2 && p.x < kColumns - 2 && p.y < kRows - 2) seen.push_back(p);
         }
       }
-    for (const Vec2& p : between) worst_border = std::max(worst_border, on_lines.distance(p));
-    for (const Vec2& p : seen) worst_place = std::max(worst_place, on_borders.distance(p));
+    for (const Vec2& p : between) worst_border = tests::worse(worst_border, on_lines.distance(p));
+    for (const Vec2& p : seen) worst_place = tests::worse(worst_place, on_borders.distance(p));
     borders += static_cast<int>(between.size());
     places += static_cast<int>(seen.size());
   }

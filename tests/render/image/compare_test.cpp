@@ -111,6 +111,21 @@ TEST(Compare, NotFiniteValuesNeverPass) {
   }
 }
 
+TEST(Compare, TheLargestFloatsAreNumbers) {
+  Image a = layered();
+  for (const char* name : {"R", "G", "B"}) find_channel(a, name)->values[40] = std::numeric_limits<float>::max();
+  Image b = a;
+  for (const char* name : {"R", "G", "B"}) find_channel(b, name)->values[40] = -std::numeric_limits<float>::max();
+  for (const Metric metric : {Metric::flip, Metric::rmse, Metric::psnr, Metric::ssim, Metric::max}) {
+    const ComparisonResult same = compare(a, a, metric), other = compare(a, b, metric);
+    EXPECT_TRUE(same.passed) << metric_name(metric) << " " << same.value;
+    EXPECT_EQ(same.statistics.maximum, 0) << metric_name(metric);
+    EXPECT_FALSE(other.passed) << metric_name(metric) << " " << other.value;
+    EXPECT_GT(other.statistics.maximum, 0.1) << metric_name(metric);
+    EXPECT_FALSE(std::isnan(other.value)) << metric_name(metric);
+  }
+}
+
 TEST(Compare, AnExrAgainstItsPngDiffersByTheRounding) {
   const TemporaryFolder folder;
   Image a = make_image(64, 1);

@@ -21,6 +21,7 @@
 #include "render/model/look.h"
 #include "render/small_scene.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::picture_lines_test {
 namespace {
@@ -99,7 +100,7 @@ Difference compare(const Image& image, const Inside& inside) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const double off = ink(image, x, y) - area(x, y, inside);
-      result.largest = std::max(result.largest, std::abs(off));
+      result.largest = tests::worse(result.largest, std::abs(off));
       result.sum += off;
     }
   return result;
@@ -499,7 +500,7 @@ TEST(PictureLines, ThinLinesAmongThePixelsOfAdaptivePictures) {
         for (int y = 0; y < 64; ++y)
           for (int x = 0; x < 64; ++x) {
             all += ink(adaptive, x, y);
-            off = std::max(off, std::abs(ink(adaptive, x, y) - ink(even, x, y)));
+            off = tests::worse(off, std::abs(ink(adaptive, x, y) - ink(even, x, y)));
           }
         EXPECT_LT(off, 1e-6) << width << " " << offset << " " << slope;
         EXPECT_NEAR(all, 40 * width, 0.05 * 40 * width + 2) << width << " " << offset << " " << slope;

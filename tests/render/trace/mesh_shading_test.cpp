@@ -14,6 +14,7 @@
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/tessellation/tessellate.h"
 #include "render/trace/world.h"
+#include "support/worst.h"
 
 namespace lekalo::render::mesh_shading_test {
 namespace {
@@ -103,7 +104,7 @@ double interpolation_error(const TorusSurface& torus, double sag) {
     const double u = kTwoPi * unit(random), v = kPi * (2 * unit(random) - 1);
     const Vec3 n = torus.normal(u, v), x = torus.point(u, v);
     const auto point = seen(world, x + 0.3 * n, x);
-    if (point) worst = std::max(worst, glm::length(point->normal - n));
+    if (point) worst = tests::worse(worst, glm::length(point->normal - n));
   }
   return worst;
 }

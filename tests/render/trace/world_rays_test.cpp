@@ -23,6 +23,7 @@
 #include "render/trace/world.h"
 #include "support/line_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::world_rays_test {
 namespace {
@@ -94,7 +95,7 @@ class WorldRays : public testing::Test {
     if (a.size() != b.size()) return false;
     for (size_t i = 0; i < a.size(); ++i) {
       if (std::abs(a[i] - b[i]) > kSame * size) return false;
-      worst = std::max(worst, std::abs(a[i] - b[i]) / size);
+      worst = tests::worse(worst, std::abs(a[i] - b[i]) / size);
     }
     return true;
   }

@@ -2,6 +2,7 @@
 
 #include "geometry/curves/curve_checks.h"
 #include "geometry/curves/spline_oracle.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::nurbs_curve_test {
 namespace {
@@ -187,7 +188,7 @@ TEST(NurbsCurve, DerivativesAgreeWithHigherPrecision) {
       const double t = i == 0 ? domain.lo : i == 1 ? domain.hi : some.uniform(domain.lo, domain.hi);
       const auto exact = oracle::curve_derivatives(form, t, kMaxCurveOrder);
       const CurveJet jet = curve.evaluate(t, kMaxCurveOrder);
-      for (int k = 0; k <= kMaxCurveOrder; ++k) worst = std::max(worst, oracle::error_in_eps(jet.d[k], exact[k]));
+      for (int k = 0; k <= kMaxCurveOrder; ++k) worst = tests::worse(worst, oracle::error_in_eps(jet.d[k], exact[k]));
     }
   }
   EXPECT_LE(worst, 64);

@@ -4,6 +4,7 @@
 
 #include "geometry/curves/curve_checks.h"
 #include "geometry/curves/splines/nurbs_curve.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::nurbs_operations_test {
 namespace {
@@ -57,7 +58,7 @@ double deviation(const NurbsCurveForm& a, const NurbsCurveForm& b, const std::fu
   double worst = 0;
   for (int i = 0; i <= 100; ++i) {
     const double t = domain.clamp(domain.lo + domain.width() * i / 100);
-    worst = std::max(worst, distance(first.point(t), second.point(map(t))));
+    worst = tests::worse(worst, distance(first.point(t), second.point(map(t))));
   }
   return worst;
 }

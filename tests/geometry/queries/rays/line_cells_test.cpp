@@ -7,6 +7,7 @@
 
 #include "support/line_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::line_cells_test {
 namespace {
@@ -72,7 +73,7 @@ void compare(const RandomPatch& patch, std::mt19937_64& random, int count, doubl
       const CellHit& hit = found[i];
       const Vec3 on_patch = truth.point((hit.x + 1) / 2, (hit.y + 1) / 2);
       const double residual = glm::length(line.at(foot_point + hit.t) - on_patch);
-      tally.worst = std::max(tally.worst, residual);
+      tally.worst = tests::worse(tally.worst, residual);
       // The parameters are doubles: half a unit in their last place moves the point by so much.
       const PatchPoint at = evaluate(patch.view(), (hit.x + 1) / 2, (hit.y + 1) / 2);
       const double unit = 1.2e-16 * (glm::length(at.ds) + glm::length(at.dt));

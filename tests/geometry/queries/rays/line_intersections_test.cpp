@@ -18,6 +18,7 @@
 #include "geometry/surfaces/swept/revolution.h"
 #include "support/line_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::line_intersections_test {
 namespace {
@@ -79,7 +80,7 @@ Report compare(const Surface& surface, const SurfacePtr& owner, int count, unsig
     for (size_t i = 0; same && i < truth.size(); ++i) {
       const double error = std::abs(hits[i].t - (foot_point + truth[i])) / size;
       same = error <= 1e-9;
-      report.largest_error = std::max(report.largest_error, error);
+      report.largest_error = tests::worse(report.largest_error, error);
     }
     if (same) continue;
     bool band = false;

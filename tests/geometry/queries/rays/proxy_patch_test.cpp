@@ -9,6 +9,7 @@
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "geometry/surfaces/surface_checks.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::proxy_patch_test {
 namespace {
@@ -40,7 +41,7 @@ Ratios ratios(const Surface& one, double share, int count) {
       const SurfaceJet jet = one.evaluate(box.u.lo + s * box.u.width(), box.v.lo + t * box.v.width(), 1);
       const double off = glm::length(p.point - jet.point()), off_x = glm::length(0.5 * p.ds - hu * jet.du()),
                    off_y = glm::length(0.5 * p.dt - hv * jet.dv());
-      result.off = std::max(result.off, off / proxy.off);
+      result.off = tests::worse(result.off, off / proxy.off);
       result.slope = std::max({result.slope, off_x / proxy.off_x, off_y / proxy.off_y});
     }
   }

@@ -30,6 +30,7 @@
 #include "geometry/surfaces/swept/extrusion.h"
 #include "geometry/surfaces/swept/revolution.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::surface_lines_test {
 namespace {
@@ -90,10 +91,10 @@ TEST(Geodesics, OfSpheresAreGreatCircles) {
         curve,
         [&](double t) {
           const Vec3 exact = center + std::cos(t / radius) * p + radius * std::sin(t / radius) * d;
-          worst = std::max(worst, glm::length(curve.point(t) - exact) / radius);
+          worst = tests::worse(worst, glm::length(curve.point(t) - exact) / radius);
         },
         50);
-    worst_error = std::max(worst_error, line.error / radius);
+    worst_error = tests::worse(worst_error, line.error / radius);
   }
   EXPECT_LE(worst, 1e-12);
   EXPECT_LE(worst_error, 1e-12);
@@ -526,7 +527,7 @@ TEST(SurfaceLines, EndWhereTheyShouldOnAnyPatch) {
       return;
     }
     ++lines;
-    worst = std::max(worst, line.error / size);
+    worst = tests::worse(worst, line.error / size);
     const Vec3 end = line.image->point(line.image->domain().hi);
     const double room = std::min({end.x, end.y, 1 - end.x, 1 - end.y});
     if (line.ends == LineEnd::border) {

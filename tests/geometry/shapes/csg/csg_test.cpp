@@ -16,6 +16,7 @@
 #include "geometry/surfaces/analytic/torus.h"
 #include "support/solid_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::csg_test {
 namespace {
@@ -283,9 +284,9 @@ TEST(Csg, ClosedFormsOfConvexBodies) {
           continue;
         }
         const double size = 1 + glm::length(from);
-        worst = std::max(worst, std::abs(found[h].t - expected[h].t) * glm::length(line.direction) * sine / size);
-        worst_point = std::max(worst_point, glm::length(a.position - b.position) * sine / size);
-        worst_normal = std::max(worst_normal, glm::length(a.normal - b.normal) * sine / size);
+        worst = tests::worse(worst, std::abs(found[h].t - expected[h].t) * glm::length(line.direction) * sine / size);
+        worst_point = tests::worse(worst_point, glm::length(a.position - b.position) * sine / size);
+        worst_normal = tests::worse(worst_normal, glm::length(a.normal - b.normal) * sine / size);
       }
     }
   }

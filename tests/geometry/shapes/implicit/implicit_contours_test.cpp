@@ -14,6 +14,7 @@
 #include "geometry/surfaces/analytic/torus.h"
 #include "support/curve_places.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::implicit_contours_test {
 namespace {
@@ -423,7 +424,7 @@ void expect_all_lines(const char* name, int views, int planes, unsigned seed, do
         const Vec3 slope = surface.gradient(p);
         const double steep = glm::length(slope);
         if (steep > 1e-2 * glm::length(surface.gradient(region.box.hi)))
-          worst = std::max(worst, std::abs(static_cast<double>(f)) / steep);
+          worst = tests::worse(worst, std::abs(static_cast<double>(f)) / steep);
       });
     for (int i = 0; i < planes; ++i) {
       const Frame plane = frame_about(region.box.center() + dice.number(-0.25, 0.25) * size * dice.unit(), dice.unit());

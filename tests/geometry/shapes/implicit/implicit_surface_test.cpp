@@ -12,6 +12,7 @@
 #include "geometry/surfaces/surface_checks.h"
 #include "support/sign_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::implicit_surface_test {
 namespace {
@@ -107,7 +108,7 @@ void compare(const ImplicitSurface& shape, const Box3& box, int count, const cha
     for (size_t k = 0; k < found.size(); ++k) {
       const double slope = std::abs(oracle.slope(answer.t[k]));
       const double allowed = 1e-12 * size + 1e-14 * F::kScale / slope;
-      worst = std::max(worst, std::abs(found[k] - answer.t[k]) / allowed);
+      worst = tests::worse(worst, std::abs(found[k] - answer.t[k]) / allowed);
       ASSERT_LE(std::abs(found[k] - answer.t[k]), allowed) << name << ", line " << i << ", hit " << k;
     }
   }

@@ -16,6 +16,7 @@
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/shapes/tube/ball_parameter_lines.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::ball_outlines_test {
 namespace {
@@ -202,7 +203,7 @@ TEST(TubeSections, RandomPlanesMeetAllThatLinesInThemMeet) {
       constexpr int kPlaces = 2000;
       for (int i = 0; i <= kPlaces; ++i) {
         chain.push_back(line.curve->point(t.lo + t.width() * i / kPlaces));
-        off = std::max(off, std::abs(glm::dot(chain.back() - origin, n)));
+        off = tests::worse(off, std::abs(glm::dot(chain.back() - origin, n)));
       }
       chains.push_back(std::move(chain));
     }

@@ -16,6 +16,7 @@
 #include "geometry/surfaces/analytic/torus.h"
 #include "support/sweep_oracle.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::tube_test {
 namespace {
@@ -91,7 +92,7 @@ Figures compare(const Case& one, int lines, const Vec3& offset = Vec3(0), double
       // The rounding of the line's own coordinates counts too, and everything is seen under the angle.
       const double room = tolerance + 4e-16 * (glm::length(line.origin) + std::abs(expected[k])) / size;
       same = error * std::max(slope, 1e-4) <= room;
-      if (slope > 0.1) result.largest = std::max(result.largest, error);
+      if (slope > 0.1) result.largest = tests::worse(result.largest, error);
     }
     if (same) continue;
     bool tangent = false;
@@ -267,7 +268,7 @@ TEST(Tube, ThinRingsMeetLinesThatNearlyRunAlongThem) {
       missed += hits.size() < 2 || hits.size() % 2 != 0;
       for (const SurfaceHit& hit : hits) {
         const Vec3 p = line.at(hit.t);
-        worst = std::max(worst, std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - radius));
+        worst = tests::worse(worst, std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - radius));
       }
     }
     EXPECT_EQ(missed, 0) << radius;

@@ -5,6 +5,7 @@
 #include "geometry/curves/spline_oracle.h"
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/surfaces/surface_checks.h"
+#include "support/worst.h"
 
 namespace lekalo::geometry::nurbs_surface_test {
 namespace {
@@ -165,7 +166,8 @@ TEST(NurbsSurface, DerivativesAgreeWithHigherPrecision) {
       const double u = i == 0 ? d.u.hi : some.uniform(d.u.lo, d.u.hi), v = some.uniform(d.v.lo, d.v.hi);
       const auto exact = oracle::surface_derivatives(form, u, v, kMaxSurfaceOrder);
       const SurfaceJet jet = s.evaluate(u, v, kMaxSurfaceOrder);
-      for (size_t k = 0; k < exact.size(); ++k) worst = std::max(worst, oracle::error_in_eps(jet.values[k], exact[k]));
+      for (size_t k = 0; k < exact.size(); ++k)
+        worst = tests::worse(worst, oracle::error_in_eps(jet.values[k], exact[k]));
       // Lower orders give the same numbers.
       for (int order = 0; order < kMaxSurfaceOrder; ++order)
         for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k)

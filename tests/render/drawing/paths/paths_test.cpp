@@ -11,6 +11,7 @@
 #include "render/drawing/paths/ellipse_fit.h"
 #include "render/drawing/paths/joined_paths.h"
 #include "render/drawing/random_views.h"
+#include "support/worst.h"
 
 namespace lekalo::render::paths_test {
 namespace {
@@ -36,7 +37,7 @@ double distance(const ProjectedCurve& curve, const Interval& t, const Path& path
     const Vec2 p = curve.place(t.lo + t.width() * k / 50).p;
     double nearest = kInfinity;
     for (const Vec2& q : places) nearest = std::min(nearest, glm::length(p - q));
-    worst = std::max(worst, nearest);
+    worst = tests::worse(worst, nearest);
   }
   return worst;
 }

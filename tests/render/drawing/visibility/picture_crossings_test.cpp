@@ -13,6 +13,7 @@
 #include "geometry/curves/splines/bezier_curve.h"
 #include "render/cameras/cameras.h"
 #include "support/tier.h"
+#include "support/worst.h"
 
 namespace lekalo::render::picture_crossings_test {
 namespace {
@@ -80,7 +81,7 @@ TEST(PictureCrossings, OfCirclesThatTouch) {
       double nearest = geometry::kInfinity;
       for (const Vec2& place : found.places) nearest = std::min(nearest, glm::length(place - picture(side * across)));
       EXPECT_LT(nearest, kind == 0 ? 1e-4 : 1e-6) << k << " by " << by << (inside ? " inside" : " outside");
-      if (kind > 0) largest = std::max(largest, nearest);
+      if (kind > 0) largest = tests::worse(largest, nearest);
     }
     if (kind > 0) {
       EXPECT_EQ(found.places.size(), 2u) << k << " by " << by;
@@ -171,7 +172,7 @@ TEST(PictureCrossings, OfCurvesThatCrossAtNearlyNoAngle) {
     double off = geometry::kInfinity;
     for (const Vec2& one : found.places) off = std::min(off, glm::length(one - place));
     EXPECT_LT(off, 1e-4) << k << ": " << found.places.size();
-    largest = std::max(largest, off);
+    largest = tests::worse(largest, off);
   }
   tests::report_figure("largest_error_pixels", largest);
 }

@@ -5,6 +5,7 @@
 #include "render/film/render.h"
 #include "render/scene/scene_text.h"
 #include "render/trace/world.h"
+#include "support/worst.h"
 
 namespace lekalo::render::groups_picture_test {
 namespace {
@@ -54,7 +55,7 @@ TEST(GroupPictures, TwiceIsTheSameAsWrittenOut) {
     const Channel* other = find_channel(plain, channel.name);
     ASSERT_NE(other, nullptr) << channel.name;
     for (size_t i = 0; i < channel.values.size(); ++i)
-      largest = std::max(largest, std::fabs(static_cast<double>(channel.values[i]) - other->values[i]));
+      largest = tests::worse(largest, std::fabs(static_cast<double>(channel.values[i]) - other->values[i]));
     if (channel.name == "R")
       for (size_t i = 0; i < channel.values.size(); ++i)
         reddest = std::max(reddest, static_cast<double>(channel.values[i] - find_channel(grouped, "G")->values[i]));
