@@ -26,6 +26,10 @@ constexpr const char* kDamaged = "the file is damaged or incomplete";
 // take 2 GB for a comment; its own limit only warns.
 constexpr png_alloc_size_t kLargestAllocation = png_alloc_size_t{1} << 26;
 
+// Texts and the like, unpacked: longer and further ones are left out. libpng itself would keep 8 GB of them.
+constexpr png_alloc_size_t kLongestChunk = png_alloc_size_t{1} << 20;
+constexpr png_uint_32 kMaxChunks = 64;
+
 png_voidp allocate(png_structp, png_alloc_size_t size) {
   return size > kLargestAllocation ? nullptr : std::malloc(size);
 }
@@ -59,6 +63,9 @@ struct Reader {
     }
     png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning, nullptr, allocate, release);
     info = png == nullptr ? nullptr : png_create_info_struct(png);
+    if (png == nullptr) return;
+    png_set_chunk_malloc_max(png, kLongestChunk);
+    png_set_chunk_cache_max(png, kMaxChunks);
   }
   ~Reader() {
     png_destroy_read_struct(&png, &info, nullptr);

@@ -192,6 +192,7 @@ class Suites(ProgramTest):
                                  ("suite.yaml", USAGE, "is a file of the suite"), ("./ring.yaml", USAGE, "is a file of the suite"),
                                  ("golden/slow.exr", USAGE, "is a file of the suite")]:
             self.assertIn(said, self.run_program("test", "suite.yaml", "--junit", file, code=code)[1])
+        self.assertIn("ring.yaml/index.html", self.run_program("test", "suite.yaml", "--report", "ring.yaml", code=FILE_ERROR)[1])
         self.assertLess(time.monotonic() - begin, 5)
         self.assertEqual((self.folder / "ring.yaml").read_text(), SCENE)
 

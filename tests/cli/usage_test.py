@@ -235,9 +235,17 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         (self.folder / "large.png").write_bytes(
             b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0)) +
             chunk(b"IDAT", zlib.compress(bytes(side * (side // 8 + 1)), 9)) + chunk(b"IEND", b""))
+        text = chunk(b"zTXt", b"a\0\0" + zlib.compress(bytes(7 << 20), 9))
+        (self.folder / "texts.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 8, 8, 1, 0, 0, 0, 0)) + 300 * text +
+            chunk(b"IDAT", zlib.compress(bytes(16), 9)) + chunk(b"IEND", b""))
         limit = 600 << 20
-        done = subprocess.run([LEKALO, "compare", "large.png", "large.png"], cwd=self.folder, capture_output=True, text=True,
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+        def compared(name):
+            return subprocess.run([LEKALO, "compare", name, name], cwd=self.folder, capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(compared("texts.png").returncode, 0)
+        done = compared("large.png")
         self.assertEqual(done.returncode, FILE_ERROR)
         self.assertIn("large.png: has 16384 x 16384 pixels (the file is damaged, or too large: at most 100 million", done.stderr)
 

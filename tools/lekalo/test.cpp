@@ -85,8 +85,13 @@ void print_summary(const Options& options, const std::vector<TestResult>& result
   if (!options.report.empty()) fmt::print("{}/index.html\n", options.report);
 }
 
-// Before the work of hours: --junit can be written, and is none of the suite's own files.
+// Before the work of hours: --report and --junit can be written, and --junit is none of the suite's own files.
 void check_outputs(const Options& options, const render::Suite& suite) {
+  if (!options.report.empty()) {
+    std::error_code told_below;
+    std::filesystem::create_directories(options.report, told_below);
+    check_writable({render::OutputFile{options.report + "/index.html", ""}});
+  }
   if (options.junit.empty()) return;
   std::vector<std::filesystem::path> own{suite.file};
   for (const render::SuiteTest& test : suite.tests) {
