@@ -157,9 +157,9 @@ class Search {
   Search(const System& system, const ParameterBox<N>& domain, const RootSearchOptions<N, M>& options)
       : system_(system), domain_(domain), options_(options) {}
 
-  RootSearchResult<N> run() {
+  RootSearchResult<N> run(const ParameterBox<N>& start) {
     // Level by level: what is isolated stays few, what is not shows soon.
-    std::vector<ParameterBox<N>> level{domain_};
+    std::vector<ParameterBox<N>> level{start};
     while (!level.empty()) {
       if (static_cast<int>(level.size()) > options_.max_boxes) {
         result_.complete = false;
@@ -378,7 +378,13 @@ class Search {
 template <int N, int M, class System>
 RootSearchResult<N> search_roots(const System& system, const ParameterBox<N>& domain,
                                  const RootSearchOptions<N, M>& options) {
-  return root_search::Search<N, M, System>(system, domain, options).run();
+  return root_search::Search<N, M, System>(system, domain, options).run(domain);
+}
+// Only in `part` of the domain, whose sides are what Newton's steps are measured by.
+template <int N, int M, class System>
+RootSearchResult<N> search_roots(const System& system, const ParameterBox<N>& domain,
+                                 const RootSearchOptions<N, M>& options, const ParameterBox<N>& part) {
+  return root_search::Search<N, M, System>(system, domain, options).run(part);
 }
 
 }  // namespace lekalo::geometry

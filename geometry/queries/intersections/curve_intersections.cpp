@@ -60,6 +60,8 @@ struct PierceSystem {
   }
 };
 
+constexpr auto is_contact = [](const auto& intersection) { return intersection.contact; };
+
 // What of a piece is left without the common parts.
 std::vector<Interval> without(const Interval& piece, const std::vector<Interval>& parts) {
   std::vector<Interval> rest;
@@ -80,6 +82,7 @@ class CurvePair {
     Box3 all = box_a_;
     all.include(box_b_);
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
+    rounding_ = rounding_in(all);
     least_ = min_box(tolerance);
   }
 
@@ -93,6 +96,10 @@ class CurvePair {
         for (const Interval& part : without(of_a.domain, parts_))
           if (are_near(a_.enclose(part, 0).d[0], box, tolerance_)) search({a_, b_, part, of_b.domain});
     }
+    const auto are_one = [&](const CurveIntersection& one, const CurveIntersection& other, double by) {
+      return holds_between(a_, one.s, other.s, [&](double s) { return place_on(b_, a_.point(s), by).has_value(); });
+    };
+    tell_contacts_from_crossings(result_.points, tolerance_, rounding_, is_contact, are_one);
     std::sort(result_.points.begin(), result_.points.end(), [](const CurveIntersection& x, const CurveIntersection& y) {
       return x.s != y.s ? x.s < y.s : x.t < y.t;
     });
@@ -101,11 +108,12 @@ class CurvePair {
 
  private:
   // The foot point of a point if it lies on the curve.
-  std::optional<double> place_on(const Curve& curve, const Vec3& p) const {
+  static std::optional<double> place_on(const Curve& curve, const Vec3& p, double tolerance) {
     const CurveFootPoints found = project(p, curve);
-    if (found.foot_points.empty() || found.foot_points[0].distance > tolerance_) return std::nullopt;
+    if (found.foot_points.empty() || found.foot_points[0].distance > tolerance) return std::nullopt;
     return found.foot_points[0].t;
   }
+  std::optional<double> place_on(const Curve& curve, const Vec3& p) const { return place_on(curve, p, tolerance_); }
 
   // Curves can part only at an end of a smooth piece of either.
   void find_common() {
@@ -149,7 +157,9 @@ class CurvePair {
     options.least = {least_ * a_.domain().width(), least_ * b_.domain().width()};
     options.slack = {slack_of(a_, system.piece_a, tolerance_), slack_of(b_, system.piece_b, tolerance_)};
     options.tolerance = {tolerance_, tolerance_, tolerance_};
-    const auto found = search_roots<2, 3>(system, ParameterBox<2>{system.piece_a, system.piece_b}, options);
+    const ParameterBox<2> domain{system.piece_a, system.piece_b};
+    auto found = search_roots<2, 3>(system, domain, options);
+    isolate_crossings<2, 3>(system, domain, options, rounding_ / tolerance_, found);
     for (const auto& at : found.isolated) add(at, false);
     for (const auto& box : found.open) {
       ParameterPoint<2> middle, reach;
@@ -182,6 +192,7 @@ class CurvePair {
   const Curve &a_, &b_;
   Box3 box_a_, box_b_;
   double tolerance_ = 0;  // a length
+  double rounding_ = 0;   // likewise: what it leaves between curves that meet
   double least_ = 0;      // part of a domain
   std::vector<CurvePiece> pieces_a_, pieces_b_;
   std::vector<Interval> parts_;  // of the first, common
@@ -196,6 +207,7 @@ class CurveAndSurface {
     if (surface.bounded()) surface_box_ = bounds(surface), all.include(surface_box_);
     relative_ = tolerance;
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
+    rounding_ = rounding_in(all);
     least_ = min_box(tolerance);
     patches_ = patches();
   }
@@ -208,6 +220,10 @@ class CurveAndSurface {
       find_parts_on_surface(pieces);
       search_all(pieces, false);
     }
+    const auto are_one = [&](const SurfaceIntersection& one, const SurfaceIntersection& other, double by) {
+      return holds_between(curve_, one.t, other.t, [&](double t) { return lies_on_surface(t, by); });
+    };
+    tell_contacts_from_crossings(result_.points, tolerance_, rounding_, is_contact, are_one);
     std::sort(result_.points.begin(), result_.points.end(),
               [](const SurfaceIntersection& a, const SurfaceIntersection& b) { return a.t < b.t; });
     return std::move(result_);
@@ -251,14 +267,15 @@ class CurveAndSurface {
     return all.width();
   }
 
+  bool lies_on_surface(double t, double tolerance) const {
+    const Vec3 p = curve_.point(t);
+    if (!surface_box_.inflated(tolerance).contains(p)) return false;
+    const SurfaceFootPoints found = project(p, surface_);
+    return !found.foot_points.empty() && found.foot_points[0].distance <= tolerance;
+  }
+
   // A curve leaves a surface only at an end of a smooth piece of its own or at the border of a smooth patch.
   void find_parts_on_surface(const std::vector<CurvePiece>& pieces) {
-    const auto lies_on = [&](double t) {
-      const Vec3 p = curve_.point(t);
-      if (!surface_box_.inflated(tolerance_).contains(p)) return false;
-      const SurfaceFootPoints found = project(p, surface_);
-      return !found.foot_points.empty() && found.foot_points[0].distance <= tolerance_;
-    };
     std::vector<double> places;
     for (const CurvePiece& piece : pieces) places.push_back(piece.domain.lo);
     places.push_back(curve_.domain().hi);
@@ -275,7 +292,8 @@ class CurveAndSurface {
         for (const CommonPart& one : met.common) places.insert(places.end(), {one.s.lo, one.s.hi});
       }
     }
-    result_.on_surface = common_parts(places, least_ * curve_.domain().width(), lies_on);
+    result_.on_surface = common_parts(places, least_ * curve_.domain().width(),
+                                      [&](double t) { return lies_on_surface(t, tolerance_); });
   }
 
   // False where all solutions are to be isolated and are not.
@@ -307,8 +325,9 @@ class CurveAndSurface {
     options.least = {least_ * curve_.domain().width(), least_ * width_u(), least_ * width_v()};
     options.slack = {slack_of(curve_, system.piece, tolerance_), kBorderSlack * width_u(), kBorderSlack * width_v()};
     options.tolerance = {tolerance_, tolerance_, tolerance_};
-    const auto found =
-        search_roots<3, 3>(system, ParameterBox<3>{system.piece, system.patch.u, system.patch.v}, options);
+    const ParameterBox<3> domain{system.piece, system.patch.u, system.patch.v};
+    auto found = search_roots<3, 3>(system, domain, options);
+    isolate_crossings<3, 3>(system, domain, options, rounding_ / tolerance_, found);
     if (isolated && std::any_of(found.open.begin(), found.open.end(),
                                 [&](const ParameterBox<3>& box) { return comes_near(system, box); }))
       return false;
@@ -349,6 +368,7 @@ class CurveAndSurface {
   Box3 box_, surface_box_ = Box3::everything();
   double relative_ = 0;   // the tolerance, as a part of the size
   double tolerance_ = 0;  // a length
+  double rounding_ = 0;   // likewise: what it leaves between curve and surface where they meet
   double least_ = 0;      // part of a domain
   std::vector<Rectangle> patches_;
   SurfaceIntersections result_;

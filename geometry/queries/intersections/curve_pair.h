@@ -18,6 +18,8 @@ inline constexpr double kParallel = 1e-3;
 // Places along a part at which it must lie on the other curve or surface to be common.
 inline constexpr int kPlacesOfCommonPart = 24;
 inline constexpr int kMaxSteps = 30;
+// Of open boxes, in least sides: larger ones hold no contact but a common part.
+inline constexpr double kLargestContact = 256;
 
 inline bool are_near(const Box3& a, const Box3& b, double by) {
   for (int k = 0; k < 3; ++k)
@@ -62,6 +64,78 @@ ParameterPoint<N> refined(const ParameterPoint<N>& start, const ParameterPoint<N
     if (small) return x;
   }
   return x;
+}
+
+// What rounding leaves between operands in this box where they meet.
+inline double rounding_in(const Box3& box) {
+  return kHitRounding * glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+}
+
+// Looks into the boxes that a search has left open once more, with `share` of its tolerance, which rounding allows:
+// crossings far from each other may lie in one open box where the operands are within the tolerance of each other all
+// the way between them. A box in which none is found stays open.
+template <int N, int M, class System>
+void isolate_crossings(const System& system, const ParameterBox<N>& domain, RootSearchOptions<N, M> options,
+                       double share, RootSearchResult<N>& found) {
+  if (!(share < 1)) return;
+  const std::array<double, N> least = options.least;
+  for (double& side : options.least) side *= std::sqrt(share);
+  for (double& value : options.tolerance) value *= share;
+  std::vector<ParameterBox<N>> open;
+  for (const ParameterBox<N>& box : found.open) {
+    bool small = true;
+    // With its surroundings, in which crossings have counted as its own.
+    ParameterBox<N> part;
+    for (int i = 0; i < N; ++i) {
+      small = small && box[i].width() <= kLargestContact * least[i];
+      part[i] = intersect(domain[i], {box[i].lo - least[i], box[i].hi + least[i]});
+    }
+    RootSearchResult<N> inside;
+    if (small) inside = search_roots<N, M>(system, domain, options, part);
+    found.isolated.insert(found.isolated.end(), inside.isolated.begin(), inside.isolated.end());
+    if (inside.isolated.empty()) inside.open = {box};
+    open.insert(open.end(), inside.open.begin(), inside.open.end());
+  }
+  found.open = std::move(open);
+}
+
+// Keeps either a contact or the crossings beside it, from which the operands stay within the tolerance of each other:
+// where only rounding is between them a contact, else the crossings, between which they only come near each other.
+// `are_one(a, b, by)`: they stay so from an intersection to another.
+template <class Intersection, class IsContact, class AreOne>
+void tell_contacts_from_crossings(std::vector<Intersection>& points, double tolerance, double rounding,
+                                  IsContact&& is_contact, AreOne&& are_one) {
+  std::vector<Intersection> contacts, crossings;
+  for (const Intersection& point : points) (is_contact(point) ? contacts : crossings).push_back(point);
+  const auto nearest_of = [](const std::vector<Intersection>& of, const Intersection& one) {
+    return *std::min_element(of.begin(), of.end(), [&](const Intersection& a, const Intersection& b) {
+      return glm::distance(a.point, one.point) < glm::distance(b.point, one.point);
+    });
+  };
+  if (contacts.empty()) return;
+  std::erase_if(crossings, [&](const Intersection& one) {
+    const Intersection contact = nearest_of(contacts, one);
+    return contact.distance <= rounding && are_one(one, contact, rounding);
+  });
+  if (!crossings.empty())
+    std::erase_if(contacts, [&](const Intersection& one) {
+      return one.distance > rounding && are_one(one, nearest_of(crossings, one), tolerance);
+    });
+  points = std::move(contacts);
+  points.insert(points.end(), crossings.begin(), crossings.end());
+}
+
+// Whether `holds` at places between two of a curve's parameters, the shorter way round a closed curve.
+template <class Holds>
+bool holds_between(const Curve& curve, double from, double to, Holds&& holds) {
+  const double turn = curve.is_closed() || curve.period() > 0 ? curve.domain().width() : 0;
+  if (turn > 0) to -= turn * std::round((to - from) / turn);
+  for (const double share : {0.25, 0.5, 0.75}) {
+    double t = from + share * (to - from);
+    if (!curve.domain().contains(t)) t += t < curve.domain().lo ? turn : -turn;
+    if (!holds(curve.domain().clamp(t))) return false;
+  }
+  return true;
 }
 
 // r_a(s) - r_b(t) = 0: three equations, two unknowns.

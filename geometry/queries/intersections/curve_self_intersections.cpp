@@ -116,7 +116,9 @@ struct StopSystem {
 class SelfIntersections {
  public:
   SelfIntersections(const Curve& curve, double tolerance) : curve_(curve), domain_(curve.domain()) {
-    tolerance_ = tolerance * std::max(bounds(curve).diameter(), 1e-300);
+    const Box3 box = bounds(curve);
+    tolerance_ = tolerance * std::max(box.diameter(), 1e-300);
+    rounding_ = rounding_in(box);
     least_ = min_box(tolerance) * domain_.width();
   }
 
@@ -128,6 +130,13 @@ class SelfIntersections {
     for (size_t a = 0; a < parts_.size(); ++a)
       for (size_t b = a; b < parts_.size(); ++b)
         if (!is_common(parts_[a], parts_[b])) meet(a, b);
+    tell_contacts_from_crossings(
+        result_.points, tolerance_, rounding_,
+        [](const CurveSelfIntersection& one) { return one.kind == SelfIntersectionKind::contact; },
+        [&](const CurveSelfIntersection& one, const CurveSelfIntersection& other, double by) {
+          return one.kind != SelfIntersectionKind::cusp && other.kind != SelfIntersectionKind::cusp &&
+                 holds_between(curve_, one.s, other.s, [&](double s) { return !others_at(s, by).empty(); });
+        });
     std::sort(result_.points.begin(), result_.points.end(),
               [](const CurveSelfIntersection& x, const CurveSelfIntersection& y) {
                 return x.s != y.s ? x.s < y.s : x.t < y.t;
@@ -154,10 +163,11 @@ class SelfIntersections {
   }
 
   // Where else the curve goes through its point at s, to the tolerance.
-  std::vector<double> others_at(double s) const {
+  std::vector<double> others_at(double s) const { return others_at(s, tolerance_); }
+  std::vector<double> others_at(double s, double tolerance) const {
     std::vector<double> places;
     for (const CurveFootPoint& foot_point : project(curve_.point(s), curve_).foot_points)
-      if (foot_point.distance <= tolerance_ && !is_one(foot_point.t, s)) places.push_back(foot_point.t);
+      if (foot_point.distance <= tolerance && !is_one(foot_point.t, s)) places.push_back(foot_point.t);
     return places;
   }
 
@@ -273,7 +283,9 @@ class SelfIntersections {
     options.least = {least_, least_};
     options.slack = {slack_of(curve_, first, tolerance_), slack_of(curve_, second, tolerance_)};
     options.tolerance = {tolerance, tolerance, tolerance};
-    const auto found = search_roots<2, 3>(system, ParameterBox<2>{first, second}, options);
+    const ParameterBox<2> domain{first, second};
+    auto found = search_roots<2, 3>(system, domain, options);
+    isolate_crossings<2, 3>(system, domain, options, rounding_ / tolerance_, found);
     for (const auto& at : found.isolated) add(at[0], at[1], false);
     for (const auto& box : found.open) {
       if (may_be_cusp(box)) {
@@ -337,6 +349,7 @@ class SelfIntersections {
   const Curve& curve_;
   const Interval domain_;
   double tolerance_ = 0;  // a length
+  double rounding_ = 0;   // likewise: what it leaves between places where the curve meets itself
   double least_ = 0;      // of the parameter
   std::vector<double> stops_;
   std::vector<Interval> parts_;

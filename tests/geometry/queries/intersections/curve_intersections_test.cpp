@@ -65,6 +65,59 @@ TEST(TwoCurves, CirclesThatNearlyTouchAreToldApart) {
   EXPECT_EQ(intersect(Circle(Frame(), 2), Circle(at({3 + 1e-6, 0, 0}), 1)).points.size(), 0u);
 }
 
+// Of radius 1 about the origin: four quarters.
+NurbsCurve circle_as_nurbs() {
+  const double w = std::sqrt(0.5);
+  return NurbsCurve(
+      SplineAxis(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, Extension::tangent),
+      std::vector<Vec3>{
+          {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {1, 0, 0}},
+      std::vector<double>{1, w, 1, w, 1, w, 1, w, 1});
+}
+
+// y = x^2, its speed that of x.
+NurbsCurve parabola(double rise = 1, double by = 0) {
+  return bezier_curve(std::vector<Vec3>{{-1, rise + by, 0}, {0, -rise + by, 0}, {1, rise + by, 0}});
+}
+
+// A crossing at each of the places, of points of z = 0 along x, and no contact. y is known to `rounding`, x by the
+// slope worse.
+void expect_crossings(const CurveIntersections& met, const std::vector<double>& x, double slope, const char* what) {
+  ASSERT_EQ(met.points.size(), x.size()) << what << " x " << x[0];
+  std::vector<double> found;
+  for (const CurveIntersection& one : met.points) {
+    EXPECT_FALSE(one.contact) << what << " x " << one.point.x;
+    found.push_back(one.point.x);
+  }
+  std::sort(found.begin(), found.end());
+  for (size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(found[k], x[k], 4e-16 / slope) << what;
+}
+
+// The operands are within the tolerance of each other all the way between two crossings: these are none the less two,
+// whatever the form of the curves, and where the sagitta is rounding they are a contact.
+TEST(TwoCurves, CrossingsBesideATangentAreTwo) {
+  const Circle circle(Frame(), 1);
+  const NurbsCurve rational = circle_as_nurbs();
+  for (const double d : {1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
+    const Segment chord({-2, 1 - d, 0}, {2, 1 - d, 0}), upright({1 - d, -2, 0}, {1 - d, 2, 0});
+    const double depth = 1 - (1 - d), x = std::sqrt(depth * (2 - depth));
+    expect_crossings(intersect(circle, chord), {-x, x}, x, "circle");
+    expect_crossings(intersect(rational, chord), {-x, x}, x, "circle as NURBS");
+    EXPECT_EQ(intersect(circle, upright).points.size(), 2u) << "at the seam " << d;
+    expect_crossings(intersect(parabola(), Segment({-2, d, 0}, {2, d, 0})), {-std::sqrt(d), std::sqrt(d)},
+                     2 * std::sqrt(d), "parabola");
+    expect_crossings(intersect(parabola(), parabola(-1, d)), {-std::sqrt(d / 2), std::sqrt(d / 2)},
+                     2 * std::sqrt(d / 2), "parabolas");
+  }
+  for (const double d : {1e-15, 0.0, -1e-15, -1e-10}) {
+    for (const Curve* curve : {static_cast<const Curve*>(&circle), static_cast<const Curve*>(&rational)}) {
+      const CurveIntersections met = intersect(*curve, Segment({-2, 1 - d, 0}, {2, 1 - d, 0}));
+      ASSERT_EQ(met.points.size(), 1u) << d;
+      EXPECT_TRUE(met.points[0].contact) << d;
+    }
+  }
+}
+
 // Cubics through the origin, flat there to the second order: a crossing with parallel tangents.
 TEST(TwoCurves, AnInflectionCrossesItsTangent) {
   const NurbsCurve cubic = bezier_curve(std::vector<Vec3>{{-1, -1, 0}, {-1.0 / 3, 1, 0}, {1.0 / 3, -1, 0}, {1, 1, 0}});
@@ -119,6 +172,17 @@ TEST(CurveAndSurface, ALineMeetsTouchesOrMissesASphere) {
   EXPECT_TRUE(along.points[0].contact);
   EXPECT_NEAR(along.points[0].t, 0.5, 1e-14);
   EXPECT_TRUE(intersect(Segment({-5, 2.1, 0}, {5, 2.1, 0}), sphere).points.empty());
+}
+
+TEST(CurveAndSurface, CrossingsBesideATangentPlaneAreTwo) {
+  for (const double d : {1e-7, 1e-9, 1e-10, 1e-11, 1e-12}) {
+    const SurfaceIntersections met = intersect(Segment({-2, 1 - d, 0}, {2, 1 - d, 0}), SphereSurface(Frame(), 1));
+    const double depth = 1 - (1 - d), x = std::sqrt(depth * (2 - depth));
+    ASSERT_EQ(met.points.size(), 2u) << d;
+    EXPECT_NEAR(met.points[0].point.x, -x, 4e-16 / x) << d;
+    EXPECT_NEAR(met.points[1].point.x, x, 4e-16 / x) << d;
+    EXPECT_FALSE(met.points[0].contact || met.points[1].contact) << d;
+  }
 }
 
 TEST(CurveAndSurface, ASmallCurveMeetsALargeSurface) {

@@ -112,6 +112,17 @@ TEST(CurveWithItself, TouchesItself) {
   EXPECT_NEAR(found.points[0].t, 3 * kPi / 2, 1e-9);
 }
 
+// A parabola y = x^2 that comes back along y = d.
+TEST(CurveWithItself, CrossingsBesideATangentAreTwo) {
+  const SplineAxis axis(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 3}, Extension::tangent);
+  for (const double d : {1e-8, 1e-10, 1e-12}) {
+    const std::vector<Vec3> points{{-1, 1, 0}, {0, -1, 0}, {1, 1, 0}, {3, 2, 0}, {2, d, 0}, {0, d, 0}, {-2, d, 0}};
+    const CurveSelfIntersections met = intersections_of(NurbsCurve(axis, points), 2);
+    EXPECT_NEAR(met.points[0].point.x, -std::sqrt(d), 1e-16 / std::sqrt(d)) << d;
+    EXPECT_NEAR(met.points[1].point.x, std::sqrt(d), 1e-16 / std::sqrt(d)) << d;
+  }
+}
+
 TEST(CurveWithItself, PartsRunTwice) {
   const CurveSelfIntersections twice = intersections_of(curve({"cos(t)", "sin(t)", "0"}, {0, 2 * kTurn}), 0);
   ASSERT_EQ(twice.common.size(), 1u);
