@@ -59,12 +59,26 @@ CurveJet NurbsCurve::evaluate(double t, int order) const {
   return jet;
 }
 
+// Adds the control points of a span, between which the curve lies if all their weights are positive; else false.
+bool NurbsCurve::add_hull_of_span(int span, Box3& hull) const {
+  for (int i = span - degree(); i <= span; ++i) {
+    if (!(points_[i].w > 0)) return false;
+    hull.include(Vec3(points_[i]) / points_[i].w);
+  }
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  hull = hull.inflated(kRounding * glm::length(glm::max(glm::abs(hull.lo), glm::abs(hull.hi))));
+  return true;
+}
+
 CurveEnclosure NurbsCurve::enclose(const Interval& t, int order) const {
   CurveEnclosure result;
   const auto& knots = axis_.knots();
   for (const int span : axis_.spans_over(t)) {
     const Interval part{std::clamp(t.lo, knots[span], knots[span + 1]), std::clamp(t.hi, knots[span], knots[span + 1])};
+    Box3 hull = result.d[0];
     enclose_span(degree(), knots, span, points_, rational_, part, order, result);
+    // Where rounding hides the sign of the denominator: weights of 1 beside those of 1e18.
+    if (!result.d[0].bounded() && add_hull_of_span(span, hull)) result.d[0] = hull;
   }
   return result;
 }

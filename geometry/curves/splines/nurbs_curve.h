@@ -32,6 +32,7 @@ class NurbsCurve final : public Curve {
 
  private:
   void check_denominator() const;
+  bool add_hull_of_span(int span, Box3& hull) const;
 
   SplineAxis axis_;
   std::vector<Vec4> points_;

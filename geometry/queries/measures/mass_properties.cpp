@@ -15,8 +15,10 @@
 #include <unordered_map>
 
 #include "geometry/curves/operations/parameter_line.h"
+#include "geometry/queries/contours/contour_curve.h"
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/measures/face_integral.h"
+#include "geometry/queries/steady_parts.h"
 
 namespace lekalo::geometry {
 
@@ -102,6 +104,16 @@ std::vector<double> smooth_breaks(const Curve& curve, const Interval& range) {
     if (piece.domain.lo > breaks.back() && piece.domain.lo < range.hi) breaks.push_back(piece.domain.lo);
   breaks.push_back(range.hi);
   return breaks;
+}
+
+// Enclosures of searched curves take long, and their pieces are short.
+SteadyParts parts_of(const Curve& curve, const Interval& range) {
+  return is_searched(curve) ? SteadyParts{smooth_breaks(curve, range), {}, 0, 0} : steady_parts(curve, range);
+}
+
+double speed_in(const SteadyParts& parts, double t, const CurveJet& jet) {
+  const ChordPart* chord = parts.chord_at(t);
+  return chord ? chord->length / chord->t.width() : glm::length(jet.d[1]);
 }
 
 // Where the derivatives are those of a fit, integrals over it tell the area of the fit. Points that are moved by up to
@@ -266,14 +278,20 @@ bool spans_area(const Surface& surface) {
 CurveMeasures measure(const Curve& curve) {
   require_bounded(curve.domain());
   const Scale scale(bounds(curve));
+  const SteadyParts parts = parts_of(curve, curve.domain());
   const auto integrand = [&](double t, std::span<double> values) {
     const CurveJet jet = curve.evaluate(t, 1);
-    const double speed = glm::length(jet.d[1]) / scale.unit;
+    const double speed = speed_in(parts, t, jet) / scale.unit;
     values[0] = speed;
     for (int k = 0; k < 3; ++k) values[1 + k] = speed * (jet.d[0][k] - scale.origin[k]) / scale.unit;
   };
-  Integral integral = integrate(integrand, 4, smooth_breaks(curve, curve.domain()), goal(kMeasureAccuracy, scale));
+  Integral integral = integrate(integrand, 4, parts.breaks, goal(kMeasureAccuracy, scale));
   require_measure(integral, "the length");
+  const double parts_error = parts.error(scale.unit * integral.value[0]);
+  // Of chords the moments err by the length and by where on the chord it is, the size being 2.
+  for (int k = 0; k < 4; ++k) integral.error[k] += parts_error / scale.unit;
+  for (const ChordPart& chord : parts.chords)
+    for (int k = 1; k < 4; ++k) integral.error[k] += std::pow((chord.length + chord.error) / scale.unit, 2);
   integral.error[0] += 2 * scale.rounding;  // at its ends
   for (int k = 1; k < 4; ++k) integral.error[k] += scale.rounding * integral.value[0];
   add_variation(integral, scale, variation(curve, curve.domain()), 1);
@@ -287,11 +305,13 @@ Measured arc_length(const Curve& curve, double a, double b) {
   require_bounded({std::min(a, b), std::max(a, b)});
   if (a == b) return {};
   const Interval range{std::min(a, b), std::max(a, b)};
+  const SteadyParts parts = parts_of(curve, range);
   const Integral integral =
-      integrate([&](double t, std::span<double> values) { values[0] = glm::length(curve.evaluate(t, 1).d[1]); }, 1,
-                smooth_breaks(curve, range), {0, kMeasureAccuracy, 2000000});
+      integrate([&](double t, std::span<double> values) { values[0] = speed_in(parts, t, curve.evaluate(t, 1)); }, 1,
+                parts.breaks, {0, kMeasureAccuracy, 2000000});
   const Variation by = variation(curve, range);
-  return {a < b ? integral.value[0] : -integral.value[0], integral.error[0] + by.distance * by.factor};
+  return {a < b ? integral.value[0] : -integral.value[0],
+          integral.error[0] + parts.error(integral.value[0]) + by.distance * by.factor};
 }
 
 SurfaceMeasures measure(const Surface& surface) {

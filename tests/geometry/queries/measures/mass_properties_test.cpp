@@ -10,6 +10,7 @@
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/analytic/formula_curve.h"
+#include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/numerics/quadrature.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -44,6 +45,31 @@ TEST(MassProperties, LengthsOfCurves) {
 
 FormulaCurve graph(const std::string& y, const Interval& domain = {-1, 1}) {
   return FormulaCurve(point_formulas({"t", y, "0"}, {"t"}, Coordinates::cartesian), domain, false);
+}
+
+// Turns that are sharper than the nodes of a rule are apart: the claimed errors hold. The ellipse by its complete
+// elliptic integral, the hairpin in closed form, the cubic by composite quadrature with 40 digits, the conic as its
+// polygon.
+TEST(MassProperties, LengthsOfCurvesWithSharpTurns) {
+  const auto expect_length = [](const Curve& curve, long double length) {
+    const CurveMeasures found = measure(curve);
+    EXPECT_LE(std::abs(found.length.value - length), found.length.error) << static_cast<double>(length);
+    const Interval t = curve.domain();
+    const Measured along = arc_length(curve, t.lo, t.hi);
+    EXPECT_LE(std::abs(along.value - length), along.error) << static_cast<double>(length);
+    return found;
+  };
+  const CurveMeasures flat = expect_length(Ellipse(Frame(), 1e6, 1), 4000000.00002940360984L);
+  EXPECT_NEAR(flat.length.value, 4000000.00002940360984, 4e-9);
+  EXPECT_LT(glm::length(flat.centroid), flat.centroid_error);
+  const FormulaCurve hairpin(point_formulas({"t^2", "1e-6*t", "0"}, {"t"}, Coordinates::cartesian), {-1, 1});
+  EXPECT_NEAR(expect_length(hairpin, 2.00000000000785090246L).length.value, 2.00000000000785090246, 4e-15);
+  const NurbsCurve loop = bezier_curve(std::vector<Vec3>{{0, 0, 0}, {1, 1, 0}, {1e-5, 1, 0}, {1, 0, 0}});
+  EXPECT_NEAR(expect_length(loop, 1.828425838081975532803L).length.value, 1.828425838081975532803, 4e-15);
+  // Nearly all of it lies within the last digits of the parameter's ends.
+  const std::vector<Vec3> corner{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}};
+  for (const auto& [weight, missing] : {std::pair(1e6, 1.19813882052e-6L), std::pair(1e18, 1.198140234736e-18L)})
+    expect_length(bezier_curve(corner, std::vector<double>{1, weight, 1}), 2 * std::sqrt(2.0L) - missing);
 }
 
 // y = |x|^p over [-1, 1], by the substitution x = y^(1/p) where that is smoother. For p = 1/2, with x = y^2, the length
