@@ -28,7 +28,7 @@ class TubeOutlines {
   ShapeOutlines find() {
     const Curve& curve = sweep_.curve();
     const std::vector<CurvePiece> pieces = curve.pieces();
-    for (const CurvePiece& piece : pieces) add_walls(intersect(piece.domain, curve.domain()));
+    for (const CurvePiece& piece : pieces) add_walls(sweep_.moving(intersect(piece.domain, curve.domain())));
     // Balls between pieces, and at the ends.
     for (size_t k = 0; k < pieces.size(); ++k) {
       const bool first = k == 0;

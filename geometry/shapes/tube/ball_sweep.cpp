@@ -67,6 +67,15 @@ BallJet BallSweep::ball(double t) const {
   return {{jet.d[0], jet.d[1], jet.d[2]}, law_.at(t, jet)};
 }
 
+Interval BallSweep::moving(Interval range) const {
+  const double outward_offset = 1e-11 * range.width();
+  const auto rests = [&](double t) { return !(glm::length(curve_->evaluate(t, 1).d[1]) > 0); };
+  const bool at_begin = rests(range.lo), at_end = rests(range.hi);
+  if (at_begin) range.lo += outward_offset;
+  if (at_end) range.hi -= outward_offset;
+  return range;
+}
+
 void BallSweep::cut(const Interval& t) {
   const CurveEnclosure boxes = curve_->enclose(t, 2);
   const std::array<Interval, 3> radius = law_.over(t, boxes);

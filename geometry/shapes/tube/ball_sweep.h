@@ -65,6 +65,9 @@ class BallSweep {
   double size() const { return size_; }
   BallJet ball(double t) const;
   BallJet ball(const Cell& cell, double t) const;  // of the cell's model
+  // The range from and to where the curve moves: an end at which it rests (a retracted handle) has no direction of its
+  // own, but a limit; 1e-11 of the range is left out there.
+  Interval moving(Interval range) const;
 
   // Adds what the balls of a cell fill of the line, whose direction is a unit vector and whose origin is near; u of the
   // ends is the parameter t of the ball, their piece the cell.

@@ -34,9 +34,9 @@ std::array<std::array<S, kMaxSurfaceOrder + 1>, 2> waves(const S& v) {
 }  // namespace
 
 CanalSurface::CanalSurface(const BallSweep& sweep, const Interval& range, bool closes)
-    : range_(range), is_closed_(closes && sweep.curve().is_closed() && range == sweep.curve().domain()) {
+    : range_(sweep.moving(range)), is_closed_(closes && sweep.curve().is_closed() && range == sweep.curve().domain()) {
   const CurvePtr whole(CurvePtr(), &sweep.curve());  // which outlives the ribbon
-  const CurvePtr curve = is_closed_ ? whole : std::make_shared<CurvePart>(whole, range);
+  const CurvePtr curve = is_closed_ ? whole : std::make_shared<CurvePart>(whole, range_);
   const Ribbon ribbon(curve, sweep.size(), {});
   const auto circle = [&](double t) -> std::array<Vec3, 3> {
     const BallJet ball = sweep.ball(t);
@@ -47,7 +47,7 @@ CanalSurface::CanalSurface(const BallSweep& sweep, const Interval& range, bool c
     const Vec3 x = ball.radius[0] * std::sqrt(1 - p * p) * glm::normalize(w - glm::dot(w, e) * e);
     return {ball.center[0] + ball.radius[0] * p * e, x, glm::cross(e, x)};
   };
-  for (const Interval& part : parts_of(*whole, range)) cut(part, circle, kModelError * sweep.size());
+  for (const Interval& part : parts_of(*whole, range_)) cut(part, circle, kModelError * sweep.size());
   set_reversed(true);
 }
 

@@ -3,8 +3,10 @@
 // Walls meet one another, balls and flat ends. A wall does not meet itself along stretches that are shorter than a
 // length L, so that pairs of longer stretches are enough. By the length s, with k the largest curvature of the curve:
 //
-// - L = pi/k for a constant radius R < 1/k: the ball of radius R that touches the curve lies in the one of radius 1/k
-//   that touches it there, outside of which the curve keeps for so long (Schur's theorem: do Carmo 1976, 5-7).
+// - For a constant radius R < 1/k everywhere L is as far as the tangent T turns by pi in all, whatever the curvature is
+//   where. If balls at a and b touched a point p, c(b) - c(a) = R (n(a) - n(b)) with n across T. With w = T half way by
+//   the turning angle x, which goes from -y to y, its product with w would be at most 2 R sin y; but it is the integral
+//   of T . w ds, more than that of R cos x dx, which is 2 R sin y (after Schur: do Carmo 1976, 5-7).
 // - L = 2 ((1 - R'^2 - R R'')/k - R): where two balls touch a point p, |p - c|^2 - R^2 has minima 0, and between them a
 //   maximum, where 1 - R'^2 - R R'' <= (p - c) . c'' <= k |p - c|, and p is no farther from c there than R + L/2.
 #include <algorithm>
@@ -38,18 +40,22 @@ std::vector<Cell> cells_in(const BallSweep& sweep, const Interval& range) {
 // Bounds over cells, by the length.
 struct Bounds {
   double curvature = 0, radius = 0, slope = 0, bulge = 0;  // bulge: of R R''
-  bool constant = true;
-  std::vector<double> lengths;  // of the cells, at most
+  bool constant = true;                                    // of the radius
+  bool bends_less = true, bends_more = false;  // curvature times radius: below 1 everywhere, above somewhere
+  std::vector<double> lengths, turns;          // of the cells, at most
 
   Bounds(const BallSweep& sweep, const std::vector<Cell>& cells) {
     for (const Cell& cell : cells) {
-      lengths.push_back(0);
-      for (int k = 0; k < kParts; ++k) add(sweep, cell, cell.t.lo + k * cell.t.width() / kParts);
+      lengths.push_back(0), turns.push_back(0);
+      for (int k = 0; k < kParts; ++k)
+        add(sweep, cell, cell.t.lo + k * cell.t.width() / kParts, 0.5 * cell.t.width() / kParts, kHalvings);
     }
   }
-  // L above; 0 where there is none.
+  // What of each cell adds up to L above, and L; 0 where there is none.
+  bool is_by_turns() const { return constant && bends_less; }
+  const std::vector<double>& steps() const { return is_by_turns() ? turns : lengths; }
   double safe_length() const {
-    if (constant && curvature * radius < 1) return kPi / curvature;
+    if (is_by_turns()) return kPi;
     const double safe = 2 * ((1 - slope * slope - bulge) / curvature - radius);
     return safe > 0 ? safe : 0;
   }
@@ -57,8 +63,9 @@ struct Bounds {
  private:
   // Cells are too wide for good bounds.
   static constexpr int kParts = 4;
-  void add(const BallSweep& sweep, const Cell& cell, double from) {
-    const double h = 0.5 * cell.t.width() / kParts;
+  // Of a part on which the curvature is not known to be small enough.
+  static constexpr int kHalvings = 12;
+  void add(const BallSweep& sweep, const Cell& cell, double from, double h, int halvings) {
     const BallJet middle = sweep.ball(from + h);
     const Vec3 &r1 = middle.center[1], &r2 = middle.center[2];
     const Box3 box = sweep.curve().enclose({from, std::min(from + 2 * h, cell.t.hi)}, 2).d[2];
@@ -67,12 +74,28 @@ struct Bounds {
     const double speed = glm::length(r1), turn = most * h, slowest = speed - turn;
     const double along = glm::dot(r1, r2) / (speed * speed);
     const double across = glm::length(r2 - along * r1) + variation_bound + std::abs(along) * turn;
-    lengths.back() += 2 * h * (speed + turn);
     const double R2 = std::abs(cell.middle.radius[2]) + cell.radius_variation_bound,
                  R1 = std::abs(middle.radius[1]) + R2 * h, R = middle.radius[0] + R1 * h;
+    // r' x r'' but for what r'' wanders: r' = r1 + x r2 + ..., and r2 x r2 = 0.
+    const double product = glm::length(glm::cross(r1, r2)),
+                 max_product = product + variation_bound * (h * glm::length(r2) + speed + turn);
+    const double length = 2 * h * (speed + turn),
+                 bend = slowest > 0 ? std::min(across, max_product / slowest) / (slowest * slowest) : kInfinity;
+    if (R1 == 0 && !cell.regular && !(bend * R < 1)) {
+      const bool is_more = product * R > speed * speed * speed;
+      bends_more = bends_more || is_more;
+      if (!is_more && halvings > 0) {
+        add(sweep, cell, from, 0.5 * h, halvings - 1);
+        add(sweep, cell, from + h, 0.5 * h, halvings - 1);
+        return;
+      }
+    }
     constant = constant && R1 == 0;
+    lengths.back() += length;
+    turns.back() += length * (cell.regular ? std::min(bend, 1 / R) : bend);
+    bends_less = bends_less && (cell.regular || bend * R < 1);
     const auto include = [&](double& bound, double value) { bound = slowest > 0 ? std::max(bound, value) : kInfinity; };
-    include(curvature, across / (slowest * slowest));
+    include(curvature, bend);
     include(radius, R);
     include(slope, R1 / slowest);
     include(bulge, R * (R2 + R1 * most / slowest) / (slowest * slowest));
@@ -90,7 +113,9 @@ double apart(const Box3& a, const Box3& b) {
 
 bool TubeBoundary::bends_too_much(const CanalSurface& wall) const {
   constexpr int kPlaces = 4, kAngles = 24;
-  for (const Cell& cell : cells_in(tube_.sweep(), wall.domain().u)) {
+  const std::vector<Cell> cells = cells_in(tube_.sweep(), wall.domain().u);
+  if (const Bounds along(tube_.sweep(), cells); along.constant) return along.bends_more;
+  for (const Cell& cell : cells) {
     if (cell.regular) continue;
     for (int i = 0; i <= kPlaces; ++i)
       for (int k = 0; k < kAngles; ++k) {
@@ -107,7 +132,8 @@ std::optional<std::vector<std::array<Interval, 2>>> TubeBoundary::near_stretches
   const std::vector<Cell> cells = cells_in(tube_.sweep(), range);
   const Bounds along(tube_.sweep(), cells);
   const double most = 0.5 * along.safe_length();
-  if (!(*std::max_element(along.lengths.begin(), along.lengths.end()) <= most)) return std::nullopt;
+  const std::vector<double>& steps = along.steps();
+  if (!(*std::max_element(steps.begin(), steps.end()) <= most)) return std::nullopt;
   struct Stretch {
     size_t from, to;
   };
@@ -115,8 +141,8 @@ std::optional<std::vector<std::array<Interval, 2>>> TubeBoundary::near_stretches
   std::vector<Box3> centers;  // of each cell
   double length = 0;
   for (size_t k = 0; k < cells.size(); ++k) {
-    length += along.lengths[k];
-    if (k == 0 || length > most) stretches.push_back({k, k}), length = along.lengths[k];
+    length += steps[k];
+    if (k == 0 || length > most) stretches.push_back({k, k}), length = steps[k];
     stretches.back().to = k + 1;
     centers.push_back(cells[k].box.inflated(-cells[k].min_radius));
   }
@@ -164,7 +190,8 @@ std::optional<TubeBoundary::Part> TubeBoundary::apart_from(const Part& part, con
   if (other.before) ends.push_back(*other.before);
   if (other.after) ends.push_back(*other.after);
   if (other.wall) ends = {other.wall->domain().u.lo, other.wall->domain().u.hi};
-  if (other.end >= 0) ends = {other.end == 0 ? whole.lo : whole.hi};
+  const Interval moving = sweep.moving(whole);
+  if (other.end >= 0) ends = {other.end == 0 ? moving.lo : moving.hi};
   const std::vector<Cell> cells = cells_in(sweep, range);
   const int count = static_cast<int>(cells.size());
   int first = 0, last = count;

@@ -11,10 +11,13 @@
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/point_formulas.h"
+#include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/contours/parameter_lines.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/shapes/tube/ball_parameter_lines.h"
+#include "geometry/shapes/tube/tube_lines.h"
 #include "support/tier.h"
 #include "support/worst.h"
 
@@ -82,6 +85,38 @@ TEST(TubeOutlines, ShortGaps) {
       EXPECT_GT(off, within * (1 - 1e-3)) << within;
       EXPECT_LT(off, std::max(within, 0.0) + 1e-2) << within;
     }
+  }
+}
+
+// A plane curve with its first handle retracted, seen from above: both lines beside it at the radius. Walls of less
+// bend than the radius allows (0.92 of it at the handle of 5e-3) have no edges.
+TEST(TubeOutlines, OfARetractedHandle) {
+  const double radius = 0.1;
+  const ViewOf view{false, {0, 0, -1}};
+  for (const double handle : {0.0, 1e-4, 1e-3, 5e-3, 1e-2}) {
+    const auto curve = std::make_shared<NurbsCurve>(
+        bezier_curve(std::vector<Vec3>{{0, 0, 0}, {handle, handle, 0}, {1, 1, 0}, {2, 0, 0}}));
+    const Tube tube(curve, RadiusLaw(radius), Caps::flat);
+    const ShapeOutlines found = outlines(tube, view);
+    EXPECT_TRUE(found.complete) << handle;
+    int beside[2] = {0, 0};  // points on either side
+    for (const ShapeOutline& line : found.lines) {
+      if (line.edge) continue;
+      const Interval t = line.curve->domain();
+      for (int k = 0; k <= 100; ++k) {
+        const Vec3 p = line.curve->point(t.lo + t.width() * k / 100);
+        const CurveFootPoint foot_point = project(p, *curve).foot_points.at(0);
+        // Where it bends more it goes through itself, and lines end to 1e-6 of the size.
+        EXPECT_NEAR(foot_point.distance, radius, handle < 4e-3 && foot_point.t < 0.0061 ? 2e-6 : 1e-9)
+            << handle << " t " << foot_point.t;
+        if (foot_point.t > 0) ++beside[glm::cross(curve->evaluate(foot_point.t, 1).d[1], p - foot_point.point).z > 0];
+      }
+    }
+    EXPECT_GT(beside[0], 90) << handle;
+    EXPECT_GT(beside[1], 90) << handle;
+    const TubeBoundary::Edges edges = TubeBoundary(tube).edges(view);
+    EXPECT_TRUE(edges.lines.complete) << handle;
+    if (handle > 4.9e-3) EXPECT_TRUE(edges.all_known && edges.lines.lines.empty()) << handle;
   }
 }
 
