@@ -324,6 +324,8 @@ class FaceMesher {
       hi = glm::max(hi, plane_.place(vertices_[a].uv));
       used.push_back(a);
     }
+    // The border of a face thinner than the body's tolerance lies on one line: there is nothing inside.
+    if (!(lo.x < hi.x && lo.y < hi.y)) return;
     PlanarTriangulation triangulation(lo, hi);
     std::vector<int> planar(vertices_.size(), -1);
     for (int vertex : used) planar[vertex] = insert(triangulation, vertex);

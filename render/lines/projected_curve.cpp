@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/numerics/halving.h"
 #include "geometry/numerics/quadrature.h"
 
 namespace lekalo::render {
@@ -107,7 +108,7 @@ void ProjectedCurve::cut(const Interval& t) {
            over(row - (size + reach_) * row_w, boxes.d[0], 1).lo > 0;
   };
   if (is_beyond(row_x, picture_.x) || is_beyond(row_y, picture_.y)) return;
-  const bool is_narrow = t.width() <= narrowest_ || cells_.size() >= kMaxCells;
+  const bool is_narrow = t.width() <= narrowest_ || !can_be_halved(t) || cells_.size() >= kMaxCells;
   const double middle = t.middle(), h = 0.5 * t.width();
   const auto halve = [&] {
     cut({t.lo, middle});

@@ -109,6 +109,16 @@ camera: { view: top }
         self.run_program("draw", "block.yaml", "-o", "outlines.svg", "--outlines", "--quiet")
         self.assertNotIn("<text", self.bytes_of("outlines.svg").decode())
 
+    def test_short_arcs_and_large_parameters(self):
+        """Domains of a few numbers, between whose ends there is soon no middle, have an end, too."""
+        self.write("short.yaml", "lekalo: 1\ngeometry:\n"
+                   "  arc: { type: circle, radius: 1, arc: [90, 90.00000000000001] }\n"
+                   "  far: { type: formula_curve, point: [t - 1e15, (t - 1e15)^2, 0], domain: [1e15, 1e15 + 1] }\n"
+                   "  frame: { type: circle, radius: 2 }\n"
+                   "objects: [{ shape: arc }, { shape: far }, { shape: frame }]\noutputs: short.svg\n")
+        self.run_program("draw", "short.yaml", "--quiet")
+        self.assertTrue(self.paths("short.svg"))
+
     def test_errors(self):
         self.write("block.yaml", BLOCK)
         self.assertIn("'x.exr': draw writes", self.run_program("draw", "block.yaml", "-o", "x.exr", code=USAGE)[1])

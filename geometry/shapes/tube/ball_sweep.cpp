@@ -7,6 +7,7 @@
 
 #include "geometry/describe.h"
 #include "geometry/numerics/chebyshev.h"
+#include "geometry/numerics/halving.h"
 
 namespace lekalo::geometry {
 
@@ -92,7 +93,7 @@ void BallSweep::cut(const Interval& t) {
   const double speed = glm::length(r1), most = glm::length(r2) + cell.variation_bound, turn = most * h;
   const double extent = std::min(boxes.d[0].diameter(), 2 * h * (speed + 0.5 * turn)) + radius[0].width();
 
-  cell.is_place = extent <= kSamePlace * size_ || t.width() <= narrowest_;
+  cell.is_place = extent <= kSamePlace * size_ || t.width() <= narrowest_ || !can_be_halved(t);
   const bool positive = radius[0].lo > 0 && radius[0].hi < kInfinity;
   const double uneven = (law_.has_branches() ? kEven : kStraight) * speed;
   const bool even = radius[1].width() <= uneven && radius[0].width() <= 2 * h * (std::abs(R1) + uneven);

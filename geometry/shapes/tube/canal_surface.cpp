@@ -11,6 +11,7 @@
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/numerics/chebyshev.h"
+#include "geometry/numerics/halving.h"
 #include "geometry/point_formulas.h"
 #include "geometry/surfaces/derived/ribbon.h"
 
@@ -75,7 +76,7 @@ void CanalSurface::cut(const Interval& t, const std::function<std::array<Vec3, 3
     parts_.push_back(std::move(part));
     return;
   }
-  if (t.width() <= kNarrowest * range_.width())
+  if (t.width() <= kNarrowest * range_.width() || !can_be_halved(t))
     throw FieldError("radius", fmt::format("the radius jumps at t = {:.6g}", t.middle()));
   cut({t.lo, t.middle()}, circle, agree);
   cut({t.middle(), t.hi}, circle, agree);

@@ -9,6 +9,7 @@
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/numerics/chebyshev.h"
+#include "geometry/numerics/halving.h"
 #include "geometry/numerics/quadrature.h"
 
 namespace lekalo::geometry {
@@ -203,7 +204,7 @@ class Builder {
   template <class Direction>
   void cut(const Interval& t, const Direction& w) {
     if (add_part(t, w)) return;
-    if (t.width() <= kNarrowest * domain_.width()) {
+    if (t.width() <= kNarrowest * domain_.width() || !can_be_halved(t)) {
       if (base_)
         refuse("the surface has a crease or a pole", t.middle(), "a ribbon lies flat on smooth surfaces", "on");
       if (direction_.kind == RibbonKind::fixed) refuse_near_along(t.middle());

@@ -70,6 +70,20 @@ TEST(BodyMesh, CubeHasTwelveTrianglesOnEightPoints) {
   EXPECT_EQ(mesh.normals.size(), 24u);
 }
 
+// Thinner than what the body's points can tell apart: its two large faces, whose areas are 1.
+TEST(BodyMesh, OfABoxThatIsThinnerThanRounding) {
+  for (const double thickness : {1e-13, 1e-14, 1e-15, 1e-30})
+    for (const Vec3& size : {Vec3(1, 1, thickness), Vec3(thickness, 1, 1)}) {
+      const Mesh mesh = tessellate(box(Frame(), size), {});
+      double area = 0;
+      for (const Mesh::Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.points[t.point[0]];
+        area += 0.5 * glm::length(glm::cross(mesh.points[t.point[1]] - a, mesh.points[t.point[2]] - a));
+      }
+      EXPECT_NEAR(area, 2, 1e-12) << thickness;
+    }
+}
+
 TEST(BodyMesh, MirroredBodiesStayOutside) {
   check(transformed(frustum(kTilted, 1, 2, 3), Affine::mirror({1, 2, 3})), {0.01, 0.35, {}});
   check(transformed(torus_body(kTilted, 3, 1), Affine::mirror({0, 0, 1})), {0.01, 0.35, {}});
