@@ -85,8 +85,8 @@ Box3 SampledExtent::hull(const Rectangle& cell, const CellModel& model) const {
   const Box3 sampled = points(cell);
   const double enough = sampled.empty() ? 0 : kImplausible * sampled.diameter();
   Box3 result;
-  // The loosest first.
-  while (parts.size() < kMaxParts && parts.front().size > enough) {
+  // The loosest first. Parts too small to be divided leave the list, so that their number bounds no work.
+  for (size_t looked_at = 0; looked_at < kMaxParts && parts.front().size > enough; ++looked_at) {
     std::pop_heap(parts.begin(), parts.end(), is_smaller);
     const Part loosest = parts.back();
     parts.pop_back();

@@ -378,6 +378,22 @@ TEST(LineIntersections, LinesInThePlaneOfASeamStayEven) {
 }
 
 // Boxes are kept in steps of their piece: they hold their part of the surface, and hardly more.
+// A band of half turns in its own plane: at v = pi all its width is one point, about which parts of cells are never
+// small beside their points. A point at the angle v lies on it where |u| = |r - 1|/|cos v/2| is within its width.
+TEST(LineIntersections, AFlatBandThatShrinksToAPoint) {
+  const LineIntersector band(std::make_shared<FormulaSurface>(
+      point_formulas({"(1+u*cos(v/2))*cos(v)", "(1+u*cos(v/2))*sin(v)", "0"}, {"u", "v"}, Coordinates::cartesian),
+      Rectangle{{-0.35, 0.35}, {0, kTwoPi}}, FormulaSurface::Closed{}));
+  for (int k = 1; k < 40; ++k) {
+    const double v = kTwoPi * k / 40 + 0.01;
+    for (const double share : {-1.1, -0.9, -0.3, 0.4, 0.95, 1.05}) {
+      const double r = 1 + 0.35 * share * std::cos(v / 2);
+      const auto hits = band.all_hits({{r * std::cos(v), r * std::sin(v), 1}, {0, 0, -1}});
+      EXPECT_EQ(hits.size(), std::abs(share) < 1 ? 1u : 0u) << v << " " << share;
+    }
+  }
+}
+
 TEST(LineIntersections, BoxesHoldTheirPieces) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> unit(0, 1);
