@@ -82,10 +82,14 @@ class ViewDrawing {
  public:
   ViewDrawing(std::shared_ptr<const Model> model, const View& view, bool clipped, const FigureOptions& options,
               Figure& figure)
-      : model_(std::move(model)), view_(view), clipped_(clipped), options_(options), figure_(figure), world_(model_) {}
+      : model_(std::move(model)), view_(view), clipped_(clipped), options_(options), figure_(figure), world_(model_) {
+    figure_.seconds_of_world += seconds_since(begin_);
+  }
 
-  void draw() {
-    LineWork work = drawing_work(world_);
+  void draw(SolidLines& solids) {
+    const auto begin = std::chrono::steady_clock::now();
+    LineWork work = drawing_work(world_, &solids);
+    figure_.statistics.seconds_of_lines += seconds_since(begin);
     const std::vector<LegendEntry> legend = std::move(work.legend);
     PageWork page;
     add_annotations(view_, work, page);
@@ -93,7 +97,6 @@ class ViewDrawing {
     const OneFaces one_faces = std::move(work.one_faces);
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
     add_statistics(lines);
-    const auto begin = std::chrono::steady_clock::now();
     for (const Object* object : world_.objects()) names_.push_back(object->name);
     if (model_->drawing.ground == Ground::shaded) add_ground();
     if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
@@ -112,7 +115,6 @@ class ViewDrawing {
     labels.insert(labels.end(), std::make_move_iterator(graph.labels.begin()),
                   std::make_move_iterator(graph.labels.end()));
     add_texts(lines, labels);
-    figure_.seconds_of_layout += seconds_since(begin);
   }
 
  private:
@@ -353,6 +355,7 @@ class ViewDrawing {
   bool clipped_;
   const FigureOptions& options_;
   Figure& figure_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   World world_;
   std::vector<std::string> names_;
   LabelObstacles obstacles_;
@@ -360,7 +363,8 @@ class ViewDrawing {
 };
 
 // The view of a model into a rectangle of the sheet, less the room that its axes and legend take.
-void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOptions& options, Figure& figure) {
+void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOptions& options, SolidLines& solids,
+              Figure& figure) {
   const double per_pixel = millimetres_of_pixel(model);
   const auto camera_for = [&](const Vec2& millimetres) {
     const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
@@ -397,7 +401,7 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
                   panel ? Vec2(at.x, at.y + size.y) : Vec2(0, figure.sheet.height),
                   {at, at + size},
                   panel};
-  ViewDrawing(shared, view, graph || panel, options, figure).draw();
+  ViewDrawing(shared, view, graph || panel, options, figure).draw(solids);
 }
 
 // Of the page's pixels those that the scene keeps.
@@ -421,7 +425,8 @@ void add_page(Model model, const FigureOptions& options, Figure& figure) {
                  fmt::format("a margin of {:g} mm leaves nothing of {}", model.paper.margin,
                              page_in_words(model.paper, figure.sheet.width, figure.sheet.height)),
                  fmt::format("less than {:.1f} mm", 0.5 * (given - 1)));
-  add_view(std::move(model), margin, size, false, options, figure);
+  SolidLines solids;
+  add_view(std::move(model), margin, size, false, options, solids, figure);
 }
 
 // Panels that neither the layout nor an output of their own shows.
@@ -456,10 +461,17 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
     PanelLayout layout = panel_layout(model, options.panel);
     if (options.panel.empty()) note_unplaced_panels(model, figure);
     figure.sheet.width = layout.width, figure.sheet.height = layout.height;
+    SolidLines solids;
+    double panels_done = 0;
     for (PlacedPanel& panel : layout.panels) {
+      FigureOptions of_panel = options;
+      const double before_it = panels_done++, all = static_cast<double>(layout.panels.size());
+      const auto share = [&](double done) { return (before_it + done) / all; };
+      if (options.progress) of_panel.progress = [&](double done) { options.progress(share(done)); };
+      if (options.rendering) of_panel.rendering = [&](double done) { options.rendering(share(done)); };
       std::vector<SheetItem> before;
       std::swap(before, figure.sheet.items);
-      add_view(std::move(panel.model), panel.at, panel.size, true, options, figure);
+      add_view(std::move(panel.model), panel.at, panel.size, true, of_panel, solids, figure);
       std::swap(before, figure.sheet.items);
       figure.sheet.items.push_back(SheetGroup{"panel", panel.name, {}, {}, std::move(before)});
     }

@@ -23,7 +23,7 @@ struct FigureOptions {
 struct Figure {
   Sheet sheet;
   LineStatistics statistics;
-  double seconds_of_ground = 0, seconds_of_layout = 0;
+  double seconds_of_world = 0, seconds_of_ground = 0;
   int incomplete = 0;                           // surfaces of which not all lines are known
   std::vector<std::string> incomplete_objects;  // theirs, in words
   int open_areas = 0;                           // areas of fills whose border is not known all around

@@ -37,7 +37,8 @@ const T* solid_of(const Entity& shape) {
 class StrokeCollector {
  public:
   // `stop`: as of line_work().
-  StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop);
+  // `solids`: lines that are known, and those that were found; null: none.
+  StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop, SolidLines* solids = nullptr);
   LineWork take() { return std::move(work_); }
 
  private:
@@ -259,6 +260,7 @@ class StrokeCollector {
 
   const Model& model_;
   bool drawing_;
+  SolidLines own_solids_, &solids_;
   double pixels_ = 1;     // of a millimetre on the page
   double min_width_ = 1;  // of lines
   geometry::ViewOf view_;
@@ -279,9 +281,8 @@ class StrokeCollector {
   geometry::SurfacePtr cap_;                                    // on which strokes lie, if any
   std::vector<Cutter> cutters_;                                 // of strokes
   int met_ = -2, met_placement_ = 0;                            // Stroke::met
-  geometry::ShapePtr solid_;                                    // the last one, and its lines as seen so
+  geometry::ShapePtr solid_;                                    // the last one, and how its lines are seen
   Vec3 solid_view_{0};
-  geometry::CsgLines solid_lines_;
   std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met
   std::map<geometry::SurfacePtr, std::vector<geometry::SmoothPart>> parts_;  // of those that were asked
   std::vector<geometry::MeshLine> mesh_lines_;                               // of the object

@@ -108,13 +108,14 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
     if (const auto* solid = dynamic_cast<const Csg*>(&original)) {
       if (solid_ != shape || solid_view_ != own_view.direction_or_eye) {
         solid_ = shape, solid_view_ = own_view.direction_or_eye;
-        solid_lines_ = csg_lines(*solid, own_view);
-        note(solid_lines_);
+        const auto known = solids_.find(shape);
+        solids_[shape] = csg_lines(*solid, own_view, known == solids_.end() ? nullptr : &known->second);
+        note(solids_[shape]);
       }
       const CsgLine::Kind asked = !edges             ? CsgLine::Kind::silhouette
                                   : kind_ == "sharp" ? CsgLine::Kind::sharp
                                                      : CsgLine::Kind::smooth;
-      for (const CsgLine& line : solid_lines_.lines)
+      for (const CsgLine& line : solids_.at(shape).lines)
         if (line.kind == asked) add(line, style, hidden);
     } else if ((tube || balls) && kind_ != "smooth") {
       add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
@@ -194,7 +195,7 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
     if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
       add_solid(*shape, view_from(to_world_.inverse()), true, Style(), {});
       if (solid_ == *shape)
-        for (const std::set<int>& faces : solid_lines_.one_face) work_.one_faces.join(object_number_, faces);
+        for (const std::set<int>& faces : solids_.at(*shape).one_face) work_.one_faces.join(object_number_, faces);
     }
   }
   undrawn_ = borders_ = false;

@@ -107,8 +107,8 @@ std::optional<LineLook> hidden_look(const Model& model, const LineLook& seen, co
 
 }  // namespace
 
-StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop)
-    : model_(world.model()), drawing_(drawing) {
+StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::atomic<bool>* stop, SolidLines* solids)
+    : model_(world.model()), drawing_(drawing), solids_(solids ? *solids : own_solids_) {
   pixels_ = drawing ? 1 : 1 / millimetres_of_pixel(model_);
   min_width_ = drawing ? 0 : 1;
   if (model_.camera) {
@@ -420,7 +420,9 @@ Vec3 light_of(const Fill& fill, const Camera& camera) {
 LineWork line_work(const World& world, const std::atomic<bool>* stop) {
   return StrokeCollector(world, false, stop).take();
 }
-LineWork drawing_work(const World& world) { return StrokeCollector(world, true, nullptr).take(); }
+LineWork drawing_work(const World& world, SolidLines* solids) {
+  return StrokeCollector(world, true, nullptr, solids).take();
+}
 
 std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {
   std::set<std::string> lines, helpers;

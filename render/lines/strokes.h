@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/shapes/csg/csg_contours.h"
 #include "render/model/look.h"
 #include "render/trace/world.h"
 
@@ -134,9 +135,12 @@ double millimetres_of_pixel(const Model& model);
 // Once `stop` is set (null: never) no more of them are found.
 LineWork line_work(const World& world, const std::atomic<bool>* stop = nullptr);
 
+// The lines of solids that are put together, as seen last, for views of the same.
+using SolidLines = std::map<geometry::ShapePtr, geometry::CsgLines>;
+
 // That of a drawing: lengths in millimetres on the page, all kinds of lines, and the outlines of all surfaces, drawn or
 // not. `incomplete` counts surfaces whose silhouettes are not all known.
-LineWork drawing_work(const World& world);
+LineWork drawing_work(const World& world, SolidLines* solids = nullptr);
 
 // What of the objects' lines, helpers and shapes pictures do not show, but drawings: "lines (silhouette)", "helpers
 // (comb)".

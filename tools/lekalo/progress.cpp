@@ -30,7 +30,8 @@ void Progress::operator()(double done, uint64_t rays) {
 void Progress::operator()(double done) { show(done, {}); }
 
 void Progress::show(double done, const std::string& speed) {
-  if (quiet_) return;
+  // Of what has not begun nothing is known.
+  if (quiet_ || !(done > 0)) return;
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   const double since = std::chrono::duration<double>(now - last_).count();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/contours/contour_curve.h"
@@ -227,23 +228,34 @@ void keep_points(Joining& joining, const Contours& found, const FaceOf& face, co
   }
 }
 
-void add_cuts(std::vector<Vec3>& cuts, const FaceOf& face, const Surface& surface, double tolerance) {
+// Where an edge meets a surface; where it lies in the surface its ends.
+std::vector<Vec3> cuts_of(const Curve& edge, const Surface& surface, double tolerance) {
+  const SurfaceIntersections found = intersect(edge, surface, tolerance);
+  std::vector<Vec3> cuts;
+  for (const SurfaceIntersection& intersection : found.points) cuts.push_back(intersection.point);
+  for (const Interval& part : found.on_surface)
+    for (const double t : {part.lo, part.hi}) cuts.push_back(edge.point(t));
+  return cuts;
+}
+// An edge is one of two faces: what was found is kept.
+using KnownCuts = std::map<std::pair<const Curve*, const Surface*>, std::vector<Vec3>>;
+
+void add_cuts(std::vector<Vec3>& cuts, const FaceOf& face, const Surface& surface, double tolerance, KnownCuts& known) {
   for (const int edge : face.edges()) {
-    const SurfaceIntersections found = intersect(*face.body->edges[edge].curve, surface, tolerance);
-    for (const SurfaceIntersection& intersection : found.points) cuts.push_back(intersection.point);
-    // Where an edge lies in the surface its ends are cuts.
-    for (const Interval& part : found.on_surface)
-      for (const double t : {part.lo, part.hi}) cuts.push_back(face.body->edges[edge].curve->point(t));
+    const Curve& curve = *face.body->edges[edge].curve;
+    const auto [found, is_new] = known.try_emplace({&curve, &surface});
+    if (is_new) found->second = cuts_of(curve, surface, tolerance);
+    cuts.insert(cuts.end(), found->second.begin(), found->second.end());
   }
 }
 
-void meet_faces(Joining& joining, const FaceOf& a, const FaceOf& b, double tolerance) {
+void meet_faces(Joining& joining, const FaceOf& a, const FaceOf& b, double tolerance, KnownCuts& known) {
   const Contours found = intersect(a->surface, b->surface, tolerance);
   keep_points(joining, found, a, &b);
   std::vector<Vec3> cuts;
   if (!found.branches.empty()) {
-    add_cuts(cuts, a, *b->surface, tolerance);
-    add_cuts(cuts, b, *a->surface, tolerance);
+    add_cuts(cuts, a, *b->surface, tolerance, known);
+    add_cuts(cuts, b, *a->surface, tolerance, known);
   }
   for (const Contour& contour : found.branches)
     joining.add(contour, cuts, a.face, b.face,
@@ -265,12 +277,13 @@ int count_of(const Body& body) { return static_cast<int>(body.faces.size()); }
 BodyContours plane_section(const Body& body, const Vec3& origin, const Vec3& normal) {
   Joining joining(size_of(bounds(body)));
   const Plane plane(frame_about(origin, glm::normalize(normal)));
+  KnownCuts known;
   for (int k = 0; k < count_of(body); ++k) {
     const FaceOf face(body, k);
     const Contours found = plane_section(face->surface, origin, normal);
     keep_points(joining, found, face, nullptr);
     std::vector<Vec3> cuts;
-    if (!found.branches.empty()) add_cuts(cuts, face, plane, kSamePoint);
+    if (!found.branches.empty()) add_cuts(cuts, face, plane, kSamePoint, known);
     for (const Contour& contour : found.branches)
       joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
   }
@@ -302,6 +315,7 @@ BodyContours intersect(const Body& a, const Body& b, double tolerance) {
   all.include(bounds(b));
   const double size = size_of(all);
   Joining joining(size);
+  KnownCuts known;
   std::vector<FaceOf> faces_b;
   std::vector<Box3> boxes_b;
   for (int k = 0; k < count_of(b); ++k) {
@@ -312,7 +326,7 @@ BodyContours intersect(const Body& a, const Body& b, double tolerance) {
     const FaceOf face(a, i);
     const Box3 box = bounds(*face->surface);
     for (int k = 0; k < count_of(b); ++k)
-      if (boxes_meet(box, boxes_b[k], tolerance * size)) meet_faces(joining, face, faces_b[k], tolerance);
+      if (boxes_meet(box, boxes_b[k], tolerance * size)) meet_faces(joining, face, faces_b[k], tolerance, known);
   }
   return joining.joined();
 }

@@ -7,6 +7,7 @@
 
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/conic_meetings.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/surfaces/analytic/plane.h"
 
@@ -209,10 +210,11 @@ class CurveAndSurface {
     tolerance_ = tolerance * std::max(all.diameter(), 1e-300);
     rounding_ = rounding_in(all);
     least_ = min_box(tolerance);
-    patches_ = patches();
   }
 
   SurfaceIntersections run() {
+    if (auto known = conic_intersections(curve_, surface_, tolerance_)) return *std::move(known);
+    patches_ = patches();
     const std::vector<CurvePiece> pieces = curve_.pieces();
     // Along a common part no solution is isolated: such parts, which take long to find, are looked for only then.
     if (!search_all(pieces, true)) {

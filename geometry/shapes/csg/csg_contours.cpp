@@ -8,6 +8,7 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/curve_sign_changes.h"
+#include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/contours/analytic/canonical_surface.h"
 #include "geometry/queries/contours/body_contours.h"
 #include "geometry/queries/contours/contour_approximation.h"
@@ -37,6 +38,9 @@ constexpr double kShortest = 1e-9;
 // Where in a stretch the solid is asked: not half way, where lines of symmetric solids cross themselves.
 constexpr double kAskedAt = 0.4721;
 
+// Lines that are so near, of the solid's size, are one: where leaves end flush each has the edge.
+constexpr double kSameLine = 1e-9;
+
 // A line of a leaf, or of two, before it is known what of it is on the boundary.
 struct Candidate {
   CsgLine line;
@@ -52,10 +56,15 @@ class Lines {
   Lines(const Csg& solid, const ViewOf& view)
       : solid_(solid), view_(view), box_(solid.bounds()), size_(box_.diameter()), leaves_(csg_leaves(solid)) {}
 
-  CsgLines find() {
-    for (int k = 0; k < count(); ++k) add_edges(k);
-    for (int k = 0; k < count(); ++k)
-      for (int m = k + 1; m < count(); ++m) add_intersection(k, m);
+  CsgLines find(const CsgLines* known) {
+    if (known && known->complete && !has_shapes()) {
+      result_ = *known;
+      std::erase_if(result_.lines, [](const CsgLine& line) { return line.kind == Kind::silhouette; });
+    } else {
+      for (int k = 0; k < count(); ++k) add_edges(k);
+      for (int k = 0; k < count(); ++k)
+        for (int m = k + 1; m < count(); ++m) add_intersection(k, m);
+    }
     for (int k = 0; k < count(); ++k) add_silhouettes(k);
     return std::move(result_);
   }
@@ -96,6 +105,9 @@ class Lines {
 
  private:
   int count() const { return static_cast<int>(leaves_.size()); }
+  bool has_shapes() const {
+    return std::any_of(leaves_.begin(), leaves_.end(), [](const CsgLeaf& leaf) { return leaf.shape != nullptr; });
+  }
 
   // Of an implicit leaf its region too, of a piece of a tube its ends: they cut nothing of its lines.
   std::vector<int> all_of(int k) const {
@@ -359,12 +371,31 @@ class Lines {
     std::optional<Kind> on;
     for (size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (cuts[i + 1] - cuts[i] <= kShortest * domain.width()) continue;
-      const std::optional<Kind> here = kind_of(found, {cuts[i], cuts[i + 1]});
+      const Interval stretch{cuts[i], cuts[i + 1]};
+      std::optional<Kind> here = kind_of(found, stretch);
+      if (here && is_known(*line.curve, *here, stretch)) here.reset();
       if (on && here != on) put(line, *on, {from, cuts[i]});
       if (here != on) from = cuts[i];
       on = here;
     }
     if (on) put(line, *on, {from, domain.hi});
+  }
+
+  // Whether another leaf has had a line there. Parameter lines are those of their own faces.
+  bool is_known(const Curve& curve, Kind kind, const Interval& stretch) const {
+    if (kind == Kind::parameter) return false;
+    const double near = kSameLine * size_;
+    return std::any_of(result_.lines.begin(), result_.lines.end(), [&](const CsgLine& known) {
+      if (known.kind != kind) return false;
+      const Box3 box = bounds(*known.curve).inflated(near);
+      constexpr double kPlaces[] = {kAskedAt, 0.1237, 0.8711};
+      return std::all_of(std::begin(kPlaces), std::end(kPlaces), [&](double place) {
+        const Vec3 p = curve.point(stretch.lo + place * stretch.width());
+        if (!box.contains(p)) return false;
+        const CurveFootPoints foot_points = project(p, *known.curve);
+        return !foot_points.foot_points.empty() && foot_points.foot_points[0].distance <= near;
+      });
+    });
   }
 
   // Where other leaves may begin or end to cover it.
@@ -458,7 +489,9 @@ class Lines {
 
 }  // namespace
 
-CsgLines csg_lines(const Csg& solid, const ViewOf& view) { return Lines(solid, view).find(); }
+CsgLines csg_lines(const Csg& solid, const ViewOf& view, const CsgLines* known) {
+  return Lines(solid, view).find(known);
+}
 
 CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view) {
   return Lines(solid, view).section(origin, normal);

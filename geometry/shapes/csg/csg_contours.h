@@ -40,8 +40,10 @@ struct CsgLines {
   std::vector<std::set<int>> one_face;
 };
 
-// Edges first; supporting surfaces of one leaf's face are one surface in all lines.
-CsgLines csg_lines(const Csg& solid, const ViewOf& view);
+// Edges first; what leaves that end flush have in common once; supporting surfaces of one leaf's face are one surface
+// in all lines. `known`: the lines for another view. Edges of bodies and half-spaces are the same for all: they are
+// taken from there.
+CsgLines csg_lines(const Csg& solid, const ViewOf& view, const CsgLines* known = nullptr);
 
 // Where a plane cuts the solid's boundary; `view` is that of the turns. The normal need not be a unit vector.
 CsgLines csg_section(const Csg& solid, const Vec3& origin, const Vec3& normal, const ViewOf& view);

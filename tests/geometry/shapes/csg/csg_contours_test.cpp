@@ -296,5 +296,37 @@ TEST(CsgLines, EdgesOfThinWedges) {
   }
 }
 
+// Where leaves end flush each has the edge: it is one line.
+TEST(CsgLines, LeavesThatEndFlush) {
+  const double edges_of_cube = 24;
+  // A bore from face to face.
+  const Csg bored(Operation::subtract, {cube(), pipe({0, -1, 0}, {0, 1, 0}, 0.6, 2)});
+  EXPECT_NEAR(length_of(bored, Kind::sharp), edges_of_cube + 2 * kTwoPi * 0.6, 1e-9);
+  // Cubes beside one another, shifted by half an edge: two sides of 2 x 2 are one of 2 x 3, another lies within.
+  const Csg pair(Operation::unite, {cube(), shape_of(box(frame_from({0, -1, -1}, {0, 0, 1}, {1, 0, 0}), {2, 2, 2}))});
+  EXPECT_NEAR(length_of(pair, Kind::sharp), 4 * (3 + 2 + 2), 1e-9);
+  EXPECT_NEAR(length_of_section(pair, {0, 0, 0.1}, {0, 0, 1}), 2 * (3 + 2), 1e-9);
+  // Two rods of one radius that overlap, seen from the side.
+  const Csg rod(Operation::unite, {pipe({0, 0, 0}, {0, 0, 1}, 0.5, 2), pipe({0, 0, 1}, {0, 0, 1}, 0.5, 2)});
+  EXPECT_NEAR(length_of(csg_lines(rod, {false, {1, 0, 0}}), Kind::silhouette), 2 * 3, 1e-9);
+  // Crossed slabs whose inner corners are rounded off by rods: a rectangle with round corners, and a hole.
+  const ShapePtr a = shape_of(box(frame_from({-3, -1.2, 0}, {0, 0, 1}, {1, 0, 0}), {6, 2.4, 2})),
+                 b = shape_of(box(frame_from({-2.2, -2, 0}, {0, 0, 1}, {1, 0, 0}), {4.4, 4, 2}));
+  std::vector<ShapePtr> parts{a, b};
+  for (const double x : {-2.2, 2.2})
+    for (const double y : {-1.2, 1.2}) parts.push_back(pipe({x, y, 0}, {0, 0, 1}, 0.8, 2));
+  const Csg plate(Operation::subtract,
+                  {std::make_shared<Csg>(Operation::unite, parts), pipe({0, 0, -0.1}, {0, 0, 1}, 0.8, 2.2)});
+  const CsgLines lines = lines_of(plate);
+  EXPECT_NEAR(length_of(lines, Kind::sharp), 2 * (2 * (4.4 + 2.4) + kTwoPi * 0.8) + 2 * kTwoPi * 0.8, 1e-9);
+  EXPECT_NEAR(length_of(lines, Kind::smooth), 8 * 2, 1e-9);
+  // From another side the edges are the same, and the outlines its own.
+  const ViewOf side{false, glm::normalize(Vec3(0.2, 0.1, -0.9))};
+  const CsgLines anew = csg_lines(plate, side), taken = csg_lines(plate, side, &lines);
+  for (const Kind kind : {Kind::sharp, Kind::smooth, Kind::silhouette})
+    EXPECT_EQ(length_of(taken, kind), length_of(anew, kind));
+  EXPECT_EQ(taken.one_face, anew.one_face);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry::csg_contours_test
