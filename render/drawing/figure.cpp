@@ -15,13 +15,13 @@
 #include "render/drawing/annotations/label_placement.h"
 #include "render/drawing/areas/fills.h"
 #include "render/drawing/page/graph_axes.h"
+#include "render/drawing/page/legend.h"
 #include "render/drawing/page/line_groups.h"
 #include "render/drawing/page/page_edges.h"
 #include "render/drawing/page/panel_layout.h"
 #include "render/drawing/paths/overlaps.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
-#include "render/model/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -42,16 +42,6 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 void add_once(std::string what, std::vector<std::string>& all) {
   if (std::find(all.begin(), all.end(), what) == all.end()) all.push_back(std::move(what));
-}
-
-std::vector<LegendEntry> legend_of(const std::vector<Object>& objects) {
-  std::vector<LegendEntry> entries;
-  PlacedObjects(objects, [](const Object& object) {
-    return !object.legend.empty();
-  }).visit([&](const Object& object, const Affine&, int) {
-    entries.push_back({object.legend, {}, {}});
-  });
-  return entries;
 }
 
 // What of the objects only lines show is not rendered under them. Copies of a group stay copies of one.
@@ -100,16 +90,17 @@ class ViewDrawing {
     for (const Object* object : world_.objects()) names_.push_back(object->name);
     if (model_->drawing.ground == Ground::shaded) add_ground();
     if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
-    GraphWork graph = graph_axes(view_, legend);
-    note_left_out(std::move(graph.left_out));
-    append(std::move(graph.under));
     // What is hidden lies under what is seen, which is known first.
     SheetGroup seen = line_paths(lines, false), hidden = line_paths(lines, true);
-    for (SheetGroup* group : {&hidden, &seen})
-      if (!group->items.empty()) figure_.sheet.items.push_back(std::move(*group));
-    append(std::move(graph.over));
-    add_marks(lines);
+    SheetGroup marks = marks_of(lines);
     for (const SheetItem& item : page.shapes) add_obstacles(item);
+    GraphWork graph = graph_axes(view_, legend, obstacles_);
+    note_left_out(std::move(graph.left_out));
+    for (std::string& what : graph.covered) add_once(std::move(what), figure_.cut_off);
+    append(std::move(graph.under));
+    add_group(std::move(hidden)), add_group(std::move(seen));
+    append(std::move(graph.over));
+    add_group(std::move(marks));
     append(std::move(page.shapes));
     std::vector<Label> labels = std::move(page.labels);
     labels.insert(labels.end(), std::make_move_iterator(graph.labels.begin()),
@@ -120,6 +111,10 @@ class ViewDrawing {
  private:
   void append(std::vector<SheetItem> items) {
     for (SheetItem& item : items) figure_.sheet.items.push_back(std::move(item));
+  }
+
+  void add_group(SheetGroup group) {
+    if (!group.items.empty()) figure_.sheet.items.push_back(std::move(group));
   }
 
   void note_left_out(std::vector<std::string> left_out) {
@@ -167,7 +162,7 @@ class ViewDrawing {
     figure_.open_areas += fills.open;
     SheetGroup all{"fills", "", {}, {}, std::move(fills.items)};
     clip(all);
-    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+    add_group(std::move(all));
     figure_.seconds_of_ground += seconds_since(begin);
   }
 
@@ -305,7 +300,7 @@ class ViewDrawing {
       for (const Path& one : path->parts) add_obstacles(one);
   }
 
-  void add_marks(const VisibleLines& lines) {
+  SheetGroup marks_of(const VisibleLines& lines) {
     SheetGroup all{"marks", "", {}, {}, {}};
     for (const VisibleMark& visible : lines.marks) {
       const double opacity = visible.layers > 0 ? visible.mark.hidden_opacity.value_or(0) : visible.mark.line.opacity;
@@ -316,7 +311,7 @@ class ViewDrawing {
       SheetGroup& group = group_of(all, "mark", name_of(visible.mark.object));
       for (SheetItem& item : drawn_mark(visible.mark, at, opacity, view_)) group.items.push_back(std::move(item));
     }
-    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+    return all;
   }
 
   void add_texts(const VisibleLines& lines, std::vector<Label>& labels) {
@@ -347,7 +342,7 @@ class ViewDrawing {
         add_once(std::move(cut), figure_.cut_off);
     SheetGroup all{"labels", "", {}, {}, {}};
     for (const Label& label : labels) all.items.push_back(drawn_label(label));
-    if (!all.items.empty()) figure_.sheet.items.push_back(std::move(all));
+    add_group(std::move(all));
   }
 
   std::shared_ptr<const Model> model_;
@@ -373,25 +368,42 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
   Vec2 corner = at, room = size;
   model.camera = camera_for(size);
   const bool graph = model.camera->is_graph();
+  const bool grows_down = !panel && !graph && model.paper.auto_height,
+             grows_wide = !panel && !graph && model.paper.auto_width;
+  const auto grow = [&](const Vec2& by) {
+    size += by;
+    figure.sheet.width += by.x, figure.sheet.height += by.y;
+  };
+  Vec2 least(0);  // picture beside which the legend has room
   if (graph || model.drawing.legend) {
     const std::vector<LegendEntry> legend = legend_of(model.objects);
     const View trial{model, *model.camera, at, per_pixel, {}, {at, at + size}};
     const Insets insets = insets_of(trial, legend);
+    const Vec2 taken(insets.left + insets.right, insets.top + insets.bottom);
     corner += Vec2(insets.left, insets.top);
-    room -= Vec2(insets.left + insets.right, insets.top + insets.bottom);
+    room -= taken;
+    // An automatic page grows by the legend: the picture keeps its shape.
+    least = insets.least;
+    if (grows_down) room.y = std::max(room.x * size.y / size.x, least.y);
+    if (grows_wide) room.x = std::max(room.y * size.x / size.y, least.x);
     if (!(room.x > 1 && room.y > 1))
       does_not_fit(model.paper.size_place,
                    fmt::format("axes, numbers and legend leave no room for the graph: they take {:.1f} x {:.1f} mm of "
                                "{:.1f} x {:.1f} mm",
-                               insets.left + insets.right, insets.top + insets.bottom, size.x, size.y),
+                               taken.x, taken.y, size.x, size.y),
                    "a larger `size` of the image, or a smaller `text_size`");
+    grow(room + taken - size);
     model.camera = camera_for(room);
   }
   if (!graph && model.camera_frames && !model.drawing.annotations.empty()) {
-    const double free = figure.sheet.height - size.y;
-    model.camera = camera_with_room(model, room, !panel && model.paper.auto_height && !model.drawing.legend, per_pixel);
-    size.y = room.y;
-    figure.sheet.height = size.y + free;
+    const Vec2 before = room;
+    CameraPtr camera = camera_with_room(model, room, grows_down, per_pixel);
+    if (grows_down && room.y < least.y) {
+      room.y = least.y;
+      camera = camera_with_room(model, room, false, per_pixel);
+    }
+    model.camera = camera;
+    grow(room - before);
   }
   const auto shared = std::make_shared<const Model>(std::move(model));
   const View view{*shared,

@@ -602,7 +602,9 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
         for side in ("below", "above", "right", "left", "below right"):
             for count in (9, 14):
                 errors, samples, texts, root = self.legend(side, count)
-                self.assertNotIn("warning", errors, (side, count))
+                # Within the circles no corner is free of them.
+                self.assertEqual(errors.count("warning"), errors.count("warning: the legend covers lines"), (side, count))
+                self.assertEqual("covers" in errors, side == "below right", (side, count))
                 self.assertEqual(set(texts), {"Circles", *(f"curve {i}" for i in range(count))})
                 for x, y in [*samples, *texts.values()]:
                     self.assertTrue(4 - 1e-6 <= x <= 76 and 4 - 1e-6 <= y <= 56, (side, count, x, y))
@@ -623,6 +625,78 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
         self.assertEqual(len(self.apart(y for words, (_, y) in texts.items() if words != "Circles")), 1)
         _, _, texts, _ = self.legend("right", 5)
         self.assertEqual(len(self.apart(x for words, (x, _) in texts.items() if words != "Circles")), 1)
+
+    def beside_legend(self, side, size, camera="view: top", more=""):
+        """A cross of two lines, 8 x 2, with a legend; the page's width and height in millimetres."""
+        root, errors = self.drawn("lekalo: 1\ninfo: { unit: mm }\n"
+                                  "geometry: { a: { type: segment, from: [0, 0], to: [8, 2] },\n"
+                                  "  b: { type: segment, from: [0, 2], to: [8, 0] } }\n"
+                                  "objects: [{ shape: a, legend: first }, { shape: b, legend: 'the second' }]\n"
+                                  f"camera: {{ {camera} }}\nimage: {{ size: {size}, margin: 2 mm }}\n" + more)
+        return root, errors, [float(root.get(name).removesuffix("mm")) for name in ("width", "height")]
+
+    def test_legends_leave_the_page_as_it_is(self):
+        """With annotations, cameras of all kinds, and in panels, whatever the side."""
+        for side in ("above", "below", "left", "right", "above left", "below right"):
+            drawing = f"drawing: {{ legend: {{ side: {side} }}, annotations: [{{ type: point, at: [0, 0] }}] }}\n"
+            for camera in ("view: top", "type: perspective, from: [4, -8, 9], at: [4, 1, 0], field_of_view: 60"):
+                for panels, count in (("", 1), ("panels: { p: {}, q: {} }\nlayout: { rows: [[p], [q]] }\n", 2)):
+                    root, errors, size = self.beside_legend(side, "[84 mm, 72 mm]", camera, drawing + panels)
+                    self.assertEqual(size, [84, 72])
+                    self.assertNotIn("not on", errors)
+                    self.assertEqual(self.texts(root), count * ["first", "the second"])
+                    for x, y in (self.place_of_group(group) for group in self.of_class(root, "legend") if group.find(
+                            SVG + "text") is not None):
+                        self.assertTrue(2 <= x <= 82 and 2 <= y <= 70, (side, camera, x, y))
+
+    def place_of_group(self, group):
+        return [float(x) for x in re.findall(r"-?[\d.]+", group.get("transform"))[:2]]
+
+    def test_automatic_pages_grow_by_their_legend(self):
+        """The lines are as wide as the page whatever stands above or below, as high whatever stands beside them."""
+        def lines(root):
+            places = [place for group in self.of_class(root, "curve") for place in self.places(group)]
+            return [max(place[k] for place in places) - min(place[k] for place in places) for k in (0, 1)]
+        plain, _, (_, height) = self.beside_legend("below", "[84 mm, auto]")
+        for side, size in (("below", "[84 mm, auto]"), ("above", "[84 mm, auto]"), ("right", "[auto, 42 mm]"),
+                           ("left", "[auto, 42 mm]")):
+            plain, _, before = self.beside_legend(side, size)
+            for annotations in ("", ", annotations: [{ type: point, at: [4, 1] }]"):
+                root, errors, after = self.beside_legend(
+                    side, size, more=f"drawing: {{ legend: {{ side: {side} }}{annotations} }}\n")
+                self.assertNotIn("warning", errors)
+                grown, kept = (1, 0) if "84" in size else (0, 1)
+                self.assertEqual(after[kept], before[kept])
+                # One row of texts, 12 pt high, or samples beside texts, with 3 mm between.
+                self.assertGreater(after[grown], before[grown] + 5)
+                # But for half a millimetre that is left free for the width of lines.
+                self.assert_near(lines(root), lines(plain), 0.015 * max(lines(plain)))
+        # Beside a flat picture the page is as high as the legend; panels have their legends' room.
+        for panels in ("", "panels: { p: {} }\nlayout: { rows: [[p]] }\n",
+                       "panels: { p: {} }\nlayout: { rows: [[p]], scale: 2 }\n"):
+            for side in ("above", "below", "left", "right"):
+                root, errors, _ = self.beside_legend(
+                    side, "[60 mm, auto]", more=f"drawing: {{ legend: {{ side: {side} }} }}\n" + panels)
+                self.assertNotIn("warning", errors)
+                if "scale" in panels:
+                    self.assert_near(lines(root), [16, 4], 1e-3)
+
+    def test_legends_in_corners(self):
+        """One that would cover a line takes a corner that is free; where none is, that is said."""
+        diagonal = ("lekalo: 1\ngeometry: { a: { type: segment, from: [0, 0], to: [8, 6] } }\n"
+                    "objects: { shape: a, legend: first }\ncamera: { view: top }\nimage: { size: [80 mm, 60 mm] }\n")
+        for side, right, below in (("above left", False, False), ("below right", True, True), ("above right", False, False),
+                                   ("below left", False, False)):
+            root, errors = self.drawn(diagonal + f"drawing: {{ legend: {{ side: {side} }} }}\n")
+            (x, y), _ = self.place_of_text(root, "first")
+            self.assertEqual((x > 40, y > 30), (right, below), side)
+            self.assertNotIn("warning", errors)
+        cross = diagonal.replace("geometry: {", "geometry: { b: { type: segment, from: [0, 6], to: [8, 0] },").replace(
+            "objects: { shape: a, legend: first }", "objects: [{ shape: a, legend: first }, { shape: b }]")
+        root, errors = self.drawn(cross + "drawing: { legend: { side: below left } }\n")
+        (x, y), _ = self.place_of_text(root, "first")
+        self.assertEqual((x > 40, y > 30), (False, True))
+        self.assertIn("warning: the legend covers lines, which run through all corners", errors)
 
     def test_legends_that_do_not_fit(self):
         long = "a curve of which very many words have to be said in this legend %i"

@@ -318,6 +318,15 @@ void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles) {
   }
 }
 
+bool is_free(const SheetBox& box, const LabelObstacles& obstacles) {
+  const auto touches = [&](const std::pair<Vec2, double>& disc) {
+    return glm::length(glm::clamp(disc.first, box.lo, box.hi) - disc.first) < disc.second;
+  };
+  return std::none_of(obstacles.segments.begin(), obstacles.segments.end(),
+                      [&](const LabelLine& line) { return covered(box, line.first, line.second) > 0; }) &&
+         std::none_of(obstacles.discs.begin(), obstacles.discs.end(), touches);
+}
+
 SheetGroup drawn_label(const Label& label) {
   SheetGroup group;
   group.kind = label.kind, group.object = label.object;

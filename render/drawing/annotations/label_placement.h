@@ -51,6 +51,9 @@ struct LabelObstacles {
   double width = 0, height = 0;                // of the paper
 };
 
+// Whether no line or sign is in the box.
+bool is_free(const SheetBox& box, const LabelObstacles& obstacles);
+
 // Decides text.at of all labels, and their lines.
 void place_labels(std::vector<Label>& labels, const LabelObstacles& obstacles);
 

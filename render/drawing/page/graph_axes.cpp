@@ -69,14 +69,17 @@ class Axes {
     Insets room = taken();
     for (double* side : {&room.left, &room.right, &room.top, &room.bottom})
       if (*side > kLine) *side += free();
+    const std::string side = legend_ ? view_.model.drawing.legend->side : "";
+    if (side == "left" || side == "right") room.least.y = legend_->size().y + 2 * free();
+    if (side == "above" || side == "below") room.least.x = legend_->size().x + 2 * free();
     return room;
   }
 
-  GraphWork draw() {
+  GraphWork draw(const LabelObstacles& obstacles) {
     const auto& axes = view_.model.drawing.axes;
     if (axes) draw_axes(*axes);
     draw_knots();
-    if (legend_) draw_legend();
+    if (legend_) draw_legend(obstacles);
     return std::move(work_);
   }
 
@@ -318,25 +321,40 @@ class Axes {
     return room;
   }
 
-  void draw_legend() {
-    const Legend& legend = *view_.model.drawing.legend;
+  Vec2 place_of_legend(std::string_view side) const {
     const Vec2 size = legend_->size(),
                middle(0.5 * (view_.at.x + right() - size.x), 0.5 * (view_.at.y + bottom() - size.y));
     const Insets room = taken();
     Vec2 at(view_.at.x + kLegendFree, view_.at.y + kLegendFree);
-    if (legend.side == "right") at = {right() + room.right - size.x, middle.y};
-    if (legend.side == "left") at = {view_.at.x - room.left, middle.y};
-    if (legend.side == "above") at = {middle.x, view_.at.y - room.top};
-    if (legend.side == "below") at = {middle.x, bottom() + room.bottom - size.y};
-    if (legend.side.ends_with(" right")) at.x = right() - kLegendFree - size.x;
-    if (legend.side.starts_with("below ")) at.y = bottom() - kLegendFree - size.y;
+    if (side == "right") at = {right() + room.right - size.x, middle.y};
+    if (side == "left") at = {view_.at.x - room.left, middle.y};
+    if (side == "above") at = {middle.x, view_.at.y - room.top};
+    if (side == "below") at = {middle.x, bottom() + room.bottom - size.y};
+    if (side.ends_with(" right")) at.x = right() - kLegendFree - size.x;
+    if (side.starts_with("below ")) at.y = bottom() - kLegendFree - size.y;
     // Larger than the graph, it still stays in its place on the page.
     const Vec2 before(room.left, room.top), after(room.right, room.bottom);
-    at = glm::max(view_.at - before, glm::min(at, Vec2(right(), bottom()) + after - size));
+    return glm::max(view_.at - before, glm::min(at, Vec2(right(), bottom()) + after - size));
+  }
+  // With a free border.
+  SheetBox ground_of_legend(const Vec2& at) const { return {at - kLegendBorder, at + legend_->size() + kLegendBorder}; }
+
+  // In the corner that the scene says, or else the first that is free, if one is.
+  Vec2 place_in_corner(const std::string& corner, const LabelObstacles& obstacles) {
+    for (const char* side : {corner.c_str(), "above right", "above left", "below left", "below right"})
+      if (const Vec2 at = place_of_legend(side); is_free(ground_of_legend(at), obstacles)) return at;
+    work_.covered.emplace_back(
+        "the legend covers lines, which run through all corners; a `side` beside the picture has room for it");
+    return place_of_legend(corner);
+  }
+
+  void draw_legend(const LabelObstacles& obstacles) {
+    const Legend& legend = *view_.model.drawing.legend;
+    const Vec2 at = is_inside(legend) ? place_in_corner(legend.side, obstacles) : place_of_legend(legend.side);
     std::vector<SheetItem> samples;
     if (is_inside(legend)) {
-      // Over the lines of the graph, with a free border.
-      const Vec2 lo = at - kLegendBorder, hi = at + size + kLegendBorder;
+      // Over the grid of a graph.
+      const auto [lo, hi] = ground_of_legend(at);
       SheetPath ground;
       ground.parts = {straight_path({lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, true)};
       ground.brush = Brush{legend.style.fill ? rgb(*legend.style.fill) : rgb(view_.model.drawing.paper), 1};
@@ -362,7 +380,9 @@ class Axes {
 
 Insets insets_of(const View& view, const std::vector<LegendEntry>& entries) { return Axes(view, entries).insets(); }
 
-GraphWork graph_axes(const View& view, const std::vector<LegendEntry>& entries) { return Axes(view, entries).draw(); }
+GraphWork graph_axes(const View& view, const std::vector<LegendEntry>& entries, const LabelObstacles& obstacles) {
+  return Axes(view, entries).draw(obstacles);
+}
 
 std::vector<double> round_values(const Interval& range, double count) {
   const double rough = range.width() / std::max(count, 1.0);

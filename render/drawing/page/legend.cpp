@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/model/placed_objects.h"
+
 namespace lekalo::render {
 
 namespace {
@@ -14,6 +16,16 @@ constexpr double kLargestShare = 0.75;  // of the width, that a legend of severa
 size_t divided_up(size_t count, size_t by) { return (count + by - 1) / by; }
 
 }  // namespace
+
+std::vector<LegendEntry> legend_of(const std::vector<Object>& objects) {
+  std::vector<LegendEntry> entries;
+  PlacedObjects(objects, [](const Object& object) {
+    return !object.legend.empty();
+  }).visit([&](const Object& object, const geometry::Affine&, int) {
+    entries.push_back({object.legend, {}, {}});
+  });
+  return entries;
+}
 
 bool is_inside(const Legend& legend) { return legend.side.find(' ') != std::string::npos; }
 

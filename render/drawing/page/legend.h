@@ -35,6 +35,9 @@ class LegendTable {
   size_t rows_ = 0, columns_ = 0;
 };
 
+// The texts of the legend of these objects.
+std::vector<LegendEntry> legend_of(const std::vector<Object>& objects);
+
 // Whether a legend stands beside the picture (above, below, left, right) or within it.
 bool is_inside(const Legend& legend);
 

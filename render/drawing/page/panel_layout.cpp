@@ -9,6 +9,8 @@
 
 #include "render/cameras/window.h"
 #include "render/drawing/annotations/annotations.h"
+#include "render/drawing/page/graph_axes.h"
+#include "render/drawing/page/legend.h"
 #include "render/drawing/text/text_layout.h"
 #include "render/scene/values/diagnostics.h"
 
@@ -65,6 +67,13 @@ struct Extent {
   SheetBox shown;
 };
 
+// The room of a legend in a panel that is no graph: that of graphs is theirs.
+Insets legend_room(const Model& model, const Camera& camera, const Vec2& at, const Vec2& size) {
+  if (!model.drawing.legend || camera.is_graph()) return {};
+  const View view{model, camera, at, millimetres_of_pixel(model), {}, {at, at + size}, true};
+  return insets_of(view, legend_of(model.objects));
+}
+
 // At a scale: millimetres for one scene unit.
 Extent extent_at(const Model& model, double scale, const std::string& name) {
   Extent extent;
@@ -80,6 +89,11 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
   const SheetBox all = annotated_box(model, shown, *extent.camera, extent.millimetres);
   extent.before = extent.shown.lo - all.lo + Vec2(kFree);
   extent.after = all.hi - extent.shown.hi + Vec2(kFree);
+  const Insets legend = legend_room(model, *extent.camera, Vec2(0), extent.shown.size() + extent.before + extent.after);
+  extent.before += Vec2(legend.left, legend.top), extent.after += Vec2(legend.right, legend.bottom);
+  const Vec2 taken(legend.left + legend.right, legend.top + legend.bottom);
+  const Vec2 missing = legend.least + taken - (extent.shown.size() + extent.before + extent.after);
+  extent.before += 0.5 * glm::max(missing, Vec2(0)), extent.after += 0.5 * glm::max(missing, Vec2(0));
   return extent;
 }
 
@@ -314,12 +328,15 @@ void add_scaled(const Model& page, const Rows& rows, const PanelsByName& panels,
         // A window of the trial's picture, its middle on the lines of row and column.
         const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
         const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
-        const Vec2 corner = (middle - Vec2(across[j].before, down[i].before)) / extent.millimetres;
+        const Vec2 size(across[j].size(), down[i].size());
+        const Insets legend = legend_room(model, *extent.camera, {x, at.y}, size);
+        const Vec2 corner =
+            (middle - Vec2(across[j].before - legend.left, down[i].before - legend.top)) / extent.millimetres;
         model.camera_frames = false;  // all has its room
         model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
           return window_of(camera, corner.x, corner.y, zoom, w, h);
         };
-        layout.panels.push_back({rows[i][j], std::move(model), {x, at.y}, {across[j].size(), down[i].size()}});
+        layout.panels.push_back({rows[i][j], std::move(model), {x, at.y}, size});
       }
       x += across[j].size() + page.layout.gap;
     }
@@ -356,12 +373,14 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
       if (name.empty()) continue;
       Model model = model_of(page, *panels.at(name));
       const Vec2 shown = shown_box(model, FramedContent(model.objects), *model.make_camera(kTrial, kTrial), 1).size();
-      Vec2 size(width, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, kTallest) * width : width);
+      const Insets legend = legend_room(model, *model.make_camera(kTrial, kTrial), Vec2(0), {width, kTallest * width});
+      const double free = std::max(1.0, width - legend.left - legend.right);
+      Vec2 size(free, shown.x > 0 ? std::clamp(shown.y / shown.x, 0.1, kTallest) * free : free);
       const double per_pixel = millimetres_of_pixel(page);
       const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
       model.camera = model.make_camera(pixels(size.x), pixels(size.y));
       if (model.camera_frames) camera_with_room(model, size, true, per_pixel);
-      tallest = std::max(tallest, size.y);
+      tallest = std::max(tallest, std::max(size.y, legend.least.y) + legend.top + legend.bottom);
     }
     heights.push_back(page.paper.auto_height || !only.empty()
                           ? tallest
