@@ -130,4 +130,11 @@ SurfacePtr transformed(const SurfacePtr& surface, const Affine& map) {
   return result;
 }
 
+bool is_same(const SurfacePtr& a, const SurfacePtr& b) {
+  const auto* moved_a = dynamic_cast<const TransformedSurface*>(a.get());
+  const auto* moved_b = dynamic_cast<const TransformedSurface*>(b.get());
+  return a == b || (moved_a && moved_b && moved_a->original() == moved_b->original() &&
+                    moved_a->map().linear == moved_b->map().linear && moved_a->map().offset == moved_b->map().offset);
+}
+
 }  // namespace lekalo::geometry

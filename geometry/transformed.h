@@ -66,4 +66,7 @@ class TransformedSurface final : public Surface {
 CurvePtr transformed(const CurvePtr& curve, const Affine& map);
 SurfacePtr transformed(const SurfacePtr& surface, const Affine& map);
 
+// Whether both are one surface, or its images under equal maps.
+bool is_same(const SurfacePtr& a, const SurfacePtr& b);
+
 }  // namespace lekalo::geometry

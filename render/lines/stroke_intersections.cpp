@@ -123,6 +123,10 @@ void StrokeCollector::add_intersection(PlacedShape a, PlacedShape b, const Style
     const auto* body = std::get_if<BodyPtr>(&a.shape);
     if (const auto* other = std::get_if<BodyPtr>(&b.shape)) {
       const Body moved = to_a.is_identity() ? **other : transformed(**other, to_a);
+      const auto are_same = [](const Face& one, const Face& same) { return is_same(one.surface, same.surface); };
+      if (body &&
+          std::equal((*body)->faces.begin(), (*body)->faces.end(), moved.faces.begin(), moved.faces.end(), are_same))
+        return;  // shown twice
       if (body) add(intersect(**body, moved), **body, style, hidden);
       each_bounded_part(a.shape,
                         [&](const SurfacePtr& surface) { add(intersect(moved, surface), moved, style, hidden); });

@@ -218,6 +218,7 @@ void StrokeCollector::add_intersections() {
     tree.around(boxes[k], [&](int other) {
       const PlacedFace &a = faces_[k], &b = faces_[static_cast<size_t>(other)];
       if (static_cast<size_t>(other) <= k || (a.object == b.object && a.placement == b.placement)) return;
+      if (is_same(a.surface, b.surface)) return;  // shown twice
       object_number_ = a.object, placement_ = a.placement;
       add(intersect(a.surface, b.surface), {a.surface, b.surface}, Style(), {});
     });

@@ -126,9 +126,9 @@ camera: { view: top }
         errors = self.run_program("draw", "wrong.yaml", code=SCENE_ERROR)[1]
         self.assertIn("labels do not know '\\aplha' (did you mean 'alpha'?)", errors)
 
-    def scene(self, geometry, objects):
+    def scene(self, geometry, objects, camera="{ view: isometric }"):
         self.write("scene.yaml", f"lekalo: 1\ngeometry: {{ {geometry} }}\nobjects: [{objects}]\n"
-                   "camera: { view: isometric }\n")
+                   f"camera: {camera}\n")
         return "scene.yaml"
 
     def test_lines_that_cannot_be(self):
@@ -191,6 +191,50 @@ camera: { view: top }
             paths = self.paths("x.svg")
             self.assertEqual(len(paths["parameter"]), 5 + 1)
             self.assertEqual(len(paths["parameter hidden layers-1"]), 4 + 2)
+
+    def test_a_helix_about_a_torus(self):
+        """Twelve turns go behind the torus and come back: in each the line is seen once and hidden once."""
+        scene = self.scene("ring: { type: torus_surface, major_radius: 3, minor_radius: 1 }, wound: { type: surface_curve, "
+                           "of: ring, image: { type: segment, from: [0, 0], to: [2*pi, 24*pi] } }",
+                           "{ shape: ring, lines: { silhouette: thin } }, "
+                           "{ shape: wound, lines: { curve: thin, hidden: faded } }",
+                           "{ type: parallel, from: [10, -6, 9], at: [0, 0, 0], height: 8.4 }")
+        self.run_program("draw", scene, "-o", "x.svg")
+        paths = self.paths("x.svg")
+        # The line ends where it begins: as many pieces as changes.
+        self.assertEqual({name: len(of) for name, of in paths.items() if name.startswith("curve")},
+                         {"curve": 12, "curve hidden layers-1": 12})
+
+    def test_shapes_shown_twice(self):
+        """Nothing is missing where a shape meets itself: two objects of one, a bore that is filled and cut again."""
+        surface = "s: { type: formula_surface, z: 'x^2 - y^2', domain: { u: [-1, 1], v: [-1, 1] } }"
+        bore = ("b: { type: box, size: [2, 2, 1], corner: [-1, -1, 0] }, y: { type: cylinder_body, radius: 0.5, height: 1 }, "
+                "d: { type: difference, of: b, minus: y }, f: { type: union, of: [d, y] }, "
+                "g: { type: difference, of: f, minus: y }")
+        for geometry, objects in ((surface, "{ shape: s }, { shape: s, name: again, lines: { boundary: thick } }"),
+                                  (surface + ", t: { type: group, of: { shape: s } }",
+                                   "{ shape: s, transform: { translate: x } }, { shape: t, transform: { translate: x } }"),
+                                  (bore, "{ shape: g }"), (bore, "{ shape: d }, { shape: y }")):
+            self.scene(geometry, objects)
+            self.write("filled.yaml", (self.folder / "scene.yaml").read_text() + "drawing: { ground: fill }\n")
+            self.assertNotIn("warning", self.run_program("draw", "filled.yaml", "-o", "x.svg")[1])
+
+    def test_stages_add_up(self):
+        """To what all of it takes; edges of a solid are found once for all panels."""
+        part = ("a: { type: box, size: [6, 2.4, 2], corner: [-3, -1.2, 0] }, b: { type: box, size: [4.4, 4, 2], corner: "
+                "[-2.2, -2, 0] }, h: { type: cylinder_body, center: [0, 0, -1], radius: 0.8, height: 4 }, "
+                "u: { type: union, of: [a, b] }, p: { type: difference, of: u, minus: h }")
+        self.scene(part, "{ shape: p }")
+        self.write("panels.yaml", (self.folder / "scene.yaml").read_text() + "panels: { p: { camera: { view: front } }, "
+                   "q: { camera: { view: top } }, r: { camera: { view: left } } }\n")
+        lines = {}
+        for name in ("scene", "panels"):
+            errors = self.run_program("draw", f"{name}.yaml", "-o", "x.svg", "--stats")[1]
+            seconds = {what: float(time) for what, time in re.findall(r"([a-z ]+) ([\d.]+) s", errors)}
+            whole = seconds.pop(" in all")
+            self.assert_near(sum(seconds.values()), whole, 0.004)
+            lines[name] = seconds[" lines"]
+        self.assertLess(lines["panels"], 3 * lines["scene"] + 0.05)
 
     def test_creases(self):
         """The corner of a turned polyline is a ring, seen from outside and through the mouth; silhouettes end there."""

@@ -28,6 +28,8 @@ class Leaves {
       return collect(moved->original(), map * moved->map());
     if (const auto* csg = dynamic_cast<const Csg*>(shape.get())) {
       for (const ShapePtr& operand : csg->operands()) collect(operand, map);
+    } else if (!is_new(shape, map)) {
+      return;
     } else if (const auto* body = dynamic_cast<const BodyShape*>(shape.get())) {
       add(*body->body(), map);
     } else if (const auto* half = dynamic_cast<const HalfSpaceShape*>(shape.get())) {
@@ -48,6 +50,18 @@ class Leaves {
       leaf.implicit = std::dynamic_pointer_cast<const ImplicitSurface>(shape);
       if (leaf.implicit) add_region(leaf.implicit->region(), map);
     }
+  }
+
+  // What is cut off and added again has its lines once.
+  bool is_new(const ShapePtr& shape, const Affine& map) {
+    const auto thing = [](const ShapePtr& one) -> const void* {
+      const auto* body = dynamic_cast<const BodyShape*>(one.get());
+      return body ? static_cast<const void*>(body->body().get()) : one.get();
+    };
+    for (const auto& [other, place] : known_)
+      if (thing(other) == thing(shape) && place.linear == map.linear && place.offset == map.offset) return false;
+    known_.emplace_back(shape, map);
+    return true;
   }
 
   void add(const Body& body, const Affine& map) {
@@ -126,6 +140,8 @@ class Leaves {
     }
     return true;
   }
+
+  std::vector<std::pair<ShapePtr, Affine>> known_;
 };
 
 }  // namespace

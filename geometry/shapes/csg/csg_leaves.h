@@ -29,6 +29,7 @@ struct CsgLeaf {
   Box3 box = Box3::everything();
 };
 
+// Each once, however often it is an operand.
 std::vector<CsgLeaf> csg_leaves(const Csg& solid);
 
 // The tubes among the operands, each with the leaves that it became.
