@@ -321,8 +321,20 @@ class ExpressionParser {
     return fail(t.offset, fmt::format("expected a value between '{}' and {}", tokens_[at_ - 1].text, shown(t)), hint);
   }
 
+  // Before its parenthesis.
+  bool has_several_arguments() const {
+    int depth = 0;
+    for (size_t k = at_; k < tokens_.size(); ++k) {
+      depth += tokens_[k].text == "(" ? 1 : tokens_[k].text == ")" ? -1 : 0;
+      if (depth == 1 && tokens_[k].text == ",") return true;
+      if (depth == 0) break;
+    }
+    return false;
+  }
+
   bool unknown_function(const Token& name) {
-    std::string hint = fmt::format("a product is written with '*': {}*(...)", name.text);
+    std::string hint = fmt::format("there are {}", fmt::join(function_names(), ", "));
+    if (!has_several_arguments()) hint += fmt::format("; a product is written with '*': {}*(...)", name.text);
     const auto abroad =
         std::find_if(std::begin(kAbroad), std::end(kAbroad), [&](const Abroad& a) { return a.name == name.text; });
     if (abroad != std::end(kAbroad)) {

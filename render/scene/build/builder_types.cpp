@@ -99,7 +99,11 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
   const Place& place = given ? given->place : map.place;
   if (!type) {
     if (const auto meant = types_meant_by(name, wanted); !meant.empty()) {
-      diagnostics_.error(place, fmt::format("'{}' exists for several kinds", name), "say which: " + listed(meant, 12));
+      if (meant.size() == 1)
+        diagnostics_.error(place, fmt::format("unknown type '{}' (did you mean '{}'?)", name, meant.front()));
+      else
+        diagnostics_.error(place, fmt::format("'{}' exists for several kinds", name),
+                           "say which: " + listed(meant, 12));
       return nullptr;
     }
     const std::string nearest = suggestion(name, known);
