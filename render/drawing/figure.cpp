@@ -250,7 +250,9 @@ class ViewDrawing {
     const auto head = [&](bool at_end) {
       const double end = at_end ? t.hi : t.lo, other = at_end ? t.lo : t.hi;
       const Vec2 tip = view_.place(line.curve->place(end).p), rest = view_.place(line.curve->place(other).p);
-      const double size = std::min(stroke.arrow_size, 0.6 * glm::length(tip - rest));
+      const Vec2 middle = view_.place(line.curve->place(0.5 * (end + other)).p);  // closed lines end where they begin
+      const double reach = std::max(glm::length(tip - rest), glm::length(tip - middle));
+      const double size = std::min(stroke.arrow_size, 0.6 * reach);
       if (!(size > 0.05)) return;
       const double back = shortened(line, end, other, size / view_.millimetres);
       const Vec2 way = tip - view_.place(line.curve->place(back).p);

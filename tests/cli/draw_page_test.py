@@ -56,6 +56,20 @@ class Page(ProgramTest):
     def annotated(self, *annotations):
         return CIRCLE + "drawing: { annotations: [" + ", ".join(annotations) + "] }\n"
 
+    def test_arrows_on_closed_curves(self):
+        """Where a circle or a polygon begins, along its last side or back along its first."""
+        circle = "{ type: circle, radius: 1 }"
+        polygon = "{ type: polyline, points: [[1, 0], [0, 1], [-1, 0]], closed: true }"
+        for geometry, arrows, way in ((circle, "end", (0, -1)), (circle, "start", (0, 1)), (polygon, "end", (1, 0)),
+                                      (polygon, "start", (math.sqrt(0.5), math.sqrt(0.5)))):
+            root, _ = self.drawn(f"lekalo: 1\ngeometry: {{ c: {geometry} }}\nobjects: {{ shape: c, lines: {{ curve: "
+                                 f"{{ arrows: {arrows}, arrow_size: 3 mm }} }} }}\ncamera: {{ view: top }}\n"
+                                 "image: { size: [80 mm, 60 mm] }\n")
+            head, = [self.places_of(path) for path in root.iter(SVG + "path") if path.get("fill") not in (None, "none")]
+            tip, a, b = head[:3]
+            found = [(tip[k] - 0.5 * (a[k] + b[k])) / 3 for k in (0, 1)]
+            self.assert_near(found, way, 0.1)  # a chord of 3 mm of a circle of 30
+
     # ---------------------------------------------------------------- room for annotations
 
     def test_room_for_dimensions(self):
