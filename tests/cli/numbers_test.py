@@ -1,6 +1,7 @@
 """evaluate, measure and trace against closed forms: circle, torus, ball, box, and a table of points of a circle."""
 
 import math
+import re
 import unittest
 
 from program import DIFFERS, ProgramTest, SCENE_ERROR, USAGE
@@ -53,6 +54,25 @@ class Numbers(ProgramTest):
         self.assertLess(measured["length_error"], 1e-11)
         self.assert_near(measured["centroid"], [0, 0, 0], 1e-14)
         self.assertTrue(0 < measured["centroid_error"] < 1e-11)
+
+    def test_a_torus_cut_at_its_inner_equator(self):
+        """The plane that touches the hole cuts a spiric section that crosses itself; both parts are the whole torus."""
+        self.write("spiric.yaml", """lekalo: 1
+geometry:
+  ring: { type: torus_body, major_radius: 5, minor_radius: 2 }
+  skin: { type: torus_surface, major_radius: 5, minor_radius: 2 }
+  far: { type: half_space, through: [0, 3, 0], normal: -y }
+  piece: { type: intersection, of: [ring, far] }
+  rest: { type: difference, of: ring, minus: far }
+""")
+        # The area of a slice of the torus at the distance y from the axis, summed over y; the length of its border.
+        for name, volume in (("piece", 114.886320), ("rest", 279.897856)):
+            measured = self.json_of("measure", "spiric.yaml", name)
+            self.assert_near(measured["volume"], volume, measured["volume_error"])
+            self.assertLess(measured["volume_error"], 0.1)
+        section = self.run_program("measure", "spiric.yaml", "skin", "--section", "0,3,0,0,1,0")[0]
+        self.assertIn("1 branch, 1 singular point", section)
+        self.assert_near(float(re.search(r"length ([\d.]+)", section).group(1)), 31.9196152828, 1e-10)
 
     def test_torus_area_volume_and_moments(self):
         """Area 4 pi^2 R r, volume 2 pi^2 R r^2 (Pappus); moments V (R^2 + 3/4 r^2), V (R^2/2 + 5/8 r^2)."""
