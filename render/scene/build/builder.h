@@ -124,6 +124,7 @@ class Builder {
   std::optional<Vec3> read_point(const Value& value, const Counters& counters);
   std::optional<Vec3> read_coordinates(const Value& value, const Counters& counters);
   std::optional<Vec3> read_place_on(const Value& map, const Counters& counters);
+  const Scoped* named_place(const Value& name);
   std::optional<Vec3> read_control_point(const Value& map, const Counters& counters);
   std::optional<geometry::Anchor> read_anchor(const Value& value, const Counters& counters);
   std::optional<Vec3> read_vector(const Value& value, const Counters& counters, bool unit);
@@ -248,6 +249,7 @@ class Builder {
   std::vector<GroupPtr> kept_groups_;              // so that no address of theirs is used again
   std::deque<Value> made_;                         // maps that `like` made
   std::map<const Value*, const Value*> liked_;
+  bool names_use_ = true;  // not those by which a named place says where it is: what it stands on is shown
   std::vector<std::string> defaults_;
   CameraFactory scene_view_;  // of what it is given
   std::vector<ExternalNote> external_notes_;

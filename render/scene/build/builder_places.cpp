@@ -3,6 +3,7 @@
 //   { of: r, t: 0.4 }   { of: r, s: 0.5 } fraction of the arc length   { of: patch, u: .5, v: .3 }
 //   { of: patch, point: [2, 2] } control point   { of: r, t: 0.4, vector: tangent | normal | binormal }
 //   { of: patch, u: .5, v: .3, vector: normal | du | dv }
+//   { of: P, vector: tangent } at a place that has a name
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,6 +122,15 @@ std::optional<Builder::Located> Builder::locate(const Value& map, const Counters
           "surface, point: [i, j] }");
       return std::nullopt;
     }
+  if (const Scoped* named = named_place(*map.find("of"))) {
+    for (const Entry& entry : map.entries)
+      if (entry.key.name != "of" && entry.key.name != "vector") {
+        diagnostics_.error(entry.key.place,
+                           fmt::format("'{}' is a place: it says '{}' itself", map.find("of")->text, entry.key.name));
+        return std::nullopt;
+      }
+    return locate(*named->value, named->counters, what);
+  }
   const auto built = refer(*map.find("of"), counters, kCurveOrSurface);
   if (!built) return std::nullopt;
   Located place;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
@@ -18,7 +20,30 @@ bool contains(std::span<const Category> categories, Category category) {
   return std::find(categories.begin(), categories.end(), category) != categories.end();
 }
 
+// { of: curve, t: 1 } and the like: a point, no thing of some type.
+bool is_place(const Value& map) {
+  static const std::set<std::string> known{"of", "t", "s", "u", "v", "point", "repeat"};
+  return map.is_map() && map.find("of") && map.entries.size() > (map.find("repeat") ? 2u : 1u) &&
+         std::all_of(map.entries.begin(), map.entries.end(),
+                     [](const Entry& entry) { return known.contains(entry.key.name); });
+}
+
 }  // namespace
+
+// The place that a name stands for, if it is that of one.
+const Scoped* Builder::named_place(const Value& name) {
+  const Value* values = section("geometry");
+  if (!name.is_scalar() || !values || !values->is_map()) return nullptr;
+  const Named found = find_named(*values, name.text, name.place.file ? name.place.file->scope : "");
+  if (!found.entry) return nullptr;
+  NamedThing& thing = sections_["geometry"].find(found.entry->key.name)->second;
+  for (NamedThing::Member& one : thing.members)
+    if (one.name == found.member && is_place(*one.scoped.value)) {
+      thing.used = true;
+      return &one.scoped;
+    }
+  return nullptr;
+}
 
 const Value* Builder::section(const char* name) const {
   if (std::string_view(name) == "styles" && styles_.is_map()) return &styles_;
@@ -111,6 +136,10 @@ const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std:
     std::optional<Built> built;
     if (is_geometry(wanted.front()) && value.is_sequence()) {
       if (const auto point = read_coordinates(value, member.scoped.counters)) built = Built{Category::point, *point};
+    } else if (is_geometry(wanted.front()) && is_place(value)) {
+      names_use_ = false;
+      if (const auto point = read_place_on(value, member.scoped.counters)) built = Built{Category::point, *point};
+      names_use_ = true;
     } else if (is_geometry(wanted.front())) {
       built = build_typed(value, member.scoped.counters, geometry_categories());
     } else {
@@ -191,7 +220,7 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
     return std::nullopt;
   }
   NamedThing& thing = things->find(found.entry->key.name)->second;
-  thing.used = true;
+  thing.used = thing.used || std::exchange(names_use_, true);
   std::vector<Built> result;
   std::string_view rest = found.member;
   bool matched = thing.is_family && rest.empty();  // a family may be empty

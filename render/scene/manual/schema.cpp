@@ -94,7 +94,8 @@ void SchemaWriter::add_common_definitions() {
                         {"point", {{"type", {"array", "string", "object", "number"}}}},
                         {"repeat", ref("repeat")}}},
                       {"additionalProperties", false}};
-  definitions_["place"] = any_of({ref("coordinates"), ref("reference"), place});
+  definitions_["place_on"] = place;
+  definitions_["place"] = any_of({ref("coordinates"), ref("reference"), ref("place_on")});
   definitions_["place"]["description"] = "coordinates, the name of a point, or a place { of: curve, t: ... }";
   const Json vector_on = {{"type", "object"},
                           {"properties",
@@ -350,7 +351,7 @@ Json SchemaWriter::section(const SectionDeclaration& declared) {
       return map_of(declared.fields);
     case Shape::named: {
       std::vector<Json> choices{thing(declared.categories)};
-      if (declared.name == "geometry") choices.push_back(ref("coordinates"));
+      if (declared.name == "geometry") choices.insert(choices.end(), {ref("coordinates"), ref("place_on")});
       return {{"type", "object"}, {"additionalProperties", any_of(std::move(choices))}};
     }
     case Shape::list:

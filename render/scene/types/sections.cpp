@@ -75,7 +75,8 @@ const std::vector<SectionDeclaration>& sections() {
        {}},
       {"parameters", "named numbers and angles that every formula may use", Shape::numbers, {}, {}},
       {"geometry",
-       "named points, curves, surfaces, bodies and meshes, in any order",
+       "named points (coordinates, or a place { of: curve, t: ... }), curves, surfaces, bodies and meshes, in any "
+       "order",
        Shape::named,
        {},
        {geometry_categories().begin(), geometry_categories().end()}},

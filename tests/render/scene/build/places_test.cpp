@@ -127,5 +127,40 @@ TEST(Places, ErrorsOfDirections) {
   EXPECT_EQ(said_of_direction("{ of: s, u: 0, v: 90 deg, vector: du }"), "");
 }
 
+// An entry of `geometry` that is a place is a point, with the vectors that its curve or surface has there.
+TEST(Places, WithNames) {
+  const std::string names =
+      "  P: { of: c, t: 90 deg }\n  Q: { of: s, u: 0, v: 0 }\n  E: { of: b, point: 2 }\n"
+      "  R: { repeat: { i: 0..2 }, of: l, s: i/2 }\n";
+  const auto with = [&](const std::string& more) { return build_text(kThings + names + more + "lights: {}\n"); };
+  const BuiltText scene = with(
+      "  a: { type: segment, from: P, to: R.1 }\n  e: { type: segment, from: E, to: Q }\n"
+      "  n: { type: plane, origin: P, normal: { of: P, vector: tangent } }\n"
+      "  m: { type: plane, origin: Q, normal: { of: Q, vector: normal } }\n");
+  EXPECT_EQ(scene.said, "");
+  const auto curve = [&](const char* name) { return std::get<geometry::CurvePtr>(scene.model.geometry.at(name)); };
+  const auto normal = [&](const char* name) {
+    return std::get<geometry::SurfacePtr>(scene.model.geometry.at(name))->normal(0, 0);
+  };
+  expect_near(std::get<Vec3>(scene.model.geometry.at("P")), {0, 2, 0});
+  expect_near(std::get<Vec3>(scene.model.geometry.at("R.2")), {5, 0, 0});
+  expect_near(curve("a")->point(0), {0, 2, 0});
+  expect_near(curve("a")->point(1), {3, 0, 0});
+  expect_near(curve("e")->point(0), {4, 2, 0});
+  expect_near(curve("e")->point(1), {2, 0, 0});
+  expect_near(normal("n"), {-1, 0, 0});
+  expect_near(normal("m"), {1, 0, 0});
+  // The curve that it is on is shown like everything that nothing is made of.
+  const BuiltText shown = build_text("geometry: { c: { type: circle, radius: 1 }, P: { of: c, t: 1 } }\nlights: {}\n");
+  EXPECT_EQ(shown.said, "");
+  EXPECT_EQ(shown.model.objects.size(), 2u);
+  // What is said twice, what is of itself, and what is no place.
+  EXPECT_EQ(with("  x: { type: segment, from: { of: P, t: 1 }, to: Q }\n").said,
+            "15:38 'P' is a place: it says 't' itself\n");
+  EXPECT_NE(build_text("geometry: { P: { of: P, t: 1 } }\nlights: {}\n").said, "");
+  EXPECT_NE(with("  x: { of: c }\n").said.find("missing 'type'"), std::string::npos);
+  EXPECT_EQ(with("  x: { of: c, t: 99 }\n").said.find("missing 'type'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lekalo::render::places_test
