@@ -91,11 +91,18 @@ struct OutputFile {
 };
 
 // One view of several on a page.
+// What a scene leaves out and was chosen for it.
+struct DefaultTaken {
+  enum class Of { objects, lights, view } of;
+  std::string text;
+};
+
 struct Panel {
   std::string name;
   CameraPtr camera;  // for a picture of the whole page's size
   std::function<CameraPtr(int width, int height)> make_camera;
   bool camera_frames = false;  // as Model::camera_frames
+  bool own_camera = false;     // none: the scene's
   DrawingChoices drawing;
   std::optional<std::vector<Object>> objects;  // none: those of the scene
 };

@@ -85,6 +85,34 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         self.write("ball.yaml", BALL)
         self.assertNotIn("note:", self.run_program("render", "ball.yaml", "--size", "20x10")[1])
 
+    def test_notes_of_what_applies(self):
+        """Of panels with cameras and objects of their own no default shows, and where no picture is made none lacks."""
+        scene = ("lekalo: 1\ngeometry: { b: { type: box, size: [3, 2, 1] } }\npanels: { p: { camera: { type: parallel, "
+                 "view: front }, objects: { shape: b } } }\n")
+        self.write("panels.yaml", scene + "outputs: panels.svg\n")
+        self.assertEqual(self.run_program("make", "panels.yaml")[1], "panels.svg\n")
+        self.assertEqual(self.run_program("draw", "panels.yaml")[1], "panels.svg\n")
+        self.write("both.yaml", scene.replace(", objects: { shape: b }", "") + "outputs: both.svg\n")
+        self.assertEqual(self.run_program("make", "both.yaml")[1],
+                         "default: every entity is shown in a neutral material\nboth.svg\n")
+        self.write("picture.yaml", scene + "image: { size: [20, 10] }\noutputs: [picture.svg, picture.png]\n")
+        notes = self.run_program("make", "picture.yaml")[1]
+        for note in ("every entity", "studio light", "three-quarter view", "not in the picture, but in drawings: panels"):
+            self.assertIn(note, notes)
+
+    def test_clear_bodies_without_shadow(self):
+        scene = ("lekalo: 1\ngeometry: { b: { type: ball, center: [0, 0, 1.5], radius: 1 }, f: { type: plane, size: [9, 9] } }\n"
+                 "objects: [{ shape: b, name: drop, material: { type: dielectric } }, { shape: f }]\n"
+                 "lights: { sun: { type: distant_light, direction: [0.5, 0, -1] } }\n")
+        said = "note: light goes straight through clear bodies, which throw no shadow ('drop')"
+        for change, expected in ((("", ""), True), (("dielectric }", "dielectric, absorption: 0.5 }"), False),
+                                 (("lights:", "integrator: { shadows: opaque }\nlights:"), False),
+                                 ((", { shape: f }", ""), False),
+                                 (("distant_light, direction: [0.5, 0, -1]", "ambient_light"), False)):
+            self.write("scene.yaml", scene.replace(*change) if change[0] else scene)
+            notes = self.run_program("render", "scene.yaml", "--size", "20x10", "--samples", "1")[1]
+            self.assertEqual(said in notes, expected, change)
+
     def test_evaluation_outside_the_domain_is_said(self):
         self.write("curves.yaml", "lekalo: 1\ngeometry:\n  a: { type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }\n"
                    "  c: { type: circle, radius: 1 }\n  s: { type: cylinder_surface, radius: 1, height: 2 }\n")

@@ -41,13 +41,6 @@ void set_size(const std::pair<int, int>& size, render::Model& model) {
   model.paper.auto_width = model.paper.auto_height = false;
 }
 
-// Whether something is rendered, so that its lights are seen.
-bool is_lit(const render::Model& model) {
-  const auto shaded = [](const render::DrawingChoices& drawing) { return drawing.ground == render::Ground::shaded; };
-  return shaded(model.drawing) || std::any_of(model.panels.begin(), model.panels.end(),
-                                              [&](const render::Panel& panel) { return shaded(panel.drawing); });
-}
-
 std::filesystem::path overlay_of(const std::string& drawing) {
   return std::filesystem::path(drawing).replace_extension(".tex");
 }
@@ -68,10 +61,7 @@ void check_overwriting(const render::LoadedScene& scene, const std::vector<rende
 int draw(const Options& options) {
   options.engine.apply();
   const render::LoadedScene scene = options.scene.load();
-  const bool quiet = options.settings.quiet;
-  if (!quiet)
-    for (const std::string& line : scene.defaults_taken)
-      if (!line.starts_with("studio light") || is_lit(*scene.model)) fmt::print(stderr, "default: {}\n", line);
+  if (!options.settings.quiet) print_defaults(scene, false, true);
   std::vector<render::OutputFile> outputs;
   for (const std::string& path : options.outputs) {
     if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf and png", path));

@@ -12,13 +12,17 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "command.h"
 #include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
+#include "render/integrators/classic.h"
 #include "render/lines/strokes.h"
+#include "render/materials/materials.h"
+#include "render/model/placed_objects.h"
 
 namespace lekalo::command {
 
@@ -116,6 +120,49 @@ void check_is_ours(const std::filesystem::path& path, std::string_view beginning
       fmt::format("'{}' is no {} of lekalo and would be overwritten; move it away, or write another file "
                   "with -o",
                   path.string(), what));
+}
+
+void print_defaults(const render::LoadedScene& scene, bool renders, bool draws) {
+  const render::Model& model = *scene.model;
+  // A page without panels is one of the scene's own.
+  render::Panel page;
+  page.drawing = model.drawing;
+  const std::vector<render::Panel> panels = model.panels.empty() ? std::vector{page} : model.panels;
+  const auto shows_in = [](render::DefaultTaken::Of of, const render::Panel& panel) {
+    switch (of) {
+      case render::DefaultTaken::Of::objects:
+        return !panel.objects;
+      case render::DefaultTaken::Of::lights:
+        return panel.drawing.ground == render::Ground::shaded;
+      case render::DefaultTaken::Of::view:
+        return !panel.own_camera;
+    }
+    return true;
+  };
+  for (const render::DefaultTaken& one : scene.defaults_taken)
+    if (renders || (draws && std::any_of(panels.begin(), panels.end(),
+                                         [&](const render::Panel& panel) { return shows_in(one.of, panel); })))
+      fmt::print(stderr, "default: {}\n", one.text);
+}
+
+std::string without_shadow(const render::Model& model) {
+  const std::any made = model.integrator ? model.integrator->made_from() : std::any();
+  const auto* classic = std::any_cast<render::ClassicOptions>(&made);
+  const bool are_cast = std::any_of(model.lights.begin(), model.lights.end(), [](const render::LightPtr& light) {
+    return light->casts_shadows() && light->ambient().is_zero();
+  });
+  std::set<std::string> names;
+  const render::Object* opaque = nullptr;  // on which shadows fall
+  render::each_object(model.objects, [&](const render::Object& object) {
+    const std::any material = object.material ? object.material->made_from() : std::any();
+    const auto* clear = std::any_cast<render::Dielectric>(&material);
+    if (!clear && !std::holds_alternative<render::GroupPtr>(object.shape)) opaque = &object;
+    if (clear && clear->absorption == geometry::Vec3(0)) names.insert(object.name);
+  });
+  if (!classic || classic->shadows != render::ShadowMode::transparent || !are_cast || !opaque) return {};
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("{}'{}'", text.empty() ? "" : ", ", name);
+  return text;
 }
 
 std::string left_to_drawings(const render::Model& model) {

@@ -40,6 +40,12 @@ void check_inputs_stay(const render::LoadedScene& scene, const std::vector<std::
 // is somebody else's.
 void check_is_ours(const std::filesystem::path& path, std::string_view beginning, const char* what);
 
+// Names the defaults taken that show in what is made: in pictures (`renders`), in drawings (`draws`).
+void print_defaults(const render::LoadedScene& scene, bool renders, bool draws);
+
+// Bodies so clear that the classic light model draws nothing of their shadows: "'lens'"; empty if there are none.
+std::string without_shadow(const render::Model& model);
+
 // What the scene shows that only drawings have: "lines (silhouette), annotations"; empty if there is nothing.
 std::string left_to_drawings(const render::Model& model);
 

@@ -180,11 +180,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const render::LoadedScene scene = load(run, frame);
   const std::shared_ptr<Model> model = scene.model;
   apply(overrides_of(options), *model);
-  if (!options.quiet && first)
-    for (const std::string& line : scene.defaults_taken) fmt::print(stderr, "default: {}\n", line);
   if (first && (!options.quiet || options.stats)) print_external_notes(scene, options.stats);
-  if (const std::string missing = left_to_drawings(*model); !options.quiet && first && !missing.empty())
-    fmt::print(stderr, "note: not in the picture, but in drawings: {}\n", missing);
   if (!options.crop.empty()) set_crop(options.crop, *model);
   std::vector<OutputFile> outputs = chosen_outputs(options, *model);
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
@@ -198,6 +194,16 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (!partial.empty()) written.push_back(partial);
   check_inputs_stay(scene, written);
   if (!partial.empty()) check_is_ours(partial, render::kPartialMagic, "partial picture");
+  if (!options.quiet && first) {
+    print_defaults(scene, !outputs.empty(), !drawn.empty());
+    if (const std::string missing = left_to_drawings(*model); !outputs.empty() && !missing.empty())
+      fmt::print(stderr, "note: not in the picture, but in drawings: {}\n", missing);
+    if (const std::string clear = without_shadow(*model); !outputs.empty() && !clear.empty())
+      fmt::print(stderr,
+                 "note: light goes straight through clear bodies, which throw no shadow ({}); integrator: {{ shadows: "
+                 "opaque }} draws one, `absorption` of the material a tinted one\n",
+                 clear);
+  }
   if (!drawn.empty())
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;

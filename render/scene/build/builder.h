@@ -67,7 +67,7 @@ class Builder {
   Model build();
 
   // Lines for stderr: which defaults were taken.
-  const std::vector<std::string>& defaults_taken() const { return defaults_; }
+  const std::vector<DefaultTaken>& defaults_taken() const { return defaults_; }
 
   // What is known of things whose points come from outside.
   const std::vector<ExternalNote>& external_notes() const { return external_notes_; }
@@ -250,7 +250,7 @@ class Builder {
   std::deque<Value> made_;                         // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   bool names_use_ = true;  // not those by which a named place says where it is: what it stands on is shown
-  std::vector<std::string> defaults_;
+  std::vector<DefaultTaken> defaults_;
   CameraFactory scene_view_;  // of what it is given
   std::vector<ExternalNote> external_notes_;
   std::vector<std::filesystem::path> files_named_;

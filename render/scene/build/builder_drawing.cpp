@@ -101,6 +101,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     all.objects = std::make_shared<const std::vector<Object>>(panel.objects ? *panel.objects : model.objects);
     if (panel.objects && scene_view_)
       panel.make_camera = [make = scene_view_, all](int w, int h) { return make(w, h, all); };
+    panel.own_camera = read.camera.has_value();
     if (read.camera) {
       const Value* camera = place.find("camera");
       panel.camera_frames = camera && camera->is_map() && !camera->find("from");

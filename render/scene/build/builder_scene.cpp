@@ -190,7 +190,8 @@ void Builder::default_objects(Model& model) {
       model.objects.push_back(std::move(object));
     }
   }
-  if (!model.objects.empty()) defaults_.push_back("every entity is shown in a neutral material");
+  if (!model.objects.empty())
+    defaults_.push_back({DefaultTaken::Of::objects, "every entity is shown in a neutral material"});
 }
 
 }  // namespace lekalo::render

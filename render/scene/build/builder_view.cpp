@@ -65,7 +65,7 @@ void Builder::build_lights(Model& model) {
     inner.build_lights(lit);
     if (own.has_errors()) throw SceneError(own);
     model.lights = lit.lights;
-    defaults_.push_back("studio light (studio/softbox.yaml)");
+    defaults_.push_back({DefaultTaken::Of::lights, "studio light (studio/softbox.yaml)"});
     return;
   }
   std::string looked;
@@ -99,7 +99,7 @@ void Builder::build_camera(Model& model) {
         build_typed(default_value(flat ? "{ type: parallel, view: top, margin: 0.05 }"
                                        : "{ type: perspective, view: { azimuth: -60, elevation: 25 }, margin: 0.08 }"),
                     {}, camera_wanted);
-    defaults_.push_back(flat ? "plan view" : "three-quarter view");
+    defaults_.push_back({DefaultTaken::Of::view, flat ? "plan view" : "three-quarter view"});
   }
   const Value* integrator = section("integrator");
   const auto chosen = build_typed(integrator ? *integrator : kEmptyMap, {}, integrator_wanted);

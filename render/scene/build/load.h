@@ -23,7 +23,7 @@ struct LoadOptions {
 
 struct LoadedScene {
   std::shared_ptr<Model> model;
-  std::vector<std::string> defaults_taken;
+  std::vector<DefaultTaken> defaults_taken;
   std::vector<ExternalNote> external_notes;
   std::vector<std::filesystem::path> files;  // all that were read
   uint64_t hash = 0;                         // of all texts, data files and --set values

@@ -22,7 +22,7 @@ inline BuiltText build_text(const std::string& text) {
   BuiltText result;
   Builder builder(scene, {.search_path = data_folders()}, diagnostics);
   result.model = builder.build();
-  result.defaults = builder.defaults_taken();
+  for (const DefaultTaken& one : builder.defaults_taken()) result.defaults.push_back(one.text);
   for (const Diagnostic& d : diagnostics.sorted()) {
     result.said += std::to_string(d.place.line) + ":" + std::to_string(d.place.column) + " " + d.message + "\n";
     result.hints += d.hint + "\n";
