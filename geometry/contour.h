@@ -14,6 +14,11 @@
 
 namespace lekalo::geometry {
 
+// A contour that was found by a search and solves its equations anew where it is evaluated: its pieces are short arcs.
+// Other contours have a closed form, and pieces of any length.
+class SearchedCurve : public Curve {};
+inline bool is_searched(const Curve& curve) { return dynamic_cast<const SearchedCurve*>(&curve) != nullptr; }
+
 enum class ContourKind {
   crossing,  // the surfaces cross, the function changes its sign
   touching,  // the surfaces, or the surface and the plane, touch along it

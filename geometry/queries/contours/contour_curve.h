@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/contour.h"
 #include "geometry/curve.h"
 #include "geometry/queries/contours/contour_equations.h"
 
@@ -69,7 +70,7 @@ class ContourSolution {
 
 // In space.
 template <int N>
-class ContourCurve final : public Curve {
+class ContourCurve final : public SearchedCurve {
  public:
   explicit ContourCurve(std::shared_ptr<const ContourSolution<N>> solution) : solution_(std::move(solution)) {}
 
@@ -86,11 +87,6 @@ class ContourCurve final : public Curve {
  private:
   std::shared_ptr<const ContourSolution<N>> solution_;
 };
-
-// A contour that was searched; others have a closed form, and pieces of any length.
-inline bool is_searched(const Curve& curve) {
-  return dynamic_cast<const ContourCurve<2>*>(&curve) || dynamic_cast<const ContourCurve<4>*>(&curve);
-}
 
 // Two of the parameters, as a curve in a parameter plane with the same parameter.
 template <int N>

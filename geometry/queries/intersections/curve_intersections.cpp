@@ -7,7 +7,7 @@
 
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/conic_meetings.h"
+#include "geometry/queries/intersections/conic_intersections.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/surfaces/analytic/plane.h"
 

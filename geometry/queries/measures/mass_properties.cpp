@@ -14,11 +14,11 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "geometry/contour.h"
 #include "geometry/curves/operations/parameter_line.h"
-#include "geometry/queries/contours/contour_curve.h"
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/measures/face_integral.h"
-#include "geometry/queries/steady_parts.h"
+#include "geometry/queries/measures/steady_parts.h"
 
 namespace lekalo::geometry {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/queries/contours/analytic/canonical_surface.h"
-#include "geometry/queries/contours/analytic/conic_image.h"
 #include "geometry/queries/contours/analytic/profile_sections.h"
-#include "geometry/queries/contours/analytic/torus_sections.h"
 #include "geometry/queries/contours/analytic/torus_silhouette.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
+#include "geometry/queries/quadrics/conic_image.h"
+#include "geometry/queries/quadrics/torus_sections.h"
 
 namespace lekalo::geometry {
 

@@ -4,7 +4,7 @@
 //
 //   planes with planes and quadrics, also under affine maps;
 //   planes with extrusions and surfaces of revolution (geometry/queries/contours/analytic/profile_sections.h): the
-//   profile, moved; quadrics that meet in planes (geometry/queries/contours/analytic/quadric_sections.h); silhouettes
+//   profile, moved; quadrics that meet in planes (geometry/queries/quadrics/quadric_sections.h); silhouettes
 //   of quadrics: sections by the polar plane of the eye, or of the line of sight; silhouettes of rings
 //   (geometry/queries/contours/analytic/torus_silhouette.h); tori with planes across or through the axis and those that
 //   touch them twice (Villarceau), with planes, spheres, cylinders, cones and tori about the same axis, with the

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "geometry/contour.h"
-#include "geometry/queries/contours/analytic/canonical_surface.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
 
 namespace lekalo::geometry {
 

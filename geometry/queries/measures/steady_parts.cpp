@@ -1,4 +1,4 @@
-#include "geometry/queries/steady_parts.h"
+#include "geometry/queries/measures/steady_parts.h"
 
 #include <algorithm>
 #include <cmath>

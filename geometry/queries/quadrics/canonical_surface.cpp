@@ -1,4 +1,4 @@
-#include "geometry/queries/contours/analytic/canonical_surface.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 //
 //   cos t - cos p = -2 sin m sin h,  sin t - sin p = 2 cos m sin h;   cosh, sinh alike;   t^2 - p^2 = 2 m (t - p),
 //   m = (t + p)/2, h = (t - p)/2.
-#include "geometry/queries/contours/analytic/conic_image.h"
+#include "geometry/queries/quadrics/conic_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/queries/contours/analytic/canonical_surface.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
 
 namespace lekalo::geometry {
 

@@ -1,4 +1,4 @@
-#include "geometry/queries/contours/analytic/quadric_sections.h"
+#include "geometry/queries/quadrics/quadric_sections.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/queries/contours/analytic/conic.h"
+#include "geometry/queries/quadrics/conic.h"
 
 namespace lekalo::geometry {
 

@@ -1,4 +1,4 @@
-#include "geometry/queries/contours/analytic/torus_sections.h"
+#include "geometry/queries/quadrics/torus_sections.h"
 
 #include <cmath>
 

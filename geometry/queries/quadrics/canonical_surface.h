@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/queries/contours/analytic/conic.h"
-#include "geometry/queries/contours/analytic/quadric_sections.h"
+#include "geometry/queries/quadrics/conic.h"
+#include "geometry/queries/quadrics/quadric_sections.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {

@@ -1,4 +1,4 @@
-#include "geometry/queries/conic_meetings.h"
+#include "geometry/queries/intersections/conic_intersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
-#include "geometry/queries/contours/analytic/canonical_surface.h"
-#include "geometry/queries/contours/analytic/conic.h"
 #include "geometry/queries/intersections/curve_pair.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
+#include "geometry/queries/quadrics/conic.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "geometry/queries/contours/analytic/quadric_sections.h"
+#include "geometry/queries/quadrics/quadric_sections.h"
 
 namespace lekalo::geometry {
 

@@ -1,5 +1,5 @@
 // Segments, circles and ellipses with planes, against values known from elementary geometry.
-#include "geometry/queries/conic_meetings.h"
+#include "geometry/queries/intersections/conic_intersections.h"
 
 #include <gtest/gtest.h>
 

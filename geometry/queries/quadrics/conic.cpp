@@ -1,4 +1,4 @@
-#include "geometry/queries/contours/analytic/conic.h"
+#include "geometry/queries/quadrics/conic.h"
 
 #include <algorithm>
 
