@@ -27,7 +27,7 @@ constexpr size_t kFew = 6;
 
 // Pieces of surfaces from which on memory counts: fewer are single primitives in nodes of eight boxes, at most half a
 // megabyte more, and rays take 0.6 to 0.9 times the time. More would make a body heavier than a twentieth of the mesh
-// that is as exact (docs/internals/rays.md).
+// that is as exact (docs/internals/ray-costs.md).
 constexpr size_t kManyPieces = 1 << 13;
 
 Box3 box_of(const GeometryRecord& record, int primitive) {
