@@ -102,4 +102,7 @@ struct Sheet {
   std::vector<SheetItem> items;
 };
 
+// The last guard of what is written: throws std::invalid_argument where a coordinate is infinite or none.
+void demand_finite(const Sheet& sheet);
+
 }  // namespace lekalo::render

@@ -65,6 +65,7 @@ class StrokeCollector {
 
   // The object's curve, or the polygon that stands for it.
   geometry::CurvePtr shown_curve(const geometry::CurvePtr& curve) const;
+  void add_curve(const geometry::CurvePtr& curve, const Style& style, const HiddenLines& hidden);
 
   void polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden);
 

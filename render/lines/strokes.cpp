@@ -7,6 +7,7 @@
 #include <set>
 
 #include "geometry/curves/analytic/polyline.h"
+#include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -240,6 +241,18 @@ void StrokeCollector::stroke(CurvePtr curve, const Style& style, const HiddenLin
   for (const Interval& t : kept_parts(stroke)) add_part(stroke, t);
 }
 
+// Between steps and poles there is nothing; heads of arrows are at the ends of the whole.
+void StrokeCollector::add_curve(const CurvePtr& curve, const Style& style, const HiddenLines& hidden) {
+  const std::vector<CurvePtr> parts = unbroken_parts(curve);
+  for (const CurvePtr& part : parts) {
+    Style own = style;
+    const bool start = part == parts.front() && (style.arrows == "start" || style.arrows == "both"),
+               end = part == parts.back() && (style.arrows == "end" || style.arrows == "both");
+    own.arrows = start && end ? "both" : start ? "start" : end ? "end" : "none";
+    stroke(part, own, hidden);
+  }
+}
+
 void StrokeCollector::polygon(std::vector<Vec3> points, bool closed, const Style& style, const HiddenLines& hidden) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   while (closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
@@ -316,7 +329,7 @@ CurvePtr StrokeCollector::shown_curve(const CurvePtr& curve) const {
 
 void StrokeCollector::add_kind(std::string_view kind, const Style& style, const Lines& lines) {
   if (kind == "curve") {
-    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) stroke(shown_curve(*curve), style, lines.hidden);
+    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) add_curve(shown_curve(*curve), style, lines.hidden);
     const auto* point = std::get_if<Vec3>(&object_->shape);
     if (point && style.marker != "none") mark(*point, style.marker, style, lines.hidden);
   } else if (kind == "silhouette") {

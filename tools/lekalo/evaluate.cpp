@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vec3;
 
-ordered_json json_or_null(bool known, double x) { return known ? ordered_json(x) : ordered_json(nullptr); }
+ordered_json json_or_null(bool known, double x) { return known ? finite_or_null(x) : ordered_json(nullptr); }
 
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   const geometry::CurveJet jet = curve.evaluate(t, order);
@@ -20,7 +20,7 @@ ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   out["t"] = t;
   out["point"] = to_json(jet.point());
   ordered_json derivatives = ordered_json::array();
-  for (int k = 1; k <= order; ++k) derivatives.push_back(to_json(jet.d[k]));
+  for (int k = 1; k <= order; ++k) derivatives.push_back(finite_or_null(jet.d[k]));
   out["derivatives"] = derivatives;
   const geometry::CurveCurvature c = geometry::curvature(curve, t);
   out["tangent"] = c.has_tangent ? to_json(c.tangent) : ordered_json(nullptr);
@@ -38,13 +38,13 @@ ordered_json evaluate_surface(const geometry::Surface& surface, double u, double
   out["u"] = u;
   out["v"] = v;
   out["point"] = to_json(jet.point());
-  out["du"] = to_json(jet.du());
-  out["dv"] = to_json(jet.dv());
-  out["duu"] = to_json(jet.duu());
-  out["duv"] = to_json(jet.duv());
-  out["dvv"] = to_json(jet.dvv());
+  out["du"] = finite_or_null(jet.du());
+  out["dv"] = finite_or_null(jet.dv());
+  out["duu"] = finite_or_null(jet.duu());
+  out["duv"] = finite_or_null(jet.duv());
+  out["dvv"] = finite_or_null(jet.dvv());
   const Vec3 normal = surface.normal(u, v);
-  out["normal"] = to_json(normal);
+  out["normal"] = finite_or_null(normal);
   const geometry::SurfaceCurvature c = geometry::curvature(surface, u, v);
   out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
   out["mean_curvature"] = json_or_null(c.regular, c.mean);
@@ -60,10 +60,10 @@ void print(const ordered_json& out) {
       print_parameters(value);
     } else if (value.is_null()) {
       fmt::print("{:<21} -\n", key);
-    } else if (value.is_array() && !value.empty() && value[0].is_array()) {
+    } else if (key == "derivatives") {
       for (size_t k = 0; k < value.size(); ++k)
         fmt::print("{:<21} {}\n", fmt::format("derivative {}", k + 1),
-                   digits(Vec3(value[k][0].get<double>(), value[k][1].get<double>(), value[k][2].get<double>())));
+                   value[k].is_null() ? "-" : digits(Vec3(value[k][0], value[k][1], value[k][2])));
     } else if (value.is_array()) {
       std::string text;
       for (const auto& x : value) text += (text.empty() ? "" : " ") + digits(x.get<double>());
@@ -117,6 +117,7 @@ int run(const Options& options) {
     note_outside("v", uv[1], surface->domain().v, surface->periods().v);
     out = evaluate_surface(*surface, uv[0], uv[1]);
   }
+  demand_finite(out);
   if (options.json)
     fmt::print("{}\n", out.dump(2));
   else

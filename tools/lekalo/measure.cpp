@@ -219,22 +219,12 @@ int run(const Options& options) {
     out = measures(options.name, entity);
   }
   if (options.json && !scene.external_notes.empty()) out["external"] = as_json(scene.external_notes);
+  demand_finite(out);
   if (options.json)
     fmt::print("{}\n", out.dump(2));
   else
     print(out);
   return out.value("passed", true) ? kDone : kDiffers;
-}
-
-}  // namespace
-
-namespace {
-
-bool is_finite(const ordered_json& value) {
-  if (value.is_number_float()) return std::isfinite(value.get<double>());
-  return std::all_of(value.begin(), value.end(), [](const ordered_json& item) {
-    return !(item.is_structured() || item.is_number_float()) || is_finite(item);
-  });
 }
 
 }  // namespace
@@ -278,8 +268,11 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("'{}': {}", name, error.what()));
   }
-  if (!is_finite(out))
+  try {
+    demand_finite(out);
+  } catch (const std::invalid_argument&) {
     throw UsageError(fmt::format("'{}' is too large: its measures are beyond what numbers can hold", name));
+  }
   return out;
 }
 

@@ -110,6 +110,7 @@ int run(const Options& options) {
   ordered_json all = ordered_json::array();
   for (const Line& line : lines) {
     ordered_json one = trace(world, line);
+    demand_finite(one);
     if (options.json)
       all.push_back(std::move(one));
     else

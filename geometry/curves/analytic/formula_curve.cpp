@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/curves/formula_breaks.h"
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/tolerances.h"
@@ -32,6 +33,8 @@ FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain,
   for (int i = 0; i <= kTried; ++i) {
     const double t = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried;
     const Vec3 p = point(t);
+    const bool is_pole = domain.lo < t && t < domain.hi && std::isinf(glm::length(p));
+    if (is_pole) continue;
     if (!is_finite(p)) throw FieldError("domain", point_.no_value({{t}}));
     size = std::max(size, glm::length(p - first));
   }
@@ -39,13 +42,20 @@ FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain,
     throw FieldError("closed", "the curve is not closed: its ends do not meet");
   closed_ = closed;
   size_ = size;
+  stretches_ = smooth_stretches(point_, domain);
 }
 
 CurveJet FormulaCurve::evaluate(double t, int order) const {
   return evaluate_curve_formula(point_, closed_ ? wrapped(t, domain_) : t, order);
 }
 
-CurveEnclosure FormulaCurve::enclose(const Interval& t, int order) const {
+CurveEnclosure FormulaCurve::enclose(const Interval& whole_t, int order) const {
+  Interval t = whole_t;
+  // At a break its own value, and that of the other side, count elsewhere.
+  for (size_t k = 1; k < stretches_.size(); ++k) {
+    if (t.lo == stretches_[k].lo && next_up(t.lo) < t.hi) t.lo = next_up(t.lo);
+    if (t.hi == stretches_[k - 1].hi && t.lo < next_down(t.hi)) t.hi = next_down(t.hi);
+  }
   CurveEnclosure whole = enclose_curve_centered(point_, t, order);
   const auto is_bounded = [&](int k) { return k > order || whole.d[k].bounded(); };
   const bool is_good = is_bounded(0) && is_bounded(1) && is_bounded(2) && whole.d[0].diameter() <= kEnormous * size_;
@@ -56,6 +66,17 @@ CurveEnclosure FormulaCurve::enclose(const Interval& t, int order) const {
     whole.d[k].include(above.d[k]);
   }
   return whole;
+}
+
+std::vector<CurvePiece> FormulaCurve::pieces() const {
+  std::vector<CurvePiece> result;
+  for (const Interval& t : stretches_) {
+    CurvePiece piece;
+    piece.domain = t;
+    piece.map = {ParameterMap::Kind::affine, t.lo, t.hi};
+    result.push_back(piece);
+  }
+  return result;
 }
 
 TypeDeclaration formula_curve_type() {

@@ -7,7 +7,8 @@
 namespace lekalo::geometry {
 
 // r(t) = point of three formulas of t in Cartesian, cylindrical or spherical coordinates, over a finite domain. All
-// derivatives are exact (jets), enclosures certified (jets of intervals in centered form).
+// derivatives are exact (jets), enclosures certified (jets of intervals in centered form). Kinks, steps and poles part
+// its pieces (formula_breaks.h); over a piece enclosures hold the limits at its ends from inside.
 class FormulaCurve final : public Curve {
  public:
   // The formulas are bound to one variable, t. `closed`: r(lo) = r(hi), and the parameter wraps. Throws FieldError for
@@ -18,12 +19,14 @@ class FormulaCurve final : public Curve {
   double period() const override { return closed_ ? domain_.width() : 0; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  std::vector<CurvePiece> pieces() const override;
 
  private:
   PointFormulas point_;
   Interval domain_;
   bool closed_ = false;  // set once the ends are known to meet
-  double size_ = 0;      // of what the formulas gave where they were tried
+  std::vector<Interval> stretches_;
+  double size_ = 0;  // of what the formulas gave where they were tried
 };
 
 }  // namespace lekalo::geometry

@@ -26,4 +26,7 @@ class CurvePart final : public Curve {
   Interval range_;
 };
 
+// The parts between steps and poles, of all that a curve without them; none is shorter than 1e-12 of its domain.
+std::vector<CurvePtr> unbroken_parts(const CurvePtr& curve);
+
 }  // namespace lekalo::geometry

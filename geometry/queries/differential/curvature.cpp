@@ -102,7 +102,7 @@ CurveCurvature curvature(const CurveJet& jet) {
   CurveCurvature c;
   const Vec3 &r1 = jet.d[1], &r2 = jet.d[2], &r3 = jet.d[3];
   const double speed = glm::length(r1);
-  if (!(speed > 0)) return c;
+  if (!(speed > 0 && speed < kInfinity)) return c;
   c.has_tangent = c.has_curvature = true;
   c.tangent = r1 / speed;
   const Vec3 b = glm::cross(r1, r2);

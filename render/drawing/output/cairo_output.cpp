@@ -186,6 +186,7 @@ class Painter {
 }  // namespace
 
 std::string pdf_of(const Sheet& sheet) {
+  demand_finite(sheet);
   const double width = sheet.width * kPointsPerMillimetre, height = sheet.height * kPointsPerMillimetre;
   std::string bytes;
   {
@@ -221,6 +222,7 @@ std::string pdf_of(const Sheet& sheet) {
 }
 
 DisplayImage pixels_of(const Sheet& sheet, int width, int height) {
+  demand_finite(sheet);
   const SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
   check(cairo_surface_status(surface.get()));
   {

@@ -229,6 +229,7 @@ bool latex_takes_file(std::string_view name) {
 }
 
 std::string latex_overlay(const Sheet& sheet, const std::string& drawing) {
+  demand_finite(sheet);
   if (!latex_takes_file(drawing)) throw std::invalid_argument(fmt::format("LaTeX takes no file called '{}'", drawing));
   std::string texts;
   add_texts(sheet.items, sheet, texts);

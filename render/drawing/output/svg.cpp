@@ -272,6 +272,9 @@ class Writer {
 
 }  // namespace
 
-std::string svg_of(const Sheet& sheet, const SvgOptions& options) { return Writer(sheet, options).write(); }
+std::string svg_of(const Sheet& sheet, const SvgOptions& options) {
+  demand_finite(sheet);
+  return Writer(sheet, options).write();
+}
 
 }  // namespace lekalo::render

@@ -1,5 +1,6 @@
 // The cubic with the curve's ends and derivatives there, B(s) = P(a + s h), is off by P'''' h^4 / 384. It is compared
-// with the curve at places between; what is too far off is halved.
+// with the curve at places between; what is too far off is halved. Where the speed at one end is infinite, as that of
+// (t, sqrt(t)) at 0, the parabola B(s) = P(a + s^2 h) stands for it: of roots it is the curve itself.
 #include "render/drawing/paths/paths.h"
 
 #include <algorithm>
@@ -17,6 +18,10 @@ using geometry::kPi;
 namespace {
 
 constexpr int kMaxHalvings = 24;
+// Halvings towards an end of infinite speed, until numbers end: a cube root falls by a fifth with each.
+constexpr int kMaxHalvingsOfSteep = 52;
+// Of a chord: an end whose tangent takes the path farther than this is steep.
+constexpr double kSteep = 10;
 // What is told as a straight line or an arc is nearer to it than these parts of the tolerance. Pictures of circles are
 // ellipses to rounding; other curves come so near to one only where they hardly turn.
 constexpr double kStraight = 0.1, kElliptic = 1e-3;
@@ -87,22 +92,34 @@ class Fitting {
 
   // A smooth stretch.
   void add(const Interval& t, const ProjectedCurve::Place& begin, const ProjectedCurve::Place& end, int depth) {
-    const double h = t.width();
+    const double h = t.width(), middle = t.middle(), chord = glm::length(end.p - begin.p);
+    const auto is_steep = [&](const Vec2& tangent) { return !(h * glm::length(tangent) <= kSteep * chord); };
+    const bool steep_begin = is_steep(begin.tangent), steep_end = is_steep(end.tangent);
     const PathStep cubic = curve_to(begin.p + h / 3 * begin.tangent, end.p - h / 3 * end.tangent, end.p);
-    bool fits = true;
-    for (const double s : {0.5, 0.2, 0.8, 0.35, 0.65})
-      if (!(glm::length(point_on(begin.p, cubic, s) - curve_.place(t.lo + s * h).p) <= tolerance_)) {
-        fits = false;
-        break;
-      }
-    if (fits || depth >= kMaxHalvings) {
-      path_.steps.push_back(cubic);
-      return;
+    const auto same = [](double s) { return s; };
+    if (fits(cubic, begin.p, t, same)) return path_.steps.push_back(cubic);
+    if (steep_begin != steep_end) {
+      const Vec2 corner = steep_begin ? end.p - h * end.tangent : begin.p + h * begin.tangent;
+      const PathStep parabola =
+          curve_to(begin.p + 2.0 / 3 * (corner - begin.p), end.p + 2.0 / 3 * (corner - end.p), end.p);
+      const auto square = [&](double s) { return steep_begin ? s * s : s * (2 - s); };
+      if (fits(parabola, begin.p, t, square)) return path_.steps.push_back(parabola);
     }
-    const double middle = t.middle();
+    const bool is_steep_somewhere = steep_begin || steep_end;
+    if (depth >= (is_steep_somewhere ? kMaxHalvingsOfSteep : kMaxHalvings) || !(t.lo < middle && middle < t.hi))
+      return path_.steps.push_back(is_steep_somewhere ? line_to(end.p) : cubic);
     const ProjectedCurve::Place between = curve_.place(middle);
     add({t.lo, middle}, begin, between, depth + 1);
     add({middle, t.hi}, between, end, depth + 1);
+  }
+
+  // Whether the step at s is where the curve is at the share share(s) of t.
+  template <class Share>
+  bool fits(const PathStep& step, const Vec2& begin, const Interval& t, const Share& share) const {
+    for (const double s : {0.5, 0.2, 0.8, 0.35, 0.65})
+      if (!(glm::length(point_on(begin, step, s) - curve_.place(t.lo + share(s) * t.width()).p) <= tolerance_))
+        return false;
+    return true;
   }
 
   const ProjectedCurve& curve_;
