@@ -20,6 +20,8 @@ bool is_step(Operation operation) {
 }  // namespace
 
 class ExpressionBrancher {
+  using Instruction = Expression::Instruction;
+
  public:
   ExpressionBrancher(std::span<const Expression> formulas, std::span<const Interval> ranges)
       : formulas_(formulas), ranges_(ranges) {}
@@ -45,8 +47,14 @@ class ExpressionBrancher {
     return branches;
   }
 
+  static bool have_steps(const Expression& formula) {
+    return std::any_of(formula.program_.begin(), formula.program_.end(), [](const Instruction& in) {
+      const auto operation = static_cast<Operation>(in.operation);
+      return is_step(operation) || operation == Operation::sign || operation == Operation::select;
+    });
+  }
+
  private:
-  using Instruction = Expression::Instruction;
   using Program = std::vector<Instruction>;
   // `of` is what there was to choose between; of steps what they round, whose border is where the height vanishes.
   struct Side {
@@ -328,6 +336,10 @@ class ExpressionBrancher {
 std::optional<std::vector<ExpressionBranch>> expression_branches(std::span<const Expression> formulas,
                                                                  std::span<const Interval> ranges) {
   return ExpressionBrancher(formulas, ranges).run();
+}
+
+bool have_steps(std::span<const Expression> formulas) {
+  return std::any_of(formulas.begin(), formulas.end(), ExpressionBrancher::have_steps);
 }
 
 }  // namespace lekalo::geometry

@@ -28,4 +28,7 @@ struct ExpressionBranch {
 std::optional<std::vector<ExpressionBranch>> expression_branches(std::span<const Expression> formulas,
                                                                  std::span<const Interval> ranges = {});
 
+// Whether there are steps that branches may tell of: floor, ceil, round, mod, sign or `if`.
+bool have_steps(std::span<const Expression> formulas);
+
 }  // namespace lekalo::geometry

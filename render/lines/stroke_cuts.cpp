@@ -98,7 +98,8 @@ const std::vector<SmoothPart>& StrokeCollector::smooth_parts_of(const SurfacePtr
 
 void StrokeCollector::each_smooth_part(const SurfacePtr& surface, const std::function<void(const SurfacePtr&)>& visit) {
   const std::vector<SmoothPart>& parts = smooth_parts_of(surface);
-  if (!drawing_ || parts.size() == 1) return visit(surface);
+  // Renders show no kinks that a line runs over, but what bridges a step.
+  if (parts.size() == 1 || (!drawing_ && parts_between_steps(surface).parts.empty())) return visit(surface);
   for (const SmoothPart& part : parts) {
     cutters_.push_back(cutter_of(part));
     visit(part.surface);

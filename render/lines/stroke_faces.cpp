@@ -27,7 +27,7 @@ void StrokeCollector::add(const NetLine& line, const Style& style, const HiddenL
 }
 
 void StrokeCollector::lies_on(const NetLine& line) {
-  if (drawing_) supporting_surfaces_.push_back({line.surface, line.image()});
+  if (drawing_ || !cutters_.empty()) supporting_surfaces_.push_back({line.surface, line.image()});
 }
 
 void StrokeCollector::add_creases(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {

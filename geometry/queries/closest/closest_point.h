@@ -19,6 +19,7 @@
 namespace lekalo::geometry {
 
 class Plane;
+class ProjectorOfParts;
 
 enum class FootPointKind {
   minimum,  // of the distance
@@ -66,8 +67,8 @@ struct SurfaceFootPoints {
   // axis of a surface of revolution, or near to such a place. Their middles stand among the foot points.
   std::vector<Rectangle> regions;
 };
-// In the domain of the surface. Throws std::invalid_argument for an unbounded one that is no plane. Safe to use from
-// many threads.
+// In the domain of the surface; at a step its edges are those of both sides. Throws std::invalid_argument for an
+// unbounded one that is no plane, and where its steps are not all known. Safe to use from many threads.
 class SurfaceProjector {
  public:
   explicit SurfaceProjector(SurfacePtr surface);
@@ -76,7 +77,8 @@ class SurfaceProjector {
  private:
   struct Prepared;
   std::shared_ptr<const Prepared> prepared_;
-  std::shared_ptr<const Plane> plane_;  // an unbounded one instead
+  std::shared_ptr<const Plane> plane_;             // an unbounded one instead
+  std::shared_ptr<const ProjectorOfParts> parts_;  // of one with kinks or steps
 };
 SurfaceFootPoints project(const Vec3& point, const Surface& surface);
 

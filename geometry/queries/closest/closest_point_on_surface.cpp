@@ -9,6 +9,7 @@
 #include "geometry/numerics/root_search.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/closest/foot_point_polynomials.h"
+#include "geometry/queries/parts_projection.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 
@@ -350,7 +351,15 @@ class SurfaceProjection {
 }  // namespace
 
 SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
-  if (surface->bounded())
+  const SteppedParts stepped = parts_between_steps(surface);
+  demand_known(stepped);
+  const bool is_stepped = !stepped.parts.empty();
+  const Periods periods = surface->periods();
+  // Parts have ends where a surface with kinks closes.
+  std::vector<SmoothPart> parts = is_stepped ? stepped.parts : smooth_parts(surface);
+  if (is_stepped || (parts.size() > 1 && periods.u == 0 && periods.v == 0 && free_creases(parts).complete))
+    parts_ = std::make_shared<ProjectorOfParts>(std::move(parts));
+  else if (surface->bounded())
     prepared_ = std::make_shared<Prepared>(std::move(surface));
   else if (const auto plane = std::dynamic_pointer_cast<const Plane>(surface); plane && plane->is_whole())
     plane_ = plane;
@@ -359,6 +368,7 @@ SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
 }
 
 SurfaceFootPoints SurfaceProjector::foot_points(const Vec3& point) const {
+  if (parts_) return parts_->foot_points(point);
   if (!plane_) return SurfaceProjection(point, *prepared_).run();
   const Vec3 local = plane_->frame().to_local_point(point);
   return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootPointKind::minimum}}, {}};

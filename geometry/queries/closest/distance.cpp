@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "geometry/queries/closest/distance_neighbours.h"
 #include "geometry/queries/closest/distance_pairs.h"
 #include "geometry/queries/closest/non_isolated_minima.h"
+#include "geometry/queries/implicit_curves/smooth_parts.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -307,7 +309,20 @@ class DistanceQuery {
 
 }  // namespace
 
+static void demand_no_steps(const Distant& of) {
+  const auto check = [](const Surface& surface) {
+    const SteppedParts stepped = parts_between_steps(SurfacePtr(SurfacePtr(), &surface));
+    demand_known(stepped);
+    if (!stepped.parts.empty())
+      throw std::invalid_argument("a surface whose formulas step has distances from points alone, all of them");
+  };
+  if (const auto* surface = std::get_if<const Surface*>(&of)) check(**surface);
+  if (const auto* body = std::get_if<const Body*>(&of))
+    for (const auto& face : (*body)->faces) check(*face.surface);
+}
+
 Distance distance(const Distant& a, const Distant& b, DistanceMinima wanted) {
+  demand_no_steps(a), demand_no_steps(b);
   return DistanceQuery(a, b, wanted == DistanceMinima::nearest).run();
 }
 

@@ -42,12 +42,12 @@ std::vector<SurfacePiece> between_poles(const Surface& surface) {
 }
 
 // The pieces between creases, those of each part together; and what of the surface closes within a part.
-struct SmoothParts {
+struct PartsBetweenCreases {
   std::map<std::array<size_t, 2>, std::vector<SurfacePiece>> parts;
   Periods periods;
 };
-SmoothParts smooth_parts(const Surface& surface) {
-  SmoothParts result;
+PartsBetweenCreases parts_between_creases(const Surface& surface) {
+  PartsBetweenCreases result;
   result.periods = closed_periods(surface);
   std::array<std::vector<double>, 2> cuts;
   for (const Crease& crease : creases(surface, kJump)) {
@@ -100,9 +100,9 @@ std::array<bool, 2> goes_on(const Surface& surface, const Rectangle& piece) {
 
 Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function, const IsLeftOut& is_left_out) {
   const double size = std::max(bounds(*surface).diameter(), 1e-300);
-  SmoothParts smooth;
+  PartsBetweenCreases smooth;
   if (function.needs_tangents)
-    smooth = smooth_parts(*surface);
+    smooth = parts_between_creases(*surface);
   else
     smooth = {{{{0, 0}, surface->pieces()}}, closed_periods(*surface)};
   Contours result;

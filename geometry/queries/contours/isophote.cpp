@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "geometry/queries/contours/contours_of_function.h"
+#include "geometry/queries/contours/contours_of_parts.h"
 
 namespace lekalo::geometry {
 
@@ -34,14 +35,18 @@ Contours isophote(const SurfacePtr& surface, const Vec3& direction, double angle
   if (!(angle > 0 && angle < kPi))
     throw std::invalid_argument("the angle of an isophote lies between 0 and 180 degrees");
   const Vec3 d = unit(direction, "the direction of the light has no length");
-  return contours_of(surface, lit_alike(triple(d), surface->normal_sign() * std::cos(angle)));
+  return of_parts(surface, 0, [&](const SurfacePtr& part) {
+    return contours_of(part, lit_alike(triple(d), part->normal_sign() * std::cos(angle)));
+  });
 }
 
 Contours reflection_line(const SurfacePtr& surface, const ViewOf& given, const Line& lamp) {
   demand_bounded(*surface);
   const ViewOf view = checked(given);
   const Vec3 l = unit(lamp.direction, "the lamp has no direction");
-  return contours_of(surface, mirrored(view, triple(lamp.origin), triple(l)));
+  return of_parts(surface, 0, [&](const SurfacePtr& part) {
+    return contours_of(part, mirrored(view, triple(lamp.origin), triple(l)));
+  });
 }
 
 }  // namespace lekalo::geometry

@@ -3,30 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/curves/operations/curve_part.h"
 #include "geometry/queries/contours/contour_approximation.h"
 #include "geometry/queries/contours/contours_of_function.h"
+#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/queries/implicit_curves/implicit_branches.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
-
-// What of a contour the sides of a branch leave.
-static void add_kept(const Contour& whole, const std::vector<ImplicitSide>& sides, const Affine& to_formula,
-                     std::vector<Contour>& kept) {
-  if (sides.empty()) return kept.push_back(whole);
-  const CurvePtr simple = contour_approximation(whole.curve);
-  each_kept(*transformed(simple, to_formula), false, sides, [&](const Interval& t) {
-    Contour part = whole;
-    if (t != whole.curve->domain()) {
-      part.closed = false;
-      part.curve = std::make_shared<CurvePart>(whole.curve, t);
-      for (Curve2Ptr& image : part.images) image = std::make_shared<CurvePart>(image, t);
-      std::erase_if(part.cusps, [&](double cusp) { return !t.contains(cusp); });
-    }
-    kept.push_back(std::move(part));
-  });
-}
 
 static Contours smooth_level_section(const SurfacePtr& surface, const ImplicitFormula& formula,
                                      const Affine& to_formula) {
@@ -57,11 +40,13 @@ Contours level_section(const SurfacePtr& surface, const ImplicitFormula& formula
   demand_bounded(*surface);
   Contours all;
   for (const ImplicitBranch& branch : implicit_branches(formula, transformed(bounds(*surface), to_formula))) {
-    Contours found = smooth_level_section(surface, *branch.formula, to_formula);
+    Contours found = of_parts(
+        surface, 0, [&](const SurfacePtr& part) { return smooth_level_section(part, *branch.formula, to_formula); });
     all.points.insert(all.points.end(), found.points.begin(), found.points.end());
     all.coincident = all.coincident || found.coincident;
     all.complete = all.complete && found.complete;
-    for (const Contour& contour : found.branches) add_kept(contour, branch.sides, to_formula, all.branches);
+    for (const Contour& contour : found.branches)
+      add_kept(contour, *transformed(contour_approximation(contour.curve), to_formula), branch.sides, all.branches);
   }
   return all;
 }

@@ -2,6 +2,7 @@
 
 #include "geometry/queries/contours/analytic/closed_contours.h"
 #include "geometry/queries/contours/contours_of_function.h"
+#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -20,8 +21,10 @@ SurfaceFunction height_over(const Triple<double>& origin, const Triple<double>& 
 Contours plane_section(const SurfacePtr& surface, const Vec3& origin, const Vec3& normal) {
   demand_bounded(*surface);
   const Vec3 n = unit(normal, "the normal of the plane has no length");
-  if (auto exact = closed_section(surface, origin, n, kSamePoint * bounds(*surface).diameter())) return *exact;
-  return contours_of(surface, height_over(triple(origin), triple(n)));
+  return of_parts(surface, 0, [&](const SurfacePtr& part) {
+    if (auto exact = closed_section(part, origin, n, kSamePoint * bounds(*part).diameter())) return *exact;
+    return contours_of(part, height_over(triple(origin), triple(n)));
+  });
 }
 
 }  // namespace lekalo::geometry

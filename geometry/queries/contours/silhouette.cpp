@@ -4,6 +4,7 @@
 
 #include "geometry/queries/contours/analytic/closed_contours.h"
 #include "geometry/queries/contours/contours_of_function.h"
+#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/queries/contours/picture_cusps.h"
 #include "geometry/tolerances.h"
 
@@ -34,15 +35,19 @@ static bool is_edge_on(const Surface& surface, const Rectangle& part, const View
   return true;
 }
 
-Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
-  demand_bounded(*surface);
-  const ViewOf view = checked(given);
+static Contours smooth_silhouette(const SurfacePtr& surface, const ViewOf& view) {
   if (is_edge_on(*surface, surface->domain(), view)) return {};
   if (auto exact = closed_silhouette(surface, view, kSamePoint * bounds(*surface).diameter())) return *exact;
   Contours found =
       contours_of(surface, outline(view), [&](const Rectangle& piece) { return is_edge_on(*surface, piece, view); });
   for (Contour& contour : found.branches) contour.cusps = picture_cusps(*surface, contour, view);
   return found;
+}
+
+Contours silhouette(const SurfacePtr& surface, const ViewOf& given) {
+  demand_bounded(*surface);
+  const ViewOf view = checked(given);
+  return of_parts(surface, 0, [&](const SurfacePtr& part) { return smooth_silhouette(part, view); });
 }
 
 }  // namespace lekalo::geometry

@@ -6,13 +6,14 @@
 #include "geometry/queries/contours/analytic/closed_contours.h"
 #include "geometry/queries/contours/contour_assembly.h"
 #include "geometry/queries/contours/contours_of_function.h"
+#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/queries/contours/plane_section.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/analytic/plane.h"
 
 namespace lekalo::geometry {
 
-Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
+static Contours intersect_smooth(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
   for (const bool swapped : {false, true}) {
     const auto* plane = dynamic_cast<const Plane*>(swapped ? a.get() : b.get());
     const SurfacePtr& other = swapped ? b : a;
@@ -39,6 +40,12 @@ Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
       assembly.add(intersection_equations(a, piece_a.domain, b, pieces_b[k].domain), search);
     });
   return assembly.joined();
+}
+
+Contours intersect(const SurfacePtr& a, const SurfacePtr& b, double tolerance) {
+  return of_parts(a, 0, [&](const SurfacePtr& part_a) {
+    return of_parts(b, 1, [&](const SurfacePtr& part_b) { return intersect_smooth(part_a, part_b, tolerance); });
+  });
 }
 
 }  // namespace lekalo::geometry

@@ -11,6 +11,7 @@
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/contours/contour_assembly.h"
 #include "geometry/queries/contours/surface_joints.h"
+#include "geometry/queries/implicit_curves/smooth_parts.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/queries/intersections/self_intersections.h"
 
@@ -305,7 +306,10 @@ class SelfIntersection {
 
 Contours self_intersection(const SurfacePtr& surface, double tolerance) {
   if (!surface->bounded()) throw std::invalid_argument("the surface is unbounded: give it a domain");
-  return SelfIntersection(surface, tolerance).run();
+  Contours found = SelfIntersection(surface, tolerance).run();
+  const SteppedParts stepped = parts_between_steps(surface);
+  found.complete = found.complete && stepped.known && stepped.parts.empty();
+  return found;
 }
 
 }  // namespace lekalo::geometry

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "geometry/curves/operations/creases.h"
 #include "geometry/curves/operations/curve_part.h"
@@ -19,9 +20,24 @@ namespace {
 constexpr double kBeside = 1e-6;
 // Parts farther from each other than this share of their size do not meet.
 constexpr double kStep = 1e-7;
+// So far beyond a border, of the domain, a place is on it.
+constexpr double kRounding = 1e-12;
 constexpr double kPlaces[] = {0.05, 0.23, 0.5, 0.81, 0.97};
 
 Box3 around(const Rectangle& domain) { return {{domain.u.lo, domain.v.lo, 0}, {domain.u.hi, domain.v.hi, 0}}; }
+
+std::optional<std::vector<ExpressionBranch>> branches_of(const FormulaSurface& surface) {
+  const std::array ranges{surface.domain().u, surface.domain().v};
+  return expression_branches(surface.formulas().formulas(), ranges);
+}
+
+bool may_step(const Surface& surface) {
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(&surface)) return may_step(*moved->original());
+  const auto* whole = dynamic_cast<const FormulaSurface*>(&surface);
+  if (!whole || !have_steps(whole->formulas().formulas())) return false;
+  const auto branches = branches_of(*whole);
+  return !branches || branches->size() > 1;
+}
 
 }  // namespace
 
@@ -34,8 +50,7 @@ std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface) {
   }
   const auto* whole = dynamic_cast<const FormulaSurface*>(surface.get());
   if (!whole) return {{surface, {}}};
-  const std::array ranges{whole->domain().u, whole->domain().v};
-  const auto branches = expression_branches(whole->formulas().formulas(), ranges);
+  const auto branches = branches_of(*whole);
   if (!branches || branches->size() == 1) return {{surface, {}}};
   const Rectangle domain = whole->domain();
   std::vector<SmoothPart> parts;
@@ -46,15 +61,26 @@ std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface) {
     if (!may_hold(part.sides, around(domain))) continue;
     const auto& f = branch.formulas;
     try {
-      part.surface = std::make_shared<FormulaSurface>(
+      const auto one = std::make_shared<FormulaSurface>(
           PointFormulas({f[0], f[1], f[2]}, whole->formulas().coordinates(), whole->formulas().variables()), domain,
           FormulaSurface::Closed{});
+      one->set_reversed(whole->reversed());
+      part.surface = one;
     } catch (const FieldError&) {
       return {{surface, {}}};
     }
     parts.push_back(std::move(part));
   }
   return parts;
+}
+
+bool is_in(const SmoothPart& part, double u, double v) {
+  const Rectangle domain = part.surface->domain();
+  const Vec3 at(u, v, 0), slack(kRounding * domain.u.width(), kRounding * domain.v.width(), 0);
+  return std::all_of(part.sides.begin(), part.sides.end(), [&](const ImplicitSide& side) {
+    const double value = side.value(at);
+    return value >= 0 || value >= -glm::dot(slack, glm::abs(side.height->gradient(at)));
+  });
 }
 
 FreeCreases free_creases(const std::vector<SmoothPart>& parts) {
@@ -100,6 +126,23 @@ FreeCreases free_creases(const std::vector<SmoothPart>& parts) {
         });
     }
   return found;
+}
+
+SteppedParts parts_between_steps(const SurfacePtr& surface) {
+  if (!may_step(*surface)) return {};
+  std::vector<SmoothPart> parts = smooth_parts(surface);
+  const FreeCreases found = free_creases(parts);
+  if (parts.size() == 1 || !found.complete) return {{}, false};
+  if (std::none_of(found.lines.begin(), found.lines.end(), [](const FreeCrease& line) { return line.step; })) return {};
+  return {std::move(parts), true};
+}
+
+void demand_known(const SteppedParts& stepped) {
+  if (!stepped.known)
+    throw std::invalid_argument(
+        "the formulas of the surface may step, in places that are not known: branches without values beyond them, or "
+        "too "
+        "many; give each branch as a surface of its own");
 }
 
 }  // namespace lekalo::geometry

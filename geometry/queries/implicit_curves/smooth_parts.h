@@ -19,6 +19,18 @@ struct SmoothPart {
 // domain.
 std::vector<SmoothPart> smooth_parts(const SurfacePtr& surface);
 
+// The smooth parts of a surface that steps somewhere from one point to another, of which queries as a whole would find
+// what bridges the gap; none of any other.
+struct SteppedParts {
+  std::vector<SmoothPart> parts;
+  bool known = true;  // else it may step, but nothing is known of where
+};
+SteppedParts parts_between_steps(const SurfacePtr& surface);
+// Throws std::invalid_argument where it may step and nothing is known of where.
+void demand_known(const SteppedParts& stepped);
+// (u, v) lies on the right sides, to rounding.
+bool is_in(const SmoothPart& part, double u, double v);
+
 // Where two parts meet and their normals differ by kSmoothEdge somewhere, in the parameter plane of both; or where they
 // do not meet, for the surface steps from one to the other.
 struct FreeCrease {
