@@ -5,7 +5,7 @@ import re
 import unittest
 import xml.etree.ElementTree as tree
 
-from program import ProgramTest
+from program import ProgramTest, USAGE
 
 NUMBER = r"-?\d+(?:\.\d+)?"
 
@@ -124,6 +124,96 @@ geometry:
         self.assertEqual((found["point"], found["du"], found["dv"]), ([0, 0.5, 0], None, [0, 1, 0]))
         for name, at in (("r", "0"), ("s", "0,0.5")):
             self.assertNotRegex(self.run_program("evaluate", "root.yaml", name, "--at", at)[0], r"(?i)\b-?(nan|inf)\b")
+
+    STEPS = """lekalo: 1
+geometry:
+  st: { type: formula_surface, z: 'sign(y)', domain: { u: [-1, 1], v: [-1, 1] } }
+  slanted: { type: formula_surface, z: 'sign(y + 0.5*x)', domain: { u: [-1, 1], v: [-1, 1] } }
+  either: { type: formula_surface, z: '1 if y > 0 else -1', domain: { u: [-1, 1], v: [-1, 1] } }
+  fl: { type: formula_surface, z: 'floor(x)', domain: { u: [-1.5, 1.5], v: [-1, 1] } }
+  roof: { type: formula_surface, z: 'abs(x)', domain: { u: [-1, 1], v: [-1, 1] } }
+  corner: { type: formula_surface, z: 'x if x > 0 else 0', domain: { u: [-1, 1], v: [-1, 1] } }
+  half: { type: formula_surface, z: 'sqrt(x) if x > 0 else -1', domain: { u: [-1, 1], v: [-1, 1] } }
+  wall: { type: plane, frame: { origin: [0.25, 0, 0], z: x }, size: [6, 6] }
+  through_gap: { type: segment, from: [0.3, -0.1, -0.5], to: [0.3, 0.1, 0.5] }
+  through_sheet: { type: segment, from: [0.3, 0, -2], to: [0.3, 0.5, 2] }
+  along_sheet: { type: segment, from: [0.3, -0.5, 1], to: [0.3, 0.5, 1] }
+  stair: { type: formula_curve, y: 'floor(x)', domain: [-1.5, 1.5] }
+  up: { type: segment, from: [-1.5, -1.75], to: [1.5, 1.25] }
+objects: { shape: st, lines: { boundary: thick, parameter: { at_u: 5 } } }
+camera: { type: perspective, from: [0, -6, 1], at: [0, 0, 0], field_of_view: 40 }
+image: { size: [96, 96] }
+"""
+
+    def lengths(self, *arguments):
+        found = self.json_of("measure", "steps.yaml", *arguments)
+        self.assertTrue(found["complete"], arguments)
+        return sorted(branch["length"] for branch in found["branches"])
+
+    def test_sections_end_at_steps(self):
+        """Nothing bridges the gap; at a kink both sides are there. Lengths by hand."""
+        self.write("steps.yaml", self.STEPS)
+        for arguments, lengths in ((("st", "--section", "0.25,0,0,1,0,0"), [1, 1]),
+                                   (("slanted", "--section", "0.5,0,0,1,0,0"), [0.75, 1.25]),
+                                   (("either", "--section", "0.25,0,0,1,0,0"), [1, 1]),
+                                   (("fl", "--section", "0,0.25,0,0,1,0"), [0.5, 0.5, 1, 1]),
+                                   (("st", "--intersect", "wall"), [1, 1]),
+                                   (("wall", "--intersect", "st"), [1, 1]),
+                                   (("roof", "--section", "0,0.2,0,0,1,0"), [math.sqrt(2), math.sqrt(2)]),
+                                   (("roof", "--section", "0,0,0,0,0,1"), [2]),
+                                   (("corner", "--section", "0,0,0,0,1,0"), [1, math.sqrt(2)])):
+            self.assert_near(self.lengths(*arguments), lengths, 1e-11)
+        self.assertFalse(self.json_of("measure", "steps.yaml", "half", "--section", "0,0,0,0,1,0")["complete"])
+
+    def test_distances_from_surfaces_with_steps(self):
+        """Both edges of a step count, and nothing between them."""
+        self.write("steps.yaml", self.STEPS)
+        for name, to, distance in (("either", "0,0,0.1", 0.9), ("fl", "0,0,0.1", 0.1), ("fl", "-0.2,0,0", 0.2),
+                                   ("st", "0,0.2,0.1", 0.9), ("st", "0,0.2,-0.9", math.hypot(0.2, 0.1)),
+                                   ("slanted", "0,0.01,0", 1), ("corner", "-0.1,0,-0.2", 0.2),
+                                   ("corner", "0.5,0,-0.5", math.hypot(0.5, 0.5))):
+            found = self.json_of("measure", "steps.yaml", name, "--to", to)
+            self.assertAlmostEqual(found["distance"], distance, delta=1e-12, msg=f"{name} {to}")
+        out, errors = self.run_program("measure", "steps.yaml", "half", "--to", "0,0,0", code=USAGE)
+        self.assertIn("may step", errors)
+        out, errors = self.run_program("measure", "steps.yaml", "st", "--to", "through_gap", code=USAGE)
+        self.assertIn("from points alone", errors)
+
+    def test_curves_pass_through_gaps(self):
+        self.write("steps.yaml", self.STEPS)
+        def points(*arguments):
+            return self.json_of("measure", "steps.yaml", *arguments)["points"]
+        self.assertEqual(points("st", "--intersect", "through_gap"), [])
+        self.assert_near([p["point"] for p in points("st", "--intersect", "through_sheet")], [[0.3, 0.375, 1]], 1e-12)
+        along = self.json_of("measure", "steps.yaml", "along_sheet", "--intersect", "st")
+        self.assertEqual(along["points"], [])
+        self.assert_near([part["t"] for part in along["common"]], [[0.5, 1]], 1e-9)
+        # y = x - 0.25 meets floor(x) where that is x - 0.25.
+        self.assert_near([p["point"][0] for p in points("stair", "--intersect", "up")], [-0.75, 0.25, 1.25], 1e-12)
+
+    def test_roots_and_poles_in_queries(self):
+        """The cusp of sqrt(|t|), ends with infinite slopes, the branches of the tangent between its poles."""
+        self.write("roots.yaml", """lekalo: 1
+geometry:
+  a: { type: formula_curve, point: ['t', 'sqrt(abs(t))', 0], domain: [-1, 1] }
+  c: { type: formula_curve, y: 'acos(x)/(1 rad)', domain: [-1, 1] }
+  v: { type: segment, from: [0, -2], to: [0, 2] }
+  t: { type: formula_curve, y: 'tan(x)', domain: [-4, 4] }
+  h: { type: segment, from: [-4, 0.25], to: [4, 0.25] }
+""")
+        def points(*arguments):
+            found = self.json_of("measure", "roots.yaml", *arguments)
+            self.assertEqual(found["common"], [])
+            return [p["point"] for p in found["points"]]
+        self.assert_near(points("a", "--intersect", "v"), [[0, 0, 0]], 1e-9)
+        self.assert_near(points("t", "--intersect", "h"), [[math.atan(0.25) + k * math.pi, 0.25, 0] for k in (-1, 0, 1)],
+                         1e-12)
+        self.assertEqual(points("t", "--self-intersection"), [])
+        self.assertAlmostEqual(self.json_of("measure", "roots.yaml", "c")["length"], 3.8201977, delta=1e-6)
+        for name, to, near in (("a", (0.1, -1), (0, 0)), ("c", (-2, 3.3), (-1, math.pi)), ("c", (1.5, -1), (1, 0))):
+            found = self.json_of("measure", "roots.yaml", name, "--to", f"{to[0]},{to[1]},0")
+            self.assertAlmostEqual(found["distance"], math.dist(to, near), delta=1e-12)
+            self.assertEqual(len(found["feet"]), 1)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,10 @@ namespace {
 constexpr double kMinBox = 1e-8;
 // A derivative below this part of the size over the width of the domain vanishes: a cusp.
 constexpr double kNoDerivative = 1e-9;
+// So far inside of a piece, as part of it, an infinite slope at its end has a direction.
+constexpr double kBesideSteep = 1e-14;
+// The cosine of the angle between way and curve of what is no foot point.
+constexpr double kAcross = 0.01;
 // FootPoints nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFootPoint = 1e-11;
 
@@ -76,9 +80,17 @@ struct CurveProjector::Prepared {
           pieces.emplace_back(Piece{piece.domain, piece.map, piece.is_rational() ? piece.degree() : 0, {}, {}, {}});
       if (own.degree > 0 && own.degree <= FootPointPolynomial::kMaxDegree)
         own.polynomial.emplace(piece.points, Vec3(piece.points[0]) / piece.points[0].w);
-      own.begin = evaluate_within(*curve, piece.domain, piece.domain.lo, 1);
-      own.end = evaluate_within(*curve, piece.domain, piece.domain.hi, 1);
+      own.begin = jet_at_end(piece.domain, piece.domain.lo);
+      own.end = jet_at_end(piece.domain, piece.domain.hi);
     }
+  }
+
+ private:
+  // Where the slope is infinite, that beside it.
+  CurveJet jet_at_end(const Interval& piece, double t) const {
+    const CurveJet at = evaluate_within(*curve, piece, t, 1);
+    const double speed = glm::length(at.d[1]), inside = t == piece.lo ? kBesideSteep : 1 - kBesideSteep;
+    return speed < kInfinity ? at : curve->evaluate(piece.lo + inside * piece.width(), 1);
   }
 };
 
@@ -172,7 +184,19 @@ class CurveProjection {
       keep(at[0], speed(system, at[0]), 0,
            system.evaluate(at).derivative[0][0] < 0 ? FootPointKind::minimum : FootPointKind::maximum);
     for (const auto& box : found.open)
-      keep(box[0].middle(), speed(system, box[0].middle()), box[0].width(), FootPointKind::degenerate);
+      if (may_hold_foot(system, box[0]))
+        keep(box[0].middle(), speed(system, box[0].middle()), box[0].width(), FootPointKind::degenerate);
+  }
+  // Where a slope is infinite bounds tell nothing: a foot point has the way across the curve, or on both sides in its
+  // box.
+  bool may_hold_foot(const CurveSystem& system, const Interval& box) const {
+    const auto cosine = [&](double t) {
+      const CurveJet r = system.jet(t);
+      const Vec3 way = p_ - r.d[0];
+      return glm::dot(way, r.d[1]) / (glm::length(way) * glm::length(r.d[1]));
+    };
+    const double first = cosine(box.lo), last = cosine(box.hi);
+    return !(std::abs(first) > kAcross && std::abs(last) > kAcross && (first > 0) == (last > 0));
   }
   static double speed(const CurveSystem& system, double t) { return glm::length(system.jet(t).d[1]); }
 

@@ -8,6 +8,7 @@
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/intersections/conic_intersections.h"
+#include "geometry/queries/implicit_curves/smooth_parts.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/surfaces/analytic/plane.h"
 
@@ -169,9 +170,21 @@ class CurvePair {
         return {system.piece_a.clamp(at[0]), system.piece_b.clamp(at[1])};
       };
       // Where they do not touch they cross at an angle too small to tell, or at a cusp.
-      if (!add(within(system.contact_near(middle, reach)), true))
-        add(within(refined<2, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); })), true);
+      if (!add(within(system.contact_near(middle, reach)), true) &&
+          !add(within(refined<2, 3>(middle, reach, [&](const auto& at) { return system.evaluate(at); })), true))
+        add_ends(system, box, reach);
     }
+  }
+
+  // Where a piece begins or ends with an infinite slope: no iteration comes there.
+  void add_ends(const PairSystem& system, const ParameterBox<2>& box, const ParameterPoint<2>& reach) {
+    const auto is_near = [&](int i, double end) { return end >= box[i].lo - reach[i] && end <= box[i].hi + reach[i]; };
+    for (const double s : {system.piece_a.lo, system.piece_a.hi})
+      if (is_near(0, s))
+        if (const auto t = place_on(b_, a_.point(s)); t && is_near(1, *t)) add({s, *t}, true);
+    for (const double t : {system.piece_b.lo, system.piece_b.hi})
+      if (is_near(1, t))
+        if (const auto s = place_on(a_, b_.point(t)); s && is_near(0, *s)) add({*s, t}, true);
   }
 
   // False if the curves are farther from each other there than the tolerance.
@@ -382,8 +395,45 @@ CurveIntersections intersect(const Curve& a, const Curve& b, double tolerance) {
   return CurvePair(a, b, tolerance).run();
 }
 
+// Stretches of a common part whose places on a smooth part are on its right sides: cut where halving finds a change.
+static void add_kept(const Interval& t, const Curve& curve, const SmoothPart& part, std::vector<Interval>& kept) {
+  constexpr int kTried = 256;
+  const auto keeps = [&](double at) {
+    const SurfaceFootPoints found = project(curve.point(at), *part.surface);
+    return !found.foot_points.empty() && is_in(part, found.foot_points[0].u, found.foot_points[0].v);
+  };
+  std::vector<double> cuts;
+  double before = t.lo;
+  for (int k = 1; k <= kTried; ++k) {
+    const double now = t.lo + t.width() * k / kTried;
+    double lo = before, hi = now;
+    const bool first = keeps(lo);
+    if (keeps(hi) != first) {
+      for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+        (keeps(middle) == first ? lo : hi) = middle;
+      cuts.push_back(hi);
+    }
+    before = now;
+  }
+  each_kept(t, false, cuts, keeps, [&](const Interval& one) { kept.push_back(one); });
+}
+
 SurfaceIntersections intersect(const Curve& curve, const Surface& surface, double tolerance) {
-  return CurveAndSurface(curve, surface, tolerance).run();
+  const SteppedParts stepped = parts_between_steps(SurfacePtr(SurfacePtr(), &surface));
+  demand_known(stepped);
+  if (stepped.parts.empty()) return CurveAndSurface(curve, surface, tolerance).run();
+  SurfaceIntersections all;
+  for (const SmoothPart& part : stepped.parts) {
+    const SurfaceIntersections found = CurveAndSurface(curve, *part.surface, tolerance).run();
+    std::copy_if(found.points.begin(), found.points.end(), std::back_inserter(all.points),
+                 [&](const SurfaceIntersection& one) { return is_in(part, one.u, one.v); });
+    for (const Interval& t : found.on_surface) add_kept(t, curve, part, all.on_surface);
+  }
+  const auto by_t = [](const auto& a, const auto& b) { return a.t < b.t; };
+  std::sort(all.points.begin(), all.points.end(), by_t);
+  std::sort(all.on_surface.begin(), all.on_surface.end(),
+            [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  return all;
 }
 
 }  // namespace lekalo::geometry
