@@ -215,6 +215,28 @@ geometry:
             self.assertAlmostEqual(found["distance"], math.dist(to, near), delta=1e-12)
             self.assertEqual(len(found["feet"]), 1)
 
+    def test_sections_through_a_tip(self):
+        """A cone by its formula: straight lines through the tip, by a whole plane and by one with sides; near the tip
+        what is left out is told."""
+        self.write("tips.yaml", """lekalo: 1
+geometry:
+  k: { type: formula_surface, z: 'sqrt(x^2 + y^2)', domain: { u: [-1, 1], v: [-1, 1] } }
+  across: { type: plane, frame: { origin: [0, 0, 0], z: x }, size: [6, 6] }
+  part: { type: plane, frame: { origin: [0, 0, 0], z: x }, size: [1, 1] }
+""")
+        def found(*arguments):
+            return self.json_of("measure", "tips.yaml", *arguments)
+        for arguments, length in ((("k", "--section", "0,0,0,0,1,0"), 2 * math.sqrt(2)),
+                                  (("k", "--section", "0,0,0,1,1,0"), 4), (("k", "--intersect", "across"), 2 * math.sqrt(2)),
+                                  (("across", "--intersect", "k"), 2 * math.sqrt(2)), (("k", "--intersect", "part"), math.sqrt(2))):
+            lines = found(*arguments)
+            self.assertTrue(lines["complete"], arguments)
+            self.assertAlmostEqual(sum(line["length"] for line in lines["branches"]), length, delta=1e-11)
+        slanted = found("k", "--section", "0,0,0,0.3,1,0")
+        length = sum(line["length"] for line in slanted["branches"])
+        self.assertAlmostEqual(length, 2 * math.sqrt(2 * 1.09), delta=1e-6)
+        self.assertFalse(slanted["complete"] and abs(length - 2 * math.sqrt(2 * 1.09)) > 1e-11)
+
 
 if __name__ == "__main__":
     unittest.main()

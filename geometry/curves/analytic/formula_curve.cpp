@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "geometry/curves/formula_breaks.h"
+#include "geometry/curves/analytic/formula_breaks.h"
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/tolerances.h"

@@ -9,7 +9,7 @@
 #include "geometry/numerics/root_search.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/closest/foot_point_polynomials.h"
-#include "geometry/queries/parts_projection.h"
+#include "geometry/queries/closest/parts_projection.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 

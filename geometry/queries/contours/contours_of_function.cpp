@@ -8,6 +8,7 @@
 #include "geometry/curves/operations/creases.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/contours/contour_assembly.h"
+#include "geometry/queries/implicit_curves/surface_tips.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -77,6 +78,17 @@ Rectangle around(const std::vector<SurfacePiece>& pieces) {
   return all;
 }
 
+// The tips through which a contour goes.
+std::vector<Vec2> tips_on(const Surface& surface, const SurfaceFunction& function, double size) {
+  std::vector<Vec2> tips = surface_tips(surface);
+  std::erase_if(tips, [&](const Vec2& tip) {
+    const Vec3 p = surface.point(tip.x, tip.y);
+    const Triple<Jet<double, 1>> s{p.x, p.y, p.z};
+    return std::abs(function.slopes(s, s, s).c[0]) > kSamePoint * size;
+  });
+  return tips;
+}
+
 }  // namespace
 
 void demand_bounded(const Surface& surface) {
@@ -104,7 +116,7 @@ Contours contours_of(const SurfacePtr& surface, const SurfaceFunction& function,
   if (function.needs_tangents)
     smooth = parts_between_creases(*surface);
   else
-    smooth = {{{{0, 0}, surface->pieces()}}, closed_periods(*surface)};
+    smooth = {{{{0, 0}, pieces_about_tips(*surface, tips_on(*surface, function, size))}}, closed_periods(*surface)};
   Contours result;
   for (const auto& [place, pieces] : smooth.parts) {
     if (is_left_out &&

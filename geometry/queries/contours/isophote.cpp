@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/queries/contours/contour_parts.h"
 #include "geometry/queries/contours/contours_of_function.h"
-#include "geometry/queries/contours/contours_of_parts.h"
 
 namespace lekalo::geometry {
 

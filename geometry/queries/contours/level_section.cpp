@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/queries/contours/contour_parts.h"
 #include "geometry/queries/contours/contours_of_function.h"
-#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/queries/implicit_curves/implicit_branches.h"
 #include "geometry/transformed.h"
 

@@ -1,8 +1,8 @@
 #include "geometry/queries/contours/plane_section.h"
 
 #include "geometry/queries/contours/analytic/closed_contours.h"
+#include "geometry/queries/contours/contour_parts.h"
 #include "geometry/queries/contours/contours_of_function.h"
-#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {

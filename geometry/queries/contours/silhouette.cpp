@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "geometry/queries/contours/analytic/closed_contours.h"
+#include "geometry/queries/contours/contour_parts.h"
 #include "geometry/queries/contours/contours_of_function.h"
-#include "geometry/queries/contours/contours_of_parts.h"
 #include "geometry/queries/contours/picture_cusps.h"
 #include "geometry/tolerances.h"
 

@@ -7,8 +7,8 @@
 
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/intersections/conic_intersections.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
+#include "geometry/queries/intersections/conic_intersections.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/surfaces/analytic/plane.h"
 

@@ -1,6 +1,6 @@
 // Kinks and steps are where heights over the borders of branches (expression/branches.h) change their sign, poles where
 // no halving bounds the point: both by interval arithmetic, which loses none.
-#include "geometry/curves/formula_breaks.h"
+#include "geometry/curves/analytic/formula_breaks.h"
 
 #include <algorithm>
 #include <array>

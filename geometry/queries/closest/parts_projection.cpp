@@ -1,4 +1,4 @@
-#include "geometry/queries/parts_projection.h"
+#include "geometry/queries/closest/parts_projection.h"
 
 #include <algorithm>
 #include <stdexcept>

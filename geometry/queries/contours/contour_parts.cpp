@@ -1,27 +1,41 @@
-#include "geometry/queries/contours/contours_of_parts.h"
+#include "geometry/queries/contours/contour_parts.h"
 
 #include <algorithm>
 
 #include "geometry/curves/operations/curve_part.h"
+#include "geometry/curves/operations/curve_sign_changes.h"
 #include "geometry/queries/contours/contour_approximation.h"
-#include "geometry/queries/implicit_curves/smooth_parts.h"
-#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
+
+static Contour part_of(const Contour& whole, const Interval& t) {
+  Contour part = whole;
+  if (t == whole.curve->domain()) return part;
+  part.closed = false;
+  part.curve = std::make_shared<CurvePart>(whole.curve, t);
+  for (Curve2Ptr& image : part.images) image = std::make_shared<CurvePart>(image, t);
+  std::erase_if(part.cusps, [&](double cusp) { return !t.contains(cusp); });
+  return part;
+}
 
 void add_kept(const Contour& whole, const Curve& where, const std::vector<ImplicitSide>& sides,
               std::vector<Contour>& kept) {
   if (sides.empty()) return kept.push_back(whole);
-  each_kept(where, false, sides, [&](const Interval& t) {
-    Contour part = whole;
-    if (t != whole.curve->domain()) {
-      part.closed = false;
-      part.curve = std::make_shared<CurvePart>(whole.curve, t);
-      for (Curve2Ptr& image : part.images) image = std::make_shared<CurvePart>(image, t);
-      std::erase_if(part.cusps, [&](double cusp) { return !t.contains(cusp); });
+  each_kept(where, false, sides, [&](const Interval& t) { kept.push_back(part_of(whole, t)); });
+}
+
+void add_inside(const Contour& whole, const Curve& where, const Rectangle& domain, std::vector<Contour>& kept) {
+  std::vector<double> cuts;
+  for (const int axis : {0, 1})
+    for (const double side : {axis == 0 ? domain.u.lo : domain.v.lo, axis == 0 ? domain.u.hi : domain.v.hi}) {
+      const std::vector<double> found = sign_changes(
+          where, false, [&](const Box3& box) { return Interval(box.lo[axis], box.hi[axis]) - side; },
+          [&](const Vec3& p) { return p[axis] - side; });
+      cuts.insert(cuts.end(), found.begin(), found.end());
     }
-    kept.push_back(std::move(part));
-  });
+  std::sort(cuts.begin(), cuts.end());
+  const auto keeps = [&](double t) { return domain.contains(where.point(t).x, where.point(t).y); };
+  each_kept(where.domain(), false, cuts, keeps, [&](const Interval& t) { kept.push_back(part_of(whole, t)); });
 }
 
 // Whether two lines are one, as those in which two parts meet are found twice.
