@@ -1,7 +1,9 @@
 #include "render/mesh_files/mesh_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "geometry/tessellation/triangulation.h"
 #include "render/image/atomic_file.h"
@@ -124,6 +126,10 @@ Mesh parse_mesh(MeshFormat format, std::string_view bytes, const std::string& na
 }
 
 std::string mesh_bytes(MeshFormat format, const Mesh& mesh) {
+  const auto is_finite = [](const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+  if (!std::all_of(mesh.points.begin(), mesh.points.end(), is_finite) ||
+      !std::all_of(mesh.normals.begin(), mesh.normals.end(), is_finite))
+    throw std::invalid_argument("the mesh has points or normals that are infinite or have no value");
   return format == MeshFormat::obj ? obj_bytes(mesh) : format == MeshFormat::ply ? ply_bytes(mesh) : stl_bytes(mesh);
 }
 

@@ -32,6 +32,7 @@ geometry::Mesh parse_mesh(MeshFormat format, std::string_view bytes, const std::
 
 // The file's bytes. OBJ keeps shared points with normals of their own for each corner; PLY (binary, little-endian,
 // doubles) repeats a point for each of its normals; STL (binary) has single-precision corners and facet normals.
+// Throws std::invalid_argument for a point or normal that is infinite or has no value.
 std::string mesh_bytes(MeshFormat format, const geometry::Mesh& mesh);
 
 // Polylines for the end of an OBJ file that has `points` points already: the vertices of each and an `l` element.
