@@ -5,6 +5,7 @@
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/curve_sign_changes.h"
 #include "geometry/queries/contours/contour_approximation.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
