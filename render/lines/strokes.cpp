@@ -13,9 +13,9 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "render/lines/stroke_collector.h"
 #include "render/model/look.h"
+#include "render/model/mesh_tolerance.h"
 #include "render/model/objects.h"
 #include "render/model/placed_objects.h"
-#include "render/model/mesh_tolerance.h"
 #include "render/scene/values/color_names.h"
 
 namespace lekalo::render {

@@ -11,8 +11,8 @@
 #include "picture.h"
 #include "render/image/atomic_file.h"
 #include "render/mesh_files/mesh_files.h"
-#include "render/pov/pov_export.h"
 #include "render/model/mesh_tolerance.h"
+#include "render/pov/pov_export.h"
 
 namespace lekalo::command {
 
