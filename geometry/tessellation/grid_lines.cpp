@@ -408,18 +408,22 @@ bool SurfaceGrid::column_is_point(int i) const {
   return true;
 }
 
-// Nodes of a pole differ by rounding; here they become one point.
+// Nodes of a pole differ by rounding; here they become one point. Where a column that is a pole meets a row that is one
+// they are one point together.
 static void gather_poles(SurfaceGrid& grid) {
   Box3 box;
   for (const Vec3& p : grid.points) box.include(p);
   const double small = 1e-12 * std::max(box.diameter(), glm::length(box.center()));
-  const auto gather = [&](int count, auto index) {
-    for (int k = 1; k < count; ++k)
-      if (glm::length(grid.points[index(k)] - grid.points[index(0)]) > small) return;
-    for (int k = 1; k < count; ++k) grid.points[index(k)] = grid.points[index(0)];
+  const auto gather = [&](int count, int first, auto index) {
+    for (int k = 0; k < count; ++k)
+      if (glm::length(grid.points[index(k)] - grid.points[index(first)]) > small) return false;
+    for (int k = 0; k < count; ++k) grid.points[index(k)] = grid.points[index(first)];
+    return true;
   };
-  for (int j = 0; j <= grid.rows(); ++j) gather(grid.columns() + 1, [&](int i) { return grid.node(i, j); });
-  for (int i = 0; i <= grid.columns(); ++i) gather(grid.rows() + 1, [&](int j) { return grid.node(i, j); });
+  int pole = 0;  // a row that is one
+  for (int j = 0; j <= grid.rows(); ++j)
+    if (gather(grid.columns() + 1, 0, [&](int i) { return grid.node(i, j); })) pole = j;
+  for (int i = 0; i <= grid.columns(); ++i) gather(grid.rows() + 1, pole, [&](int j) { return grid.node(i, j); });
 }
 
 // The last look at a grid with breaks. In the middle between two nodes a kink shows no more than half of what it

@@ -134,7 +134,7 @@ TEST(OcctFootPoints, OnSurfaces) {
 }
 
 // In the plane, where curves cross; OCCT by the least distances.
-TEST(OcctIntersections, OfCurves) {
+TEST(OcctCurveIntersections, OfCurves) {
   Counts counts;
   for (int k = 0; k < tests::tier_count(2000); ++k) {
     RandomNet net(7000 + k);
@@ -158,7 +158,7 @@ TEST(OcctIntersections, OfCurves) {
   counts.report(20);
 }
 
-TEST(OcctIntersections, OfCurvesAndSurfaces) {
+TEST(OcctCurveIntersections, OfCurvesAndSurfaces) {
   Counts counts;
   for (int k = 0; k < tests::tier_count(2000); ++k) {
     RandomNet net(9000 + k);

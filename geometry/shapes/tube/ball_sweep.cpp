@@ -48,12 +48,23 @@ double unbounded_at(const Curve& curve) {
   return narrow * std::round(t.middle() / narrow) + 0.0;  // zero is no -4e-10
 }
 
+// Pieces of a curve leave its poles out.
+bool has_pole(const Curve& curve) {
+  const Interval domain = curve.domain();
+  double end = domain.lo;
+  for (const CurvePiece& piece : curve.pieces()) {
+    if (piece.domain.lo > end) return true;
+    end = piece.domain.hi;
+  }
+  return end < domain.hi;
+}
+
 }  // namespace
 
 BallSweep::BallSweep(CurvePtr curve, RadiusLaw law) : curve_(std::move(curve)), law_(std::move(law)) {
   if (!(curve_->domain().width() < kInfinity)) throw FieldError("of", "the curve is unbounded", "give it a domain");
   const Box3 box = bounds(*curve_);
-  if (!box.bounded())
+  if (!box.bounded() || has_pole(*curve_))
     throw FieldError(
         "of", fmt::format("the curve has no bounds or no value near its parameter {:.6g}", unbounded_at(*curve_)),
         "a pole, or a place such as 0/0: end the domain before it");
