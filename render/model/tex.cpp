@@ -592,7 +592,7 @@ std::string formula_command_of(std::string_view character) {
   // LaTeX has no \degree of its own.
   if (character == "°") return "^\\circ";
   for (const Symbol& one : kSymbols)
-    if (one.text == character) return "\\" + std::string(one.name);
+    if (one.text == character) return fmt::format("\\{}", one.name);
   return {};
 }
 
