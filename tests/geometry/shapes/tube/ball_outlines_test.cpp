@@ -116,7 +116,9 @@ TEST(TubeOutlines, OfARetractedHandle) {
     EXPECT_GT(beside[1], 90) << handle;
     const TubeBoundary::Edges edges = TubeBoundary(tube).edges(view);
     EXPECT_TRUE(edges.lines.complete) << handle;
-    if (handle > 4.9e-3) EXPECT_TRUE(edges.all_known && edges.lines.lines.empty()) << handle;
+    if (handle > 4.9e-3) {
+      EXPECT_TRUE(edges.all_known && edges.lines.lines.empty()) << handle;
+    }
   }
 }
 
