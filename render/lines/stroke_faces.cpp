@@ -10,11 +10,11 @@ using namespace geometry;
 void StrokeCollector::add_crease(const SurfacePtr& surface, const Crease& crease, const Interval& along,
                                  const Style& style, const HiddenLines& hidden) {
   // So far beside a crease its sides are asked for derivatives, of the domain: bounds on it hold those of both.
-  constexpr double kAside = 1e-13;
+  constexpr double kBeside = 1e-13;
   const Interval range = crease.held == IsoDirection::u ? surface->domain().u : surface->domain().v;
-  const double outward_offset = kAside * range.width();
-  lies_on({surface, crease.held, crease.at + outward_offset, along});
-  lies_on({surface, crease.held, (crease.seam ? range.hi : crease.at) - outward_offset, along});
+  const double offset = kBeside * range.width();
+  lies_on({surface, crease.held, crease.at + offset, along});
+  lies_on({surface, crease.held, (crease.seam ? range.hi : crease.at) - offset, along});
   stroke(std::make_shared<ParameterLine>(surface, crease.held, crease.at, along), style, hidden);
 }
 

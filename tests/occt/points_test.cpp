@@ -1,4 +1,4 @@
-// FootPoints of points on curves and surfaces, and intersections of curves with curves and surfaces, against OCCT: its
+// Foot points of points on curves and surfaces, and intersections of curves with curves and surfaces, against OCCT: its
 // GeomAPI_ProjectPointOnCurve and -OnSurf, GeomAPI_ExtremaCurveCurve and GeomAPI_IntCS, on random rational B-splines.
 //
 // OCCT samples before it iterates and may lose solutions that lie near to each other: those are counted. What only OCCT

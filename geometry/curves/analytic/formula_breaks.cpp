@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "geometry/expression/branches.h"
+#include "geometry/numerics/halving.h"
 
 namespace lekalo::geometry {
 
@@ -23,8 +24,7 @@ constexpr int kTried = 64;
 constexpr double kStep = 1e-5;
 
 bool is_narrow(const Interval& t, const Interval& domain) {
-  const double middle = t.middle();
-  return t.width() <= kNarrowest * domain.width() || !(t.lo < middle && middle < t.hi);
+  return t.width() <= kNarrowest * domain.width() || !can_be_halved(t);
 }
 
 // The first parameter after lo where the answer is another than at lo; hi's is.

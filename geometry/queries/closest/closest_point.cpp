@@ -21,7 +21,7 @@ constexpr double kNoDerivative = 1e-9;
 constexpr double kBesideSteep = 1e-14;
 // The cosine of the angle between way and curve of what is no foot point.
 constexpr double kAcross = 0.01;
-// FootPoints nearer than this part of the size are one, seen from both sides of a seam.
+// Foot points nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFootPoint = 1e-11;
 
 // f(t) = (p - r) . r' on a smooth piece (Golovanov 2016, (4.1.3)).

@@ -1,4 +1,4 @@
-// FootPoints of a point on a surface (closest_point.h).
+// Foot points of a point on a surface (closest_point.h).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -23,7 +23,7 @@ constexpr double kMinBox = 1e-8;
 constexpr double kNoDerivative = 1e-9;
 // What is not decided so near to a pole, in parts of the domain, belongs to the pole.
 constexpr double kAtPole = 1e-6;
-// FootPoints nearer than this part of the size are one, seen from both sides of a seam.
+// Foot points nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFootPoint = 1e-11;
 
 // (p - s) . s_u = (p - s) . s_v = 0 (Golovanov 2016, (4.2.5)).

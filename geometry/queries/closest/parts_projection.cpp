@@ -11,7 +11,7 @@ namespace {
 
 // So far beside an edge, of the domain, its sides are told apart.
 constexpr double kBeside = 1e-6;
-// FootPoints of two parts nearer than this share of the domain are one, on the border between them.
+// Foot points of two parts nearer than this share of the domain are one, on the border between them.
 constexpr double kSameFootPoint = 1e-9;
 
 }  // namespace

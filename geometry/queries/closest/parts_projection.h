@@ -1,4 +1,4 @@
-// FootPoints of a point on a surface of formulas with kinks or steps: those on its smooth parts, as far as these are
+// Foot points of a point on a surface of formulas with kinks or steps: those on its smooth parts, as far as these are
 // the surface's own, and on the edges that the parts have at steps and creases.
 #pragma once
 

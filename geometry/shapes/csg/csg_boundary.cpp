@@ -14,7 +14,7 @@ namespace {
 // Half the side of the square, of the size: more than lines are off the boundary and than the solid takes for one
 // crossing (kSameHit), and no more, as a surface that goes on smoothly in another (a ball in a cylinder) is covered by
 // little there; where surfaces touch, of the reach.
-constexpr double kAside = 1e-9, kAsideOfContact = 1e-3;
+constexpr double kBeside = 1e-9, kAsideOfContact = 1e-3;
 // Normals that differ by less are those of one smooth face. Across a contact both bend.
 constexpr double kSharp = 1e-3, kSharpAtContact = 0.5;
 // Of the reach: how far heights are asked for; and of its inverse: bends that differ by less are one.
@@ -41,7 +41,7 @@ class Asking {
     if (question_.touching && on_square(kAsideOfContact * question_.reach, kSharpAtContact) == CsgBoundary::sharp_edge)
       return CsgBoundary::sharp_edge;
     // So large that the solid takes the sides of a thin wedge for two crossings too.
-    const double half = kAside * size_ / (question_.sine > kSharp ? question_.sine : 1);
+    const double half = kBeside * size_ / (question_.sine > kSharp ? question_.sine : 1);
     const CsgBoundary found = on_square(half, kSharp);
     return found == CsgBoundary::face && question_.smooth && bends_change() ? CsgBoundary::smooth_edge : found;
   }
@@ -94,9 +94,9 @@ class Asking {
     const Vec3 across = glm::normalize(glm::cross(question_.tangent, normal));
     std::array<double, 2> bends{};
     for (const int side : {0, 1}) {
-      const Vec3 outward_offset = (side == 0 ? h : -h) * across;
-      const auto near = height(question_.point + outward_offset, normal, h),
-                 far = height(question_.point + 2.0 * outward_offset, normal, 2 * h);
+      const Vec3 lateral_offset = (side == 0 ? h : -h) * across;
+      const auto near = height(question_.point + lateral_offset, normal, h),
+                 far = height(question_.point + 2.0 * lateral_offset, normal, 2 * h);
       if (!near || !far) return false;
       bends[side] = (8 * near->value - far->value) / (2 * h * h);
     }

@@ -148,9 +148,9 @@ class TubeOutlines {
       const bool joins_lo = k > 0 && !ends[k].end_on, joins_hi = k + 2 < ends.size() && !ends[k + 1].end_on;
       Interval t{ends[k].t, ends[k + 1].t};
       // There the directions have no limit that rounding leaves.
-      const double outward_offset = 1e-7 * t.width();
-      if (ends[k].end_on) t.lo += outward_offset;
-      if (ends[k + 1].end_on) t.hi -= outward_offset;
+      const double inset = 1e-7 * t.width();
+      if (ends[k].end_on) t.lo += inset;
+      if (ends[k + 1].end_on) t.hi -= inset;
       add_wall(t, joins_lo, joins_hi);
     }
   }

@@ -80,11 +80,11 @@ BallJet BallSweep::ball(double t) const {
 }
 
 Interval BallSweep::moving(Interval range) const {
-  const double outward_offset = 1e-11 * range.width();
+  const double inset = 1e-11 * range.width();
   const auto rests = [&](double t) { return !(glm::length(curve_->evaluate(t, 1).d[1]) > 0); };
   const bool at_begin = rests(range.lo), at_end = rests(range.hi);
-  if (at_begin) range.lo += outward_offset;
-  if (at_end) range.hi -= outward_offset;
+  if (at_begin) range.lo += inset;
+  if (at_end) range.hi -= inset;
   return range;
 }
 

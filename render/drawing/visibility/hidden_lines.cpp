@@ -105,7 +105,7 @@ class Drawing {
   // along a border, all of it, crosses it nowhere.
   void find_repeated_lines() {
     constexpr int kPlaces = 4;
-    const double same = CoveringLayers::kOnSupportingSurface * world_.radius();
+    const double same = QuantitativeInvisibility::kOnSupportingSurface * world_.radius();
     using Places = std::array<Vec3, kPlaces + 1>;
     std::vector<std::pair<Places, int>> lines;
     for (size_t k = 0; k < strokes_.size(); ++k) {
@@ -171,7 +171,7 @@ class Drawing {
     };
     const auto add_crossing = [&](int of, int outline, const PictureCrossing& crossing, double t) {
       if ((crossing.touching || share_supporting_surface(strokes_[outline], stroke)) && is_known(t)) return;
-      const double near = CoveringLayers::kTouch * world_.radius();
+      const double near = QuantitativeInvisibility::kTouch * world_.radius();
       if (outline == of || depth_at(outline, crossing.t_other) < depth_at(of, crossing.t) + near) events.push_back(t);
     };
     crossings.with(*curves_[line], is_coincident, [&](int other, const PictureCrossing& crossing) {
@@ -357,13 +357,13 @@ class Drawing {
       pieces.push_back({t, layers});
   }
 
-  int layers_at(int line, double t, double outward_offset) {
-    return layers_.before(strokes_[line], *curves_[line], t, outward_offset);
+  int layers_at(int line, double t, double lateral_offset) {
+    return layers_.before(strokes_[line], *curves_[line], t, lateral_offset);
   }
 
   // Layers at places of a stretch: not so near its ends, where they can be farther, that rays nearly touch what ends
   // it.
-  std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double outward_offset) {
+  std::vector<std::pair<double, int>> seen_on(int line, const Interval& t, double lateral_offset) {
     const ProjectedCurve& curve = *curves_[line];
     const Vec2 middle = curve.point(t.middle());
     const double pixels = glm::length(curve.point(t.lo) - middle) + glm::length(curve.point(t.hi) - middle);
@@ -371,7 +371,7 @@ class Drawing {
     std::vector<std::pair<double, int>> seen;
     for (const double share : {first, 0.5, 1 - first}) {
       const double at = t.lo + share * t.width();
-      if (seen.empty() || at > seen.back().first) seen.emplace_back(at, layers_at(line, at, outward_offset));
+      if (seen.empty() || at > seen.back().first) seen.emplace_back(at, layers_at(line, at, lateral_offset));
     }
     return seen;
   }
@@ -381,9 +381,9 @@ class Drawing {
 
   void add_stretch(int line, const Interval& t, std::vector<VisiblePiece>& pieces) {
     // Where rays disagree they may be aimed too far beside a line that hardly leaves another; then nearer ones agree.
-    const double outward_offset = layers_.room_beside(*curves_[line], t);
-    std::vector<std::pair<double, int>> seen = seen_on(line, t, outward_offset);
-    for (double nearer = kNearer * outward_offset; !agree(seen) && nearer > CoveringLayers::kMinAside;
+    const double lateral_offset = layers_.room_beside(*curves_[line], t);
+    std::vector<std::pair<double, int>> seen = seen_on(line, t, lateral_offset);
+    for (double nearer = kNearer * lateral_offset; !agree(seen) && nearer > QuantitativeInvisibility::kMinLateralOffset;
          nearer *= kNearer) {
       std::vector<std::pair<double, int>> again = seen_on(line, t, nearer);
       if (agree(again)) seen = std::move(again);
@@ -394,7 +394,7 @@ class Drawing {
       double lo = seen[k].first, hi = seen[k + 1].first;
       while (hi - lo > kBisected * strokes_[line].curve->domain().width()) {
         const double middle = 0.5 * (lo + hi);
-        (layers_at(line, middle, outward_offset) == seen[k].second ? lo : hi) = middle;
+        (layers_at(line, middle, lateral_offset) == seen[k].second ? lo : hi) = middle;
       }
       add_piece({from, hi}, seen[k].second, pieces);
       from = hi;
@@ -411,7 +411,7 @@ class Drawing {
   std::vector<int> outline_of_;
   std::vector<std::vector<int>> coincident_;                      // lines along the whole of which another lies
   std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
-  CoveringLayers layers_;
+  QuantitativeInvisibility layers_;
   std::optional<Piercings> piercings_;
   VisibleLines result_;
 };

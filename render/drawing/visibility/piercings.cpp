@@ -117,7 +117,8 @@ bool Piercings::is_supporting_surface(const PlacedSurface& surface, const Stroke
 bool Piercings::lies_on(const Curve& curve, const PlacedSurface& other) const {
   const Interval domain = curve.domain();
   for (const double x : {0.43, 0.07, 0.91, 0.26, 0.71, 0.13, 0.58})
-    if (!other.cells->holds(curve.point(domain.lo + x * domain.width()), CoveringLayers::kTouch * world_.radius()))
+    if (!other.cells->holds(curve.point(domain.lo + x * domain.width()),
+                            QuantitativeInvisibility::kTouch * world_.radius()))
       return false;
   return true;
 }

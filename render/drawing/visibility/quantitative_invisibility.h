@@ -8,7 +8,7 @@
 
 namespace lekalo::render {
 
-class CoveringLayers {
+class QuantitativeInvisibility {
  public:
   // A sheet that passes nearer than this to a point of a line, of the scene's radius, is that on which the line lies.
   static constexpr double kTouch = 1e-9;
@@ -16,15 +16,15 @@ class CoveringLayers {
   // surface another sheet comes near.
   static constexpr double kOnSupportingSurface = 2e-12;
   // The least that rays are aimed beside a line, of the scene's radius.
-  static constexpr double kMinAside = 1e-11;
+  static constexpr double kMinLateralOffset = 1e-11;
 
-  explicit CoveringLayers(const World& world);
+  explicit QuantitativeInvisibility(const World& world);
 
   // Before a point.
   int before(const Vec3& point) { return count_before(point, {}).layers; }
-  // Before the point of a line at t, its curve's parameter. `aside`: how far beside it rays may be aimed, of the
-  // scene's radius.
-  int before(const Stroke& stroke, const ProjectedCurve& curve, double t, double outward_offset);
+  // Before the point of a line at t, its curve's parameter. `lateral_offset`: how far beside it rays may be aimed, of
+  // the scene's radius.
+  int before(const Stroke& stroke, const ProjectedCurve& curve, double t, double lateral_offset);
   // How far that may be on a stretch of a line: what is seen there is to be seen on the stretch too.
   double room_beside(const ProjectedCurve& curve, const geometry::Interval& t) const;
   // Of a central view: where all rays come from.
@@ -40,9 +40,9 @@ class CoveringLayers {
   };
   Own own_sheets(const Stroke& stroke) const;
   std::optional<Vec3> normal_seen_edge_on(const Stroke& stroke, const ProjectedCurve& curve, double t) const;
-  Vec3 probe(const Stroke& stroke, const ProjectedCurve& curve, double t, double outward_offset) const;
+  Vec3 probe(const Stroke& stroke, const ProjectedCurve& curve, double t, double lateral_offset) const;
   Vec3 beside_cuspidal_edge(const Stroke& stroke, const Vec3& exact, const geometry::SurfaceJet& s,
-                            double outward_offset) const;
+                            double lateral_offset) const;
   struct Count {
     int layers = 0;
     double nearest = geometry::kInfinity;  // of them across the line, of the scene's radius

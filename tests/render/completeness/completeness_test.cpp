@@ -182,11 +182,11 @@ class Comparison {
       const double lu = glm::length(at.du), lv = glm::length(at.dv);
       for (int u = -1; u <= 1; ++u)
         for (int v = -1; v <= 1; ++v) {
-          Vec3 outward_offset(0);
-          if (u != 0 && lu > 0) outward_offset += u / lu * at.du;
-          if (v != 0 && lv > 0) outward_offset += v / lv * at.dv;
-          if (glm::length(outward_offset) > 0) outward_offset *= reach / glm::length(outward_offset);
-          Vec3 shift = to_hit + outward_offset;
+          Vec3 lateral_offset(0);
+          if (u != 0 && lu > 0) lateral_offset += u / lu * at.du;
+          if (v != 0 && lv > 0) lateral_offset += v / lv * at.dv;
+          if (glm::length(lateral_offset) > 0) lateral_offset *= reach / glm::length(lateral_offset);
+          Vec3 shift = to_hit + lateral_offset;
           shift -= glm::dot(shift, ray.direction) * ray.direction;
           if (glm::length(shift) <= std::sqrt(3) * reach && changes(shift)) return true;
         }

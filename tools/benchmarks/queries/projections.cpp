@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSame = 1e-6;  // foot points of the two that are one
 
-// FootPoints of both, and how many of each the other has too.
+// Foot points of both, and how many of each the other has too.
 struct Counts {
   size_t ours = 0, theirs = 0, of_ours = 0, of_theirs = 0;
 

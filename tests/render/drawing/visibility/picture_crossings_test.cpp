@@ -60,7 +60,7 @@ TEST(PictureCrossings, OfCirclesThatTouch) {
     const double by = kind * std::pow(10, -1 - 4 * unit(random));
     const double distance = inside ? large - small + by : large + small - by;
     const double angle = plain ? geometry::kPi / 2 * (k % 4) : geometry::kTwoPi * unit(random);
-    const Vec3 way(std::cos(angle), std::sin(angle), 0), outward_offset(-way.y, way.x, 0);
+    const Vec3 way(std::cos(angle), std::sin(angle), 0), crosswise(-way.y, way.x, 0);
     const auto circle = [&](const Vec3& center, double radius) {
       const double turn = plain ? 0 : geometry::kTwoPi * unit(random);
       const Vec3 x(std::cos(turn), std::sin(turn), 0);
@@ -74,7 +74,7 @@ TEST(PictureCrossings, OfCirclesThatTouch) {
     const double along = (distance * distance + large * large - small * small) / (2 * distance);
     const double across = kind == 0 ? 0 : std::sqrt(large * large - along * along);
     const auto picture = [&](double y) {
-      const Vec3 p = (kind == 0 ? large : along) * way + y * outward_offset;
+      const Vec3 p = (kind == 0 ? large : along) * way + y * crosswise;
       return Vec2(0.5 * kSize + p.x, 0.5 * kSize - p.y);
     };
     for (const double side : {-1.0, 1.0}) {
