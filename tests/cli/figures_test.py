@@ -38,6 +38,21 @@ class Figures(ProgramTest):
                     done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_of_sources(self):
+        """scenes/figures/<source>/: a figure says in `info` which of the source it is, and the ids of what it shows."""
+        ids = {name: {row["id"] for row in source["capabilities"]}
+               for name, source in yaml.safe_load((SCENES.parent / "docs/capabilities.yaml").read_text()).items()}
+        for path in sorted(FIGURES.glob("*/*.yaml")):
+            with self.subTest(f"{path.parent.name}/{path.name}"):
+                info = yaml.safe_load(path.read_text())["info"]
+                self.assertTrue(info["title"] and info["figure"] and info["shows"])
+                self.assertEqual(set(info["shows"]) - ids[path.parent.name], set())
+                _, errors = self.run_program("draw", str(path), "-o", "figure.svg")
+                self.assertNotIn("warning", errors)
+                self.assertNotIn("note", errors)
+                paths = tree.fromstring(self.bytes_of("figure.svg")).iter("{http://www.w3.org/2000/svg}path")
+                self.assertGreater(len(list(paths)), 2)
+
     def test_bezier_construction(self):
         """The words of the figure can be found in its PDF."""
         self.run_program("draw", str(FIGURES / "bezier_construction.yaml"), "-o", "b.pdf", "--quiet")
