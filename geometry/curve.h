@@ -13,6 +13,7 @@
 namespace lekalo::geometry {
 
 inline constexpr int kMaxCurveOrder = 6;
+inline constexpr int kMaxCurveEnclosureOrder = 4;
 
 // Point and derivatives r, r', r'', ... at one parameter; d[0..order] are set.
 struct CurveJet {
@@ -22,9 +23,9 @@ struct CurveJet {
   const Vec3& derivative(int k) const { return d[k]; }
 };
 
-// Boxes that contain r, r', r'' for every parameter of an interval; d[0..order] are set.
+// Boxes that contain r, r', r'', ... for every parameter of an interval; d[0..order] are set.
 struct CurveEnclosure {
-  std::array<Box3, 3> d{};
+  std::array<Box3, kMaxCurveEnclosureOrder + 1> d{};
 };
 
 // Monotone map between the parameter of a rational piece and the curve's own parameter. Both run from lo to hi; they
@@ -91,21 +92,28 @@ class Curve {
   // not closed).
   virtual bool is_closed() const;
 
-  // Point and derivatives up to `order` (0..kMaxCurveOrder) in closed form or by jets, never by differences.
-  // At a break in smoothness the derivatives are those from the right (from the left at the domain's end).
+  // Point and derivatives up to `order` (0..kMaxCurveOrder) in closed form or by jets, never by differences; those
+  // beyond max_order() are NaN. At a break in smoothness the derivatives are those from the right (from the left at the
+  // domain's end).
   virtual CurveJet evaluate(double t, int order) const = 0;
+  // Less than kMaxCurveOrder of a curve that is made of the derivatives of another.
+  virtual int max_order() const { return kMaxCurveOrder; }
   virtual void evaluate_many(std::span<const double> t, int order, std::span<CurveJet> result) const;
   // Where the first derivatives are those of a fit to the points: how far it was seen to be from them, a length. 0
   // where they are the points' own.
   virtual double fit_distance() const { return 0; }
 
-  // Certified enclosure of the point and derivatives up to `order` (0..2) over an interval inside the domain. At a
-  // break in smoothness that is the interval's upper end the derivatives from the left count.
+  // Certified enclosure of the point and derivatives up to `order` (0..enclosure_order()) over an interval inside the
+  // domain. At a break in smoothness that is the interval's upper end the derivatives from the left count.
   virtual CurveEnclosure enclose(const Interval& t, int order) const = 0;
+  // 2, or up to kMaxCurveEnclosureOrder of a curve that encloses more derivatives.
+  virtual int enclosure_order() const { return 2; }
 
   // The smooth pieces in order of the parameter, covering the domain without gaps.
   virtual std::vector<CurvePiece> pieces() const;
   virtual std::optional<NurbsCurveForm> as_nurbs() const { return std::nullopt; }
+  // The same curve over a wider domain by its own law, where it has one that goes on there; else null.
+  virtual std::shared_ptr<const Curve> continued(const Interval& /*domain*/) const { return nullptr; }
 
   Vec3 point(double t) const { return evaluate(t, 0).d[0]; }
 };

@@ -92,8 +92,10 @@ CurveEnclosure enclose_curve_formula(const Formula& formula, const Interval& t, 
   if (order == 0) {
     const Triple<Interval> r = formula(t);
     result.d[0] = detail::box_of(r.x, r.y, r.z);
-  } else {
+  } else if (order <= 2) {
     detail::curve_enclosure<2>(formula, t, result);
+  } else {
+    detail::curve_enclosure<kMaxCurveEnclosureOrder>(formula, t, result);
   }
   return result;
 }
@@ -102,8 +104,7 @@ CurveEnclosure enclose_curve_formula(const Formula& formula, const Interval& t, 
 // variable several times the plain one is too wide by a share of T's width, this one by its square.
 template <class Formula>
 CurveEnclosure enclose_curve_centered(const Formula& formula, const Interval& t, int order) {
-  CurveEnclosure result, at;
-  detail::curve_enclosure<2>(formula, t, result);
+  CurveEnclosure result = enclose_curve_formula(formula, t, std::max(order, 1)), at;
   const Interval middle(t.middle()), off = t - middle;
   detail::curve_enclosure<1>(formula, middle, at);
   for (int k = 0; k <= std::min(order, 1); ++k)
@@ -142,7 +143,8 @@ SurfaceEnclosure enclose_surface_formula(const Formula& formula, const Rectangle
     const Triple<Interval> r = formula(box.u, box.v);
     result.values[0] = detail::box_of(r.x, r.y, r.z);
   } else {
-    detail::surface_enclosure<2>(formula, box, result);
+    order <= 2 ? detail::surface_enclosure<2>(formula, box, result)
+               : detail::surface_enclosure<kMaxSurfaceOrder>(formula, box, result);
   }
   return result;
 }

@@ -66,6 +66,15 @@ struct SurfacePiece {
   bool is_rational() const { return !points.empty(); }
 };
 
+// A piece without a rational form.
+inline SurfacePiece plain_piece(const Rectangle& domain) {
+  SurfacePiece piece;
+  piece.domain = domain;
+  piece.map_u = {ParameterMap::Kind::affine, domain.u.lo, domain.u.hi};
+  piece.map_v = {ParameterMap::Kind::affine, domain.v.lo, domain.v.hi};
+  return piece;
+}
+
 // An exact NURBS form with maps to the natural parameters, one for each non-empty knot span of the form's domain in
 // each direction, or none at all where a direction is affine throughout. The form covers at least the surface's domain.
 struct NurbsSurfaceForm {
@@ -150,8 +159,10 @@ class Surface {
   virtual Rectangle domain() const = 0;
   virtual Periods periods() const { return {}; }
 
-  // Point and partial derivatives up to total `order` (0..kMaxSurfaceOrder).
+  // Point and partial derivatives up to total `order` (0..kMaxSurfaceOrder); those beyond max_order() are NaN.
   virtual SurfaceJet evaluate(double u, double v, int order) const = 0;
+  // Less than kMaxSurfaceOrder of a surface that is made of the derivatives of others.
+  virtual int max_order() const { return kMaxSurfaceOrder; }
   virtual void evaluate_many(std::span<const Vec2> uv, int order, std::span<SurfaceJet> result) const;
   // As for curves: how far the fit whose first derivatives these are was seen to be from the points, or 0.
   virtual double fit_distance() const { return 0; }
@@ -169,7 +180,7 @@ class Surface {
   // Certified enclosure of point and derivatives up to `order` (0..enclosure_order()) over a rectangle inside the
   // domain.
   virtual SurfaceEnclosure enclose(const Rectangle& box, int order) const = 0;
-  // 2, or kMaxSurfaceOrder of a surface that encloses all its derivatives.
+  // 2, or up to kMaxSurfaceOrder of a surface that encloses more derivatives.
   virtual int enclosure_order() const { return 2; }
 
   // Smooth pieces that cover the domain without gaps or overlap; rational where an exact form exists.

@@ -35,7 +35,7 @@ Triple<Jet<S, N>> along_surface(const Derivatives& derivatives, const Jet<S, N>&
     double factorial_j = 1;
     for (int j = 0; i + j <= most; ++j) {
       if (j > 0) term = term * dv, factorial_j *= j;
-      sum += (term * S(1 / (factorial_i * factorial_j))) * derivative_of(derivatives, i0 + i, j0 + j);
+      sum += (term * (S(1) / S(factorial_i * factorial_j))) * derivative_of(derivatives, i0 + i, j0 + j);
     }
   }
   return sum;

@@ -17,7 +17,9 @@ class TransformedCurve final : public Curve {
   bool is_closed() const override { return original_->is_closed(); }
   CurveJet evaluate(double t, int order) const override;
   double fit_distance() const override { return map_.operator_norm_bound() * original_->fit_distance(); }
+  int max_order() const override { return original_->max_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return original_->enclosure_order(); }
   std::vector<CurvePiece> pieces() const override;
   std::optional<NurbsCurveForm> as_nurbs() const override;
 
@@ -41,6 +43,7 @@ class TransformedSurface final : public Surface {
   double fit_distance() const override { return map_.operator_norm_bound() * original_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return original_->enclosure_order(); }
+  int max_order() const override { return original_->max_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   DegenerateEdges degenerate_edges() const override { return original_->degenerate_edges(); }

@@ -24,7 +24,15 @@
   X(projected_curve_type)         \
   X(geodesic_curve_type)          \
   X(curvature_line_type)          \
-  X(asymptotic_line_type)
+  X(asymptotic_line_type)         \
+  X(composite_curve_type)         \
+  X(reversed_curve_type)          \
+  X(trimmed_curve_type)           \
+  X(extended_curve_type)          \
+  X(reparametrized_curve_type)    \
+  X(offset_curve_type)            \
+  X(transition_curve_type)        \
+  X(wrapped_curve_type)
 
 namespace lekalo::geometry {
 

@@ -111,6 +111,7 @@ template void FormulaProgram::evaluate(std::span<const Jet2<double, 3>>, std::sp
 template void FormulaProgram::evaluate(std::span<const Jet2<double, 4>>, std::span<Jet2<double, 4>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet<Interval, 1>>, std::span<Jet<Interval, 1>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet<Interval, 2>>, std::span<Jet<Interval, 2>>) const;
+template void FormulaProgram::evaluate(std::span<const Jet<Interval, 4>>, std::span<Jet<Interval, 4>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 1>>, std::span<Jet2<Interval, 1>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 2>>, std::span<Jet2<Interval, 2>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 4>>, std::span<Jet2<Interval, 4>>) const;

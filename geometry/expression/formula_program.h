@@ -27,7 +27,7 @@ class FormulaProgram {
   explicit FormulaProgram(std::span<const Expression> formulas);
 
   // The value of each formula with `values` for the variables.
-  // T: double, Interval, Jet<double, 1..6>, Jet2<double, 1..4>, Jet<Interval, 1..2>, Jet2<Interval, 1, 2, 4>,
+  // T: double, Interval, Jet<double, 1..6>, Jet2<double, 1..4>, Jet<Interval, 1, 2, 4>, Jet2<Interval, 1, 2, 4>,
   // Jet3<double, 2..3>, Jet3<Interval, 2>, Gradient<double>, Gradient<Interval>, Majorant<4>.
   template <class T>
   void evaluate(std::span<const T> values, std::span<T> results) const;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/operations/moving_frame.h"
 #include "geometry/queries/measures/arc_length.h"
-#include "geometry/surfaces/derived/ribbon.h"
 
 namespace lekalo::render {
 
@@ -58,15 +58,14 @@ std::vector<Frame> frenet_frames(const Curve& curve, const std::vector<double>& 
 }
 
 std::vector<Frame> rotation_minimizing_frames(const Curve& curve, const std::vector<double>& at) {
-  RibbonDirection direction;
-  direction.start = curvature_vector(curve.evaluate(curve.domain().lo, 2));
-  if (direction.start != Vec3(0)) direction.start = glm::normalize(direction.start);
-  // A ribbon knows the direction across; the curve outlives it.
-  const Ribbon ribbon(CurvePtr(CurvePtr(), &curve), 1, direction);
+  FrameLaw law;
+  law.start = curvature_vector(curve.evaluate(curve.domain().lo, 2));
+  if (law.start != Vec3(0)) law.start = glm::normalize(law.start);
+  const auto across = direction_across(curve, law);
   std::vector<Frame> frames;
   for (const double t : at) {
     const CurveJet jet = curve.evaluate(t, 1);
-    const Vec3 z = glm::normalize(jet.d[1]), x = ribbon.direction(t, 0).d[0];
+    const Vec3 z = glm::normalize(jet.d[1]), x = across->point(t);
     frames.push_back({jet.d[0], x, glm::cross(z, x), z});
   }
   return frames;

@@ -19,7 +19,11 @@ class Ellipse : public Curve {
   double period() const override { return kTwoPi; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::optional<NurbsCurveForm> as_nurbs() const override;
+  CurvePtr continued(const Interval& domain) const override {
+    return domain.width() <= kTwoPi ? std::make_shared<Ellipse>(frame_, a_, b_, domain) : nullptr;
+  }
 
  private:
   Frame frame_;

@@ -57,8 +57,8 @@ CurveEnclosure FormulaCurve::enclose(const Interval& whole_t, int order) const {
     if (t.hi == stretches_[k - 1].hi && t.lo < next_down(t.hi)) t.hi = next_down(t.hi);
   }
   CurveEnclosure whole = enclose_curve_centered(point_, t, order);
-  const auto is_bounded = [&](int k) { return k > order || whole.d[k].bounded(); };
-  const bool is_good = is_bounded(0) && is_bounded(1) && is_bounded(2) && whole.d[0].diameter() <= kEnormous * size_;
+  bool is_good = whole.d[0].diameter() <= kEnormous * size_;
+  for (int k = 0; k <= order; ++k) is_good = is_good && whole.d[k].bounded();
   if (is_good || !(t.width() > kMinHalved * domain_.width())) return whole;
   const CurveEnclosure below = enclose({t.lo, t.middle()}, order), above = enclose({t.middle(), t.hi}, order);
   for (int k = 0; k <= order; ++k) {

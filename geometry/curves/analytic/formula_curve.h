@@ -19,7 +19,11 @@ class FormulaCurve final : public Curve {
   double period() const override { return closed_ ? domain_.width() : 0; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::vector<CurvePiece> pieces() const override;
+  CurvePtr continued(const Interval& domain) const override {
+    return std::make_shared<FormulaCurve>(point_, domain, false);
+  }
 
  private:
   PointFormulas point_;

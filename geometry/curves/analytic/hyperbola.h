@@ -19,7 +19,11 @@ class Hyperbola final : public Curve {
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::optional<NurbsCurveForm> as_nurbs() const override;
+  CurvePtr continued(const Interval& domain) const override {
+    return std::make_shared<Hyperbola>(frame_, a_, b_, domain);
+  }
 
  private:
   Frame frame_;

@@ -33,6 +33,7 @@ CurveEnclosure Parabola::enclose(const Interval& t, int order) const {
   result.d[0] = box_of(sqr(t) * x + t * y + triple(frame_.origin));
   if (order >= 1) result.d[1] = box_of(2.0 * t * x + y);
   if (order >= 2) result.d[2] = box_of(Interval(2) * x);
+  for (int k = 3; k <= order; ++k) result.d[k] = {Vec3(0), Vec3(0)};
   return result;
 }
 

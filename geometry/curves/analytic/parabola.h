@@ -18,7 +18,11 @@ class Parabola final : public Curve {
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::optional<NurbsCurveForm> as_nurbs() const override;
+  CurvePtr continued(const Interval& domain) const override {
+    return std::make_shared<Parabola>(frame_, focal_length_, domain);
+  }
 
  private:
   Frame frame_;

@@ -23,7 +23,7 @@ CurveEnclosure Segment::enclose(const Interval& t, int order) const {
   for (int axis = 0; axis < 3; ++axis) {
     const Interval step = Interval(to_[axis]) - Interval(from_[axis]);
     const Interval x = intersect(Interval(from_[axis]) + t * step, Interval(to_[axis]) - (1 - t) * step);
-    const Interval derivatives[3] = {x, step, Interval(0)};
+    const Interval derivatives[kMaxCurveEnclosureOrder + 1] = {x, step, Interval(0), Interval(0), Interval(0)};
     for (int k = 0; k <= order; ++k) {
       result.d[k].lo[axis] = derivatives[k].lo;
       result.d[k].hi[axis] = derivatives[k].hi;

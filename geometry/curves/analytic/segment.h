@@ -14,6 +14,7 @@ class Segment final : public Curve {
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::optional<NurbsCurveForm> as_nurbs() const override;
 
   const Vec3& from() const { return from_; }

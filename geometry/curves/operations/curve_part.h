@@ -16,7 +16,9 @@ class CurvePart final : public Curve {
   bool is_closed() const override { return false; }
   CurveJet evaluate(double t, int order) const override { return of_->evaluate(t, order); }
   double fit_distance() const override { return of_->fit_distance(); }
+  int max_order() const override { return of_->max_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override { return of_->enclose(t, order); }
+  int enclosure_order() const override { return of_->enclosure_order(); }
   std::vector<CurvePiece> pieces() const override;
   // The whole curve's: it covers more than the part.
   std::optional<NurbsCurveForm> as_nurbs() const override { return of_->as_nurbs(); }

@@ -15,13 +15,4 @@ inline std::vector<Interval> parts_of(const Curve& curve, const Interval& range)
   return parts;
 }
 
-// A piece without a rational form.
-inline SurfacePiece plain_piece(const Rectangle& domain) {
-  SurfacePiece piece;
-  piece.domain = domain;
-  piece.map_u = {ParameterMap::Kind::affine, domain.u.lo, domain.u.hi};
-  piece.map_v = {ParameterMap::Kind::affine, domain.v.lo, domain.v.hi};
-  return piece;
-}
-
 }  // namespace lekalo::geometry

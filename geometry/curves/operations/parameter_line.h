@@ -17,8 +17,10 @@ class ParameterLine final : public Curve {
   double period() const override;
   // Throws std::invalid_argument for an order above kMaxSurfaceOrder.
   CurveJet evaluate(double t, int order) const override;
+  int max_order() const override { return surface_->max_order(); }
   double fit_distance() const override { return surface_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return surface_->enclosure_order(); }
   std::vector<CurvePiece> pieces() const override;
 
  private:

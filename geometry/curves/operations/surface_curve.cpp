@@ -1,5 +1,4 @@
-// The Taylor polynomial of S at (u, v), with the Taylor polynomials of u(t) - u and v(t) - v for its variables, cut off
-// at the order asked for (the formula of Faa di Bruno). Enclosures by the chain rule:
+// Enclosures by the chain rule:
 //
 //   r' = S_u u' + S_v v',  r'' = S_uu u'^2 + 2 S_uv u' v' + S_vv v'^2 + S_u u'' + S_v v''.
 #include "geometry/curves/operations/surface_curve.h"
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/composition.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/describe.h"
 #include "geometry/numerics/root_search.h"
@@ -19,16 +19,6 @@
 namespace lekalo::geometry {
 
 namespace {
-
-// Coefficients of a polynomial in t - t0 up to some order.
-using Series = std::array<double, kMaxSurfaceOrder + 1>;
-
-Series product(const Series& a, const Series& b, int order) {
-  Series result{};
-  for (int i = 0; i <= order; ++i)
-    for (int j = 0; i + j <= order; ++j) result[i + j] += a[i] * b[j];
-  return result;
-}
 
 // A range beyond the domain in parts that lie in it, moved by whole periods.
 std::vector<Interval> parts_within(const Interval& range, const Interval& domain, double period) {
@@ -43,9 +33,13 @@ std::vector<Interval> parts_within(const Interval& range, const Interval& domain
 }
 
 // An image that ends on the border of the domain is beyond it by rounding, where the surface may go on in another way.
-double moved_inside(double x, const Interval& range) {
+void move_inside(double& x, const Interval& range) {
   const double inside = range.clamp(x);
-  return std::abs(x - inside) <= kDomainSlack * range.width() ? inside : x;
+  if (std::abs(x - inside) <= kDomainSlack * range.width()) x = inside;
+}
+template <int N>
+void move_inside(Jet<double, N>& x, const Interval& range) {
+  move_inside(x.c[0], range);
 }
 
 // u(t) = at or v(t) = at.
@@ -95,42 +89,13 @@ SurfaceCurve::SurfaceCurve(SurfacePtr surface, Curve2Ptr image, double error)
 CurveJet SurfaceCurve::evaluate(double t, int order) const {
   if (period_ > 0 && image_->period() == 0) t = wrapped(t, domain());
   if (order > kMaxSurfaceOrder) throw std::invalid_argument("a curve on a surface has derivatives up to order 4");
-  const CurveJet c = image_->evaluate(t, order);
   const Rectangle range = surface_->domain();
-  const SurfaceJet s = surface_->evaluate(moved_inside(c.d[0].x, range.u), moved_inside(c.d[0].y, range.v), order);
-  CurveJet jet;
-  jet.order = order;
-  jet.d[0] = s.point();
-  Series du{}, dv{};
-  double factorial = 1;
-  for (int k = 1; k <= order; ++k) {
-    factorial *= k;
-    du[k] = c.d[k].x / factorial;
-    dv[k] = c.d[k].y / factorial;
-  }
-  // The terms S_ij du^i dv^j / (i! j!); du and dv begin with the first power.
-  Series power_u{1};
-  double factorial_i = 1;
-  for (int i = 0; i <= order; ++i) {
-    if (i > 0) {
-      power_u = product(power_u, du, order);
-      factorial_i *= i;
-    }
-    Series term = power_u;
-    double factorial_j = 1;
-    for (int j = 0; i + j <= order; ++j) {
-      if (j > 0) {
-        term = product(term, dv, order);
-        factorial_j *= j;
-      }
-      double factorial_k = 1;
-      for (int k = 1; k <= order; ++k) {
-        factorial_k *= k;
-        if (i + j > 0) jet.d[k] += (factorial_k * term[k] / (factorial_i * factorial_j)) * s.d(i, j);
-      }
-    }
-  }
-  return jet;
+  const auto at = [&](const auto& parameter) {
+    auto uv = curve_at(*image_, parameter);
+    move_inside(uv.x, range.u), move_inside(uv.y, range.v);
+    return surface_at(*surface_, uv.x, uv.y);
+  };
+  return evaluate_curve_formula(at, t, order);
 }
 
 SurfaceEnclosure enclose_unwrapped(const Surface& surface, const Rectangle& place, int order) {

@@ -23,6 +23,7 @@ class NurbsCurve final : public Curve {
   double period() const override { return axis_.period(); }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::optional<NurbsCurveForm> as_nurbs() const override;
 
   int degree() const { return axis_.degree(); }

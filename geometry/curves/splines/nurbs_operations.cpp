@@ -148,4 +148,40 @@ NurbsCurveForm reparametrized(const NurbsCurveForm& form, const Interval& domain
   return result;
 }
 
+namespace {
+
+// The same Bezier curve with one more point (Golovanov 2016, 2.6).
+void elevate_once(std::vector<Vec4>& points) {
+  const int n = static_cast<int>(points.size());
+  points.push_back(points.back());
+  for (int i = n - 1; i > 0; --i) {
+    const double share = static_cast<double>(i) / n;
+    points[i] = affine_mix(share, points[i - 1], 1 - share, points[i]);
+  }
+}
+
+}  // namespace
+
+std::optional<NurbsCurveForm> form_of_pieces(std::vector<CurvePiece> pieces) {
+  NurbsCurveForm form;
+  for (const CurvePiece& piece : pieces) {
+    const bool is_cut = piece.map.from != 0 || piece.map.to != 1;
+    if (!piece.is_rational() || (is_cut && piece.map.kind != ParameterMap::Kind::affine)) return std::nullopt;
+    form.degree = std::max(form.degree, piece.degree());
+  }
+  bool is_affine = true;
+  for (CurvePiece& piece : pieces) {
+    while (piece.degree() < form.degree) elevate_once(piece.points);
+    form.knots.insert(form.knots.end(), form.knots.empty() ? form.degree + 1 : form.degree, piece.domain.lo);
+    const double scale = form.points.empty() ? 1 : form.points.back().w / piece.points.front().w;
+    for (size_t i = form.points.empty() ? 0 : 1; i < piece.points.size(); ++i)
+      form.points.push_back(scale * piece.points[i]);
+    form.maps.push_back(piece.map);
+    is_affine = is_affine && piece.map.kind == ParameterMap::Kind::affine;
+  }
+  form.knots.insert(form.knots.end(), form.degree + 1, pieces.back().domain.hi);
+  if (is_affine) form.maps.clear();
+  return form;
+}
+
 }  // namespace lekalo::geometry

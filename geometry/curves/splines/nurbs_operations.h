@@ -27,4 +27,9 @@ NurbsCurveForm reversed(const NurbsCurveForm& form);
 // The same points over another domain (Golovanov 2016, 2.15.4).
 NurbsCurveForm reparametrized(const NurbsCurveForm& form, const Interval& domain);
 
+// One form of rational pieces that follow one another, each end being the next one's beginning: of their highest
+// degree, with knots of that multiplicity at the joints. None if a piece is not rational or cut from the middle of a
+// transcendental span.
+std::optional<NurbsCurveForm> form_of_pieces(std::vector<CurvePiece> pieces);
+
 }  // namespace lekalo::geometry

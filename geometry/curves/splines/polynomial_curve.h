@@ -20,6 +20,7 @@ class PolynomialCurve final : public Curve {
   Interval domain() const override { return {parts_.front().t.lo, parts_.back().t.hi}; }
   CurveJet evaluate(double t, int order) const override;
   CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   // One for each part.
   std::vector<CurvePiece> pieces() const override;
 

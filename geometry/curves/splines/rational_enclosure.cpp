@@ -176,17 +176,25 @@ double center(const Interval& range) {
   return std::isfinite(middle) ? middle : 0;
 }
 
-// The boxes of a net of this size, the first, and of its derivatives, by SurfaceJet::index. All is compiled into the
-// functions below, so that of a size that is known there loops have known lengths.
+constexpr int count_to(int order) { return (order + 1) * (order + 2) / 2; }
+
+constexpr double kChoose[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+
+// The boxes of a net of this size, the first, and of its derivatives up to order <= kOrder, by SurfaceJet::index. All
+// is compiled into the functions below, so that of a size that is known there loops have known lengths.
+template <int kOrder>
 inline void boxes_of(Net* nets, Size size, std::span<const double> ku, int span_u, std::span<const double> kv,
                      int span_v, bool rational, const Rectangle& box, int order, bool of_curve, Box* r) {
   const auto matrices = [](int degree, std::span<const double> knots, int span, const Interval& t) {
-    return std::array{SpanMatrix(degree, knots, span, t), SpanMatrix(std::max(degree - 1, 0), knots, span, t),
-                      SpanMatrix(std::max(degree - 2, 0), knots, span, t)};
+    const auto of = [&](int k) { return SpanMatrix(std::max(degree - k, 0), knots, span, t); };
+    if constexpr (kOrder == 2)
+      return std::array{of(0), of(1), of(2)};
+    else
+      return std::array{of(0), of(1), of(2), of(3), of(4)};
   };
   const auto u = matrices(size.rows - 1, ku, span_u, box.u), v = matrices(size.columns - 1, kv, span_v, box.v);
   Net hull;
-  Interval of[6][4];
+  Interval of[count_to(kOrder)][4];
   Vec3 c(0);
   Interval offset[3];
   const auto take = [&](int by_u, int by_v) {
@@ -220,6 +228,8 @@ inline void boxes_of(Net* nets, Size size, std::span<const double> ku, int span_
   if (order >= 1 && !of_curve) take(0, 1);
   if (order >= 2) take(2, 0);
   if (order >= 2 && !of_curve) take(1, 1), take(0, 2);
+  for (int n = 3; n <= std::min(order, kOrder); ++n)
+    for (int j = 0; j <= (of_curve ? 0 : n); ++j) take(n - j, j);
   if (!rational || order == 0) return;
   const auto w = [&](int k) -> const Interval& { return of[k][3]; };
   for (int axis = 0; axis < 3; ++axis) {
@@ -233,41 +243,66 @@ inline void boxes_of(Net* nets, Size size, std::span<const double> ku, int span_
     r[4].c[axis] = (of[4][axis] - w(1) * rv - w(2) * ru - w(4) * off) / w(0);
     r[5].c[axis] = (of[5][axis] - 2 * w(2) * rv - w(5) * off) / w(0);
   }
+  // Leibniz: A~_ij = sum over (a, b) of C(i, a) C(j, b) w_ab r_(i-a)(j-b), r_00 being the offset.
+  for (int n = 3; n <= std::min(order, kOrder); ++n)
+    for (int j = 0; j <= (of_curve ? 0 : n); ++j)
+      for (int axis = 0; axis < 3; ++axis) {
+        const int i = n - j, k = SurfaceJet::index(i, j);
+        Interval rest = of[k][axis];
+        for (int a = 0; a <= i; ++a)
+          for (int b = 0; b <= j; ++b)
+            if (a + b > 0)
+              rest -= kChoose[i][a] * kChoose[j][b] * w(SurfaceJet::index(a, b)) *
+                      (a + b == n ? offset[axis] : r[SurfaceJet::index(i - a, j - b)].c[axis]);
+        r[k].c[axis] = rest / w(0);
+      }
+}
+
+template <int kOrder>
+inline void boxes_of(int degree, std::span<const double> knots, int span, std::span<const Vec4> points, bool rational,
+                     const Interval& t, int order, Box* r) {
+  Net nets[count_to(kOrder)];
+  nets[0].slack = Lanes{};
+  for (int i = 0; i <= degree; ++i) load(points[span - degree + i], nets[0].points[i]);
+  const double unit[2] = {0, 1};
+  boxes_of<kOrder>(nets, {degree + 1, 1}, knots, span, unit, 0, rational, {t, {0, 1}}, order, true, r);
 }
 
 LEKALO_WIDE void enclose_curve(int degree, std::span<const double> knots, int span, std::span<const Vec4> points,
                                bool rational, const Interval& t, int order, Box* r) {
-  Net nets[6];
-  nets[0].slack = Lanes{};
-  for (int i = 0; i <= degree; ++i) load(points[span - degree + i], nets[0].points[i]);
-  const double unit[2] = {0, 1};
-  boxes_of(nets, {degree + 1, 1}, knots, span, unit, 0, rational, {t, {0, 1}}, order, true, r);
+  if (order <= 2)
+    boxes_of<2>(degree, knots, span, points, rational, t, order, r);
+  else
+    boxes_of<4>(degree, knots, span, points, rational, t, order, r);
 }
 
+template <int kOrder>
 inline void boxes_of(const NurbsSurfaceForm& form, int p, int q, int span_u, int span_v, bool rational,
                      const Rectangle& box, int order, Box* r) {
-  Net nets[6];
+  Net nets[count_to(kOrder)];
   nets[0].slack = Lanes{};
   for (int i = 0; i <= p; ++i)
     for (int j = 0; j <= q; ++j)
       load(form.points[static_cast<size_t>(span_u - p + i) * form.count_v() + span_v - q + j],
            nets[0].points[i * (q + 1) + j]);
-  boxes_of(nets, {p + 1, q + 1}, form.knots_u, span_u, form.knots_v, span_v, rational, box, order, false, r);
+  boxes_of<kOrder>(nets, {p + 1, q + 1}, form.knots_u, span_u, form.knots_v, span_v, rational, box, order, false, r);
 }
 
 LEKALO_WIDE void enclose_surface(const NurbsSurfaceForm& form, int span_u, int span_v, bool rational,
                                  const Rectangle& box, int order, Box* r) {
-  if (form.degree_u == 3 && form.degree_v == 3)  // as most models have them
-    boxes_of(form, 3, 3, span_u, span_v, rational, box, order, r);
+  if (order > 2)
+    boxes_of<4>(form, form.degree_u, form.degree_v, span_u, span_v, rational, box, order, r);
+  else if (form.degree_u == 3 && form.degree_v == 3)  // as most models have them
+    boxes_of<2>(form, 3, 3, span_u, span_v, rational, box, order, r);
   else
-    boxes_of(form, form.degree_u, form.degree_v, span_u, span_v, rational, box, order, r);
+    boxes_of<2>(form, form.degree_u, form.degree_v, span_u, span_v, rational, box, order, r);
 }
 
 }  // namespace
 
 void enclose_span(int degree, std::span<const double> knots, int span, std::span<const Vec4> points, bool rational,
                   const Interval& t, int order, CurveEnclosure& result) {
-  Box r[6];
+  Box r[count_to(kMaxSurfaceOrder)];
   enclose_curve(degree, knots, span, points, rational, t, order, r);
   // A curve is a net of one column: its derivatives are those by u.
   for (int k = 0; k <= order; ++k) result.d[k].include(r[SurfaceJet::index(k, 0)].box());
@@ -275,7 +310,7 @@ void enclose_span(int degree, std::span<const double> knots, int span, std::span
 
 void enclose_spans(const NurbsSurfaceForm& form, int span_u, int span_v, bool rational, const Rectangle& box, int order,
                    SurfaceEnclosure& result) {
-  Box r[6];
+  Box r[count_to(kMaxSurfaceOrder)];
   enclose_surface(form, span_u, span_v, rational, box, order, r);
   for (int k = 0; k < (order + 1) * (order + 2) / 2; ++k) result.values[k].include(r[k].box());
 }

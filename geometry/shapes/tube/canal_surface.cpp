@@ -8,12 +8,12 @@
 
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/curve_parts.h"
+#include "geometry/curves/operations/moving_frame.h"
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/numerics/chebyshev.h"
 #include "geometry/numerics/halving.h"
 #include "geometry/point_formulas.h"
-#include "geometry/surfaces/derived/ribbon.h"
 
 namespace lekalo::geometry {
 
@@ -38,13 +38,13 @@ CanalSurface::CanalSurface(const BallSweep& sweep, const Interval& range, bool c
     : range_(sweep.moving(range)), is_closed_(closes && sweep.curve().is_closed() && range == sweep.curve().domain()) {
   const CurvePtr whole(CurvePtr(), &sweep.curve());  // which outlives the ribbon
   const CurvePtr curve = is_closed_ ? whole : std::make_shared<CurvePart>(whole, range_);
-  const Ribbon ribbon(curve, sweep.size(), {});
+  const auto across = direction_across(*curve, {});
   const auto circle = [&](double t) -> std::array<Vec3, 3> {
     const BallJet ball = sweep.ball(t);
     const double speed = glm::length(ball.center[1]), p = -ball.radius[1] / speed;
     if (!(std::abs(p) < 1))
       throw FieldError("radius", fmt::format("the radius changes as fast as the curve runs at t = {:.6g}", t));
-    const Vec3 e = ball.center[1] / speed, w = ribbon.direction(t, 0).d[0];
+    const Vec3 e = ball.center[1] / speed, w = across->point(t);
     const Vec3 x = ball.radius[0] * std::sqrt(1 - p * p) * glm::normalize(w - glm::dot(w, e) * e);
     return {ball.center[0] + ball.radius[0] * p * e, x, glm::cross(e, x)};
   };

@@ -15,6 +15,7 @@ class Plane final : public Surface {
   Rectangle domain() const override { return domain_; }
   SurfaceJet evaluate(double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return kMaxSurfaceOrder; }
   Vec3 normal(double, double) const override { return normal_sign() * frame_.z; }
   Vec3 normal(double, double, const SurfaceJet&) const override { return normal_sign() * frame_.z; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override;

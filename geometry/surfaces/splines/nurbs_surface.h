@@ -25,6 +25,7 @@ class NurbsSurface final : public Surface {
   Periods periods() const override { return {u_.period(), v_.period()}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return kMaxSurfaceOrder; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override { return form_; }
   DegenerateEdges degenerate_edges() const override { return degenerate_; }
 

@@ -1,9 +1,9 @@
-// Extrusion of a curve along a vector (Golovanov 2016, 3.3.2): r_u = c', r_v = d, r_uu = c'', all others zero.
+// Extrusion of a curve along a vector (Golovanov 2016, 3.3.2).
 #include "geometry/surfaces/swept/extrusion.h"
 
+#include "geometry/composition.h"
 #include "geometry/curves/operations/curve_parts.h"
 #include "geometry/describe.h"
-#include "geometry/formula.h"
 #include "geometry/surfaces/analytic/parameter_range.h"
 
 namespace lekalo::geometry {
@@ -17,23 +17,17 @@ ExtrusionSurface::ExtrusionSurface(CurvePtr curve, const Vec3& along, const Rect
   check_domain(domain, {{curve_->domain(), Interval::entire()}, false, false});
 }
 
+template <class T>
+Triple<T> ExtrusionSurface::at(const T& u, const T& v) const {
+  return curve_at(*curve_, u) + v * triple(along_);
+}
+
 SurfaceJet ExtrusionSurface::evaluate(double u, double v, int order) const {
-  const CurveJet c = curve_->evaluate(u, order);
-  SurfaceJet jet(order);
-  for (int i = 0; i <= order; ++i) jet.d(i, 0) = c.d[i];
-  jet.d(0, 0) += v * along_;
-  if (order >= 1) jet.d(0, 1) = along_;
-  return jet;
+  return evaluate_surface_formula([this](const auto& a, const auto& b) { return at(a, b); }, u, v, order);
 }
 
 SurfaceEnclosure ExtrusionSurface::enclose(const Rectangle& box, int order) const {
-  const CurveEnclosure c = curve_->enclose(box.u, order);
-  SurfaceEnclosure result;
-  for (Box3& value : result.values) value = {Vec3(0), Vec3(0)};
-  for (int i = 0; i <= order; ++i) result.values[SurfaceJet::index(i, 0)] = c.d[i];
-  result.values[0] = box_of(triple(c.d[0]) + box.v * triple(along_));
-  result.values[SurfaceJet::index(0, 1)] = {along_, along_};
-  return result;
+  return enclose_surface_formula([this](const auto& a, const auto& b) { return at(a, b); }, box, order);
 }
 
 std::vector<SurfacePiece> ExtrusionSurface::pieces() const {

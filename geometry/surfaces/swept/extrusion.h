@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/numerics/triple.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -19,11 +20,16 @@ class ExtrusionSurface final : public Surface {
   Periods periods() const override { return {curve_->period(), 0}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
   double fit_distance() const override { return curve_->fit_distance(); }
+  int max_order() const override { return std::min(curve_->max_order(), kMaxSurfaceOrder); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return curve_->enclosure_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
 
  private:
+  template <class T>
+  Triple<T> at(const T& u, const T& v) const;
+
   CurvePtr curve_;
   Vec3 along_;
   Rectangle domain_;

@@ -1,42 +1,20 @@
 // Surface of revolution (Golovanov 2016, 3.3.3). In a frame (p; x, y, z) with z along the axis, c - p = (X, Y, Z) and
 //
-//   r = p + (X cos v - Y sin v) x + (X sin v + Y cos v) y + Z z;
+//   r = p + (X cos v - Y sin v) x + (X sin v + Y cos v) y + Z z.
 //
-// the derivative i times by u takes X^(i), Y^(i), Z^(i), that j times by v adds j quarter turns to v and drops Z.
 // The NURBS form is the tensor product with the circle's (NURBS Book 8.5).
 #include "geometry/surfaces/swept/revolution.h"
 
 #include <cmath>
 
+#include "geometry/composition.h"
 #include "geometry/curves/analytic/conic_forms.h"
 #include "geometry/curves/operations/curve_parts.h"
-#include "geometry/formula.h"
 #include "geometry/surfaces/analytic/parameter_range.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// Calls result(i, j, r_ij) without the origin; `curve(i)` gives c^(i) (less the origin for i = 0).
-template <class T, class CurveDerivative, class Result>
-void partial_derivatives(const Frame& frame, const T& v, int order, CurveDerivative curve, Result result) {
-  using std::cos;
-  using std::sin;
-  const T cosine = cos(v), sine = sin(v);
-  for (int i = 0; i <= order; ++i) {
-    const Triple<T> c = curve(i);
-    const T x = dot(c, triple(frame.x)), y = dot(c, triple(frame.y)), z = dot(c, triple(frame.z));
-    T across_x = x * cosine - y * sine, across_y = x * sine + y * cosine;
-    for (int j = 0; i + j <= order; ++j) {
-      Triple<T> r = across_x * triple(frame.x) + across_y * triple(frame.y);
-      if (j == 0) r = r + z * triple(frame.z);
-      result(i, j, r);
-      const T turned = -across_y;
-      across_y = across_x;
-      across_x = turned;
-    }
-  }
-}
 
 DomainRules rules(const Curve& curve) { return {{curve.domain(), Interval::entire()}, false, true}; }
 
@@ -53,28 +31,23 @@ RevolutionSurface::RevolutionSurface(CurvePtr curve, const Axis& axis, const Rec
   if (!off_axis) throw std::invalid_argument("the curve lies on the axis of revolution");
 }
 
+template <class T>
+Triple<T> RevolutionSurface::at(const T& u, const T& v) const {
+  using std::cos;
+  using std::sin;
+  const T cosine = cos(v), sine = sin(v);
+  const Triple<T> c = curve_at(*curve_, u) - triple(frame_.origin);
+  const T x = dot(c, triple(frame_.x)), y = dot(c, triple(frame_.y)), z = dot(c, triple(frame_.z));
+  return triple(frame_.origin) + ((x * cosine - y * sine) * triple(frame_.x) +
+                                  (x * sine + y * cosine) * triple(frame_.y) + z * triple(frame_.z));
+}
+
 SurfaceJet RevolutionSurface::evaluate(double u, double v, int order) const {
-  CurveJet c = curve_->evaluate(u, order);
-  c.d[0] -= frame_.origin;
-  SurfaceJet jet(order);
-  partial_derivatives(
-      frame_, v, order, [&](int i) { return triple(c.d[i]); },
-      [&](int i, int j, const Triple<double>& r) {
-        jet.d(i, j) = {r.x, r.y, r.z};
-      });
-  jet.values[0] += frame_.origin;
-  return jet;
+  return evaluate_surface_formula([this](const auto& a, const auto& b) { return at(a, b); }, u, v, order);
 }
 
 SurfaceEnclosure RevolutionSurface::enclose(const Rectangle& box, int order) const {
-  const CurveEnclosure c = curve_->enclose(box.u, order);
-  SurfaceEnclosure result;
-  partial_derivatives(
-      frame_, box.v, order, [&](int i) { return i == 0 ? triple(c.d[0]) - triple(frame_.origin) : triple(c.d[i]); },
-      [&](int i, int j, const Triple<Interval>& r) {
-        result.values[SurfaceJet::index(i, j)] = box_of(i + j == 0 ? r + triple(frame_.origin) : r);
-      });
-  return result;
+  return enclose_surface_formula([this](const auto& a, const auto& b) { return at(a, b); }, box, order);
 }
 
 // Within rounding of the axis, that is, of the coordinates that the curve's point was computed from.

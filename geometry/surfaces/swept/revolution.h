@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/describe.h"
+#include "geometry/numerics/triple.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -23,12 +24,16 @@ class RevolutionSurface final : public Surface {
   Periods periods() const override { return {curve_->period(), kTwoPi}; }
   SurfaceJet evaluate(double u, double v, int order) const override;
   double fit_distance() const override { return curve_->fit_distance(); }
+  int max_order() const override { return std::min(curve_->max_order(), kMaxSurfaceOrder); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return curve_->enclosure_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;
   DegenerateEdges degenerate_edges() const override;
 
  private:
+  template <class T>
+  Triple<T> at(const T& u, const T& v) const;
   bool on_axis(double u) const;
   CurvePtr curve_;
   Frame frame_;  // z is the axis

@@ -91,7 +91,7 @@ void check_derivatives(const Curve& curve, const Formula& formula, const Interva
   for (int sample = 0; sample < 40; ++sample) {
     const double t = sample == 0 ? range.lo : sample == 1 ? range.hi : uniform(random);
     const auto exact = formula(Jet<Quad, kMaxCurveOrder>::variable(Quad(t)));
-    for (int order = 0; order <= kMaxCurveOrder; ++order) {
+    for (int order = 0; order <= curve.max_order(); ++order) {
       const CurveJet jet = curve.evaluate(t, order);
       ASSERT_EQ(jet.order, order);
       for (int k = 0; k <= order; ++k) {

@@ -22,7 +22,7 @@ TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
             "4:47 the curve runs along this direction at t = 1.5708\nchoose one across the curve\n");
   EXPECT_EQ(
       said_about("{ type: ribbon, of: c, width: 1, across: z, twist: 90 }"),
-      "4:57 'twist' is of ribbons that turn no more than they must\nleave it out, or across: rotation_minimizing\n");
+      "4:57 'twist' is of frames that turn no more than they must\nleave it out, or across: rotation_minimizing\n");
   EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, on: { type: sphere_surface, radius: 3 } }"),
             "4:43 the curve does not lie on the surface at t = 1.56586\nto lie flat it must lie on it\n");
   EXPECT_EQ(said_about("{ type: ribbon, of: { type: polyline, points: [[0, 0], [1, 0], [1, 1]] }, width: 1 }"),

@@ -1,0 +1,133 @@
+#include "geometry/composition.h"
+
+#include <algorithm>
+
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+std::vector<double> breaks_of(const Curve& curve) {
+  std::vector<double> breaks{curve.domain().lo};
+  for (const CurvePiece& piece : curve.pieces()) breaks.push_back(piece.domain.hi);
+  return breaks;
+}
+
+// Neighbours nearer than this part of all are one.
+constexpr double kSameBreak = 1e-14;
+
+void join(std::vector<double>& breaks, const std::vector<double>& others) {
+  const Interval all(breaks.front(), breaks.back());
+  for (const double t : others)
+    if (all.lo < t && t < all.hi) breaks.push_back(t);
+  std::sort(breaks.begin(), breaks.end());
+  const auto same = [&](double a, double b) { return b - a <= kSameBreak * all.width(); };
+  breaks.erase(std::unique(breaks.begin(), breaks.end(), same), breaks.end());
+  breaks.back() = all.hi;
+}
+
+}  // namespace
+
+CurveMakeup makeup_of(const Curve& operand, int derivatives) {
+  return {operand.domain(), operand.period(), breaks_of(operand), operand.max_order() - derivatives,
+          operand.enclosure_order() - derivatives};
+}
+
+void add_operand(CurveMakeup& makeup, const Curve& operand, int derivatives) {
+  join(makeup.breaks, breaks_of(operand));
+  makeup.max_order = std::min(makeup.max_order, operand.max_order() - derivatives);
+  makeup.enclosure_order = std::min(makeup.enclosure_order, operand.enclosure_order() - derivatives);
+}
+
+void cut_to(CurveMakeup& makeup, const Interval& domain) {
+  std::vector<double> breaks{domain.lo};
+  const double room = kSameBreak * domain.width();
+  for (const double t : makeup.breaks)
+    if (domain.lo + room < t && t < domain.hi - room) breaks.push_back(t);
+  breaks.push_back(domain.hi);
+  makeup.domain = domain;
+  makeup.breaks = std::move(breaks);
+}
+
+SurfaceMakeup makeup_of(const Surface& operand, int derivatives) {
+  SurfaceMakeup makeup;
+  makeup.domain = operand.domain();
+  makeup.periods = operand.periods();
+  makeup.breaks_u = {makeup.domain.u.lo, makeup.domain.u.hi};
+  makeup.breaks_v = {makeup.domain.v.lo, makeup.domain.v.hi};
+  std::vector<double> lines_u, lines_v;
+  for (const SurfacePiece& piece : operand.pieces()) {
+    lines_u.push_back(piece.domain.u.lo);
+    lines_v.push_back(piece.domain.v.lo);
+  }
+  join(makeup.breaks_u, lines_u);
+  join(makeup.breaks_v, lines_v);
+  makeup.max_order = operand.max_order() - derivatives;
+  makeup.enclosure_order = operand.enclosure_order() - derivatives;
+  return makeup;
+}
+
+SurfaceMakeup makeup_along_u(const Curve& operand, const Interval& v, int derivatives) {
+  SurfaceMakeup makeup;
+  makeup.domain = {operand.domain(), v};
+  makeup.periods.u = operand.period();
+  makeup.breaks_u = breaks_of(operand);
+  makeup.breaks_v = {v.lo, v.hi};
+  makeup.max_order = std::min(kMaxSurfaceOrder, operand.max_order() - derivatives);
+  makeup.enclosure_order = operand.enclosure_order() - derivatives;
+  return makeup;
+}
+
+void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int derivatives) {
+  join(along == Along::u ? makeup.breaks_u : makeup.breaks_v, breaks_of(operand));
+  makeup.max_order = std::min(makeup.max_order, operand.max_order() - derivatives);
+  makeup.enclosure_order = std::min(makeup.enclosure_order, operand.enclosure_order() - derivatives);
+}
+
+DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain) {
+  constexpr int kTried = 16;
+  Box3 box;
+  const auto at = [](const Interval& range, int i) { return range.lo + range.width() * i / kTried; };
+  for (int i = 0; i <= kTried; ++i)
+    for (int j = 0; j <= kTried; ++j) box.include(surface.point(at(domain.u, i), at(domain.v, j)));
+  const auto is_point = [&](const Interval& range, auto edge) {
+    const Vec3 first = edge(range.lo);
+    for (int i = 1; i <= kTried; ++i)
+      if (glm::length(edge(at(range, i)) - first) > kCollapsedEdge * box.diameter()) return false;
+    return true;
+  };
+  const auto at_u = [&](double u) { return [&surface, u](double v) { return surface.point(u, v); }; };
+  const auto at_v = [&](double v) { return [&surface, v](double u) { return surface.point(u, v); }; };
+  return {is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
+          is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))};
+}
+
+namespace detail {
+
+std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t) {
+  std::vector<Interval> parts;
+  double from = t.lo;
+  for (auto next = std::upper_bound(breaks.begin(), breaks.end(), t.lo); next != breaks.end() && *next < t.hi; ++next) {
+    parts.push_back({from, *next});
+    from = *next;
+  }
+  parts.push_back({from, t.hi});
+  return parts;
+}
+
+CurvePiece plain_curve_piece(const Interval& domain) {
+  return {domain, {ParameterMap::Kind::affine, domain.lo, domain.hi}, {}};
+}
+
+std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, const std::vector<double>& breaks_v) {
+  std::vector<SurfacePiece> pieces;
+  for (size_t i = 0; i + 1 < breaks_u.size(); ++i)
+    for (size_t j = 0; j + 1 < breaks_v.size(); ++j)
+      pieces.push_back(plain_piece({{breaks_u[i], breaks_u[i + 1]}, {breaks_v[j], breaks_v[j + 1]}}));
+  return pieces;
+}
+
+}  // namespace detail
+
+}  // namespace lekalo::geometry

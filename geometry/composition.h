@@ -1,0 +1,301 @@
+// Curves and surfaces made of other curves and surfaces by one formula, written once over numbers, jets and intervals:
+//
+//   struct Shifted {                                    c(t) + d
+//     CurvePtr of;
+//     Vec3 by;
+//     template <class T>
+//     Triple<T> operator()(const T& t) const { return curve_at(*of, t) + triple(by); }
+//   };
+//
+// What a formula asks of an operand is the operand's Taylor polynomial (or enclosures of its coefficients), with the
+// Taylor polynomial of the argument for its variable: the chain rule of all orders (Faa di Bruno; Griewank, Walther
+// 2008, 13). Enclosures are in mean-value form: composed of enclosures alone they would be wide by a share of the
+// interval's width (Neumaier 1990, 2.3).
+//
+// A formula that asks for the k-th derivative of an operand has k orders less than the operand. Derivatives beyond are
+// NaN, enclosures of them the entire line.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/formula.h"
+#include "geometry/numerics/halving.h"
+#include "geometry/surface_series.h"
+
+namespace lekalo::geometry {
+
+namespace detail {
+
+constexpr double factorial(int n) { return n <= 1 ? 1 : n * factorial(n - 1); }
+
+inline double unknown(double) { return std::numeric_limits<double>::quiet_NaN(); }
+inline Interval unknown(const Interval&) { return Interval::entire(); }
+
+inline Triple<double> derivative_of(const CurveJet& jet, int k) { return triple(jet.d[k]); }
+inline Triple<Interval> derivative_of(const CurveEnclosure& boxes, int k) { return triple(boxes.d[k]); }
+
+// What is known of the operand at a number, or over an interval: rounding may have led out of the domain.
+inline CurveJet known_at(const Curve& curve, double t, int order) { return curve.evaluate(t, order); }
+inline CurveEnclosure known_at(const Curve& curve, const Interval& t, int order) {
+  const Interval domain = curve.domain();
+  return curve.enclose({domain.clamp(t.lo), domain.clamp(t.hi)}, order);
+}
+inline SurfaceJet known_at(const Surface& surface, double u, double v, int order) {
+  return surface.evaluate(u, v, order);
+}
+inline SurfaceEnclosure known_at(const Surface& surface, const Interval& u, const Interval& v, int order) {
+  const Rectangle domain = surface.domain();
+  return surface.enclose({{domain.u.clamp(u.lo), domain.u.clamp(u.hi)}, {domain.v.clamp(v.lo), domain.v.clamp(v.hi)}},
+                         order);
+}
+inline int known_order(const Curve& curve, double) { return curve.max_order(); }
+inline int known_order(const Curve& curve, const Interval&) { return curve.enclosure_order(); }
+inline int known_order(const Surface& surface, double) { return surface.max_order(); }
+inline int known_order(const Surface& surface, const Interval&) { return surface.enclosure_order(); }
+
+// The Taylor coefficients of the k-th derivative of the curve about t.
+template <class S, int N>
+Triple<Jet<S, N>> series_of(const Curve& curve, const S& t, int k) {
+  const int order = std::min(N + k, known_order(curve, t));
+  const auto known = known_at(curve, t, order);
+  Triple<Jet<S, N>> result;
+  for (int n = 0; n <= N; ++n) {
+    const bool is_known = n + k <= order;
+    const Triple<S> d = is_known ? derivative_of(known, n + k) : Triple<S>{unknown(t), unknown(t), unknown(t)};
+    const S factor = S(1) / S(factorial(n));
+    result.x.c[n] = factor * d.x, result.y.c[n] = factor * d.y, result.z.c[n] = factor * d.z;
+  }
+  return result;
+}
+
+// The first coefficient of a degree.
+template <class S, int N>
+int first_of_degree(const Jet<S, N>&, int degree) {
+  return degree;
+}
+template <class S, int N>
+int first_of_degree(const Jet2<S, N>&, int degree) {
+  return Jet2<S, N>::index(degree, 0);
+}
+
+template <class S, int N>
+bool is_variable(const Jet<S, N>& t) {
+  for (int k = 1; k <= N; ++k)
+    if (!(t.c[k] == S(k == 1 ? 1 : 0))) return false;
+  return true;
+}
+
+template <class S, int N>
+Jet<S, N> composed(const Jet<S, N>& series, const Jet<S, N>& t) {
+  return is_variable(t) ? series : Jet<S, N>::composed(series, t);
+}
+template <class S, int N>
+Jet2<S, N> composed(const Jet<S, N>& series, const Jet2<S, N>& t) {
+  return Jet2<S, N>::apply([&](const Jet<S, N>& x) { return composed(series, x); }, t);
+}
+
+template <class S>
+Triple<S> at(const Curve& curve, const S& t, int k) {
+  if (k > known_order(curve, t)) return {unknown(t), unknown(t), unknown(t)};
+  return derivative_of(known_at(curve, t, k), k);
+}
+template <class S, int N>
+bool are_variables(const Jet2<S, N>& u, const Jet2<S, N>& v) {
+  for (int k = 1; k < Jet2<S, N>::kCount; ++k)
+    if (!(u.c[k] == S(k == 1 ? 1 : 0) && v.c[k] == S(k == 2 ? 1 : 0))) return false;
+  return true;
+}
+template <class S, int N>
+bool are_variables(const Jet<S, N>&, const Jet<S, N>&) {
+  return false;
+}
+
+template <template <class, int> class J, class S, int N>
+Triple<J<S, N>> at(const Curve& curve, const J<S, N>& t, int k) {
+  const auto series = series_of<S, N>(curve, t.value(), k);
+  return {composed(series.x, t), composed(series.y, t), composed(series.z, t)};
+}
+
+template <class S>
+Triple<S> at(const Surface& surface, const S& u, const S& v, int i, int j) {
+  if (i + j > known_order(surface, u)) return {unknown(u), unknown(u), unknown(u)};
+  return geometry::derivative_of(known_at(surface, u, v, i + j), i, j);
+}
+template <template <class, int> class J, class S, int N>
+Triple<J<S, N>> at(const Surface& surface, const J<S, N>& u, const J<S, N>& v, int i, int j) {
+  const int order = std::min(N + i + j, known_order(surface, u.value()));
+  const auto known = known_at(surface, u.value(), v.value(), order);
+  // The Taylor coefficient a times by u and b times by v.
+  const auto coefficient = [&](int a, int b) -> Triple<S> {
+    const S none = unknown(u.value());
+    if (a + b + i + j > order) return {none, none, none};
+    return (S(1) / S(factorial(a) * factorial(b))) * geometry::derivative_of(known, i + a, j + b);
+  };
+  Triple<J<S, N>> sum;
+  // What is unknown is so of its order and those above alone.
+  const auto add = [&](const Triple<S>& d, const J<S, N>& term, int first, int last) {
+    for (int k = first; k <= last; ++k)
+      sum.x.c[k] += term.c[k] * d.x, sum.y.c[k] += term.c[k] * d.y, sum.z.c[k] += term.c[k] * d.z;
+  };
+  const bool plain = are_variables(u, v);
+  J<S, N> du = u, dv = v, power_u(S(1));
+  du.c[0] = dv.c[0] = S(0);
+  for (int a = 0; a <= N; ++a) {
+    J<S, N> power = power_u;
+    for (int b = 0; a + b <= N; ++b) {
+      const int first = first_of_degree(power, a + b) + (plain ? b : 0);
+      add(coefficient(a, b), power, first, plain ? first : J<S, N>::kCount - 1);
+      if (a + b < N) power = power * dv;
+    }
+    if (a < N) power_u = power_u * du;
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+// The point of a curve, or its derivative of order k, for a parameter of any number type: double, Interval, Jet, Jet2.
+template <class T>
+Triple<T> curve_at(const Curve& curve, const T& t, int k = 0) {
+  return detail::at(curve, t, k);
+}
+
+// The point of a surface, or its derivative i times by u and j times by v.
+template <class T>
+Triple<T> surface_at(const Surface& surface, const T& u, const T& v, int i = 0, int j = 0) {
+  return detail::at(surface, u, v, i, j);
+}
+
+// What a composed curve has from its operands.
+struct CurveMakeup {
+  Interval domain;
+  double period = 0;
+  std::vector<double> breaks;  // of smoothness, ends of the domain included
+  int max_order = kMaxCurveOrder;
+  int enclosure_order = kMaxCurveEnclosureOrder;
+};
+
+// As the operand has it over a part of its domain, where the formula asks for derivatives up to `derivatives`.
+CurveMakeup makeup_of(const Curve& operand, int derivatives = 0);
+// Of another operand at the same parameter, whose breaks and orders count too.
+void add_operand(CurveMakeup& makeup, const Curve& operand, int derivatives = 0);
+// Over a part of the domain, or beyond it.
+void cut_to(CurveMakeup& makeup, const Interval& domain);
+
+// Formula: a struct with `template <class T> Triple<T> operator()(const T& t) const`, and `as_nurbs()` where it knows
+// an exact form.
+template <class Formula>
+class ComposedCurve final : public Curve {
+ public:
+  ComposedCurve(Formula formula, CurveMakeup makeup) : formula_(std::move(formula)), makeup_(std::move(makeup)) {}
+
+  const Formula& formula() const { return formula_; }
+
+  Interval domain() const override { return makeup_.domain; }
+  double period() const override { return makeup_.period; }
+  CurveJet evaluate(double t, int order) const override { return evaluate_curve_formula(formula_, t, order); }
+  int max_order() const override { return makeup_.max_order; }
+  CurveEnclosure enclose(const Interval& t, int order) const override;
+  int enclosure_order() const override { return makeup_.enclosure_order; }
+  std::vector<CurvePiece> pieces() const override;
+  std::optional<NurbsCurveForm> as_nurbs() const override {
+    if constexpr (requires { formula_.as_nurbs(); }) return formula_.as_nurbs();
+    return std::nullopt;
+  }
+
+ private:
+  Formula formula_;
+  CurveMakeup makeup_;
+};
+
+struct SurfaceMakeup {
+  Rectangle domain;
+  Periods periods;
+  std::vector<double> breaks_u, breaks_v;  // lines of kinks and the borders of the domain
+  int max_order = kMaxSurfaceOrder;
+  int enclosure_order = kMaxSurfaceOrder;
+};
+
+// Of a surface, as above.
+SurfaceMakeup makeup_of(const Surface& operand, int derivatives = 0);
+// Of a curve whose parameter is u, and v in a range without breaks.
+SurfaceMakeup makeup_along_u(const Curve& operand, const Interval& v, int derivatives = 0);
+enum class Along { u, v };
+void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int derivatives = 0);
+
+// The edges of a domain that are points, found by looking.
+DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain);
+
+// Formula: a struct with `template <class T> Triple<T> operator()(const T& u, const T& v) const`.
+template <class Formula>
+class ComposedSurface final : public Surface {
+ public:
+  ComposedSurface(Formula formula, SurfaceMakeup makeup)
+      : formula_(std::move(formula)), makeup_(std::move(makeup)), degenerate_(collapsed_edges(*this, makeup_.domain)) {}
+
+  const Formula& formula() const { return formula_; }
+
+  Rectangle domain() const override { return makeup_.domain; }
+  Periods periods() const override { return makeup_.periods; }
+  SurfaceJet evaluate(double u, double v, int order) const override {
+    return evaluate_surface_formula(formula_, u, v, order);
+  }
+  int max_order() const override { return makeup_.max_order; }
+  SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
+  int enclosure_order() const override { return makeup_.enclosure_order; }
+  std::vector<SurfacePiece> pieces() const override;
+  DegenerateEdges degenerate_edges() const override { return degenerate_; }
+
+ private:
+  Formula formula_;
+  SurfaceMakeup makeup_;
+  DegenerateEdges degenerate_;
+};
+
+namespace detail {
+
+// An interval in the parts between breaks.
+std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t);
+CurvePiece plain_curve_piece(const Interval& domain);
+std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, const std::vector<double>& breaks_v);
+
+}  // namespace detail
+
+template <class Formula>
+CurveEnclosure ComposedCurve<Formula>::enclose(const Interval& t, int order) const {
+  // Mean values hold where the derivative is one.
+  CurveEnclosure result;
+  for (const Interval& part : detail::between(makeup_.breaks, t)) {
+    const CurveEnclosure boxes = enclose_curve_centered(formula_, part, order);
+    for (int k = 0; k <= order; ++k) result.d[k].include(boxes.d[k]);
+  }
+  return result;
+}
+
+template <class Formula>
+std::vector<CurvePiece> ComposedCurve<Formula>::pieces() const {
+  if (const auto form = as_nurbs()) return bezier_pieces(*form, makeup_.domain);
+  std::vector<CurvePiece> result;
+  for (const Interval& part : detail::between(makeup_.breaks, makeup_.domain))
+    result.push_back(detail::plain_curve_piece(part));
+  return result;
+}
+
+template <class Formula>
+SurfaceEnclosure ComposedSurface<Formula>::enclose(const Rectangle& box, int order) const {
+  SurfaceEnclosure result;
+  for (const Interval& u : detail::between(makeup_.breaks_u, box.u))
+    for (const Interval& v : detail::between(makeup_.breaks_v, box.v)) {
+      const SurfaceEnclosure boxes = enclose_surface_centered(formula_, {u, v}, order);
+      for (int k = 0; k <= SurfaceJet::index(0, order); ++k) result.values[k].include(boxes.values[k]);
+    }
+  return result;
+}
+
+template <class Formula>
+std::vector<SurfacePiece> ComposedSurface<Formula>::pieces() const {
+  return detail::plain_pieces(makeup_.breaks_u, makeup_.breaks_v);
+}
+
+}  // namespace lekalo::geometry

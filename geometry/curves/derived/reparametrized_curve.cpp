@@ -1,0 +1,243 @@
+#include "geometry/curves/derived/reparametrized_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "geometry/composition.h"
+#include "geometry/curves/derived/composite_curve.h"
+#include "geometry/curves/operations/arc_fraction.h"
+#include "geometry/curves/splines/polynomial_approximation.h"
+#include "geometry/describe.h"
+#include "geometry/expression/scalar_law.h"
+#include "geometry/point_formulas.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// t = begin + slope (w - lo)
+struct Affinely {
+  CurvePtr of;
+  Interval domain;  // of w
+  double begin, slope;
+
+  template <class T>
+  Triple<T> operator()(const T& w) const {
+    return curve_at(*of, begin + slope * (w - domain.lo));
+  }
+  std::optional<NurbsCurveForm> as_nurbs() const {
+    auto form = of->as_nurbs();
+    if (!form) return std::nullopt;
+    const auto w = [this](double& t) { t = domain.lo + (t - begin) / slope; };
+    for (double& knot : form->knots) w(knot);
+    for (ParameterMap& map : form->maps) {
+      if (map.kind != ParameterMap::Kind::affine && std::abs(slope) != 1) return std::nullopt;
+      w(map.lo), w(map.hi);
+      if (slope < 0) map = {map.kind, map.hi, map.lo, 1 - map.to, 1 - map.from};
+    }
+    if (slope < 0) {
+      std::reverse(form->knots.begin(), form->knots.end());
+      std::reverse(form->points.begin(), form->points.end());
+      std::reverse(form->maps.begin(), form->maps.end());
+    }
+    // An end of the form that is an end of the domain but for rounding is so to the bit.
+    const Interval all = form->domain();
+    const auto snap = [&](double& t) {
+      if (t == all.lo && is_near(t, domain.lo)) t = domain.lo;
+      if (t == all.hi && is_near(t, domain.hi)) t = domain.hi;
+    };
+    for (double& knot : form->knots) snap(knot);
+    for (ParameterMap& map : form->maps) snap(map.lo), snap(map.hi);
+    return form;
+  }
+
+ private:
+  bool is_near(double a, double b) const { return std::abs(a - b) <= 1e-14 * (domain.width() + std::abs(a)); }
+};
+
+CurvePtr affinely(const CurvePtr& of, const Interval& domain, double begin, double slope) {
+  CurveMakeup makeup = makeup_of(*of);
+  for (double& t : makeup.breaks) t = domain.lo + (t - begin) / slope;
+  std::sort(makeup.breaks.begin(), makeup.breaks.end());
+  cut_to(makeup, domain);
+  makeup.period = of->period() / std::abs(slope);
+  return std::make_shared<ComposedCurve<Affinely>>(Affinely{of, domain, begin, slope}, makeup);
+}
+
+// t = law(w), a curve or formulas whose first coordinate is meant.
+template <class Law>
+struct ByLaw {
+  CurvePtr of;
+  Law law;
+  template <class T>
+  Triple<T> operator()(const T& w) const {
+    return curve_at(*of, law(w));
+  }
+};
+
+struct CurveLaw {
+  std::shared_ptr<const Curve> curve;
+  template <class T>
+  T operator()(const T& w) const {
+    return curve_at(*curve, w).x;
+  }
+};
+
+// Where the law passes the operand's breaks: it increases.
+std::vector<double> breaks_under(const std::function<double(double)>& law, const Interval& domain,
+                                 const std::vector<double>& breaks) {
+  std::vector<double> result{domain.lo};
+  for (const double t : breaks) {
+    double lo = domain.lo, hi = domain.hi;
+    if (!(law(lo) < t && t < law(hi))) continue;
+    while (true) {
+      const double middle = 0.5 * (lo + hi);
+      if (!(lo < middle && middle < hi)) break;
+      (law(middle) < t ? lo : hi) = middle;
+    }
+    result.push_back(hi);
+  }
+  result.push_back(domain.hi);
+  return result;
+}
+
+// Places where a law is tried.
+constexpr int kTried = 256;
+
+CurvePtr by_formula(const CurvePtr& of, const ScalarLaw& law, const Interval& domain) {
+  const auto at = [&](double w) { return law(w); };
+  double before = -kInfinity;
+  for (int i = 0; i <= kTried; ++i) {
+    const double w = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried, t = at(w);
+    if (!std::isfinite(t)) throw FieldError("parameter", fmt::format("the formula has no value at w = {:.6g}", w));
+    if (!(t > before))
+      throw FieldError("parameter", fmt::format("the formula does not increase at w = {:.6g}", w),
+                       "a parameter must run one way; 'reversed_curve' turns a curve round");
+    const Interval all = of->domain();
+    const double slack = 1e-12 * all.width();
+    if (of->period() == 0 && !(all.lo - slack <= t && t <= all.hi + slack))
+      throw FieldError("parameter", fmt::format("w = {:.6g} gives t = {:.6g}, outside of the curve's {:.6g} to {:.6g}",
+                                                w, t, all.lo, all.hi));
+    before = t;
+  }
+  CurveMakeup makeup = makeup_of(*of);
+  makeup.breaks = breaks_under(at, domain, makeup.breaks);
+  makeup.domain = domain;
+  makeup.period = 0;
+  return std::make_shared<ComposedCurve<ByLaw<ScalarLaw>>>(ByLaw<ScalarLaw>{of, law}, makeup);
+}
+
+}  // namespace
+
+CurvePtr reversed_curve(const CurvePtr& of) {
+  const Interval domain = of->domain();
+  return affinely(of, domain, domain.hi, -1);
+}
+
+CurvePtr with_domain(const CurvePtr& of, const Interval& domain) {
+  const Interval own = of->domain();
+  return affinely(of, domain, own.lo, own.width() / domain.width());
+}
+
+CurvePtr trimmed_curve(const CurvePtr& of, double from, double to, bool backward) {
+  const Interval domain = of->domain();
+  const bool closed = of->is_closed();
+  if (!closed) {
+    for (const auto& [field, t] : {std::pair("from", from), std::pair("to", to)})
+      if (!domain.contains(t))
+        throw FieldError(
+            field, fmt::format("t = {:.6g} lies outside of the curve's {:.6g} to {:.6g}", t, domain.lo, domain.hi));
+    if (from == to) throw FieldError("to", "the part has no length");
+    if (backward || to < from) {
+      if (backward && to > from)
+        throw FieldError("to", "backward from there the curve does not reach it", "exchange 'from' and 'to'");
+      return affinely(of, {0, from - to}, from, -1);
+    }
+    return affinely(of, {0, to - from}, from, 1);
+  }
+  const double width = domain.width();
+  from = wrapped(from, domain);
+  const double sign = backward ? -1 : 1;
+  double length = std::fmod(sign * (to - from), width);
+  if (length <= 0) length += width;
+  // Up to the seam, and from there on.
+  const double first = backward ? from - domain.lo : domain.hi - from;
+  if (length <= first) return affinely(of, {0, length}, from, sign);
+  if (first == 0) return affinely(of, {0, length}, backward ? domain.hi : domain.lo, sign);
+  std::vector<CurvePtr> parts{affinely(of, {0, first}, from, sign),
+                              affinely(of, {0, length - first}, backward ? domain.hi : domain.lo, sign)};
+  return std::make_shared<CompositeCurve>(std::move(parts), length == width, 1e-9);
+}
+
+CurvePtr by_arc_length(const CurvePtr& of) {
+  const Interval domain = of->domain();
+  if (!(domain.width() < kInfinity)) throw FieldError("of", "the curve is unbounded", "give it a domain");
+  const ArcFraction fraction(*of);
+  const double length = fraction.length();
+  const auto t_at = [&](double s) {
+    Interval t = domain;
+    for (int i = 0; i < 200 && t.lo < t.middle() && t.middle() < t.hi; ++i)
+      (fraction.at(t.middle()) * length < s ? t.lo : t.hi) = t.middle();
+    return t.middle();
+  };
+  std::vector<Interval> stretches;
+  CurveMakeup makeup = makeup_of(*of);
+  for (double& t : makeup.breaks) t = fraction.at(t) * length;
+  makeup.breaks.front() = 0, makeup.breaks.back() = length;
+  for (size_t i = 0; i + 1 < makeup.breaks.size(); ++i) stretches.push_back({makeup.breaks[i], makeup.breaks[i + 1]});
+  const auto law =
+      polynomial_approximation([&](double s) { return Vec3(t_at(s), 0, 0); }, stretches, 1e-13 * domain.width());
+  if (!law) throw FieldError("of", "the curve rests somewhere: its parameter is no smooth function of the length");
+  makeup.domain = {0, length};
+  if (makeup.period > 0) makeup.period = length;
+  add_operand(makeup, *law);
+  return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, makeup);
+}
+
+TypeDeclaration reversed_curve_type() {
+  return declare(Category::curve, "reversed_curve", "A curve run through the other way, over the same parameters.")
+      .field("of", reference({Category::curve}), "the curve")
+      .built_by([](const Fields& f) { return std::any(reversed_curve(f.curve("of"))); });
+}
+
+TypeDeclaration trimmed_curve_type() {
+  return declare(Category::curve, "trimmed_curve",
+                 "Part of a curve, run through either way; of a closed curve also over its seam, or all of it with "
+                 "another seam (to equal to from). Its parameter begins at 0.")
+      .example("of: round, from: 5, to: 1")
+      .field("of", reference({Category::curve}), "the curve")
+      .field("from", number(), "parameter where the part begins")
+      .field("to", number(), "parameter where it ends")
+      .field("backward", boolean(), "of a closed curve: run from there against its direction", "false")
+      .built_by([](const Fields& f) {
+        return std::any(trimmed_curve(f.curve("of"), f.number("from"), f.number("to"), f.boolean("backward")));
+      });
+}
+
+TypeDeclaration reparametrized_curve_type() {
+  return declare(
+             Category::curve, "reparametrized_curve",
+             "The points of a curve with another parameter w: over another domain, by a law t(w), or by arc length.")
+      .example("of: round, domain: [0, 1]")
+      .field("of", reference({Category::curve}), "the curve")
+      .optional("domain", range(), "of w; without a law the parameter is stretched evenly")
+      .optional("parameter", formula({"w"}), "t as an increasing formula of w")
+      .field("arc_length", boolean(), "w is the arc length, from 0", "false")
+      .built_by([](const Fields& f) {
+        const CurvePtr of = f.curve("of");
+        if (f.boolean("arc_length")) {
+          if (f.has("domain") || f.has("parameter"))
+            throw FieldError("arc_length", "the arc length is one law, 'domain' and 'parameter' are another",
+                             "leave out one of them");
+          return std::any(by_arc_length(of));
+        }
+        if (!f.has("domain")) throw FieldError("domain", "the new parameter needs a domain", "domain: [0, 1]");
+        if (!f.has("parameter")) return std::any(with_domain(of, f.range("domain")));
+        return std::any(by_formula(of, ScalarLaw(f.get<Expression>("parameter")), f.range("domain")));
+      });
+}
+
+}  // namespace lekalo::geometry
