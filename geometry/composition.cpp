@@ -1,6 +1,7 @@
 #include "geometry/composition.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/tolerances.h"
 
@@ -83,6 +84,44 @@ void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int d
   join(along == Along::u ? makeup.breaks_u : makeup.breaks_v, breaks_of(operand));
   makeup.max_order = std::min(makeup.max_order, operand.max_order() - derivatives);
   makeup.enclosure_order = std::min(makeup.enclosure_order, operand.enclosure_order() - derivatives);
+}
+
+std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& pieces,
+                                               const std::vector<double>& lines_u, const std::vector<double>& lines_v) {
+  const size_t m = lines_u.size() - 1, n = lines_v.size() - 1;
+  if (pieces.size() != m * n || pieces.empty() || !pieces.front().is_rational()) return std::nullopt;
+  const int p = pieces.front().degree_u, q = pieces.front().degree_v;
+  NurbsSurfaceForm form;
+  form.degree_u = p, form.degree_v = q;
+  const auto knots = [](int degree, const std::vector<double>& lines) {
+    std::vector<double> result(1, lines.front());
+    for (const double x : lines) result.insert(result.end(), degree, x);
+    result.push_back(lines.back());
+    return result;
+  };
+  form.knots_u = knots(p, lines_u), form.knots_v = knots(q, lines_v);
+  form.points.assign((m * p + 1) * (n * q + 1), Vec4(0));
+  for (size_t i = 0; i < m; ++i)
+    for (size_t j = 0; j < n; ++j) {
+      const SurfacePiece& piece = pieces[i * n + j];
+      if (piece.degree_u != p || piece.degree_v != q) return std::nullopt;
+      for (int k = 0; k <= p; ++k)
+        for (int l = 0; l <= q; ++l) {
+          Vec4& point = form.points[(i * p + k) * (n * q + 1) + j * q + l];
+          const Vec4& own = piece.points[k * (q + 1) + l];
+          if (point.w != 0 && std::abs(point.w - own.w) > 1e-14 * std::abs(own.w)) return std::nullopt;
+          point = own;
+        }
+      if (j == 0) form.maps_u.push_back(piece.map_u);
+      if (i == 0) form.maps_v.push_back(piece.map_v);
+    }
+  const auto drop_affine = [](std::vector<ParameterMap>& maps) {
+    if (std::all_of(maps.begin(), maps.end(),
+                    [](const ParameterMap& map) { return map.kind == ParameterMap::Kind::affine; }))
+      maps.clear();
+  };
+  drop_affine(form.maps_u), drop_affine(form.maps_v);
+  return form;
 }
 
 DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain) {

@@ -227,12 +227,22 @@ void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int d
 // The edges of a domain that are points, found by looking.
 DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain);
 
-// Formula: a struct with `template <class T> Triple<T> operator()(const T& u, const T& v) const`.
+// One form of patches over the cells of a grid, u outer, all of one degree: knots of that multiplicity at its lines.
+// None if they are not rational, or do not share the weights along the lines.
+std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& pieces,
+                                               const std::vector<double>& lines_u, const std::vector<double>& lines_v);
+
+// Formula: a struct with `template <class T> Triple<T> operator()(const T& u, const T& v) const`, and
+// `rational_pieces(breaks_u, breaks_v)`, u outer, where it may know patches (none: it does not).
 template <class Formula>
 class ComposedSurface final : public Surface {
  public:
-  ComposedSurface(Formula formula, SurfaceMakeup makeup)
-      : formula_(std::move(formula)), makeup_(std::move(makeup)), degenerate_(collapsed_edges(*this, makeup_.domain)) {}
+  ComposedSurface(Formula formula, SurfaceMakeup makeup) : formula_(std::move(formula)), makeup_(std::move(makeup)) {
+    if constexpr (requires { formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v); })
+      pieces_ = formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v);
+    if (pieces_.empty()) pieces_ = detail::plain_pieces(makeup_.breaks_u, makeup_.breaks_v);
+    degenerate_ = collapsed_edges(*this, makeup_.domain);
+  }
 
   const Formula& formula() const { return formula_; }
 
@@ -244,12 +254,16 @@ class ComposedSurface final : public Surface {
   int max_order() const override { return makeup_.max_order; }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return makeup_.enclosure_order; }
-  std::vector<SurfacePiece> pieces() const override;
+  std::vector<SurfacePiece> pieces() const override { return pieces_; }
+  std::optional<NurbsSurfaceForm> as_nurbs() const override {
+    return form_of_pieces(pieces_, makeup_.breaks_u, makeup_.breaks_v);
+  }
   DegenerateEdges degenerate_edges() const override { return degenerate_; }
 
  private:
   Formula formula_;
   SurfaceMakeup makeup_;
+  std::vector<SurfacePiece> pieces_;
   DegenerateEdges degenerate_;
 };
 
@@ -291,11 +305,6 @@ SurfaceEnclosure ComposedSurface<Formula>::enclose(const Rectangle& box, int ord
       for (int k = 0; k <= SurfaceJet::index(0, order); ++k) result.values[k].include(boxes.values[k]);
     }
   return result;
-}
-
-template <class Formula>
-std::vector<SurfacePiece> ComposedSurface<Formula>::pieces() const {
-  return detail::plain_pieces(makeup_.breaks_u, makeup_.breaks_v);
 }
 
 }  // namespace lekalo::geometry

@@ -17,6 +17,10 @@
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
   X(formula_surface_type)        \
+  X(ruled_surface_type)          \
+  X(sector_surface_type)         \
+  X(translation_surface_type)    \
+  X(loft_surface_type)           \
   X(ribbon_type)
 
 namespace lekalo::geometry {

@@ -40,10 +40,13 @@ TEST(Composition, ParallelOfAnEllipse) {
   const ComposedCurve curve(Parallel{oval()}, makeup_of(*oval(), 1));
   EXPECT_EQ(curve.max_order(), kMaxCurveOrder - 1);
   EXPECT_EQ(curve.enclosure_order(), kMaxCurveEnclosureOrder - 1);
-  checks::check_derivatives(curve, [](const auto& t) {
-    const auto x = -kA * sin(t), y = kB * cos(t), speed = sqrt(x * x + y * y);
-    return Triple{kA * cos(t) - kDistance * y / speed, kB * sin(t) + kDistance * x / speed, t - t};
-  }, curve.domain(), 1e-13);
+  checks::check_derivatives(
+      curve,
+      [](const auto& t) {
+        const auto x = -kA * sin(t), y = kB * cos(t), speed = sqrt(x * x + y * y);
+        return Triple{kA * cos(t) - kDistance * y / speed, kB * sin(t) + kDistance * x / speed, t - t};
+      },
+      curve.domain(), 1e-13);
   checks::check_enclosures(curve, curve.domain());
 }
 
@@ -100,6 +103,8 @@ TEST(Composition, OfASurface) {
   makeup.breaks_u = {0.5, 1.5}, makeup.breaks_v = {0.2, 1.1};
   const ComposedSurface surface(OverTorus{torus}, makeup);
   const auto formula = [](const auto& u, const auto& v) {
+    using std::cos;
+    using std::sin;
     const auto a = u + v * v, b = 2.0 * v;
     const auto across = 3.0 + cos(b) - 0.5 * sin(b), up = sin(b) + 0.5 * cos(b);
     return Triple{across * cos(a), across * sin(a), up};

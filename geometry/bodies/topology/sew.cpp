@@ -35,6 +35,8 @@ class SideCurve final : public Curve {
     return jet;
   }
 
+  int max_order() const override { return surface_->max_order(); }
+
   CurveEnclosure enclose(const Interval& t, int order) const override {
     const Interval x{at(t.lo), at(t.hi)}, fixed{fixed_, fixed_};
     const SurfaceEnclosure s = surface_->enclose(moving_ == 0 ? Rectangle{x, fixed} : Rectangle{fixed, x}, order);

@@ -41,7 +41,7 @@ TypeDeclaration extended_curve_type() {
              Category::curve, "extended_curve",
              "A curve with more of it before and after: circles, conics and formulas go on by their own law, others "
              "along their end tangents. The parameter is the curve's, beyond its domain.")
-      .example("of: bow, before: 0.5, after: 1")
+      .example("of: my_curve, before: 0.5, after: 1")
       .field("of", reference({Category::curve}), "the curve")
       .field("before", number().non_negative(), "how far the parameter goes below the domain", "0")
       .field("after", number().non_negative(), "how far it goes above", "0")

@@ -106,7 +106,7 @@ TypeDeclaration offset_curve_type() {
   return declare(Category::curve, "offset_curve",
                  "Curve at a distance from another: in a plane to its left as seen against the normal, or across it in "
                  "space. The parameter is the curve's.")
-      .example("of: oval, distance: 0.5")
+      .example("of: round, distance: 0.5")
       .field("of", reference({Category::curve}), "the curve")
       .field("distance", formula({"t"}), "to the left if positive; a number, or a formula of the curve's parameter")
       .field("normal", direction(), "of the plane, towards the viewer", "z")

@@ -76,6 +76,7 @@ class ProjectedImage final : public Curve {
   double period() const override { return period_; }
   // Derivatives up to the fourth along a direction, the third along normals; throws std::invalid_argument beyond.
   CurveJet evaluate(double t, int order) const override;
+  int max_order() const override { return equations_->highest_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override { return starts_.pieces(); }
 

@@ -18,7 +18,7 @@ class SurfaceCurve final : public Curve {
   double period() const override { return period_; }
   // Derivatives up to the surface's highest order; throws std::invalid_argument beyond.
   CurveJet evaluate(double t, int order) const override;
-  int max_order() const override { return surface_->max_order(); }
+  int max_order() const override { return std::min(surface_->max_order(), image_->max_order()); }
   double fit_distance() const override { return surface_->fit_distance(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   // Those of the image, cut where it passes over a line of the surface on which derivatives jump; none is rational.

@@ -148,19 +148,17 @@ NurbsCurveForm reparametrized(const NurbsCurveForm& form, const Interval& domain
   return result;
 }
 
-namespace {
-
-// The same Bezier curve with one more point (Golovanov 2016, 2.6).
-void elevate_once(std::vector<Vec4>& points) {
-  const int n = static_cast<int>(points.size());
-  points.push_back(points.back());
-  for (int i = n - 1; i > 0; --i) {
-    const double share = static_cast<double>(i) / n;
-    points[i] = affine_mix(share, points[i - 1], 1 - share, points[i]);
+std::vector<Vec4> elevated_bezier(std::vector<Vec4> points, int degree) {
+  while (static_cast<int>(points.size()) <= degree) {
+    const int n = static_cast<int>(points.size());
+    points.push_back(points.back());
+    for (int i = n - 1; i > 0; --i) {
+      const double share = static_cast<double>(i) / n;
+      points[i] = affine_mix(share, points[i - 1], 1 - share, points[i]);
+    }
   }
+  return points;
 }
-
-}  // namespace
 
 std::optional<NurbsCurveForm> form_of_pieces(std::vector<CurvePiece> pieces) {
   NurbsCurveForm form;
@@ -171,7 +169,7 @@ std::optional<NurbsCurveForm> form_of_pieces(std::vector<CurvePiece> pieces) {
   }
   bool is_affine = true;
   for (CurvePiece& piece : pieces) {
-    while (piece.degree() < form.degree) elevate_once(piece.points);
+    piece.points = elevated_bezier(std::move(piece.points), form.degree);
     form.knots.insert(form.knots.end(), form.knots.empty() ? form.degree + 1 : form.degree, piece.domain.lo);
     const double scale = form.points.empty() ? 1 : form.points.back().w / piece.points.front().w;
     for (size_t i = form.points.empty() ? 0 : 1; i < piece.points.size(); ++i)

@@ -27,6 +27,9 @@ NurbsCurveForm reversed(const NurbsCurveForm& form);
 // The same points over another domain (Golovanov 2016, 2.15.4).
 NurbsCurveForm reparametrized(const NurbsCurveForm& form, const Interval& domain);
 
+// The same Bezier curve by the points of a degree that is not lower (Golovanov 2016, 2.6).
+std::vector<Vec4> elevated_bezier(std::vector<Vec4> points, int degree);
+
 // One form of rational pieces that follow one another, each end being the next one's beginning: of their highest
 // degree, with knots of that multiplicity at the joints. None if a piece is not rational or cut from the middle of a
 // transcendental span.

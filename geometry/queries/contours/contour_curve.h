@@ -80,6 +80,7 @@ class ContourCurve final : public SearchedCurve {
   // Derivatives up to the fourth, the third of silhouettes, isophotes and reflection lines; throws
   // std::invalid_argument beyond. Outside of the domain it goes on along its end tangent.
   CurveJet evaluate(double t, int order) const override;
+  int max_order() const override { return solution_->highest_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
   const ContourSolution<N>& solution() const { return *solution_; }
@@ -97,6 +98,7 @@ class ContourImage final : public Curve {
 
   Interval domain() const override { return solution_->domain(); }
   CurveJet evaluate(double t, int order) const override;
+  int max_order() const override { return solution_->highest_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
 

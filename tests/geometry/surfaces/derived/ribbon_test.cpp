@@ -34,9 +34,18 @@ CurvePtr cubic() {
   return std::make_shared<NurbsCurve>(bezier_curve(points));
 }
 
+// w(u) = r_v and its derivatives.
+CurveJet direction(const Ribbon& ribbon, double u, int order) {
+  const SurfaceJet jet = ribbon.evaluate(u, 0, order + 1);
+  CurveJet w;
+  w.order = order;
+  for (int k = 0; k <= order; ++k) w.d[k] = jet.d(k, 1);
+  return w;
+}
+
 TEST(Ribbon, MeetsTheGeneralChecks) {
   for (const CurvePtr& curve : {helix(), knot(), cubic()})
-    for (const RibbonKind kind : {RibbonKind::rotation_minimizing, RibbonKind::normal, RibbonKind::binormal}) {
+    for (const FrameKind kind : {FrameKind::rotation_minimizing, FrameKind::normal, FrameKind::binormal}) {
       const Ribbon ribbon(curve, 0.6, {kind});
       // In steps that suit the windings; those of the third order would show that the parts of w agree to 1e-13 only.
       for (const double begin : {0.0, 0.3, 0.8}) {
@@ -52,16 +61,15 @@ TEST(Ribbon, MeetsTheGeneralChecks) {
 
 TEST(Ribbon, IsAsWideAsSaidAndAcrossTheCurve) {
   for (const CurvePtr& curve : {helix(), knot(), cubic()})
-    for (const RibbonDirection& direction :
-         {RibbonDirection{}, RibbonDirection{.twist = 2}, RibbonDirection{RibbonKind::normal},
-          RibbonDirection{RibbonKind::binormal}, RibbonDirection{RibbonKind::fixed, {1, 2, 9}}}) {
-      if (direction.kind == RibbonKind::fixed && curve->is_closed()) continue;
-      const Ribbon ribbon(curve, 0.6, direction);
+    for (const FrameLaw& law : {FrameLaw{}, FrameLaw{.twist = 2}, FrameLaw{FrameKind::normal},
+                                FrameLaw{FrameKind::binormal}, FrameLaw{FrameKind::fixed, {1, 2, 9}}}) {
+      if (law.kind == FrameKind::fixed && curve->is_closed()) continue;
+      const Ribbon ribbon(curve, 0.6, law);
       const Interval t = curve->domain();
       for (int i = 0; i <= 100; ++i) {
         const double u = t.lo + t.width() * i / 100;
         const CurveJet at = curve->evaluate(u, 1);
-        const Vec3 w = ribbon.direction(u, 0).d[0];
+        const Vec3 w = direction(ribbon, u, 0).d[0];
         EXPECT_NEAR(glm::length(w), 1, 2e-13);
         EXPECT_NEAR(glm::dot(w, at.d[1]), 0, 1e-12 * glm::length(at.d[1]));
         EXPECT_LE(glm::length(ribbon.point(u, 0) - at.d[0]), 1e-15);
@@ -76,7 +84,7 @@ TEST(Ribbon, TurnsNoMoreThanItMust) {
     const Interval t = curve->domain();
     for (int i = 1; i < 100; ++i) {
       const double u = t.lo + t.width() * i / 100;
-      const CurveJet w = ribbon.direction(u, 1);
+      const CurveJet w = direction(ribbon, u, 1);
       const Vec3 tangent = glm::normalize(curve->evaluate(u, 1).d[1]);
       EXPECT_NEAR(glm::dot(glm::cross(tangent, w.d[0]), w.d[1]), 0, 1e-10);
     }
@@ -92,22 +100,22 @@ TEST(Ribbon, OnAHelixItTurnsByTheTorsion) {
   const double end = turns * kTwoPi;
   const Vec3 tangent = glm::normalize(Vec3(0, kRadius, kPitch)), normal(-1, 0, 0);
   const Vec3 expected = std::cos(angle) * normal - std::sin(angle) * glm::cross(tangent, normal);
-  EXPECT_LE(glm::length(ribbon.direction(end, 0).d[0] - expected), 1e-11);
+  EXPECT_LE(glm::length(direction(ribbon, end, 0).d[0] - expected), 1e-11);
 }
 
 TEST(Ribbon, ClosesWithItsCurve) {
   const Ribbon closed(knot(), 1, {}), turned(knot(), 1, {.twist = kPi});
-  EXPECT_LE(glm::length(closed.direction(0, 0).d[0] - closed.direction(kTwoPi, 0).d[0]), 1e-11);
-  EXPECT_LE(glm::length(turned.direction(0, 0).d[0] + turned.direction(kTwoPi, 0).d[0]), 1e-11);
+  EXPECT_LE(glm::length(direction(closed, 0, 0).d[0] - direction(closed, kTwoPi, 0).d[0]), 1e-11);
+  EXPECT_LE(glm::length(direction(turned, 0, 0).d[0] + direction(turned, kTwoPi, 0).d[0]), 1e-11);
 }
 
 TEST(Ribbon, NormalsAreThoseOfTheCurve) {
-  const Ribbon normal(helix(), 1, {RibbonKind::normal}), binormal(helix(), 1, {RibbonKind::binormal});
+  const Ribbon normal(helix(), 1, {FrameKind::normal}), binormal(helix(), 1, {FrameKind::binormal});
   for (const double t : {0.0, 1.0, 7.3}) {
     const Vec3 n(-std::cos(t), -std::sin(t), 0);
     const Vec3 tangent = Vec3(-kRadius * std::sin(t), kRadius * std::cos(t), kPitch) / std::hypot(kRadius, kPitch);
-    EXPECT_LE(glm::length(normal.direction(t, 0).d[0] - n), 1e-12);
-    EXPECT_LE(glm::length(binormal.direction(t, 0).d[0] - glm::cross(tangent, n)), 1e-12);
+    EXPECT_LE(glm::length(direction(normal, t, 0).d[0] - n), 1e-12);
+    EXPECT_LE(glm::length(direction(binormal, t, 0).d[0] - glm::cross(tangent, n)), 1e-12);
   }
 }
 
@@ -116,9 +124,10 @@ TEST(Ribbon, LiesFlatOnASurface) {
   Frame raised;
   raised.origin.z = 3 * std::sin(0.6);
   const auto circle = std::make_shared<Circle>(raised, 3 * std::cos(0.6));
-  const Ribbon on_sphere(circle, 0.4, {.kind = RibbonKind::flat, .on = std::make_shared<SphereSurface>(Frame(), 3)});
+  const Ribbon on_sphere(circle, 0.4,
+                         {.kind = FrameKind::on_surface, .on = std::make_shared<SphereSurface>(Frame(), 3)});
   const Ribbon on_cylinder(helix(), 0.4,
-                           {.kind = RibbonKind::flat, .on = std::make_shared<CylinderSurface>(Frame(), 2, 12)});
+                           {.kind = FrameKind::on_surface, .on = std::make_shared<CylinderSurface>(Frame(), 2, 12)});
   for (const double u : {0.0, 0.7, 2.9, 6.2}) {
     EXPECT_LE(glm::length(on_sphere.normal(u, 0) - glm::normalize(circle->point(u))), 1e-12);
     EXPECT_LE(glm::length(on_cylinder.normal(u, 0) - Vec3(std::cos(u), std::sin(u), 0)), 1e-12);
@@ -132,7 +141,7 @@ TEST(Ribbon, LinesMeetThoseOfACircleWhereClosedFormsSay) {
   Frame below;
   below.origin.z = -0.4;
   const CylinderSurface cylinder(below, 2, 0.8);
-  const LineIntersector ribbon(std::make_shared<Ribbon>(circle, 0.8, RibbonDirection{RibbonKind::fixed, {0, 0, 1}}));
+  const LineIntersector ribbon(std::make_shared<Ribbon>(circle, 0.8, FrameLaw{FrameKind::fixed, {0, 0, 1}}));
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
   int hits = 0;
@@ -154,7 +163,7 @@ TEST(Ribbon, LinesMeetThoseOfACircleWhereClosedFormsSay) {
 }
 
 TEST(Ribbon, RefusesCurvesWithoutDirections) {
-  const auto field_of = [](const CurvePtr& curve, double width, const RibbonDirection& direction) -> std::string {
+  const auto field_of = [](const CurvePtr& curve, double width, const FrameLaw& direction) -> std::string {
     try {
       Ribbon(curve, width, direction);
     } catch (const FieldError& error) {
@@ -170,19 +179,19 @@ TEST(Ribbon, RefusesCurvesWithoutDirections) {
                                                    Interval(0, 1), false);
   EXPECT_EQ(field_of(segment, 1, {}), "");
   EXPECT_EQ(field_of(segment, 0, {}).substr(0, 6), "width:");
-  EXPECT_EQ(field_of(segment, 1, {RibbonKind::normal}).substr(0, 50),
+  EXPECT_EQ(field_of(segment, 1, {FrameKind::normal}).substr(0, 50),
             "across: the curve is straight and has no normal at");
-  EXPECT_EQ(field_of(segment, 1, {RibbonKind::fixed, {0, 0, 1}}).substr(0, 46),
+  EXPECT_EQ(field_of(segment, 1, {FrameKind::fixed, {0, 0, 1}}).substr(0, 46),
             "across: the curve runs along this direction at");
   // A circle in the plane of the direction runs along it where its tangent, (-sin t, cos t), is (1, 0.3) or against it.
-  EXPECT_EQ(field_of(std::make_shared<Circle>(Frame(), 1), 1, {RibbonKind::fixed, {1, 0.3, 0}}),
+  EXPECT_EQ(field_of(std::make_shared<Circle>(Frame(), 1), 1, {FrameKind::fixed, {1, 0.3, 0}}),
             "across: the curve runs along this direction at t = 1.86225");
   EXPECT_EQ(field_of(std::make_shared<NurbsCurve>(polyline(corners)), 1, {}), "of: the curve has a corner at t = 1");
-  EXPECT_EQ(field_of(wave, 1, {RibbonKind::normal}), "across: the curve's normal jumps at t = 0");
+  EXPECT_EQ(field_of(wave, 1, {FrameKind::normal}), "across: the curve's normal jumps at t = 0");
   EXPECT_EQ(field_of(wave, 1, {}), "");
-  EXPECT_EQ(
-      field_of(segment, 1, {.kind = RibbonKind::flat, .on = std::make_shared<SphereSurface>(Frame(), 3)}).substr(0, 41),
-      "on: the curve does not lie on the surface");
+  EXPECT_EQ(field_of(segment, 1, {.kind = FrameKind::on_surface, .on = std::make_shared<SphereSurface>(Frame(), 3)})
+                .substr(0, 41),
+            "on: the curve does not lie on the surface");
   EXPECT_EQ(field_of(cusp, 1, {}), "of: the curve rests at t = 0");
 }
 

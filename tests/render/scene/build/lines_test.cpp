@@ -24,7 +24,7 @@ TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
       said_about("{ type: ribbon, of: c, width: 1, across: z, twist: 90 }"),
       "4:57 'twist' is of frames that turn no more than they must\nleave it out, or across: rotation_minimizing\n");
   EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, on: { type: sphere_surface, radius: 3 } }"),
-            "4:43 the curve does not lie on the surface at t = 1.56586\nto lie flat it must lie on it\n");
+            "4:43 the curve does not lie on the surface at t = 1.56745\nto lie flat it must lie on it\n");
   EXPECT_EQ(said_about("{ type: ribbon, of: { type: polyline, points: [[0, 0], [1, 0], [1, 1]] }, width: 1 }"),
             "4:26 the curve has a corner at t = 1\na ribbon follows smooth curves only\n");
   EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1] }"), "");
