@@ -12,6 +12,7 @@
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
   X(basis_function_type)          \
+  X(spline_curve_type)            \
   X(formula_curve_type)           \
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \
