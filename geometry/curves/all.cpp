@@ -13,6 +13,8 @@
   X(nurbs_curve_type)             \
   X(basis_function_type)          \
   X(spline_curve_type)            \
+  X(lagrange_curve_type)          \
+  X(hermite_curve_type)           \
   X(formula_curve_type)           \
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \

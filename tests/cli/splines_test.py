@@ -72,6 +72,29 @@ class Splines(ProgramTest):
         of_scipy = interpolate.make_interp_spline(t, p, 5, bc_type=([(3, zero), (4, zero)], [(1, a), (3, zero)]))
         self.check(f"type: spline_curve, degree: 5, ends: natural, end_tangent: {self.vector(a)}, {self.knots(t)}", p, of_scipy, t, 1e-11)
 
+    def test_hermite_curves_with_estimated_tangents(self):
+        for count in (2, 3, 7, 40):
+            t, p = self.data(count)
+            self.check(f"type: hermite_curve, estimate: monotone, {self.knots(t)}", p, interpolate.PchipInterpolator(t, p), t)
+            if count > 2:
+                self.check(f"type: hermite_curve, estimate: akima, {self.knots(t)}", p, interpolate.Akima1DInterpolator(t, p), t)
+            q = self.random.uniform(-1, 1, p.shape)
+            tangents = "tangents: [%s]" % ", ".join(self.vector(v) for v in q)
+            self.check(f"type: hermite_curve, {tangents}, {self.knots(t)}", p, interpolate.CubicHermiteSpline(t, p, q), t)
+
+    def test_polynomials(self):
+        for count in (2, 5, 9, 12):
+            t, p = self.data(count)
+            t = numpy.cos(numpy.pi * (numpy.arange(count)[::-1] + 0.5) / count)  # Chebyshev's: SciPy itself errs little
+            self.check(f"type: lagrange_curve, {self.knots(t)}", p, interpolate.BarycentricInterpolator(t, p), t)
+
+    def test_polynomials_with_tangents(self):
+        t, p = self.data(4)
+        q = self.random.uniform(-1, 1, (2, 3))
+        of_scipy = interpolate.KroghInterpolator([t[0], t[1], t[1], t[2], t[3], t[3]], [p[0], p[1], q[0], p[2], p[3], q[1]])
+        tangents = f"tangents: [{{ point: 1, vector: {self.vector(q[0])} }}, {{ point: 3, vector: {self.vector(q[1])} }}]"
+        self.check(f"type: lagrange_curve, {tangents}, {self.knots(t)}", p, of_scipy, t)
+
 
 if __name__ == "__main__":
     unittest.main()
