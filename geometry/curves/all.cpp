@@ -35,7 +35,9 @@
   X(reparametrized_curve_type)    \
   X(offset_curve_type)            \
   X(transition_curve_type)        \
-  X(wrapped_curve_type)
+  X(wrapped_curve_type)           \
+  X(polyline_of_curve_type)       \
+  X(spline_of_curve_type)
 
 namespace lekalo::geometry {
 
