@@ -15,6 +15,9 @@
   X(spline_curve_type)            \
   X(lagrange_curve_type)          \
   X(hermite_curve_type)           \
+  X(tension_spline_type)          \
+  X(smoothing_spline_type)        \
+  X(local_spline_type)            \
   X(formula_curve_type)           \
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \

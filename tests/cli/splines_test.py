@@ -82,6 +82,16 @@ class Splines(ProgramTest):
             tangents = "tangents: [%s]" % ", ".join(self.vector(v) for v in q)
             self.check(f"type: hermite_curve, {tangents}, {self.knots(t)}", p, interpolate.CubicHermiteSpline(t, p, q), t)
 
+    def test_smoothing_splines(self):
+        for count, stiffness in ((5, 0.1), (20, 1.5), (60, 1e-3)):
+            t, p = self.data(count)
+            w = self.random.uniform(0.5, 2, count)
+            # SciPy's takes one coordinate.
+            each = [interpolate.make_smoothing_spline(t, p[:, k], w=w, lam=stiffness) for k in range(3)]
+            weights = "weights: [%s]" % ", ".join(repr(float(x)) for x in w)
+            self.check(f"type: smoothing_spline, stiffness: {stiffness!r}, {weights}, {self.knots(t)}", p,
+                       lambda at: numpy.stack([one(at) for one in each], axis=1), t, 1e-11)
+
     def test_polynomials(self):
         for count in (2, 5, 9, 12):
             t, p = self.data(count)

@@ -1,0 +1,263 @@
+// A natural cubic spline with values z has the second derivatives M of R M = Q^T z and jumps of its third derivative
+// D = Q M, where the integral of r''^2 is M^T R M:
+//   R: (h_{i-1} + h_i) / 3 on the diagonal, h_i / 6 beside it;  Q^T z: first divided differences' differences.
+//
+// Smoothing: W (z - p) + stiffness Q M = 0, so (R + stiffness Q^T W^-1 Q) M = Q^T p (Reinsch 1967).
+//
+// Corridor: a point inside its bounds has D_i = 0, so the curve is the natural spline through the points at their
+// bounds alone, with D_i >= 0 at lower and <= 0 at upper ones (Zavyalov et al. 1985, 65): found by an active-set
+// search.
+#include "geometry/curves/splines/smoothing_spline.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+
+#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/splines/spline_curve.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+Sparse matrix_of(int rows, int columns, const Triplets& entries) {
+  Sparse matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+struct NaturalSystem {
+  Sparse q, r;  // n x (n - 2), (n - 2) x (n - 2)
+};
+
+NaturalSystem natural_system(std::span<const double> t) {
+  const int inner = static_cast<int>(t.size()) - 2;
+  Triplets q, r;
+  for (int k = 0; k < inner; ++k) {
+    const double before = t[k + 1] - t[k], after = t[k + 2] - t[k + 1];
+    q.emplace_back(k, k, 1 / before);
+    q.emplace_back(k + 1, k, -1 / before - 1 / after);
+    q.emplace_back(k + 2, k, 1 / after);
+    r.emplace_back(k, k, (before + after) / 3);
+    if (k + 1 == inner) continue;
+    r.emplace_back(k, k + 1, after / 6);
+    r.emplace_back(k + 1, k, after / 6);
+  }
+  return {matrix_of(inner + 2, inner, q), matrix_of(inner, inner, r)};
+}
+
+NurbsCurve natural_spline(std::span<const Vec3> points, std::span<const double> parameters) {
+  const SplineEnd natural{EndRule::natural, {}, {}};
+  return spline_curve(points, parameters, 3, natural, natural);
+}
+
+// One coordinate of a corridor.
+class Corridor {
+ public:
+  Corridor(std::span<const double> t, std::vector<double> center, std::span<const double> half_widths)
+      : t_(t), center_(std::move(center)), half_widths_(half_widths), z_(center_), side_(t.size(), kFree) {
+    for (size_t i = 0; i < t.size(); ++i)
+      if (half_widths[i] == 0) side_[i] = kFixed;
+  }
+
+  // Each step brings a point to its bound or a smaller integral; there are finitely many sets of bounds.
+  std::vector<double> smoothest() {
+    const size_t limit = 100 * t_.size();
+    for (size_t step = 0; step < limit; ++step) {
+      const std::vector<double> goal = smoothest_between_bounds();
+      if (!move_to(goal)) continue;
+      if (!release_one()) return z_;
+    }
+    throw FieldError("corridor", "no smoothest curve was found in it", "a corridor of another width");
+  }
+
+ private:
+  enum Side { kLower = -1, kFixed = 0, kUpper = 1, kFree = 2 };
+
+  double bound(size_t i) const { return center_[i] + side_[i] * half_widths_[i]; }
+
+  std::vector<size_t> at_bounds() const {
+    std::vector<size_t> at;
+    for (size_t i = 0; i < t_.size(); ++i)
+      if (side_[i] != kFree) at.push_back(i);
+    return at;
+  }
+
+  // The straight line nearest to the centers, through the only point at a bound if there is one.
+  std::vector<double> line(const std::vector<size_t>& at) const {
+    double t0 = 0, z0 = 0;
+    for (size_t i = 0; i < t_.size(); ++i) t0 += t_[i] / t_.size(), z0 += center_[i] / t_.size();
+    if (!at.empty()) t0 = t_[at[0]], z0 = bound(at[0]);
+    double tt = 0, tz = 0;
+    for (size_t i = 0; i < t_.size(); ++i) {
+      tt += (t_[i] - t0) * (t_[i] - t0);
+      tz += (t_[i] - t0) * (center_[i] - z0);
+    }
+    std::vector<double> result;
+    for (const double t : t_) result.push_back(z0 + tz / tt * (t - t0));
+    return result;
+  }
+
+  struct Through {
+    std::vector<double> t, z, second;
+    Eigen::VectorXd jumps;  // of the third derivative
+  };
+  Through through(const std::vector<size_t>& at) const {
+    Through spline;
+    for (const size_t i : at) spline.t.push_back(t_[i]), spline.z.push_back(bound(i));
+    spline.second.assign(at.size(), 0);
+    if (at.size() < 3) {
+      spline.jumps = Eigen::VectorXd::Zero(at.size());
+      return spline;
+    }
+    const NaturalSystem system = natural_system(spline.t);
+    const Eigen::SimplicialLDLT<Sparse> factors(system.r);
+    const Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(spline.z.data(), spline.z.size());
+    const Eigen::VectorXd second = factors.solve(system.q.transpose() * z);
+    for (int k = 0; k < second.size(); ++k) spline.second[k + 1] = second[k];
+    spline.jumps = system.q * second;
+    return spline;
+  }
+
+  // Beyond its ends a natural spline is straight.
+  static double value(const Through& s, double t) {
+    const size_t last = s.t.size() - 1;
+    const size_t k = std::clamp<size_t>(std::upper_bound(s.t.begin(), s.t.end(), t) - s.t.begin(), 1, last) - 1;
+    const double h = s.t[k + 1] - s.t[k], w = (t - s.t[k]) / h, slope = (s.z[k + 1] - s.z[k]) / h;
+    if (w < 0) return s.z[0] + (t - s.t[0]) * (slope - h / 6 * s.second[1]);
+    if (w > 1) return s.z[last] + (t - s.t[last]) * (slope + h / 6 * s.second[last - 1]);
+    return (1 - w) * s.z[k] + w * s.z[k + 1] -
+           h * h / 6 * w * (1 - w) * ((2 - w) * s.second[k] + (1 + w) * s.second[k + 1]);
+  }
+
+  std::vector<double> smoothest_between_bounds() const {
+    const std::vector<size_t> at = at_bounds();
+    if (at.size() < 2) return line(at);
+    const Through spline = through(at);
+    std::vector<double> result;
+    for (size_t i = 0; i < t_.size(); ++i) result.push_back(side_[i] == kFree ? value(spline, t_[i]) : bound(i));
+    return result;
+  }
+
+  // Goes as far as the corridor allows; true where that is all the way.
+  bool move_to(const std::vector<double>& goal) {
+    double part = 1;
+    size_t first = t_.size();
+    for (size_t i = 0; i < t_.size(); ++i) {
+      if (side_[i] != kFree || !(std::abs(goal[i] - center_[i]) > half_widths_[i])) continue;
+      const double limit = center_[i] + std::copysign(half_widths_[i], goal[i] - center_[i]);
+      const double reached = (limit - z_[i]) / (goal[i] - z_[i]);
+      if (first == t_.size() || reached < part) part = std::max(0.0, reached), first = i;
+    }
+    for (size_t i = 0; i < t_.size(); ++i) z_[i] = part == 1 ? goal[i] : z_[i] + part * (goal[i] - z_[i]);
+    if (first == t_.size()) return true;
+    side_[first] = goal[first] > center_[first] ? kUpper : kLower;
+    z_[first] = bound(first);
+    return false;
+  }
+
+  // Lets go of the point that its bound pulls most instead of holding it; false where there is none.
+  bool release_one() {
+    const std::vector<size_t> at = at_bounds();
+    if (at.size() < 3) return false;
+    const Through spline = through(at);
+    const double rounding = 1e-13 * spline.jumps.cwiseAbs().maxCoeff();
+    double worst = rounding;
+    size_t free = t_.size();
+    for (size_t k = 0; k < at.size(); ++k)
+      if (side_[at[k]] * spline.jumps[k] > worst) worst = side_[at[k]] * spline.jumps[k], free = at[k];
+    if (free == t_.size()) return false;
+    side_[free] = kFree;
+    return true;
+  }
+
+  std::span<const double> t_;
+  std::vector<double> center_;
+  std::span<const double> half_widths_;
+  std::vector<double> z_;
+  std::vector<int> side_;
+};
+
+void check_count(std::span<const Vec3> points) {
+  if (points.size() < 3)
+    throw FieldError("points", fmt::format("smoothing needs at least 3 points, not {}", points.size()));
+}
+
+}  // namespace
+
+NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double> parameters, double stiffness,
+                            std::span<const double> weights) {
+  check_count(points);
+  const int count = static_cast<int>(points.size());
+  if (!weights.empty() && static_cast<int>(weights.size()) != count)
+    throw FieldError("weights", fmt::format("{} weights do not fit {} points", weights.size(), count));
+  Eigen::VectorXd softness = Eigen::VectorXd::Ones(count);
+  for (size_t i = 0; i < weights.size(); ++i) {
+    if (!(weights[i] > 0)) throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, weights[i]));
+    softness[i] = 1 / weights[i];
+  }
+  Eigen::MatrixX3d p(count, 3);
+  for (int i = 0; i < count; ++i) p.row(i) << points[i].x, points[i].y, points[i].z;
+  const NaturalSystem system = natural_system(parameters);
+  const Sparse bent = system.r + stiffness * Sparse(system.q.transpose() * softness.asDiagonal() * system.q);
+  const Eigen::SimplicialLDLT<Sparse> factors(bent);
+  const Eigen::MatrixX3d second = factors.solve(system.q.transpose() * p);
+  const Eigen::MatrixX3d z = p - stiffness * (softness.asDiagonal() * (system.q * second));
+  std::vector<Vec3> smooth;
+  for (int i = 0; i < count; ++i) smooth.emplace_back(z(i, 0), z(i, 1), z(i, 2));
+  return natural_spline(smooth, parameters);
+}
+
+NurbsCurve corridor_spline(std::span<const Vec3> points, std::span<const double> parameters,
+                           std::span<const double> half_widths) {
+  check_count(points);
+  if (half_widths.size() != points.size())
+    throw FieldError("corridor", fmt::format("{} half-widths do not fit {} points", half_widths.size(), points.size()));
+  for (size_t i = 0; i < half_widths.size(); ++i)
+    if (!(half_widths[i] >= 0)) throw FieldError("corridor", fmt::format("half-width {} is negative", i));
+  std::vector<Vec3> smooth(points.begin(), points.end());
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> center;
+    for (const Vec3& p : points) center.push_back(p[k]);
+    const std::vector<double> z = Corridor(parameters, center, half_widths).smoothest();
+    for (size_t i = 0; i < z.size(); ++i) smooth[i][k] = z[i];
+  }
+  return natural_spline(smooth, parameters);
+}
+
+TypeDeclaration smoothing_spline_type() {
+  return declare(Category::curve, "smoothing_spline",
+                 "Cubic spline that passes near points, as smooth as a stiffness or a corridor lets it be.")
+      .example("points: [[0, 0], [1, 1.2], [2, 0.9], [3, 1.1], [4, 0]], corridor: 0.2")
+      .field("points", points().count(3), "points that the curve passes by")
+      .field("knots", knots(), kPointKnots, "chord_length")
+      .optional("stiffness", number().non_negative(),
+                "weight of the integral of the squared second derivative beside the sum of squared distances")
+      .optional("weights", numbers(), "weight of each squared distance; all 1 when left out; with stiffness")
+      .optional("corridor", numbers(),
+                "how far each coordinate may be from that of its point: one length, or one for each point. The "
+                "smoothest such curve")
+      .shows({"control_polygon", "knots"})
+      .built_by([](const Fields& f) {
+        const std::vector<Vec3>& points = f.points("points");
+        const std::vector<double> parameters = point_parameters(f.knots("knots"), points, false);
+        if (f.has("stiffness") == f.has("corridor"))
+          throw FieldError(f.has("corridor") ? "corridor" : "points",
+                           f.has("corridor") ? "stiffness and corridor do not go together" : "how smooth is not said",
+                           "either stiffness or corridor");
+        if (f.has("corridor") && f.has("weights"))
+          throw FieldError("weights", "a corridor has no weights", "a length of corridor for each point");
+        if (f.has("stiffness"))
+          return smoothing_spline(points, parameters, f.number("stiffness"),
+                                  f.has("weights") ? f.numbers("weights") : std::vector<double>());
+        std::vector<double> half_widths = f.numbers("corridor");
+        if (half_widths.size() == 1) half_widths.assign(points.size(), half_widths[0]);
+        return corridor_spline(points, parameters, half_widths);
+      });
+}
+
+}  // namespace lekalo::geometry
