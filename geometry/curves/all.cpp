@@ -4,6 +4,13 @@
 #define LEKALO_CURVE_TYPES(X)     \
   X(segment_type)                 \
   X(polyline_type)                \
+  X(rectangle_type)               \
+  X(polygon_type)                 \
+  X(regular_polygon_type)         \
+  X(slot_type)                    \
+  X(rounded_polyline_type)        \
+  X(line_arc_curve_type)          \
+  X(profile_type)                 \
   X(circle_type)                  \
   X(ellipse_type)                 \
   X(hyperbola_type)               \
