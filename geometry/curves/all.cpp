@@ -18,6 +18,9 @@
   X(arc_through_points_type)      \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
+  X(rational_cubic_type)          \
+  X(g2_curve_type)                \
+  X(g2_transition_type)           \
   X(basis_function_type)          \
   X(spline_curve_type)            \
   X(lagrange_curve_type)          \

@@ -97,7 +97,7 @@ struct Options {
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, self_intersection = false, nearest = false, json = false;
+  bool topology = false, form = false, self_intersection = false, nearest = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -215,6 +215,9 @@ int run(const Options& options) {
   } else if (options.topology) {
     out = topology(options.name, entity);
     print = print_topology;
+  } else if (options.form) {
+    out = form_of(options.name, entity);
+    print = print_form;
   } else {
     out = measures(options.name, entity);
   }
@@ -309,6 +312,7 @@ void add_measure(CLI::App& app, Action& action) {
       "Examples:\n"
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
+      "  lekalo measure curves.yaml rim --form\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
       "  lekalo measure curves.yaml chord --to dome\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
@@ -328,10 +332,14 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
+  auto* form = sub->add_flag("--form", options->form,
+                             "the exact NURBS form of a curve: knots, control points, weights, Bezier pieces")
+                   ->excludes(topology);
   auto* to = sub->add_option("--to", options->to,
                              "distance from a point, with all its feet; from a curve, surface or body, with all minima")
                  ->type_name("NAME|X,Y,Z")
-                 ->excludes(topology);
+                 ->excludes(topology)
+                 ->excludes(form);
   sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
@@ -346,12 +354,14 @@ void add_measure(CLI::App& app, Action& action) {
                     "where the curve or surface meets itself: crossings, contacts, cusps, parts run twice, curves")
           ->excludes(topology)
           ->excludes(to)
+          ->excludes(form)
           ->excludes(intersect);
   auto* section = sub->add_option("--section", options->section,
                                   "where a plane cuts the surface or body: a point of the plane and its normal")
                       ->type_name("X,Y,Z,NX,NY,NZ")
                       ->excludes(topology)
                       ->excludes(to)
+                      ->excludes(form)
                       ->excludes(intersect)
                       ->excludes(self_intersection);
   auto* silhouette =
@@ -361,6 +371,7 @@ void add_measure(CLI::App& app, Action& action) {
           ->type_name("camera|DX,DY,DZ|eye:X,Y,Z")
           ->excludes(topology)
           ->excludes(to)
+          ->excludes(form)
           ->excludes(intersect)
           ->excludes(self_intersection)
           ->excludes(section);
@@ -370,6 +381,7 @@ void add_measure(CLI::App& app, Action& action) {
                        ->type_name("NAME|X,Y,Z|U,V")
                        ->excludes(topology)
                        ->excludes(to)
+                       ->excludes(form)
                        ->excludes(intersect)
                        ->excludes(self_intersection)
                        ->excludes(section)
@@ -381,6 +393,7 @@ void add_measure(CLI::App& app, Action& action) {
           ->expected(0, 1)
           ->excludes(topology)
           ->excludes(to)
+          ->excludes(form)
           ->excludes(intersect)
           ->excludes(self_intersection)
           ->excludes(section)
@@ -392,6 +405,7 @@ void add_measure(CLI::App& app, Action& action) {
       ->type_name("FILE|NAME")
       ->excludes(topology)
       ->excludes(to)
+      ->excludes(form)
       ->excludes(intersect)
       ->excludes(self_intersection)
       ->excludes(section)

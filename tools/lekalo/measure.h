@@ -21,6 +21,11 @@ void print_measures(const ordered_json& measured);
 ordered_json topology(const std::string& name, const render::Entity& entity);
 void print_topology(const ordered_json& found);
 
+// The exact NURBS form of a curve with its Bezier pieces; of cubics the invariants of the weights. Throws UsageError for
+// anything else.
+ordered_json form_of(const std::string& name, const render::Entity& entity);
+void print_form(const ordered_json& found);
+
 // How far a curve or surface lies from a table of its points: columns t, x, y, z or u, v, x, y, z. "passed" tells
 // whether no distance is above the tolerance, if there is one.
 ordered_json compare_with_table(const std::string& name, const render::Entity& entity, const render::Table& table,
