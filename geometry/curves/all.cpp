@@ -18,6 +18,7 @@
   X(arc_through_points_type)      \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
+  X(local_interpolant_type)       \
   X(rational_cubic_type)          \
   X(g2_curve_type)                \
   X(g2_transition_type)           \
