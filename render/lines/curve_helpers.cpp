@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/curves/operations/moving_frame.h"
+#include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/measures/arc_length.h"
 
 namespace lekalo::render {
@@ -21,6 +22,15 @@ Vec3 curvature_vector(const CurveJet& at) {
   const Vec3 across = glm::cross(glm::cross(at.d[1], at.d[2]), at.d[1]);
   if (!(square > 0) || !(glm::length(across) > kStraight * square * glm::length(at.d[2]))) return Vec3(0);
   return across / (square * square);
+}
+
+std::vector<Frame> frames_on_surfaces(const Curve& curve, const std::vector<double>& at, const Fields& f) {
+  std::vector<SurfacePtr> surfaces;
+  for (const std::any& one : f.references("surfaces")) surfaces.push_back(std::any_cast<SurfacePtr>(one));
+  const SurfaceTrihedron trihedron(surfaces, f.number("share"));
+  std::vector<Frame> frames;
+  for (const double t : at) frames.push_back(trihedron.at(curve.evaluate(t, 1)));
+  return frames;
 }
 
 }  // namespace
@@ -124,6 +134,7 @@ std::vector<Vec3> normal_tips(const Surface& surface, double u, double v, const 
 std::vector<Frame> helper_frames(const Curve& curve, const Helper& helper) {
   const Fields& f = helper.values;
   const std::vector<double> at = f.has("at") ? f.numbers("at") : even_parameters(curve, f.integer("count"));
+  if (f.text("kind") == "on_surfaces") return frames_on_surfaces(curve, at, f);
   return f.text("kind") == "frenet" ? frenet_frames(curve, at) : rotation_minimizing_frames(curve, at);
 }
 

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "geometry/queries/differential/curvature.h"
+#include "geometry/queries/differential/trihedron.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -13,6 +14,15 @@ namespace {
 using geometry::Vec3;
 
 ordered_json json_or_null(bool known, double x) { return known ? finite_or_null(x) : ordered_json(nullptr); }
+
+// The columns t, n, b and the point: a matrix that places things at the point of the curve.
+ordered_json placement(const geometry::Frame& frame) {
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < 3; ++i)
+    rows.push_back(ordered_json::array({frame.z[i], frame.x[i], frame.y[i], frame.origin[i]}));
+  rows.push_back(ordered_json::array({0.0, 0.0, 0.0, 1.0}));
+  return rows;
+}
 
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   const geometry::CurveJet jet = curve.evaluate(t, order);
@@ -60,6 +70,10 @@ void print(const ordered_json& out) {
       print_parameters(value);
     } else if (value.is_null()) {
       fmt::print("{:<21} -\n", key);
+    } else if (key == "placement") {
+      for (const auto& row : value)
+        fmt::print("{:<21} {} {} {} {}\n", &row == &value[0] ? "placement" : "", digits(row[0].get<double>()),
+                   digits(row[1].get<double>()), digits(row[2].get<double>()), digits(row[3].get<double>()));
     } else if (key == "derivatives") {
       for (size_t k = 0; k < value.size(); ++k)
         fmt::print("{:<21} {}\n", fmt::format("derivative {}", k + 1),
@@ -77,8 +91,10 @@ void print(const ordered_json& out) {
 struct Options {
   SceneOptions scene;
   std::string name, at, face;
+  std::vector<std::string> on;
+  double share = 0.5;
   int order = 2;
-  bool json = false;
+  bool placement = false, json = false;
 };
 
 // A surface of its own, a patch of a set by number, or a face of a body by number or name.
@@ -102,6 +118,27 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
 }
 
+// By the frame of Frenet, or that of the curve on surfaces.
+ordered_json placement_of(const render::LoadedScene& scene, const geometry::Curve& curve, double t,
+                          const Options& options) {
+  if (options.on.empty()) {
+    const geometry::CurveCurvature c = geometry::curvature(curve, t);
+    if (!c.has_normal) return nullptr;
+    return placement({curve.point(t), c.normal, c.binormal, c.tangent});
+  }
+  std::vector<geometry::SurfacePtr> surfaces;
+  for (const std::string& name : options.on) {
+    const auto* surface = std::get_if<geometry::SurfacePtr>(&find_geometry(scene, name));
+    if (!surface) throw UsageError(fmt::format("'{}' is not a surface", name));
+    surfaces.push_back(*surface);
+  }
+  try {
+    return placement(geometry::SurfaceTrihedron(surfaces, options.share).at(curve.evaluate(t, 1)));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 int run(const Options& options) {
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
@@ -110,7 +147,9 @@ int run(const Options& options) {
     const double t = parse_numbers(options.at, 1, "--at of a curve")[0];
     note_outside("t", t, (*curve)->domain(), (*curve)->period());
     out = evaluate_curve(**curve, t, options.order);
+    if (options.placement || !options.on.empty()) out["placement"] = placement_of(scene, **curve, t, options);
   } else {
+    if (options.placement || !options.on.empty()) throw UsageError("--placement and --on belong to curves");
     const geometry::SurfacePtr surface = surface_of(entity, options);
     const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
     note_outside("u", uv[0], surface->domain().u, surface->periods().u);
@@ -139,6 +178,15 @@ void add_evaluate(CLI::App& app, Action& action) {
       ->type_name("NUMBER|NAME");
   sub->add_option("--order", options->order, "derivatives of a curve up to this order")
       ->check(CLI::Range(1, geometry::kMaxCurveOrder));
+  sub->add_flag("--placement", options->placement,
+                "the matrix that places things at the point: columns tangent, normal, binormal and the point");
+  auto* on = sub->add_option("--on", options->on,
+                             "the same with the normal of a surface that the curve lies on, or between those of two")
+                 ->type_name("NAME")
+                 ->expected(1, 2);
+  sub->add_option("--share", options->share, "of the first of two surfaces in the direction of the normal [0.5]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(on);
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });
 }

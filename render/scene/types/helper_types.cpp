@@ -81,13 +81,21 @@ TypeDeclaration comb() {
 
 TypeDeclaration frames() {
   TypeDeclaration type = helper("frames", "Moving frames along a curve: tangent, normal, binormal.", "thin");
-  type.field("kind", choice({"frenet", "rotation_minimizing"}), "how the frame turns along the curve", "frenet")
+  type.field(
+          "kind", choice({"frenet", "rotation_minimizing", "on_surfaces"}),
+          "how the frame turns along the curve; on_surfaces: its normal is that of a surface, or between those of two",
+          "frenet")
+      .optional("surfaces", references({Category::surface}).count(1, 2),
+                "for on_surfaces: those that the curve lies on")
+      .field("share", number().between(0, 1), "of the first surface in the direction of the normal, of two", "0.5")
       .field("count", integer().between(1, 10000), "how many, evenly spaced in arc length", "9")
       .optional("at", numbers(), "at these parameters t instead")
       .field("length", length().positive(), "of the vectors, in scene units", "1")
       .field("label", choice({"none", "first", "last", "all"}), "which frames have names at their vectors", "none");
   finish(type);
   return type.built_by([build = type.build](const Fields& f) -> std::any {
+    if ((f.text("kind") == "on_surfaces") != f.has("surfaces"))
+      throw FieldError(f.has("surfaces") ? "surfaces" : "kind", "'kind: on_surfaces' and 'surfaces' belong together");
     if (f.given("count") && f.given("at")) throw FieldError("count", "'at' and 'count' say the same: leave one out");
     return build(f);
   });
