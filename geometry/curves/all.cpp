@@ -30,6 +30,8 @@
   X(smoothing_spline_type)        \
   X(local_spline_type)            \
   X(formula_curve_type)           \
+  X(arc_blend_curve_type)         \
+  X(epsilon_net_type)             \
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \
   X(section_curve_type)           \

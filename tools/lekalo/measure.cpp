@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "command.h"
+#include "geometry/curves/operations/arc_blend_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/queries/measures/mass_properties.h"
@@ -245,6 +246,12 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       // A line found by steps says how far it may be from the one that is meant.
       const auto* line = dynamic_cast<const geometry::SurfaceCurve*>(curve->get());
       if (line && line->error() > 0) out["deviation"] = line->error();
+      const auto* blend = dynamic_cast<const geometry::ArcBlendCurve*>(curve->get());
+      if (blend) out["segments"] = blend->segments();
+      if (blend && blend->bounds()) {
+        out["deviation_bound"] = blend->bounds()->position;
+        out["angle_bound"] = blend->bounds()->angle;
+      }
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));

@@ -71,4 +71,17 @@ double ArcFraction::at(double t) const {
   return std::clamp((found->begin + found->length_to(t)) / length_, 0.0, 1.0);
 }
 
+std::vector<double> parameters_at_even_lengths(const ArcFraction& lengths, const Interval& domain, int parts) {
+  std::vector<double> result{domain.lo};
+  for (int i = 1; i < parts; ++i) {
+    Interval t(result.back(), domain.hi);
+    // The fraction grows with t: halves down to neighbouring numbers.
+    for (double middle = t.middle(); t.lo < middle && middle < t.hi; middle = t.middle())
+      (lengths.at(middle) * parts < i ? t.lo : t.hi) = middle;
+    result.push_back(t.hi);
+  }
+  result.push_back(domain.hi);
+  return result;
+}
+
 }  // namespace lekalo::geometry

@@ -35,4 +35,7 @@ class ArcFraction {
   double length_ = 0;
 };
 
+// Parameters that cut the curve of this domain into so many parts of equal length, the ends included.
+std::vector<double> parameters_at_even_lengths(const ArcFraction& lengths, const Interval& domain, int parts);
+
 }  // namespace lekalo::geometry
