@@ -21,8 +21,8 @@ void print_measures(const ordered_json& measured);
 ordered_json topology(const std::string& name, const render::Entity& entity);
 void print_topology(const ordered_json& found);
 
-// The exact NURBS form of a curve with its Bezier pieces; of cubics the invariants of the weights. Throws UsageError for
-// anything else.
+// The exact NURBS form of a curve with its Bezier pieces; of cubics the invariants of the weights. Throws UsageError
+// for anything else.
 ordered_json form_of(const std::string& name, const render::Entity& entity);
 void print_form(const ordered_json& found);
 

@@ -7,8 +7,8 @@
 //   g(x, a) = a x (l - x) / (sqrt(1 - |a|^2 l^2/4) + sqrt(1 - |a|^2 (x - l/2)^2)),   a = 2 n(P - A)/(|P - A||Q - A|)
 //
 // n the part across e; |a| is the curvature of the circle, a points from the chord to the arc (0 for points on a line).
-// The tangent at a node is that of the circle through it and its neighbours (G1); the parameter is the sum of chords. The
-// first and the last segment of an open curve have one circle. Each arc must be shorter than a half circle.
+// The tangent at a node is that of the circle through it and its neighbours (G1); the parameter is the sum of chords.
+// The first and the last segment of an open curve have one circle. Each arc must be shorter than a half circle.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@
 
 namespace lekalo::geometry {
 
-// How far the interpolant may be from the curve that its nodes are of, by the curvatures k and the torsion of that curve
-// over three neighbouring segments (III.1, formulas 136, 138; III.2, formulas 143, 147, 149, 153), the worst segment's.
-// H(k) = (1 - sqrt(1 - (l k/2)^2))/k is the height of an arc over the chord.
+// How far the interpolant may be from the curve that its nodes are of, by the curvatures k and the torsion of that
+// curve over three neighbouring segments (III.1, formulas 136, 138; III.2, formulas 143, 147, 149, 153), the worst
+// segment's. H(k) = (1 - sqrt(1 - (l k/2)^2))/k is the height of an arc over the chord.
 //   plane  position H(k_max) - H(k_min),  angle l k/sqrt(1 - (l k/2)^2), k the largest |k|
 //   space  with t the largest turn of a segment, k_max S, and P the integral of |torsion|: the plane curvatures are in
 //          [k_min cos P, k_max/cos^2 t], position sqrt(H1^2 + H2^2 - 2 H1 H2 cos F), F = 2 atan(tan(P/2)/cos t),
