@@ -57,6 +57,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from measure' -l samples -x -d 'pl
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l order -x -d 'highest derivatives compared'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l at -x -d 't or u,v'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l face -x -d 'of a body, number or name'
+complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l divided-difference -x -d 'nodes of divided differences'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l order -x -d 'derivatives of a curve'
 complete -c lekalo -n '__fish_seen_subcommand_from trace' -l ray -x -d 'ox,oy,oz,dx,dy,dz'
 complete -c lekalo -n '__fish_seen_subcommand_from trace' -l rays -r -d 'file of rays'

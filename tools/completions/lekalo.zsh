@@ -46,7 +46,7 @@ case $command in
   check) _arguments $scene '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point, curve, surface or body]:name or x,y,z' '--nearest[only the nearest place]' '--position[a point]:name, x,y,z or u,v' '--continuity[how smoothly it joins]:name' '*--intersect[a curve, surface or body]:name' '--self-intersection[where it meets itself]' '--section[a plane]:x,y,z,nx,ny,nz' '--silhouette[a view]:camera, dx,dy,dz or eye\:x,y,z' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
-  evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
+  evaluate) _arguments $scene '--at[where]:t or u,v' '--face[of a body]:number or name' '--divided-difference[nodes of divided differences]:t t ..' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   export) _arguments $scene '--format[what to write]:format:(pov obj ply stl)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \

@@ -4,7 +4,12 @@
 
 #include "command.h"
 #include "geometry/queries/differential/curvature.h"
+<<<<<<< HEAD
 #include "geometry/queries/differential/trihedron.h"
+=======
+#include "geometry/queries/differential/divided_difference.h"
+#include "geometry/queries/differential/osculation.h"
+>>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -15,6 +20,7 @@ using geometry::Vec3;
 
 ordered_json json_or_null(bool known, double x) { return known ? finite_or_null(x) : ordered_json(nullptr); }
 
+<<<<<<< HEAD
 // The columns t, n, b and the point: a matrix that places things at the point of the curve.
 ordered_json placement(const geometry::Frame& frame) {
   ordered_json rows = ordered_json::array();
@@ -22,6 +28,16 @@ ordered_json placement(const geometry::Frame& frame) {
     rows.push_back(ordered_json::array({frame.z[i], frame.x[i], frame.y[i], frame.origin[i]}));
   rows.push_back(ordered_json::array({0.0, 0.0, 0.0, 1.0}));
   return rows;
+=======
+// Darboux's vector, the osculating circle, whose centre is the point of the evolute, and the osculating sphere.
+void put_osculation(ordered_json& out, const geometry::CurveJet& jet, const geometry::CurveCurvature& frame) {
+  const geometry::Osculation o = geometry::osculation(jet, frame);
+  out["darboux"] = o.darboux ? finite_or_null(*o.darboux) : ordered_json(nullptr);
+  out["radius_of_curvature"] = o.circle ? finite_or_null(o.circle->radius) : ordered_json(nullptr);
+  out["center_of_curvature"] = o.circle ? finite_or_null(o.circle->center) : ordered_json(nullptr);
+  out["sphere_radius"] = o.sphere ? finite_or_null(o.sphere->radius) : ordered_json(nullptr);
+  out["sphere_center"] = o.sphere ? finite_or_null(o.sphere->center) : ordered_json(nullptr);
+>>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
 }
 
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
@@ -38,6 +54,24 @@ ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   out["binormal"] = c.has_normal ? to_json(c.binormal) : ordered_json(nullptr);
   out["curvature"] = json_or_null(c.has_curvature, c.curvature);
   out["torsion"] = json_or_null(c.has_normal || c.is_straight, c.torsion);
+  put_osculation(out, curve.evaluate(t, 3), c);
+  out["parameters"] = parameters_of(curve);
+  return out;
+}
+
+// Divided differences over nodes, as the coefficients of Newton's polynomial.
+ordered_json differences_of(const geometry::Curve& curve, const std::vector<double>& nodes) {
+  geometry::DividedDifferences found;
+  try {
+    found = geometry::divided_differences(curve, nodes);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--divided-difference: {}", error.what()));
+  }
+  ordered_json out, list = ordered_json::array();
+  for (const Vec3& difference : found.differences) list.push_back(finite_or_null(difference));
+  out["nodes"] = found.nodes;
+  out["divided_differences"] = list;
+  out["divided_difference"] = list.back();
   out["parameters"] = parameters_of(curve);
   return out;
 }
@@ -70,13 +104,18 @@ void print(const ordered_json& out) {
       print_parameters(value);
     } else if (value.is_null()) {
       fmt::print("{:<21} -\n", key);
+<<<<<<< HEAD
     } else if (key == "placement") {
       for (const auto& row : value)
         fmt::print("{:<21} {} {} {} {}\n", &row == &value[0] ? "placement" : "", digits(row[0].get<double>()),
                    digits(row[1].get<double>()), digits(row[2].get<double>()), digits(row[3].get<double>()));
     } else if (key == "derivatives") {
+=======
+    } else if (key == "derivatives" || key == "divided_differences") {
+      const bool divided = key != "derivatives";
+>>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
       for (size_t k = 0; k < value.size(); ++k)
-        fmt::print("{:<21} {}\n", fmt::format("derivative {}", k + 1),
+        fmt::print("{:<21} {}\n", divided ? fmt::format("difference {}", k) : fmt::format("derivative {}", k + 1),
                    value[k].is_null() ? "-" : digits(Vec3(value[k][0], value[k][1], value[k][2])));
     } else if (value.is_array()) {
       std::string text;
@@ -90,9 +129,13 @@ void print(const ordered_json& out) {
 
 struct Options {
   SceneOptions scene;
+<<<<<<< HEAD
   std::string name, at, face;
   std::vector<std::string> on;
   double share = 0.5;
+=======
+  std::string name, at, face, divided_difference;
+>>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
   int order = 2;
   bool placement = false, json = false;
 };
@@ -140,10 +183,19 @@ ordered_json placement_of(const render::LoadedScene& scene, const geometry::Curv
 }
 
 int run(const Options& options) {
+  if (options.at.empty() == options.divided_difference.empty())
+    throw UsageError("evaluate takes --at T or --at U,V, or of a curve --divided-difference T,T,..");
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
   ordered_json out;
-  if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+  if (!options.divided_difference.empty()) {
+    const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
+    if (!curve)
+      throw UsageError(fmt::format("'{}' is no curve: divided differences are those of curves", options.name));
+    const std::vector<double> nodes = parse_numbers(options.divided_difference, 0, "--divided-difference");
+    for (const double t : nodes) note_outside("t", t, (*curve)->domain(), (*curve)->period());
+    out = differences_of(**curve, nodes);
+  } else if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
     const double t = parse_numbers(options.at, 1, "--at of a curve")[0];
     note_outside("t", t, (*curve)->domain(), (*curve)->period());
     out = evaluate_curve(**curve, t, options.order);
@@ -169,11 +221,20 @@ int run(const Options& options) {
 void add_evaluate(CLI::App& app, Action& action) {
   auto* sub = app.add_subcommand("evaluate", "A point of a curve or surface with derivatives and curvatures");
   sub->footer(
-      "Examples:\n  lekalo evaluate ring.yaml section --at 0.5\n  lekalo evaluate ring.yaml ring --at pi/2,1.2 --json");
+      "Examples:\n  lekalo evaluate ring.yaml section --at 0.5\n  lekalo evaluate ring.yaml ring --at pi/2,1.2 --json\n"
+      "  lekalo evaluate wave.yaml wave --divided-difference 0,0,1,2\n\n"
+      "Of a curve it prints derivatives, Frenet's frame, curvature and torsion, Darboux's vector, the osculating "
+      "circle\n"
+      "(its centre is the point of the evolute) and the osculating sphere. Divided differences are the coefficients "
+      "of\n"
+      "Newton's polynomial through the curve's points at the nodes; a node given twice stands for the derivative.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
-  sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->required()->type_name("T|U,V");
+  sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->type_name("T|U,V");
+  sub->add_option("--divided-difference", options->divided_difference,
+                  "of a curve its divided differences over these nodes instead")
+      ->type_name("T,T,..");
   sub->add_option("--face", options->face, "face of a body or patch of a set, as trace and measure --topology call it")
       ->type_name("NUMBER|NAME");
   sub->add_option("--order", options->order, "derivatives of a curve up to this order")
