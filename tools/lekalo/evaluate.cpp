@@ -4,12 +4,9 @@
 
 #include "command.h"
 #include "geometry/queries/differential/curvature.h"
-<<<<<<< HEAD
-#include "geometry/queries/differential/trihedron.h"
-=======
 #include "geometry/queries/differential/divided_difference.h"
 #include "geometry/queries/differential/osculation.h"
->>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
+#include "geometry/queries/differential/trihedron.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -20,7 +17,6 @@ using geometry::Vec3;
 
 ordered_json json_or_null(bool known, double x) { return known ? finite_or_null(x) : ordered_json(nullptr); }
 
-<<<<<<< HEAD
 // The columns t, n, b and the point: a matrix that places things at the point of the curve.
 ordered_json placement(const geometry::Frame& frame) {
   ordered_json rows = ordered_json::array();
@@ -28,7 +24,8 @@ ordered_json placement(const geometry::Frame& frame) {
     rows.push_back(ordered_json::array({frame.z[i], frame.x[i], frame.y[i], frame.origin[i]}));
   rows.push_back(ordered_json::array({0.0, 0.0, 0.0, 1.0}));
   return rows;
-=======
+}
+
 // Darboux's vector, the osculating circle, whose centre is the point of the evolute, and the osculating sphere.
 void put_osculation(ordered_json& out, const geometry::CurveJet& jet, const geometry::CurveCurvature& frame) {
   const geometry::Osculation o = geometry::osculation(jet, frame);
@@ -37,7 +34,6 @@ void put_osculation(ordered_json& out, const geometry::CurveJet& jet, const geom
   out["center_of_curvature"] = o.circle ? finite_or_null(o.circle->center) : ordered_json(nullptr);
   out["sphere_radius"] = o.sphere ? finite_or_null(o.sphere->radius) : ordered_json(nullptr);
   out["sphere_center"] = o.sphere ? finite_or_null(o.sphere->center) : ordered_json(nullptr);
->>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
 }
 
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
@@ -104,16 +100,12 @@ void print(const ordered_json& out) {
       print_parameters(value);
     } else if (value.is_null()) {
       fmt::print("{:<21} -\n", key);
-<<<<<<< HEAD
     } else if (key == "placement") {
       for (const auto& row : value)
         fmt::print("{:<21} {} {} {} {}\n", &row == &value[0] ? "placement" : "", digits(row[0].get<double>()),
                    digits(row[1].get<double>()), digits(row[2].get<double>()), digits(row[3].get<double>()));
-    } else if (key == "derivatives") {
-=======
     } else if (key == "derivatives" || key == "divided_differences") {
       const bool divided = key != "derivatives";
->>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
       for (size_t k = 0; k < value.size(); ++k)
         fmt::print("{:<21} {}\n", divided ? fmt::format("difference {}", k) : fmt::format("derivative {}", k + 1),
                    value[k].is_null() ? "-" : digits(Vec3(value[k][0], value[k][1], value[k][2])));
@@ -129,13 +121,9 @@ void print(const ordered_json& out) {
 
 struct Options {
   SceneOptions scene;
-<<<<<<< HEAD
-  std::string name, at, face;
+  std::string name, at, face, divided_difference;
   std::vector<std::string> on;
   double share = 0.5;
-=======
-  std::string name, at, face, divided_difference;
->>>>>>> bdd86fc (Basis functions of Bernstein, Lagrange, Newton, Hermite and truncated powers with derivatives and integrals; divided differences; Darboux vector, osculating circle and sphere)
   int order = 2;
   bool placement = false, json = false;
 };
