@@ -53,7 +53,11 @@
   X(transition_curve_type)        \
   X(wrapped_curve_type)           \
   X(polyline_of_curve_type)       \
-  X(spline_of_curve_type)
+  X(spline_of_curve_type)         \
+  X(nurbs_of_type)                \
+  X(elevated_curve_type)          \
+  X(refined_curve_type)           \
+  X(reduced_curve_type)
 
 namespace lekalo::geometry {
 

@@ -9,7 +9,7 @@ _lekalo() {
     --metric) words='flip rmse psnr ssim max' ;;
     --isa) words='sse2 avx2 avx512 native' ;;
     --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
-    --format) words='pov obj ply stl' ;;
+    --format) words='pov obj ply stl json' ;;
     --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --divided-difference | --ray | --filter | --jobs | --accept | --reason)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
@@ -25,7 +25,7 @@ _lekalo() {
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         check) words='--set --allow-external' ;;
-        measure) words='--topology --to --nearest --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
+        measure) words='--topology --to --nearest --nurbs --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
         evaluate) words='--at --face --divided-difference --order --set --allow-external --json' ;;
         trace) words='--ray --rays --set --allow-external --json' ;;
         export) words='--format --sag --patch-steps --flatness -o --output --set --allow-external --quiet' ;;

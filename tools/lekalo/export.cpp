@@ -1,5 +1,5 @@
-// lekalo export: what a scene shows as one triangle mesh for another program, curves as polylines, or the whole scene
-// for POV-Ray.
+// lekalo export: what a scene shows as one triangle mesh for another program, curves as polylines or as NURBS curves,
+// or the whole scene for POV-Ray.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,6 +8,8 @@
 
 #include "command.h"
 #include "geometry/tessellation/tessellate.h"
+#include "geometry/transformed.h"
+#include "measure.h"
 #include "picture.h"
 #include "render/image/atomic_file.h"
 #include "render/mesh_files/mesh_files.h"
@@ -171,19 +173,39 @@ int export_pov(const Options& options, const std::string& output) {
   return kDone;
 }
 
+// The curves named, or all that the scene's objects show, as NURBS curves; those of objects where they are moved to.
+int export_json(const Options& options, const std::string& output) {
+  const render::LoadedScene scene = options.scene.load();
+  check_inputs_stay(scene, {output});
+  ordered_json curves = ordered_json::array();
+  for (const std::string& name : options.names) curves.push_back(nurbs_form(name, find_geometry(scene, name)));
+  if (options.names.empty())
+    for (const render::Object& object : scene.model->objects)
+      if (const auto* curve = std::get_if<geometry::CurvePtr>(&object.shape)) {
+        const bool moved = !object.transform.is_identity();
+        curves.push_back(nurbs_form(object.name, moved ? transformed(*curve, object.transform) : *curve));
+      }
+  if (curves.empty()) throw UsageError("there is nothing to export: no curve is shown");
+  render::write_file_atomically(output, ordered_json{{"curves", curves}}.dump(2) + "\n");
+  if (!options.quiet) fmt::print(stderr, "{}: {} NURBS curves\n", output, curves.size());
+  return kDone;
+}
+
 int run(const Options& options) {
   std::string output = options.output;
   if (output.empty()) {
-    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|pov");
+    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|json|pov");
     output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
   }
+  if (options.format == "json" || (options.format.empty() && output.ends_with(".json")))
+    return export_json(options, output);
   if (options.format == "pov" || (options.format.empty() && output.ends_with(".pov")))
     return export_pov(options, output);
   render::MeshFormat format;
   try {
     format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
-    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|pov", error.what()));
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|json|pov", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
   check_inputs_stay(scene, {output});
@@ -210,24 +232,27 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand(
-      "export", "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), or the scene for POV-Ray");
+  auto* sub = app.add_subcommand("export",
+                                 "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves as "
+                                 "NURBS curves (JSON), or the scene for POV-Ray");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
       "  lekalo export plate.yaml plate --format stl\n"
+      "  lekalo export curves.yaml rim -o rim.json\n"
       "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
       "Without names everything that the scene's objects show is written, moved as they are. Triangles and "
       "the\n"
       "chords of curves keep the sag of --sag in scene units, else of their object's mesh, else a thousandth of their\n"
       "shape's size. PLY has double\n"
-      "precision; OBJ has shared points and a group for every face; STL has corners in single precision.");
+      "precision; OBJ has shared points and a group for every face; STL has corners in single precision. JSON has\n"
+      "curves alone, as 'lekalo measure --nurbs --json' prints them: exactly, or fitted to a billionth of their size.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
   sub->add_option("--format", options->format, "what to write; else the output's extension decides")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"obj", "ply", "stl", "pov"}));
+      ->check(CLI::IsMember({"obj", "ply", "stl", "json", "pov"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")

@@ -98,7 +98,7 @@ struct Options {
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, form = false, self_intersection = false, nearest = false, json = false;
+  bool topology = false, self_intersection = false, nearest = false, nurbs = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -165,7 +165,10 @@ int run(const Options& options) {
   const double same_point = options.tolerance.value_or(geometry::kSamePoint);
   ordered_json out;
   void (*print)(const ordered_json&) = print_measures;
-  if (of_pair) {
+  if (options.nurbs) {
+    out = nurbs_form(options.name, entity);
+    print = print_nurbs_form;
+  } else if (of_pair) {
     out = compare_pair(options.name, entity, options.against, find_geometry(scene, options.against),
                        options.samples.value_or(kSamples), options.order.value_or(2), options.tolerance);
     print = print_pair;
@@ -216,9 +219,6 @@ int run(const Options& options) {
   } else if (options.topology) {
     out = topology(options.name, entity);
     print = print_topology;
-  } else if (options.form) {
-    out = form_of(options.name, entity);
-    print = print_form;
   } else {
     out = measures(options.name, entity);
   }
@@ -319,7 +319,6 @@ void add_measure(CLI::App& app, Action& action) {
       "Examples:\n"
       "  lekalo measure ring.yaml ring\n"
       "  lekalo measure plate.yaml plate --topology\n"
-      "  lekalo measure curves.yaml rim --form\n"
       "  lekalo measure ring.yaml ring --to 4,-7,4.5\n"
       "  lekalo measure curves.yaml chord --to dome\n"
       "  lekalo measure curves.yaml rim --intersect chord\n"
@@ -330,6 +329,7 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure curves.yaml dome --position 0,0,3\n"
       "  lekalo measure plate.yaml plate --continuity\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
+      "  lekalo measure curves.yaml rim --nurbs --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
       "moments.\n"
@@ -339,14 +339,10 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
-  auto* form = sub->add_flag("--form", options->form,
-                             "the exact NURBS form of a curve: knots, control points, weights, Bezier pieces")
-                   ->excludes(topology);
   auto* to = sub->add_option("--to", options->to,
                              "distance from a point, with all its feet; from a curve, surface or body, with all minima")
                  ->type_name("NAME|X,Y,Z")
-                 ->excludes(topology)
-                 ->excludes(form);
+                 ->excludes(topology);
   sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
@@ -361,14 +357,12 @@ void add_measure(CLI::App& app, Action& action) {
                     "where the curve or surface meets itself: crossings, contacts, cusps, parts run twice, curves")
           ->excludes(topology)
           ->excludes(to)
-          ->excludes(form)
           ->excludes(intersect);
   auto* section = sub->add_option("--section", options->section,
                                   "where a plane cuts the surface or body: a point of the plane and its normal")
                       ->type_name("X,Y,Z,NX,NY,NZ")
                       ->excludes(topology)
                       ->excludes(to)
-                      ->excludes(form)
                       ->excludes(intersect)
                       ->excludes(self_intersection);
   auto* silhouette =
@@ -378,7 +372,6 @@ void add_measure(CLI::App& app, Action& action) {
           ->type_name("camera|DX,DY,DZ|eye:X,Y,Z")
           ->excludes(topology)
           ->excludes(to)
-          ->excludes(form)
           ->excludes(intersect)
           ->excludes(self_intersection)
           ->excludes(section);
@@ -388,7 +381,6 @@ void add_measure(CLI::App& app, Action& action) {
                        ->type_name("NAME|X,Y,Z|U,V")
                        ->excludes(topology)
                        ->excludes(to)
-                       ->excludes(form)
                        ->excludes(intersect)
                        ->excludes(self_intersection)
                        ->excludes(section)
@@ -400,25 +392,34 @@ void add_measure(CLI::App& app, Action& action) {
           ->expected(0, 1)
           ->excludes(topology)
           ->excludes(to)
-          ->excludes(form)
           ->excludes(intersect)
           ->excludes(self_intersection)
           ->excludes(section)
           ->excludes(silhouette)
           ->excludes(position);
+  auto* nurbs = sub->add_flag("--nurbs", options->nurbs,
+                              "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted")
+                    ->excludes(topology)
+                    ->excludes(to)
+                    ->excludes(intersect)
+                    ->excludes(self_intersection)
+                    ->excludes(section)
+                    ->excludes(silhouette)
+                    ->excludes(position)
+                    ->excludes(continuity);
   sub->add_option("--against", options->against,
                   "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
                   "domain is mapped linearly")
       ->type_name("FILE|NAME")
       ->excludes(topology)
       ->excludes(to)
-      ->excludes(form)
       ->excludes(intersect)
       ->excludes(self_intersection)
       ->excludes(section)
       ->excludes(silhouette)
       ->excludes(position)
-      ->excludes(continuity);
+      ->excludes(continuity)
+      ->excludes(nurbs);
   sub->add_option("--tolerance", options->tolerance,
                   fmt::format("largest difference that passes; of --intersect and --self-intersection the part of the "
                               "size below which points "

@@ -21,11 +21,6 @@ void print_measures(const ordered_json& measured);
 ordered_json topology(const std::string& name, const render::Entity& entity);
 void print_topology(const ordered_json& found);
 
-// The exact NURBS form of a curve with its Bezier pieces; of cubics the invariants of the weights. Throws UsageError
-// for anything else.
-ordered_json form_of(const std::string& name, const render::Entity& entity);
-void print_form(const ordered_json& found);
-
 // How far a curve or surface lies from a table of its points: columns t, x, y, z or u, v, x, y, z. "passed" tells
 // whether no distance is above the tolerance, if there is one.
 ordered_json compare_with_table(const std::string& name, const render::Entity& entity, const render::Table& table,
@@ -87,6 +82,11 @@ void print_position(const ordered_json& found);
 ordered_json continuity_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
                            const render::Entity* other, double tolerance);
 void print_continuity(const ordered_json& found);
+
+// A curve as a NURBS curve, exactly where it has such a form, else fitted: degree, knots, points, weights. Throws
+// UsageError for anything else.
+ordered_json nurbs_form(const std::string& name, const render::Entity& entity);
+void print_nurbs_form(const ordered_json& form);
 
 // Parts of these outputs: what keeps a mesh from being closed, as convex_sides, turned_sides, crowded_sides; a range of
 // a parameter; a point back from JSON; the row's parameters as text.

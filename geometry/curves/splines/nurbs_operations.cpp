@@ -110,6 +110,38 @@ NurbsCurveForm elevate_degree(const NurbsCurveForm& form, int by) {
   return result;
 }
 
+NurbsCurveForm in_bezier_form(const NurbsCurveForm& form) {
+  NurbsCurveForm result{form.degree, form.knots, form.points, {}};
+  const Interval domain = form.domain();
+  for (auto knot = form.knots.begin(); knot != form.knots.end();
+       knot = std::upper_bound(knot, form.knots.end(), *knot)) {
+    const auto copies = static_cast<int>(std::upper_bound(knot, form.knots.end(), *knot) - knot);
+    if (domain.lo < *knot && *knot < domain.hi && copies < form.degree)
+      result = insert_knot(result, *knot, form.degree - copies);
+  }
+  return result;
+}
+
+// Point j is the polar form at the knots t_(j+1) .. t_(j+p), of any span that is part of its support.
+NurbsCurveForm clamped_part(const NurbsCurveForm& form, const Interval& part) {
+  require_affine(form);
+  const Interval domain = form.domain();
+  if (!(part.width() > 0 && domain.lo <= part.lo && part.hi <= domain.hi))
+    throw std::invalid_argument("the range is empty or not inside the curve's domain");
+  const auto p = static_cast<size_t>(form.degree);
+  if (form.knots.front() == part.lo && form.knots.back() == part.hi) return {form.degree, form.knots, form.points, {}};
+  NurbsCurveForm result{form.degree, std::vector<double>(p + 1, part.lo), {}, {}};
+  for (const double knot : form.knots)
+    if (part.lo < knot && knot < part.hi) result.knots.push_back(knot);
+  result.knots.insert(result.knots.end(), p + 1, part.hi);
+  for (size_t j = 0; j + p + 1 < result.knots.size(); ++j) {
+    const int span = find_span(form.degree, form.knots, 0.5 * (result.knots[j] + result.knots[j + p + 1]));
+    const auto first = result.knots.begin() + static_cast<std::ptrdiff_t>(j) + 1;
+    result.points.push_back(blossom(form, span, {first, first + form.degree}));
+  }
+  return result;
+}
+
 std::pair<NurbsCurveForm, NurbsCurveForm> split(const NurbsCurveForm& form, double t) {
   require_inside(form, t);
   const int p = form.degree;

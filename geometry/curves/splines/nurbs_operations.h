@@ -18,6 +18,13 @@ NurbsCurveForm insert_knot(const NurbsCurveForm& form, double t, int times = 1);
 // Ramshaw 1989). Throws std::invalid_argument above kMaxDegree.
 NurbsCurveForm elevate_degree(const NurbsCurveForm& form, int by = 1);
 
+// Every knot inside the domain of multiplicity degree: the control points are the Bezier points of the pieces
+// (Golovanov 2016, 2.13).
+NurbsCurveForm in_bezier_form(const NurbsCurveForm& form);
+
+// The part over a range inside the domain, clamped at its ends. Throws std::invalid_argument for a range that is not.
+NurbsCurveForm clamped_part(const NurbsCurveForm& form, const Interval& part);
+
 // The parts before and after t, inside the domain; clamped at t. Throws std::invalid_argument for t outside.
 std::pair<NurbsCurveForm, NurbsCurveForm> split(const NurbsCurveForm& form, double t);
 
