@@ -6,6 +6,7 @@
 #include "geometry/curves/operations/moving_frame.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/measures/arc_length.h"
+#include "render/lines/curve_figures.h"
 
 namespace lekalo::render {
 
@@ -15,6 +16,9 @@ namespace {
 
 // Curvature below this, in units of the curve's own derivatives, is none.
 constexpr double kStraight = 1e-12;
+
+// Of a line beside a curve, where the picture is framed by it.
+constexpr int kFramedPlaces = 64;
 
 // k n = ((r' x r'') x r') / |r'|^4, or zero.
 Vec3 curvature_vector(const CurveJet& at) {
@@ -96,6 +100,15 @@ std::vector<Vec3> helper_points(const Object& object) {
     const Fields& f = helper.values;
     if (helper.type == "control_polygon" && curve)
       if (const auto form = (*curve)->as_nurbs()) add(form->points);
+    if (curve && is_curve_figure(helper.type)) {
+      const CurveFigure figure = curve_figure(*curve, helper);
+      points.insert(points.end(), figure.points.begin(), figure.points.end());
+      for (const CurvePtr& line : figure.lines) {
+        const Interval domain = line->domain();
+        for (int k = 0; k <= kFramedPlaces; ++k)
+          points.push_back(line->point(domain.clamp(domain.lo + domain.width() * k / kFramedPlaces)));
+      }
+    }
     if (helper.type == "comb" && curve) {
       const CurvatureComb comb = curvature_comb(**curve, f.integer("count"), f.number("scale"));
       points.insert(points.end(), comb.tips.begin(), comb.tips.end());

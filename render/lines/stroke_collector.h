@@ -253,6 +253,13 @@ class StrokeCollector {
   void add_net(const geometry::NurbsSurfaceForm& form, const geometry::Periods& periods, const std::string& sign,
                const Helper& helper);
 
+  void blossom(const Vec3& point, const geometry::NurbsCurveForm& form, size_t index, int level, double t,
+               const Helper& helper);
+
+  void add_figure(const geometry::CurvePtr& curve, const std::string& sign, const Helper& helper);
+
+  void add_colored(const geometry::CurvePtr& curve, const Helper& helper);
+
   void add_comb(const geometry::Curve& curve, const Helper& helper);
 
   void add_frames(const geometry::Curve& curve, const Helper& helper);

@@ -1,10 +1,15 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/splines/nurbs_curve.h"
+#include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
 #include "render/lines/stroke_collector.h"
+#include "render/model/color_scale.h"
 #include "render/model/look.h"
 #include "render/model/objects.h"
 
@@ -28,8 +33,10 @@ void StrokeCollector::add_helper(const Helper& helper) {
       polygon(points, closed, helper.style, helper.hidden);
       marks(points);
       for (size_t i = 0; i < points.size(); ++i)
-        if (helper.values.text("label_points") == "all" || i == 0 || i + 1 == points.size())
+        if (helper.values.text("label_points") == "all" || i == 0 || i + 1 == points.size()) {
           label(points[i], {static_cast<double>(i)}, helper);
+          if (helper.values.boolean("blossom")) blossom(points[i], *form, i, 0, 0, helper);
+        }
     }
   } else if (is_triangle(helper) && curve) {
     if (const auto form = (*curve)->as_nurbs()) add_triangle(*form, sign, helper);
@@ -44,6 +51,10 @@ void StrokeCollector::add_helper(const Helper& helper) {
       }
       marks(points);
     }
+  } else if (is_curve_figure(helper.type) && curve && drawing_) {
+    add_figure(*curve, sign, helper);
+  } else if (helper.type == "colored" && curve && drawing_) {
+    add_colored(*curve, helper);
   } else if (helper.type == "comb" && curve && drawing_) {
     add_comb(**curve, helper);
   } else if (helper.type == "frames" && curve && drawing_) {
@@ -94,9 +105,26 @@ void StrokeCollector::add_triangle(const NurbsCurveForm& form, const std::string
     const std::vector<Vec3> shown = control_points(points, level, 1, p + 1 - level);
     polygon(shown, false, helper.style, helper.hidden);
     for (const Vec3& point : shown) mark(point, sign, helper.style, helper.hidden);
-    for (size_t i = 0; i < shown.size(); ++i)
-      label(shown[i], {static_cast<double>(i) + (de_boor ? span - p + level : 0), static_cast<double>(level)}, helper);
+    for (size_t i = 0; i < shown.size(); ++i) {
+      const size_t index = i + static_cast<size_t>(span - p + level);
+      label(shown[i], {static_cast<double>(de_boor ? index : i), static_cast<double>(level)}, helper);
+      if (helper.values.boolean("blossom")) blossom(shown[i], form, index, level, t, helper);
+    }
   }
+}
+
+// The arguments of the polar form whose value the point is: t as often as its level says, and the knots after it
+// (Ramshaw 1989).
+void StrokeCollector::blossom(const Vec3& point, const NurbsCurveForm& form, size_t index, int level, double t,
+                              const Helper& helper) {
+  if (!drawing_) return;
+  std::vector<double> arguments(static_cast<size_t>(level), t);
+  const auto first = form.knots.begin() + static_cast<std::ptrdiff_t>(index) + 1;
+  arguments.insert(arguments.end(), first, first + form.degree - level);
+  std::sort(arguments.begin(), arguments.end());
+  std::string words;
+  for (const double x : arguments) words += fmt::format("{}{:g}", words.empty() ? "" : ", ", x);
+  text(point, fmt::format("$({})$", words), helper, helper.values.text("marker") != "none");
 }
 
 int StrokeCollector::distinct(size_t count, int degree, bool periodic) {
@@ -131,6 +159,29 @@ void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& perio
       const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
       if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j)}, helper);
     }
+}
+
+void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign, const Helper& helper) {
+  const CurveFigure figure = curve_figure(curve, helper);
+  Style style = helper.style;
+  if (figure.arrows) style.arrows = "end";
+  for (const CurvePtr& line : figure.lines) stroke(line, style, helper.hidden);
+  for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
+}
+
+// Parts of equal ranges of the parameter, each in the colour of its middle.
+void StrokeCollector::add_colored(const CurvePtr& curve, const Helper& helper) {
+  const Fields& f = helper.values;
+  const std::string &by = f.text("by"), &colors = f.text("colors");
+  const Interval range = f.has("range") ? f.range("range") : curve_range(*curve, by), domain = curve->domain();
+  const int count = f.integer("count");
+  const auto at = [&](double k) { return domain.clamp(domain.lo + domain.width() * k / count); };
+  for (int k = 0; k < count; ++k) {
+    Style style = helper.style;
+    style.color = color_at(colors, (curve_quantity(*curve, by, at(k + 0.5)) - range.lo) / range.width());
+    style.cycles = false;
+    stroke(std::make_shared<CurvePart>(curve, Interval(at(k), at(k + 1))), style, helper.hidden);
+  }
 }
 
 void StrokeCollector::add_comb(const Curve& curve, const Helper& helper) {

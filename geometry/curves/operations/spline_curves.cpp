@@ -1,8 +1,10 @@
 // Curves as NURBS curves, and the same NURBS curve described otherwise: with a higher degree, with more knots, with a
 // lower degree or fewer knots where that changes it little (Golovanov 2016, 2.6, 2.11, 2.13, 2.14).
+#include "geometry/curves/operations/spline_curves.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "geometry/curves/operations/curve_part.h"
@@ -46,18 +48,6 @@ NurbsCurve changed(const CurvePtr& curve,
   return NurbsCurve(operation(exact_form(curve), 0));
 }
 
-NurbsCurveForm with_knots(NurbsCurveForm form, const std::vector<double>& at, int times) {
-  for (const double t : at) {
-    try {
-      form = insert_knot(form, t, times);
-    } catch (const std::invalid_argument& error) {
-      throw FieldError("at", fmt::format("t = {}: {}", t, error.what()),
-                       fmt::format("a knot of degree {} stands at most {} times", form.degree, form.degree));
-    }
-  }
-  return form;
-}
-
 NurbsCurve refined(const Fields& f) {
   const CurvePtr& curve = f.curve("of");
   const bool bezier = f.boolean("bezier");
@@ -65,28 +55,11 @@ NurbsCurve refined(const Fields& f) {
     throw FieldError(bezier ? "at" : "", "a refined curve has either new knots 'at' or 'bezier'",
                      "at: [2.5]; bezier: true cuts it into Bezier pieces");
   if (bezier) return NurbsCurve(in_bezier_form(exact_form(curve)));
-  const Interval domain = curve->domain();
-  for (const double t : f.numbers("at"))
-    if (!(t > domain.lo && t < domain.hi))
-      throw FieldError("at", fmt::format("t = {} is not inside the curve's domain", t),
-                       fmt::format("t goes from {} to {}", domain.lo, domain.hi));
-  return changed(curve, [&](const NurbsCurveForm& form, int turns) {
-    std::vector<double> at;
-    for (int turn = -turns; turn <= turns; ++turn)
-      for (const double t : f.numbers("at")) at.push_back(t + turn * curve->period());
-    return with_knots(form, at, f.integer("times"));
-  });
+  return with_inserted_knots(curve, f.numbers("at"), f.integer("times"));
 }
 
 NurbsCurve elevated(const Fields& f) {
-  const CurvePtr& curve = f.curve("of");
-  return changed(curve, [&](const NurbsCurveForm& form, int) {
-    const int degree = f.has("degree") ? f.integer("degree") : form.degree + 1;
-    if (degree < form.degree)
-      throw FieldError("degree", fmt::format("the curve has the degree {}", form.degree),
-                       "reduced_curve makes it lower");
-    return elevate_degree(form, degree - form.degree);
-  });
+  return with_degree(f.curve("of"), f.has("degree") ? std::optional(f.integer("degree")) : std::nullopt);
 }
 
 NurbsCurve reduced(const Fields& f) {
@@ -140,6 +113,35 @@ TypeDeclaration operation(const char* name, const char* description) {
 }
 
 }  // namespace
+
+NurbsCurve with_inserted_knots(const CurvePtr& curve, std::span<const double> at, int times) {
+  const Interval domain = curve->domain();
+  for (const double t : at)
+    if (!(t > domain.lo && t < domain.hi))
+      throw FieldError("at", fmt::format("t = {} is not inside the curve's domain", t),
+                       fmt::format("t goes from {} to {}", domain.lo, domain.hi));
+  return changed(curve, [&](NurbsCurveForm form, int turns) {
+    for (int turn = -turns; turn <= turns; ++turn)
+      for (const double t : at) try {
+          form = insert_knot(form, t + turn * curve->period(), times);
+        } catch (const std::invalid_argument& error) {
+          throw FieldError("at", fmt::format("t = {}: {}", t, error.what()),
+                           fmt::format("a knot of degree {} stands at most {} times", form.degree, form.degree));
+        }
+    return form;
+  });
+}
+
+NurbsCurve with_degree(const CurvePtr& curve, std::optional<int> wanted) {
+  return changed(curve, [&](const NurbsCurveForm& form, int) {
+    const int degree = wanted.value_or(form.degree + 1);
+    if (degree < form.degree)
+      throw FieldError("degree", fmt::format("the curve has the degree {}", form.degree),
+                       "reduced_curve makes it lower");
+    if (degree > kMaxDegree) throw FieldError("degree", fmt::format("the degree would exceed {}", kMaxDegree));
+    return elevate_degree(form, degree - form.degree);
+  });
+}
 
 TypeDeclaration nurbs_of_type() {
   return declare(

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "render/drawing/annotations/annotation_work.h"
+#include "render/drawing/annotations/color_bar.h"
 #include "render/drawing/annotations/dimensions.h"
 #include "render/drawing/annotations/light_path.h"
 #include "render/drawing/annotations/page_shapes.h"
@@ -29,6 +30,7 @@ bool is_behind_eye(const AnnotationWork& work) {
   };
   if (type == "angle") return hides("at");
   if (type == "angle_dimension") return hides("at") || hides("from") || hides("to");
+  if (type == "color_bar") return hides("at");
   if (type == "leader") return hides("at") || hides("to");
   if (type == "brace" || type == "linear_dimension") return hides("from") || hides("to");
   if (type == "arrow" && f.has("to") && (f.get<Anchor>("from").on_page || f.get<Anchor>("to").on_page))
@@ -211,6 +213,8 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
       add_leader(work);
     } else if (type == "brace") {
       add_brace(work);
+    } else if (type == "color_bar") {
+      add_color_bar(work);
     } else if (type == "linear_dimension") {
       add_linear_dimension(work);
     } else if (type == "radius_dimension" || type == "diameter_dimension") {

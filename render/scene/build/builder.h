@@ -180,6 +180,7 @@ class Builder {
                        const geometry::Interval& domain, double period);
   bool check_line_values(const Value& given, const char* name, const geometry::ParameterValues& asked,
                          const std::vector<std::any>& shapes);
+  bool check_figure(const geometry::CurvePtr& curve, const Helper& helper, const Value& map);
   bool check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes);
   bool check_size(const TypeDeclaration& type, const Fields& fields, const Value& map);
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "geometry/queries/contours/parameter_lines.h"
+#include "render/lines/curve_figures.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
 
@@ -105,6 +106,19 @@ bool Builder::check_line_values(const Value& given, const char* name, const Para
   return true;
 }
 
+// What is drawn of a curve can be.
+bool Builder::check_figure(const geometry::CurvePtr& curve, const Helper& helper, const Value& map) {
+  try {
+    curve_figure(curve, helper);
+    return true;
+  } catch (const geometry::FieldError& error) {
+    diagnostics_.error(error.field.empty() ? map.place : place_of_field(map, error.field), error.what(), error.hint);
+  } catch (const std::invalid_argument& error) {
+    diagnostics_.error(map.place, error.what());
+  }
+  return false;
+}
+
 // Parameters and levels of what an object shows beside it; `place` is the map of the helper's fields.
 bool Builder::check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes) {
   const Fields& f = helper.values;
@@ -123,8 +137,9 @@ bool Builder::check_helper_values(const Helper& helper, const Value& map, const 
     if (const auto form = (*curve)->as_nurbs()) degree = std::max(degree, form->degree);
     if (const Value* t = map.find("t"); t && f.has("t"))
       if (!is_in(domain, f.number("t"))) outside_of_domain(*t, "t", f.number("t"), "curve", domain), good = false;
+    if (is_curve_figure(helper.type)) good = check_figure(*curve, helper, map) && good;
     const Value* at = map.find("at");
-    if (!at || !f.has("at")) continue;
+    if (!at || !f.holds<std::vector<double>>("at")) continue;
     const std::vector<double>& values = f.numbers("at");
     const bool listed = at->is_sequence() && at->items.size() == values.size();
     for (size_t k = 0; k < values.size(); ++k)

@@ -6,6 +6,7 @@
 #include "geometry/body.h"
 #include "geometry/describe.h"
 #include "geometry/queries/differential/roundness.h"
+#include "render/model/color_scale.h"
 #include "render/model/page.h"
 #include "render/scene/values/types.h"
 
@@ -224,6 +225,31 @@ TypeDeclaration light_path() {
   });
 }
 
+TypeDeclaration color_bar() {
+  TypeDeclaration type =
+      annotation("color_bar", "The scale of colours of lines that are `colored`, with numbers beside it.", "thin");
+  type.example("at: { page: [5 mm, 5 mm] }, range: [0, 1]")
+      .field("at", anchor(), "its lower left corner")
+      .optional("of", reference({Category::curve}), "the curve whose least and largest numbers are its ends")
+      .field("by", choice(curve_quantities()), "what is told of the curve", "curvature")
+      .optional("range", range(), "the numbers at its ends, instead of those of a curve")
+      .field("colors", choice(color_scales()), "scale of colours", "viridis")
+      .field("width", page_length().positive(), "on the page", "3 mm")
+      .field("height", page_length().positive(), "on the page; a bar that is wider than high lies", "30 mm")
+      .field("ticks", counts(), "about how many round numbers, or which", "5")
+      .optional("label", label(), "text at its end");
+  return finish(type, [](const Fields& f) {
+    if (f.has("range") == f.has("of"))
+      throw FieldError(f.has("range") ? "range" : "",
+                       "a colour bar has either the 'range' of its numbers or a curve 'of'",
+                       "of: the curve that is coloured; range: as its helper 'colored' has it");
+    const Interval ends = f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"));
+    for (const double tick : f.get<ParameterValues>("ticks").values)
+      if (!ends.contains(tick))
+        throw FieldError("ticks", "the number " + std::to_string(tick) + " is beyond the ends of the bar");
+  });
+}
+
 constexpr double kNothing = 1e-12;  // of the lengths from which a size is computed
 constexpr double kNoAngle = 1e-9;   // radians
 
@@ -272,7 +298,8 @@ std::vector<TypeDeclaration> annotation_types() {
           round_dimension("diameter_dimension", "The diameter of a circle, an arc, or a round surface."),
           angle_dimension(),
           knots_annotation(),
-          light_path()};
+          light_path(),
+          color_bar()};
 }
 
 }  // namespace lekalo::render

@@ -2,6 +2,8 @@
 // type itself (TypeDeclaration::shows); combs, frames and normals belong to every curve or surface.
 #include <cmath>
 
+#include "geometry/curves/splines/bspline_basis.h"
+#include "render/model/color_scale.h"
 #include "render/model/look.h"
 #include "render/scene/values/types.h"
 
@@ -32,11 +34,14 @@ TypeDeclaration& finish(TypeDeclaration& type) {
   });
 }
 
+const char* kBlossom = "text at each point of a curve: the arguments of the polar form whose value it is";
+
 TypeDeclaration control_polygon() {
   TypeDeclaration type = helper("control_polygon", "The control points of a curve, joined.", "construction");
   type.field("marker", marker(), "sign at the points", "dot")
       .optional("label", label({"i"}), "text at each point; %i is its index")
-      .field("label_points", choice({"all", "ends"}), "which points have the label", "all");
+      .field("label_points", choice({"all", "ends"}), "which points have the label", "all")
+      .field("blossom", boolean(), kBlossom, "false");
   return finish(type);
 }
 
@@ -61,7 +66,8 @@ TypeDeclaration triangle(const char* name, const char* description, bool of_surf
     type.field("t", number(), "parameter of the point");
   type.optional("levels", numbers().at_least(1), "which levels: 1..2, [1, 3]; all without it")
       .field("marker", marker(), "sign at the points", "circle")
-      .optional("label", label({"i", "k"}), "text at each point; %i is its index, %k its level");
+      .optional("label", label({"i", "k"}), "text at each point; %i is its index, %k its level")
+      .field("blossom", boolean(), kBlossom, "false");
   finish(type);
   return type.built_by([build = type.build](const Fields& f) -> std::any {
     if (f.has("levels"))
@@ -118,9 +124,103 @@ TypeDeclaration knots_helper() {
   return finish(type);
 }
 
+// Places along a curve: so many, or these.
+void with_places(TypeDeclaration& type, const char* count) {
+  type.field("count", integer().between(1, 10000), "how many, evenly spaced in arc length", count)
+      .optional("at", numbers(), "at these parameters t instead");
+}
+
+TypeDeclaration finish_with_places(TypeDeclaration& type) {
+  finish(type);
+  return type.built_by([build = type.build](const Fields& f) -> std::any {
+    if (f.given("count") && f.given("at")) throw FieldError("count", "'at' and 'count' say the same: leave one out");
+    return build(f);
+  });
+}
+
+TypeDeclaration osculating_circle() {
+  TypeDeclaration type = helper(
+      "osculating_circle", "The circles that touch a curve closest, with their radii (Golovanov 2016, 2.1).", "thin");
+  with_places(type, "1");
+  type.field("center", boolean(), "show the center and the radius to the curve's point", "true")
+      .field("marker", marker(), "sign at both", "dot");
+  return finish_with_places(type);
+}
+
+TypeDeclaration evolute_helper() {
+  TypeDeclaration type = helper("evolute", "The centers of a curve's osculating circles.", "thin");
+  type.optional("reach", length().positive(), "where the radius is larger it is left out; the curve's size by default");
+  return finish(type);
+}
+
+TypeDeclaration rays(const char* name, const char* description) {
+  TypeDeclaration type = helper(name, description, "thin");
+  with_places(type, "9");
+  type.field("length", length().positive(), "in scene units", "1")
+      .field("both", boolean(), "a line to both sides instead of an arrow", "false")
+      .field("marker", marker(), "sign at the points of the curve", "none");
+  return finish_with_places(type);
+}
+
+TypeDeclaration hodograph_helper() {
+  TypeDeclaration type = helper("hodograph", "The tips of a curve's derivative vectors drawn from one point.", "thin");
+  type.field("at", point(), "where the vectors begin", "[0, 0, 0]")
+      .field("scale", number(), "length of a vector of speed 1, in scene units", "1");
+  return finish(type);
+}
+
+TypeDeclaration direction_helper() {
+  TypeDeclaration type = helper("direction", "Arrow heads on a curve in the direction of growing parameters.", "thin");
+  with_places(type, "1");
+  return finish_with_places(type);
+}
+
+TypeDeclaration colored_helper() {
+  TypeDeclaration type = helper("colored", "A curve in colours that tell its curvature or another number.", "thick");
+  type.field("by", choice(curve_quantities()),
+             "signed_curvature: of a plane curve, positive to the left; speed: |dr/dt|", "curvature")
+      .optional("range", range(), "the numbers of the first and last colour; least and largest by default")
+      .field("colors", choice(color_scales()), "scale of colours", "viridis")
+      .field("count", integer().between(2, 2000), "parts of one colour each", "120");
+  return finish(type);
+}
+
+TypeDeclaration insertion() {
+  TypeDeclaration type =
+      helper("insertion", "The control polygon with more knots (Golovanov 2016, 2.11).", "construction");
+  type.example("at: [0.4]")
+      .field("at", numbers().count(1), "parameters of the new knots")
+      .field("times", integer().between(1, kMaxDegree), "how often each is put in", "1")
+      .field("marker", marker(), "sign at the points", "circle");
+  return finish(type);
+}
+
+TypeDeclaration elevation() {
+  TypeDeclaration type =
+      helper("elevation", "The control polygon of a higher degree (Golovanov 2016, 2.6).", "construction");
+  type.optional("degree", integer().between(1, kMaxDegree), "the degree; one more when left out")
+      .field("marker", marker(), "sign at the points", "circle");
+  return finish(type);
+}
+
+TypeDeclaration hulls() {
+  return helper("hulls", "The convex hulls of the control points of each span, in which the curve lies.", "hairline");
+}
+
+TypeDeclaration moved_point() {
+  TypeDeclaration type =
+      helper("moved_point", "A control point moved, and the part of the curve that moves with it.", "thin");
+  type.example("index: 1, by: [0, 1]")
+      .field("index", integer().at_least(0), "of the control point, from 0")
+      .field("by", vector(), "how far it is moved")
+      .field("marker", marker(), "sign at the moved point", "dot");
+  return finish(type);
+}
+
 }  // namespace
 
 std::vector<TypeDeclaration> helper_types() {
+  TypeDeclaration hull_type = hulls();
   return {control_polygon(),
           control_net(),
           triangle("de_casteljau", "De Casteljau's construction of a point (Golovanov 2016, 2.4).", true),
@@ -128,7 +228,18 @@ std::vector<TypeDeclaration> helper_types() {
           comb(),
           frames(),
           normals(),
-          knots_helper()};
+          knots_helper(),
+          osculating_circle(),
+          evolute_helper(),
+          rays("tangents", "Unit tangents of a curve, or tangent lines."),
+          rays("normal_lines", "Principal normals of a curve, towards the center of curvature, or normal lines."),
+          hodograph_helper(),
+          direction_helper(),
+          colored_helper(),
+          insertion(),
+          elevation(),
+          finish(hull_type),
+          moved_point()};
 }
 
 }  // namespace lekalo::render

@@ -165,7 +165,9 @@ std::vector<geometry::Field> common_fields(Category category) {
 }
 
 std::vector<std::string> helpers_of(Category category) {
-  if (category == Category::curve) return {"comb", "frames"};
+  if (category == Category::curve)
+    return {"comb",         "frames",    "osculating_circle", "evolute", "tangents",
+            "normal_lines", "hodograph", "direction",         "colored"};
   if (category == Category::surface) return {"normals"};
   return {};
 }
@@ -173,6 +175,9 @@ std::vector<std::string> helpers_of(Category category) {
 std::vector<std::string> helpers_of(const TypeDeclaration& type) {
   std::vector<std::string> all = type.helpers, common = helpers_of(type.category);
   all.insert(all.end(), common.begin(), common.end());
+  // What can be done with control points.
+  if (type.category == Category::curve && std::find(all.begin(), all.end(), "control_polygon") != all.end())
+    all.insert(all.end(), {"insertion", "elevation", "hulls", "moved_point"});
   return all;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "render/scene/scene_text.h"
 
 namespace lekalo::render::manual_test {
@@ -14,6 +16,15 @@ const std::string kNamed =
     "  my_curve: { type: nurbs_curve, degree: 1, points: [[1, 0], [2, 0, 1], [3, 0]] }\n"
     "  my_body: { type: ball, radius: 1 }\n"
     "  round: { type: circle, radius: 1 }\n";
+
+bool offers(const std::string& type, const std::string& helper) {
+  for (const TypeDeclaration& one : all_types()) {
+    if (one.name != type) continue;
+    const std::vector<std::string> offered = helpers_of(one);
+    return std::find(offered.begin(), offered.end(), helper) != offered.end();
+  }
+  return false;
+}
 
 // A scene with the example where things of its category stand.
 std::string scene_of(const TypeDeclaration& type, const std::string& example) {
@@ -40,7 +51,7 @@ std::string scene_of(const TypeDeclaration& type, const std::string& example) {
     case Category::helper:
       return std::string("geometry:\n  c: ") +
              (curve ? "{ type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }"
-              : type.name == "de_boor" || type.name == "comb" || type.name == "frames"
+              : offers("nurbs_curve", type.name)
                   ? "{ type: nurbs_curve, points: [[0, 0], [1, 1], [2, 0], [3, 1]] }"
                   : "{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }") +
              "\nobjects: { shape: c, show: { " + example + " } }\n";

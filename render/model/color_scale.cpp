@@ -1,0 +1,73 @@
+#include "render/model/color_scale.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "geometry/queries/differential/curvature.h"
+#include "render/scene/values/color_names.h"
+
+namespace lekalo::render {
+
+using namespace geometry;
+
+namespace {
+
+// sRGB at even steps. Viridis: Smith, van der Walt 2015; blue to red: Moreland 2009, through white.
+const std::map<std::string, std::vector<const char*>>& scales() {
+  static const std::map<std::string, std::vector<const char*>> all = {
+      {"viridis",
+       {"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70", "#7ad151", "#bddf26",
+        "#fde725"}},
+      {"blue_red", {"#3b4cc0", "#6788ee", "#9abbff", "#c9d7f0", "#f2f2f2", "#f7bfa6", "#f49a7b", "#de604d", "#b40426"}},
+      {"grey", {"#202020", "#e0e0e0"}}};
+  return all;
+}
+
+constexpr int kPlaces = 400;
+
+}  // namespace
+
+std::vector<std::string> color_scales() { return {"viridis", "blue_red", "grey"}; }
+
+Vec3 color_at(const std::string& scale, double x) {
+  const std::vector<const char*>& colors = scales().at(scale);
+  const double place = std::clamp(std::isnan(x) ? 0 : x, 0.0, 1.0) * static_cast<double>(colors.size() - 1);
+  const size_t k = std::min(static_cast<size_t>(place), colors.size() - 2);
+  const double w = place - static_cast<double>(k);
+  return (1 - w) * *hex_color(colors[k]) + w * *hex_color(colors[k + 1]);
+}
+
+std::vector<std::string> curve_quantities() {
+  return {"curvature", "signed_curvature", "torsion", "speed", "parameter"};
+}
+
+double curve_quantity(const Curve& curve, const std::string& quantity, double t) {
+  if (quantity == "parameter") return t;
+  const CurveJet jet = curve.evaluate(t, 3);
+  double value = 0;
+  if (quantity == "speed") {
+    value = glm::length(jet.d[1]);
+  } else {
+    const CurveCurvature c = geometry::curvature(jet);
+    value = quantity == "torsion" ? c.torsion : c.curvature;
+    if (quantity == "signed_curvature" && glm::cross(jet.d[1], jet.d[2]).z < 0) value = -value;
+  }
+  return std::isfinite(value) ? value : 0;
+}
+
+Interval curve_range(const Curve& curve, const std::string& quantity) {
+  const Interval domain = curve.domain();
+  double least = kInfinity, largest = -kInfinity;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double value = curve_quantity(curve, quantity, domain.clamp(domain.lo + domain.width() * k / kPlaces));
+    least = std::min(least, value), largest = std::max(largest, value);
+  }
+  const double size = std::max(std::abs(least), std::abs(largest)), middle = 0.5 * (least + largest);
+  if (largest - least > 1e-9 * size) return {least, largest};
+  const double half = size > 0 ? 0.1 * size : 1;
+  return {middle - half, middle + half};
+}
+
+}  // namespace lekalo::render
