@@ -183,6 +183,15 @@ void add_operand(CurveMakeup& makeup, const Curve& operand, int derivatives = 0)
 // Over a part of the domain, or beyond it.
 void cut_to(CurveMakeup& makeup, const Interval& domain);
 
+namespace detail {
+
+// An interval in the parts between breaks.
+std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t);
+CurvePiece plain_curve_piece(const Interval& domain);
+std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, const std::vector<double>& breaks_v);
+
+}  // namespace detail
+
 // Formula: a struct with `template <class T> Triple<T> operator()(const T& t) const`, and `as_nurbs()` where it knows
 // an exact form.
 template <class Formula>
@@ -266,15 +275,6 @@ class ComposedSurface final : public Surface {
   std::vector<SurfacePiece> pieces_;
   DegenerateEdges degenerate_;
 };
-
-namespace detail {
-
-// An interval in the parts between breaks.
-std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t);
-CurvePiece plain_curve_piece(const Interval& domain);
-std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, const std::vector<double>& breaks_v);
-
-}  // namespace detail
 
 template <class Formula>
 CurveEnclosure ComposedCurve<Formula>::enclose(const Interval& t, int order) const {

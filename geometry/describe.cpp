@@ -128,6 +128,11 @@ FieldType formula(std::vector<std::string> variables) {
   type.variables = std::move(variables);
   return type;
 }
+FieldType angle_formula(std::vector<std::string> variables) {
+  FieldType type = formula(std::move(variables));
+  type.dimension = Dimension::angle;
+  return type;
+}
 FieldType formulas(std::vector<std::string> variables, int lowest, int highest) {
   FieldType type = of_kind(Kind::formulas).count(lowest, highest);
   type.variables = std::move(variables);

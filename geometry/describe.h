@@ -195,6 +195,7 @@ FieldType indices();
 FieldType knots();
 FieldType color();
 FieldType formula(std::vector<std::string> variables);
+FieldType angle_formula(std::vector<std::string> variables);
 FieldType formulas(std::vector<std::string> variables, int lowest, int highest);
 FieldType reference(std::vector<Category> categories);
 FieldType references(std::vector<Category> categories);

@@ -21,6 +21,12 @@
   X(sector_surface_type)         \
   X(translation_surface_type)    \
   X(loft_surface_type)           \
+  X(bridge_surface_type)         \
+  X(offset_surface_type)         \
+  X(sweep_surface_type)          \
+  X(bilinear_surface_type)       \
+  X(coons_surface_type)          \
+  X(gordon_type)                 \
   X(ribbon_type)
 
 namespace lekalo::geometry {

@@ -49,9 +49,7 @@ TypeDeclaration ribbon_type() {
       .field("twist", angle(),
              "of rotation_minimizing: turns by so much more from the beginning to the end; 180 makes a Moebius band",
              "0")
-      .built_by([](const Fields& f) {
-        return Ribbon(f.curve("of"), f.number("width"), read_frame_law(f));
-      });
+      .built_by([](const Fields& f) { return Ribbon(f.curve("of"), f.number("width"), read_frame_law(f)); });
 }
 
 }  // namespace lekalo::geometry

@@ -118,6 +118,40 @@ std::vector<CurvePtr> hermite_functions(const std::vector<double>& nodes, bool c
   return cardinal(nodes, derivative_rule(nodes, closed), closed);
 }
 
+// The sum's own mixed derivative at a node is that of both families less the rule's of the points: what is to be
+// added is multiplied by functions whose derivative is 1 at one node. Their curves are zero.
+void mean_twists(BooleanSum& sum, const std::vector<double>& at_u, const std::vector<double>& at_v) {
+  const size_t m = at_u.size(), n = at_v.size();
+  const auto rule_u = derivative_rule(at_u, false), rule_v = derivative_rule(at_v, false);
+  const auto add = [](Family& family, const std::vector<double>& nodes, const Interval& over) {
+    for (size_t k = 0; k < nodes.size(); ++k) {
+      std::vector<double> slopes(nodes.size(), 0.0);
+      slopes[k] = 1;
+      family.functions.push_back(hermite(nodes, std::vector<double>(nodes.size(), 0.0), slopes));
+      family.curves.push_back(std::make_shared<NurbsCurve>(
+          NurbsCurveForm{1, {over.lo, over.lo, over.hi, over.hi}, {Vec4(0, 0, 0, 1), Vec4(0, 0, 0, 1)}, {}}));
+    }
+  };
+  const auto slope = [](const CurvePtr& curve, double t) { return curve->evaluate(t, 1).d[1]; };
+  std::vector<std::vector<Vec3>> twists(m, std::vector<Vec3>(n, Vec3(0)));
+  for (size_t j = 0; j < m; ++j)
+    for (size_t i = 0; i < n; ++i) {
+      Vec3 of_u(0), of_v(0), of_points(0);  // d/dv of s_u, d/du of s_v, the rule's of the points
+      for (size_t k = 0; k < m; ++k) of_u += rule_u(j, k) * slope(sum.along_v.curves[k], at_v[i]);
+      for (size_t k = 0; k < n; ++k) of_v += rule_v(i, k) * slope(sum.along_u.curves[k], at_u[j]);
+      for (size_t k = 0; k < m; ++k)
+        for (size_t l = 0; l < n; ++l) of_points += (rule_u(j, k) * rule_v(i, l)) * sum.points[k][l];
+      twists[j][i] = 0.5 * (of_u + of_v) - of_points;
+    }
+  add(sum.along_u, at_v, {at_u.front(), at_u.back()});
+  add(sum.along_v, at_u, {at_v.front(), at_v.back()});
+  for (auto& row : sum.points) row.resize(2 * n, Vec3(0));
+  for (size_t j = 0; j < m; ++j) {
+    sum.points.emplace_back(2 * n, Vec3(0));
+    for (size_t i = 0; i < n; ++i) sum.points.back()[n + i] = twists[j][i];
+  }
+}
+
 std::vector<CurvePtr> spline_functions(const std::vector<double>& nodes, bool closed) {
   return cardinal(nodes, smooth_rule(nodes, closed), closed);
 }

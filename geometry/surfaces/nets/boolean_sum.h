@@ -43,6 +43,9 @@ std::vector<CurvePtr> lagrange_functions(const std::vector<double>& nodes);
 // as of a cubic without second derivative there (Golovanov 2016, 3.4); two nodes: linear. `closed`: the last node is
 // the first again, and has no function of its own.
 std::vector<CurvePtr> hermite_functions(const std::vector<double>& nodes, bool closed);
+// At the nodes of a net with the functions of Hermite both ways the mixed derivative of the sum becomes the mean of
+// those that the two families have there (Golovanov 2016, 3.5.7).
+void mean_twists(BooleanSum& sum, const std::vector<double>& at_u, const std::vector<double>& at_v);
 // C2 cubic splines, natural or periodic.
 std::vector<CurvePtr> spline_functions(const std::vector<double>& nodes, bool closed);
 // The B-splines of a knot vector, rational with weights (none: all 1).

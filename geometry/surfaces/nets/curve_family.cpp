@@ -15,6 +15,10 @@ std::vector<CurvePtr> read_family(const Fields& fields, const char* field) {
   for (size_t i = 0; i < curves.size(); ++i)
     if (!(curves[i]->domain().width() < kInfinity))
       throw FieldError(field, fmt::format("curve {} is unbounded", i), "give it a domain");
+  return one_domain(std::move(curves), fields);
+}
+
+std::vector<CurvePtr> one_domain(std::vector<CurvePtr> curves, const Fields& fields) {
   if (fields.has("match") && fields.text("match") == "arc_length")
     for (CurvePtr& curve : curves) curve = with_domain(by_arc_length(curve), {0, 1});
   const Interval domain = curves.front()->domain();

@@ -11,6 +11,9 @@ namespace lekalo::geometry {
 // parameter points belong together. Throws FieldError for fewer than two, and unbounded ones.
 std::vector<CurvePtr> read_family(const Fields& fields, const char* field);
 
+// Curves over one domain, as above.
+std::vector<CurvePtr> one_domain(std::vector<CurvePtr> curves, const Fields& fields);
+
 // The mean distance of each curve from the next, over 17 samples; the closing one included when closed.
 std::vector<double> steps_between(const std::vector<CurvePtr>& curves, bool closed);
 

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/curves/splines/spline_axis.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/nets/boolean_sum.h"

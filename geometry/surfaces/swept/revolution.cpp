@@ -10,11 +10,43 @@
 #include "geometry/composition.h"
 #include "geometry/curves/analytic/conic_forms.h"
 #include "geometry/curves/operations/curve_parts.h"
+#include "geometry/expression/scalar_law.h"
 #include "geometry/surfaces/analytic/parameter_range.h"
 
 namespace lekalo::geometry {
 
 namespace {
+
+// The same with the distance from the axis multiplied by a law of the angle (Golovanov 2016, 3.3).
+struct LawfulRevolution {
+  CurvePtr of;
+  Frame frame;
+  ScalarLaw factor;
+
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    using std::cos;
+    using std::sin;
+    const T f = factor(v), cosine = f * cos(v), sine = f * sin(v);
+    const Triple<T> c = curve_at(*of, u) - triple(frame.origin);
+    const T x = dot(c, triple(frame.x)), y = dot(c, triple(frame.y)), z = dot(c, triple(frame.z));
+    return triple(frame.origin) + ((x * cosine - y * sine) * triple(frame.x) +
+                                   (x * sine + y * cosine) * triple(frame.y) + z * triple(frame.z));
+  }
+};
+
+SurfacePtr revolved_by_law(const CurvePtr& curve, const Axis& axis, const Rectangle& domain, ScalarLaw factor) {
+  SurfaceMakeup makeup = makeup_along_u(*curve, domain.v);
+  if (domain.u != curve->domain())
+    throw FieldError("domain", "with a factor the whole curve is turned", "give 'start' and 'angle'");
+  // Quarters, as of circles: enclosures over a whole turn tell nothing.
+  for (int k = 1; k < 8; ++k) makeup.breaks_v.insert(makeup.breaks_v.end() - 1, domain.v.lo + domain.v.width() * k / 8);
+  const double begin = factor(domain.v.lo), end = factor(domain.v.hi);
+  if (std::abs(domain.v.width() - kTwoPi) <= 1e-14 && std::abs(end - begin) <= 1e-12 * std::abs(begin))
+    makeup.periods.v = kTwoPi;
+  return std::make_shared<ComposedSurface<LawfulRevolution>>(
+      LawfulRevolution{curve, frame_about(axis.through, axis.along), std::move(factor)}, std::move(makeup));
+}
 
 DomainRules rules(const Curve& curve) { return {{curve.domain(), Interval::entire()}, false, true}; }
 
@@ -108,12 +140,16 @@ TypeDeclaration revolution_surface_type() {
       .field("start", angle(), "angle at which the surface begins; 0 is the curve itself", "0")
       .optional("domain", rectangle(),
                 "part of the surface, in place of angle and start: u a part of the curve's parameters, v in radians")
+      .optional("factor", formula({"v"}), "of the distance from the axis, as a formula of the angle v in radians")
       .built_by([](const Fields& f) {
         const CurvePtr curve = f.curve("of");
         const double start = f.number("start");
         const Rectangle natural{curve->domain(), {start, start + f.number("angle")}};
         try {
-          return RevolutionSurface(curve, f.axis("axis"), read_domain(f, natural, rules(*curve)));
+          const Rectangle domain = read_domain(f, natural, rules(*curve));
+          if (f.has("factor"))
+            return std::any(revolved_by_law(curve, f.axis("axis"), domain, ScalarLaw(f.get<Expression>("factor"))));
+          return std::any(SurfacePtr(std::make_shared<RevolutionSurface>(curve, f.axis("axis"), domain)));
         } catch (const FieldError&) {
           throw;
         } catch (const std::invalid_argument& error) {

@@ -1,0 +1,184 @@
+// Surfaces that a section sweeps along a path with a moving frame (Golovanov 2016, 3.3.7; Grezdov, Filippenko 2010, 3):
+//
+//   r(u, v) = g(v) + k(v) (X n + Y b + Z t),   (X, Y) = (x, y)(u, v) turned by theta(v)
+//
+// v in 0..1 is the fraction of the path's length, (x, y, z) a point of the section, n, b = t x n, t the frame. Sections
+// at several v are blended by Hermite's cubics. The path has its arc length for parameter, so that laws are of v alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/curves/operations/moving_frame.h"
+#include "geometry/describe.h"
+#include "geometry/expression/scalar_law.h"
+#include "geometry/surfaces/nets/boolean_sum.h"
+#include "geometry/surfaces/nets/curve_family.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+struct Sweep {
+  CurvePtr path, across;  // g and n, over 0..1
+  Family sections;        // of u, with functions of v
+  ScalarLaw twist, scale_x, scale_y;
+
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    using std::cos;
+    using std::sin;
+    Triple<T> p{T(0), T(0), T(0)};
+    for (size_t i = 0; i < sections.curves.size(); ++i)
+      p += curve_at(*sections.functions[i], v).x * curve_at(*sections.curves[i], u);
+    const Triple<T> along = curve_at(*path, v, 1), n = curve_at(*across, v);
+    const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
+    const T x = scale_x(v) * p.x, y = scale_y(v) * p.y, angle = twist(v), c = cos(angle), s = sin(angle);
+    return curve_at(*path, v) + ((c * x - s * y) * n + (s * x + c * y) * b + p.z * t);
+  }
+};
+
+// The section in the frame of the path's beginning: of one that stands where it is.
+struct InFrame {
+  CurvePtr of;
+  Frame frame;
+  template <class T>
+  Triple<T> operator()(const T& t) const {
+    const Triple<T> p = curve_at(*of, t) - triple(frame.origin);
+    return {dot(p, triple(frame.x)), dot(p, triple(frame.y)), dot(p, triple(frame.z))};
+  }
+};
+
+struct Placed {
+  std::vector<CurvePtr> curves;
+  std::vector<double> at;
+};
+
+Placed read_sections(const Fields& f) {
+  if (f.has("section") == f.has("sections"))
+    throw FieldError(f.has("section") ? "sections" : "section", "a sweep has one section, or several at their places",
+                     "give 'section: NAME', or 'sections: [{ s: 0, section: NAME }, ..]'");
+  Placed result;
+  if (f.has("section")) {
+    result.curves = {f.curve("section")};
+    result.at = {0};
+    return result;
+  }
+  for (const Fields& one : f.groups("sections")) {
+    result.curves.push_back(one.curve("section"));
+    result.at.push_back(one.number("s"));
+    if (result.at.size() > 1 && !(result.at.back() > result.at[result.at.size() - 2]))
+      throw FieldError("sections", fmt::format("section {} does not lie behind the one before", result.at.size() - 1),
+                       "give them in the order of s");
+  }
+  return result;
+}
+
+std::vector<CurvePtr> functions_between(const std::vector<double>& at) {
+  if (at.size() == 1) return {one_function({0, 1})};
+  if (at.front() != 0 || at.back() != 1)
+    throw FieldError("sections", fmt::format("the sections reach from s = {:.6g} to {:.6g}", at.front(), at.back()),
+                     "the first stands at s: 0, the last at s: 1");
+  return hermite_functions(at, false);
+}
+
+FrameLaw read_frame(const Fields& f) {
+  FrameLaw law;
+  if (f.holds<Fields>("frame")) {
+    law.kind = FrameKind::fixed;
+    law.fixed = f.group("frame").vec3("fixed");
+  } else {
+    law.kind = f.text("frame") == "frenet" ? FrameKind::normal : FrameKind::rotation_minimizing;
+  }
+  if (f.has("start")) {
+    if (law.kind != FrameKind::rotation_minimizing)
+      throw FieldError("start", "only a frame that turns no more than it must begins in a given direction");
+    law.start = f.vec3("start");
+  }
+  return law;
+}
+
+bool is_periodic(const Surface& surface) {
+  const Rectangle domain = surface.domain();
+  const double near = 1e-9 * bounds(surface).diameter();
+  constexpr int kTried = 12;
+  for (int i = 0; i <= kTried; ++i) {
+    const double u = domain.u.lo + domain.u.width() * i / kTried;
+    const SurfaceJet a = surface.evaluate(u, 0, 1), b = surface.evaluate(u, next_down(1.0), 1);
+    if (glm::length(a.point() - b.point()) > near || glm::length(a.dv() - b.dv()) > 1e3 * near) return false;
+  }
+  return true;
+}
+
+std::any sweep(const Fields& f) {
+  const CurvePtr path = with_domain(by_arc_length(f.curve("path")), {0, 1});
+  Placed placed = read_sections(f);
+  const FrameLaw law = read_frame(f);
+  const CurvePtr across = direction_across(*path, law);
+  if (f.boolean("placed")) {
+    const CurveJet at = path->evaluate(0, 1);
+    const Vec3 t = glm::normalize(at.d[1]), n = across->point(0);
+    for (CurvePtr& curve : placed.curves)
+      curve = std::make_shared<ComposedCurve<InFrame>>(InFrame{curve, {at.d[0], n, glm::cross(t, n), t}},
+                                                       makeup_of(*curve));
+  }
+  const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
+  const auto& scale = f.get<std::vector<Expression>>("scale");
+  Sweep formula{path,
+                across,
+                {curves, functions_between(placed.at)},
+                ScalarLaw(f.get<Expression>("twist")),
+                ScalarLaw(scale.front()),
+                ScalarLaw(scale.back())};
+  SurfaceMakeup makeup = makeup_along_u(*curves.front(), {0, 1});
+  for (const CurvePtr& curve : curves) {
+    add_operand(makeup, *curve, Along::u);
+    if (curve->period() != curves.front()->period()) makeup.periods.u = 0;
+  }
+  for (const CurvePtr& one : formula.sections.functions) add_operand(makeup, *one, Along::v);
+  add_operand(makeup, *path, Along::v, 1);
+  add_operand(makeup, *across, Along::v);
+  ComposedSurface<Sweep> surface(formula, makeup);
+  if (path->is_closed() && is_periodic(surface)) {
+    makeup.periods.v = 1;
+    surface = ComposedSurface<Sweep>(std::move(formula), std::move(makeup));
+  }
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<Sweep>>(std::move(surface))));
+}
+
+}  // namespace
+
+TypeDeclaration sweep_surface_type() {
+  return declare(
+             Category::surface, "sweep_surface",
+             "What a section, or several, sweep along a path. The section lies in the plane x, y: its x goes to the "
+             "frame's normal, its y to the binormal. u is the section's parameter, v in 0..1 the fraction s of the "
+             "path's length; laws are formulas of s.")
+      .example(
+          "path: { type: bezier_curve, points: [[0, 0, 0], [0, 0, 3], [3, 0, 3]] }, section: { type: circle, radius: "
+          "0.5 }")
+      .field("path", reference({Category::curve}), "the curve along which; smooth")
+      .optional("section", reference({Category::curve}), "the curve that is moved")
+      .optional("sections",
+                groups({{"s", number().between(0, 1), "fraction of the path's length, 0..1", true, {}},
+                        {"section", reference({Category::curve}), "the curve there", true, {}}}),
+                "several in place of one, the first at s: 0, the last at s: 1; between them the shape changes smoothly")
+      .field("frame",
+             group({{"fixed", direction(), "the normal is as near as possible to this direction", true, {}}})
+                 .or_word({"rotation_minimizing", "frenet"}),
+             "how it turns: about the path no more than it must (and closing with a closed path), as the path's normal "
+             "and "
+             "binormal, or { fixed: direction }",
+             "rotation_minimizing")
+      .optional("start", direction(), "of rotation_minimizing: the direction of the normal where the path begins")
+      .field("twist", angle_formula({"s"}), "further turn about the path, as a formula of s", "0")
+      .field("scale", formulas({"s"}, 1, 2),
+             "of the section, as a formula of s, or one along its x and one along its y", "1")
+      .field("match", choice({"parameter", "arc_length"}), "which points of several sections belong together",
+             "parameter")
+      .field("placed", boolean(), "the section stands in space as it is at the path's beginning", "false")
+      .built_by(sweep);
+}
+
+}  // namespace lekalo::geometry
