@@ -167,6 +167,46 @@ Triple<T> surface_at(const Surface& surface, const T& u, const T& v, int i = 0, 
   return detail::at(surface, u, v, i, j);
 }
 
+namespace detail {
+
+template <int N, class Formula>
+void enclosure_of_order(const Formula& formula, const Rectangle& box, SurfaceEnclosure& result) {
+  if constexpr (N == 0) {
+    const Triple<Interval> r = formula(box.u, box.v);
+    result.values[0] = geometry::box_of(r);
+  } else {
+    surface_enclosure<N>(formula, box, result);
+  }
+}
+
+// Mean values of all derivatives up to `order`, from the highest on: f(B) in f(m) + f_u(B) (u - m_u) + f_v(B) (v -
+// m_v). kWide is above the order, kMiddle at least it.
+template <int kWide, int kMiddle, class Formula>
+SurfaceEnclosure mean_values(const Formula& formula, const Rectangle& box, int order) {
+  SurfaceEnclosure result, at;
+  enclosure_of_order<kWide>(formula, box, result);
+  const Interval u(box.u.middle()), v(box.v.middle()), off_u = box.u - u, off_v = box.v - v;
+  enclosure_of_order<kMiddle>(formula, {u, v}, at);
+  for (int n = order; n >= 0; --n)
+    for (int j = 0; j <= n; ++j) {
+      Box3& value = result.values[SurfaceJet::index(n - j, j)];
+      const auto change = off_u * triple(result.d(n - j + 1, j)) + off_v * triple(result.d(n - j, j + 1));
+      value = narrowed(value, triple(at.d(n - j, j)) + change);
+    }
+  return result;
+}
+
+template <class Formula>
+SurfaceEnclosure mean_values(const Formula& formula, const Rectangle& box, int order, int known) {
+  if (order == 0) return mean_values<1, 0>(formula, box, 0);
+  if (order == 1) return mean_values<2, 1>(formula, box, 1);
+  if (order == 2 && known > 2) return mean_values<kMaxSurfaceOrder, 2>(formula, box, 2);
+  if (order == 2) return mean_values<2, 1>(formula, box, 1);  // with the second derivatives as they are
+  return mean_values<kMaxSurfaceOrder, kMaxSurfaceOrder>(formula, box, kMaxSurfaceOrder - 1);
+}
+
+}  // namespace detail
+
 // What a composed curve has from its operands.
 struct CurveMakeup {
   Interval domain;
@@ -301,7 +341,7 @@ SurfaceEnclosure ComposedSurface<Formula>::enclose(const Rectangle& box, int ord
   SurfaceEnclosure result;
   for (const Interval& u : detail::between(makeup_.breaks_u, box.u))
     for (const Interval& v : detail::between(makeup_.breaks_v, box.v)) {
-      const SurfaceEnclosure boxes = enclose_surface_centered(formula_, {u, v}, order);
+      const SurfaceEnclosure boxes = detail::mean_values(formula_, {u, v}, order, makeup_.enclosure_order);
       for (int k = 0; k <= SurfaceJet::index(0, order); ++k) result.values[k].include(boxes.values[k]);
     }
   return result;

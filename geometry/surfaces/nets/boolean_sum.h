@@ -59,8 +59,48 @@ std::vector<CurvePtr> end_functions(int n, const Interval& range);
 // The function that is 1.
 CurvePtr one_function(const Interval& range);
 
+namespace detail {
+
+template <class S, int N>
+void add_product(const Triple<Jet<S, N>>& of_u, const Jet<S, N>& of_v, bool swapped, Triple<Jet2<S, N>>& sum) {
+  for (int n = 0; n <= N; ++n)
+    for (int j = 0; j <= n; ++j) {
+      const int k = Jet2<S, N>::index(n - j, j), own = swapped ? j : n - j, other = swapped ? n - j : j;
+      sum.x.c[k] += of_u.x.c[own] * of_v.c[other];
+      sum.y.c[k] += of_u.y.c[own] * of_v.c[other];
+      sum.z.c[k] += of_u.z.c[own] * of_v.c[other];
+    }
+}
+
+// At u and v themselves every term is a product of a function of u and one of v.
+template <class S, int N>
+Triple<Jet2<S, N>> sum_of_products(const BooleanSum& of, const S& u, const S& v) {
+  const auto at_u = Jet<S, N>::variable(u), at_v = Jet<S, N>::variable(v);
+  Triple<Jet2<S, N>> sum;
+  std::vector<Jet<S, N>> a, b;
+  for (size_t i = 0; i < of.along_u.curves.size(); ++i) {
+    a.push_back(curve_at(*of.along_u.functions[i], at_v).x);
+    add_product(curve_at(*of.along_u.curves[i], at_u), a.back(), false, sum);
+  }
+  for (size_t j = 0; j < of.along_v.curves.size(); ++j) {
+    b.push_back(curve_at(*of.along_v.functions[j], at_u).x);
+    add_product(curve_at(*of.along_v.curves[j], at_v), b.back(), true, sum);
+  }
+  for (size_t j = 0; j < of.points.size(); ++j) {
+    Triple<Jet<S, N>> row;
+    for (size_t i = 0; i < of.points[j].size(); ++i) row -= a[i] * triple(of.points[j][i]);
+    add_product(row, b[j], true, sum);
+  }
+  return sum;
+}
+
+}  // namespace detail
+
 template <class T>
 Triple<T> BooleanSum::operator()(const T& u, const T& v) const {
+  if constexpr (requires { T::v_variable(u.value()); })
+    if (detail::are_variables(u, v))
+      return detail::sum_of_products<typename T::Scalar, T::kOrder>(*this, u.value(), v.value());
   Triple<T> sum{T(0), T(0), T(0)};
   std::vector<T> a, b;
   for (const CurvePtr& function : along_u.functions) a.push_back(curve_at(*function, v).x);
