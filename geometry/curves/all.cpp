@@ -57,7 +57,10 @@
   X(nurbs_of_type)                \
   X(elevated_curve_type)          \
   X(refined_curve_type)           \
-  X(reduced_curve_type)
+  X(reduced_curve_type)           \
+  X(elastica_type)                \
+  X(fit_curve_type)               \
+  X(rounded_corners_type)
 
 namespace lekalo::geometry {
 

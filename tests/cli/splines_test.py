@@ -82,6 +82,17 @@ class Splines(ProgramTest):
             tangents = "tangents: [%s]" % ", ".join(self.vector(v) for v in q)
             self.check(f"type: hermite_curve, {tangents}, {self.knots(t)}", p, interpolate.CubicHermiteSpline(t, p, q), t)
 
+    def test_least_squares(self):
+        for degree in (1, 2, 3, 5):
+            t, p = self.data(50)
+            w = self.random.uniform(0.5, 2, 50)
+            breaks = t[[8, 15, 24, 33, 40]] + 0.05
+            knots = numpy.concatenate([[t[0]] * (degree + 1), breaks, [t[-1]] * (degree + 1)])
+            weights = "weights: [%s]" % ", ".join(repr(float(x)) for x in w * w)  # SciPy squares its weights
+            breaks = "breaks: [%s]" % ", ".join(repr(float(x)) for x in breaks)
+            self.check(f"type: fit_curve, degree: {degree}, {breaks}, {weights}, {self.knots(t)}", p,
+                       interpolate.make_lsq_spline(t, p, knots, degree, w=w), t, 1e-11)
+
     def test_smoothing_splines(self):
         for count, stiffness in ((5, 0.1), (20, 1.5), (60, 1e-3)):
             t, p = self.data(count)
