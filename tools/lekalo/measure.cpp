@@ -2,7 +2,9 @@
 #include "measure.h"
 
 #include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <array>
 
 #include <algorithm>
 #include <cmath>
@@ -93,12 +95,12 @@ constexpr double kSmooth = 1e-6;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, section, silhouette, position;
+  std::string name, against, to, section, silhouette, position, cells, line;
   std::vector<std::string> intersect;     // one, or two: common points of three
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, self_intersection = false, nearest = false, nurbs = false, json = false;
+  bool topology = false, regularity = false, self_intersection = false, nearest = false, nurbs = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -219,6 +221,13 @@ int run(const Options& options) {
   } else if (options.topology) {
     out = topology(options.name, entity);
     print = print_topology;
+  } else if (options.regularity) {
+    out = regularity(options.name, entity);
+    print = print_regularity;
+  } else if (!options.cells.empty()) {
+    out = cells_of(options.name, entity, parse_numbers(options.cells, 2, "--cells"),
+                   options.line.empty() ? std::vector<double>() : parse_numbers(options.line, 6, "--line"));
+    print = print_cells;
   } else {
     out = measures(options.name, entity);
   }
@@ -339,87 +348,58 @@ void add_measure(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve, surface, body, shape or mesh")->required();
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
+  auto* regular = sub->add_flag("--regularity", options->regularity,
+                                "whether the curve or surface is regular: bounds of speed and curvature");
+  auto* cells = sub->add_option("--cells", options->cells,
+                                "cut into so many cells: bounds of their diameters and of the surface's")
+                    ->type_name("NU,NV");
+  sub->add_option("--line", options->line,
+                  "of --cells, a point and a direction: whether the diameters prove that the line misses the surface")
+      ->type_name("X,Y,Z,DX,DY,DZ")
+      ->needs(cells);
   auto* to = sub->add_option("--to", options->to,
                              "distance from a point, with all its feet; from a curve, surface or body, with all minima")
-                 ->type_name("NAME|X,Y,Z")
-                 ->excludes(topology);
+                 ->type_name("NAME|X,Y,Z");
   sub->add_flag("--nearest", options->nearest, "of --to only what is nearest, which takes less time");
   auto* intersect =
       sub->add_option("--intersect", options->intersect,
                       "where the curve, surface or body meets another: crossings, contacts, common parts, curves; "
                       "given twice, the common points of three surfaces or bodies")
           ->type_name("NAME")
-          ->allow_extra_args(false)
-          ->excludes(topology)
-          ->excludes(to);
+          ->allow_extra_args(false);
   auto* self_intersection =
       sub->add_flag("--self-intersection", options->self_intersection,
-                    "where the curve or surface meets itself: crossings, contacts, cusps, parts run twice, curves")
-          ->excludes(topology)
-          ->excludes(to)
-          ->excludes(intersect);
+                    "where the curve or surface meets itself: crossings, contacts, cusps, parts run twice, curves");
   auto* section = sub->add_option("--section", options->section,
                                   "where a plane cuts the surface or body: a point of the plane and its normal")
-                      ->type_name("X,Y,Z,NX,NY,NZ")
-                      ->excludes(topology)
-                      ->excludes(to)
-                      ->excludes(intersect)
-                      ->excludes(self_intersection);
+                      ->type_name("X,Y,Z,NX,NY,NZ");
   auto* silhouette =
       sub->add_option(
              "--silhouette", options->silhouette,
              "the outline of the surface or body as the scene's camera sees it, along a direction, or from an eye")
-          ->type_name("camera|DX,DY,DZ|eye:X,Y,Z")
-          ->excludes(topology)
-          ->excludes(to)
-          ->excludes(intersect)
-          ->excludes(self_intersection)
-          ->excludes(section);
+          ->type_name("camera|DX,DY,DZ|eye:X,Y,Z");
   auto* position = sub->add_option("--position", options->position,
                                    "where a point lies: above or below a surface, inside or outside of a body; or U,V "
                                    "in the region of a trimmed surface")
-                       ->type_name("NAME|X,Y,Z|U,V")
-                       ->excludes(topology)
-                       ->excludes(to)
-                       ->excludes(intersect)
-                       ->excludes(self_intersection)
-                       ->excludes(section)
-                       ->excludes(silhouette);
+                       ->type_name("NAME|X,Y,Z|U,V");
   auto* continuity =
       sub->add_option("--continuity", options->continuity,
                       "how smoothly it joins another curve or surface; alone, how a body's faces join: G0 to G3")
           ->type_name("[NAME]")
-          ->expected(0, 1)
-          ->excludes(topology)
-          ->excludes(to)
-          ->excludes(intersect)
-          ->excludes(self_intersection)
-          ->excludes(section)
-          ->excludes(silhouette)
-          ->excludes(position);
+          ->expected(0, 1);
   auto* nurbs = sub->add_flag("--nurbs", options->nurbs,
-                              "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted")
-                    ->excludes(topology)
-                    ->excludes(to)
-                    ->excludes(intersect)
-                    ->excludes(self_intersection)
-                    ->excludes(section)
-                    ->excludes(silhouette)
-                    ->excludes(position)
-                    ->excludes(continuity);
-  sub->add_option("--against", options->against,
-                  "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
-                  "domain is mapped linearly")
-      ->type_name("FILE|NAME")
-      ->excludes(topology)
-      ->excludes(to)
-      ->excludes(intersect)
-      ->excludes(self_intersection)
-      ->excludes(section)
-      ->excludes(silhouette)
-      ->excludes(position)
-      ->excludes(continuity)
-      ->excludes(nurbs);
+                              "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted");
+  auto* against =
+      sub->add_option(
+             "--against", options->against,
+             "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
+             "domain is mapped linearly")
+          ->type_name("FILE|NAME");
+  // One question at a time.
+  const std::array modes{topology, regular,    cells,    to,         intersect, self_intersection,
+                         section,  silhouette, position, continuity, nurbs,     against};
+  for (size_t i = 0; i < modes.size(); ++i)
+    for (size_t j = 0; j < i; ++j) modes[i]->excludes(modes[j]);
   sub->add_option("--tolerance", options->tolerance,
                   fmt::format("largest difference that passes; of --intersect and --self-intersection the part of the "
                               "size below which points "

@@ -21,6 +21,16 @@ void print_measures(const ordered_json& measured);
 ordered_json topology(const std::string& name, const render::Entity& entity);
 void print_topology(const ordered_json& found);
 
+// Whether a curve or surface is regular, with proven bounds. Throws UsageError for anything else.
+ordered_json regularity(const std::string& name, const render::Entity& entity);
+void print_regularity(const ordered_json& found);
+
+// Diameters of the cells of a surface, `counts` of them along u and v, and whether they prove that a line (a point and
+// a direction, or empty) misses it. Throws UsageError for anything else.
+ordered_json cells_of(const std::string& name, const render::Entity& entity, const std::vector<double>& counts,
+                      const std::vector<double>& line);
+void print_cells(const ordered_json& found);
+
 // How far a curve or surface lies from a table of its points: columns t, x, y, z or u, v, x, y, z. "passed" tells
 // whether no distance is above the tolerance, if there is one.
 ordered_json compare_with_table(const std::string& name, const render::Entity& entity, const render::Table& table,
