@@ -45,18 +45,28 @@ double bulge_of_radius(double radius, double chord, int i) {
   return std::tan(0.5 * std::asin(std::clamp(0.5 * chord / radius, -1.0, 1.0)));
 }
 
+// Where the outline's plane is asked for.
+Vec3 in_plane(const Vec3& point, int i) {
+  if (point.z != 0)
+    throw FieldError("nodes", fmt::format("node {} has a point outside of the outline's plane", i),
+                     "leave z out; `frame` places the whole");
+  return point;
+}
+
 double read_bulge(const Fields& node, const Vec3& p, const Vec3& q, int i) {
   const int given = node.has("bulge") + node.has("radius") + node.has("through");
   if (node.text("join") == "line") {
     if (given > 0)
       throw FieldError("nodes", fmt::format("node {} is joined by a line, which has no bulge, radius or point", i),
                        "say join: arc");
+    if (p == q)
+      throw FieldError("nodes", fmt::format("the line from node {} has no length", i), "leave one of its ends out");
     return 0;
   }
   if (given != 1)
     throw FieldError("nodes", fmt::format("the arc from node {} needs one of bulge, radius and through", i));
   if (p == q) throw FieldError("nodes", fmt::format("the arc from node {} has no length", i), "move one of its ends");
-  if (node.has("through")) return bulge_through(p, {node.vec3("through").x, node.vec3("through").y, 0}, q, i);
+  if (node.has("through")) return bulge_through(p, in_plane(node.vec3("through"), i), q, i);
   if (node.has("radius")) return bulge_of_radius(node.number("radius"), glm::length(q - p), i);
   return node.number("bulge");
 }
@@ -65,7 +75,7 @@ std::vector<Node> read_nodes(const std::vector<Fields>& groups, bool closed) {
   std::vector<Node> nodes;
   for (const Fields& group : groups) {
     Node node;
-    node.at = {group.vec3("at").x, group.vec3("at").y, 0};
+    node.at = in_plane(group.vec3("at"), static_cast<int>(nodes.size()));
     node.fillet = group.number("fillet");
     nodes.push_back(node);
   }
@@ -94,6 +104,8 @@ double tangent_length(const std::vector<Node>& nodes, int i) {
   const int count = static_cast<int>(nodes.size());
   const Vec3 in = nodes[i].at - nodes[(i + count - 1) % count].at, out = nodes[(i + 1) % count].at - nodes[i].at;
   const double turn = std::atan2(std::abs(cross(in, out)), glm::dot(in, out));
+  if (turn > kPi - 1e-9)
+    throw FieldError("nodes", fmt::format("at node {} the outline turns right back: no fillet can round that", i));
   return nodes[i].fillet * std::tan(0.5 * turn);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/curves/operations/arc_fraction.h"
+#include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/describe.h"
 #include "geometry/formula.h"
 #include "geometry/point_formulas.h"
@@ -16,6 +17,8 @@ namespace {
 
 // Segments tried for a tolerance, each time twice as many.
 constexpr int kMostSegments = 1 << 14;
+// Sine of the angle between tangents of neighbouring pieces that are one.
+constexpr double kCorner = 1e-6;
 
 // The vector a of the circle through A, P and Q = P + l e.
 Vec3 bend_from(const Vec3& a, const Vec3& p, const Vec3& q, const Vec3& along) {
@@ -135,9 +138,23 @@ ArcBlendCurve within(const Curve& curve, const ArcFraction& lengths, double tole
                    "ask for less, or cut the curve at its corners");
 }
 
-CurvePtr bounded_curve(const Fields& f) {
+// The bounds know nothing of corners between their places.
+void check_smooth(const Curve& curve) {
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  for (size_t i = 1; i < pieces.size(); ++i) {
+    const Vec3 before = evaluate_within(curve, pieces[i - 1].domain, pieces[i - 1].domain.hi, 1).d[1];
+    const Vec3 after = evaluate_within(curve, pieces[i].domain, pieces[i].domain.lo, 1).d[1];
+    if (glm::length(glm::cross(before, after)) > kCorner * glm::length(before) * glm::length(after) ||
+        glm::dot(before, after) < 0)
+      throw FieldError("of", fmt::format("the curve has a corner at t = {:.6g}", pieces[i].domain.lo),
+                       "interpolate its smooth parts, one by one");
+  }
+}
+
+CurvePtr smooth_curve(const Fields& f) {
   const CurvePtr curve = f.curve("of");
   if (!(curve->domain().width() < kInfinity)) throw FieldError("of", "the curve is unbounded", "give it a range");
+  check_smooth(*curve);
   return curve;
 }
 
@@ -152,7 +169,7 @@ ArcBlendCurve build(const Fields& f) {
   if (f.given("closed")) throw FieldError("closed", "the curve of `of` is closed or not by itself", "leave it out");
   if (f.has("count") == f.has("tolerance"))
     throw FieldError(f.has("count") ? "count" : "of", "nodes of a curve need either `count` or `tolerance`");
-  const CurvePtr curve = bounded_curve(f);
+  const CurvePtr curve = smooth_curve(f);
   const ArcFraction lengths(*curve);
   return f.has("count") ? through_curve(*curve, lengths, f.integer("count"))
                         : within(*curve, lengths, f.number("tolerance"));

@@ -81,6 +81,8 @@ NurbsCurve build(const Fields& f) {
     throw FieldError(f.has("of") ? "of" : "cells", "'of' and 'cells' belong together",
                      "say into how many cells it is cut");
   const bool closed = f.given("closed") || !f.has("of") ? f.boolean("closed") : f.curve("of")->is_closed();
+  if (closed && f.has("of") && !f.curve("of")->is_closed())
+    throw FieldError("closed", "the curve of `of` is not closed", "leave `closed` out");
   const std::vector<Vec3> points =
       f.has("of") ? sampled(*f.curve("of"), f.integer("cells"), closed) : f.points("points");
   if (static_cast<int>(points.size()) < (closed ? 3 : 2))
@@ -129,7 +131,7 @@ TypeDeclaration local_interpolant_type() {
       .field("closed", boolean(), "goes on from the last node to the first; a closed curve of `of` does so by itself",
              "false")
       .field(
-          "beta", number().or_word({"linear", "quadratic", "circle", "rose"}),
+          "beta", number().between(-1e6, 1e6).or_word({"linear", "quadratic", "circle", "rose"}),
           "0 (linear): chords; 1 (quadratic): exact for parabolas; circle: nearest to one, when the nodes are evenly "
           "spaced on it; rose: the middles of the cells in its center",
           "quadratic")
