@@ -128,7 +128,9 @@ class Outline {
   NurbsCurve curve() const {
     const int count = static_cast<int>(nodes_.size());
     for (int i = 0; i < count - (closed_ ? 0 : 1); ++i) check_room(nodes_, i, (i + 1) % count);
-    LineArcPath path(frame_.point(leaving(0)));
+    Box3 box;
+    for (const Node& node : nodes_) box.include(node.at);
+    LineArcPath path(frame_.point(leaving(0)), box.diameter());
     for (int i = 1; i < count + (closed_ ? 1 : 0); ++i) go_to(path, i % count);
     return path.curve(closed_);
   }

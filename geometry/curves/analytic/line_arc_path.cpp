@@ -102,8 +102,7 @@ void round_corner(LineArcPath& path, const Corner& c) {
 }  // namespace
 
 void LineArcPath::line_to(const Vec3& point) {
-  const double size = segments_.empty() ? 0 : glm::length(Vec3(segments_[0].back()) - start_);
-  if (!(glm::length(point - end_) > kRounding * size)) return;
+  if (!(glm::length(point - end_) > kRounding * size_)) return;
   segments_.push_back({{end_, 1}, {0.5 * (end_ + point), 1}, {point, 1}});
   breaks_.push_back(breaks_.back() + 1);
   end_ = point;
@@ -141,7 +140,9 @@ NurbsCurve rounded_path(std::span<const Vec3> points, std::span<const double> ra
   const std::vector<Corner> corners = corners_of(points, radii, closed, radius_field);
   check_room(corners, closed, radius_field);
   const Corner& first = corners.front();
-  LineArcPath path(first.point + (closed ? first.tangent_length() : 0) * first.out);
+  Box3 box;
+  for (const Vec3& point : points) box.include(point);
+  LineArcPath path(first.point + (closed ? first.tangent_length() : 0) * first.out, box.diameter());
   for (size_t i = 1; i < corners.size(); ++i) round_corner(path, corners[i]);
   if (closed) round_corner(path, first);
   return path.curve(closed);

@@ -13,10 +13,10 @@
 
 namespace lekalo::geometry {
 
-// A path that grows at its end. Parts of no length (against the path's first side) are left out.
+// A path that grows at its end. Lines without length, against the path's size, are left out.
 class LineArcPath {
  public:
-  explicit LineArcPath(const Vec3& start) : start_(start), end_(start) {}
+  LineArcPath(const Vec3& start, double size) : start_(start), end_(start), size_(size) {}
 
   void line_to(const Vec3& point);
   // About the axis through `center` along the unit vector `normal`, by an angle in radians (right-hand rule, at most a
@@ -29,6 +29,7 @@ class LineArcPath {
 
  private:
   Vec3 start_, end_;
+  double size_;
   std::vector<BezierSegment> segments_;
   std::vector<double> breaks_{0};
   bool has_arcs_ = false;

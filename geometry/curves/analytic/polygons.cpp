@@ -66,7 +66,7 @@ TypeDeclaration slot_type() {
       .built_by([](const Fields& f) {
         const Frame& at = f.frame();
         const double x = 0.5 * f.number("length"), r = 0.5 * f.number("width");
-        LineArcPath path(at.point({-x, -r, 0}));
+        LineArcPath path(at.point({-x, -r, 0}), r);
         path.line_to(at.point({x, -r, 0}));
         path.arc_to(at.point({x, 0, 0}), at.z, kPi, at.point({x, r, 0}));
         path.line_to(at.point({-x, r, 0}));

@@ -17,6 +17,8 @@ namespace {
 
 // Segments tried for a tolerance, each time twice as many.
 constexpr int kMostSegments = 1 << 14;
+// Cosine of half an arc's angle: nearer to a half circle its ends are too steep over the chord.
+constexpr double kHalfCircle = 1e-5;
 // Sine of the angle between tangents of neighbouring pieces that are one.
 constexpr double kCorner = 1e-6;
 
@@ -27,7 +29,7 @@ Vec3 bend_from(const Vec3& a, const Vec3& p, const Vec3& q, const Vec3& along) {
 }
 
 void check_arc(const Vec3& a, const Vec3& p, const Vec3& q, int from, int to) {
-  if (glm::dot(p - a, q - a) > 0) return;
+  if (glm::dot(p - a, q - a) > kHalfCircle * glm::length(p - a) * glm::length(q - a)) return;
   throw FieldError(
       "points",
       fmt::format("the arc from node {} to node {} that a neighbour prescribes is a half circle or more", from, to),

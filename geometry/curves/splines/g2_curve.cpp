@@ -2,6 +2,8 @@
 // joins two curves (Korotkij, Studenova 2024, problems 1 and 2; geometry/curves/splines/g2_joint.h).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "geometry/curves/splines/g2_joint.h"
 #include "geometry/curves/splines/nurbs_operations.h"
 
@@ -51,26 +53,37 @@ std::vector<RationalCubic> chain(const Fields& f) {
   return segments;
 }
 
+// A curve run backwards turns its tangent round and, the normal being the same, its binormal.
+G2End reached(const Fields& f, const std::string& field, bool at_end, bool backwards) {
+  G2End end = g2_end(*f.curve(field), at_end, field);
+  if (backwards) end.tangent = -end.tangent, end.curvature = -end.curvature;
+  return end;
+}
+
 // Bezier pieces raised to the third degree.
-void add_cubics(const Curve& curve, const std::string& field, std::vector<BezierSegment>& segments) {
+void add_cubics(const Curve& curve, const std::string& field, bool backwards, std::vector<BezierSegment>& segments) {
   const auto form = curve.as_nurbs();
   if (!form || form->degree > 3 || !form->maps.empty())
     throw FieldError(field, "only splines of at most the third degree can be joined with the transition to one",
                      "leave `joined` out and draw the three curves");
-  for (const CurvePiece& piece : bezier_pieces(elevate_degree(*form, 3 - form->degree), curve.domain()))
+  const NurbsCurveForm cubic = elevate_degree(*form, 3 - form->degree);
+  const Interval domain = curve.domain();
+  const Interval turned{cubic.domain().lo + cubic.domain().hi - domain.hi,
+                        cubic.domain().lo + cubic.domain().hi - domain.lo};
+  for (const CurvePiece& piece : backwards ? bezier_pieces(reversed(cubic), turned) : bezier_pieces(cubic, domain))
     segments.push_back(piece.points);
 }
 
 NurbsCurve transition(const Fields& f) {
-  const Curve &from = *f.curve("from"), &to = *f.curve("to");
+  const bool from_end = f.text("from_at") == "end", to_end = f.text("to_at") == "end";
   std::optional<std::array<double, 2>> handles;
   if (f.has("handles")) handles = {f.numbers("handles")[0], f.numbers("handles")[1]};
-  const RationalCubic middle =
-      g2_transition(g2_end(from, true, "from"), g2_end(to, false, "to"), handles, read_weights_choice(f));
+  const RationalCubic middle = g2_transition(reached(f, "from", from_end, !from_end), reached(f, "to", to_end, to_end),
+                                             handles, read_weights_choice(f));
   std::vector<BezierSegment> segments;
-  if (f.boolean("joined")) add_cubics(from, "from", segments);
+  if (f.boolean("joined")) add_cubics(*f.curve("from"), "from", !from_end, segments);
   segments.push_back(middle.bezier());
-  if (f.boolean("joined")) add_cubics(to, "to", segments);
+  if (f.boolean("joined")) add_cubics(*f.curve("to"), "to", to_end, segments);
   return NurbsCurve(bezier_chain(segments));
 }
 
@@ -81,7 +94,8 @@ TypeDeclaration g2_curve_type() {
                  "Chain of rational cubics through points with given tangent lines, tangent and curvature vector "
                  "continuous (G2); segment i has t in i..i + 1.")
       .example(
-          "points: [[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 1]], segments: [{ to: [5, -2, 2], tangent: [0, 0, 1] }]")
+          "points: [[2, 3.5, 1], [3, 2.5, -0.5], [3.3, 4.7, 2.1], [5, 3.5, 2]], segments: [{ to: [8, 0, 3], tangent: z "
+          "}]")
       .field("points", points().count(4, 4), "control points of the first segment")
       .optional("weights", numbers().positive().count(4, 4), "of the first segment; all 1 when left out")
       .field("segments",
@@ -114,13 +128,15 @@ TypeDeclaration g2_curve_type() {
 
 TypeDeclaration g2_transition_type() {
   return declare(Category::curve, "g2_transition",
-                 "Rational cubic from the end of one curve to the beginning of another, with their tangents and "
-                 "curvature vectors (G2); t runs in 0..1.")
+                 "Rational cubic from an end of one curve to an end of another, with their tangents and curvature "
+                 "vectors (G2); t runs in 0..1.")
       .example(
           "from: { type: bezier_curve, points: [[0, 65, 0], [80, 65, 0], [6, 49, 33], [20, 35, 10]] }, "
           "to: { type: bezier_curve, points: [[50, 35, 20], [62, 26, 19], [80, 0, 0], [80, 0, 30]] }")
-      .field("from", reference({Category::curve}), "the curve at whose end it begins")
-      .field("to", reference({Category::curve}), "the curve at whose beginning it ends")
+      .field("from", reference({Category::curve}), "the curve where it begins")
+      .field("from_at", choice({"end", "start"}), "at which end of that", "end")
+      .field("to", reference({Category::curve}), "the curve where it ends")
+      .field("to_at", choice({"start", "end"}), "at which end of that", "start")
       .optional("handles", numbers().positive().count(2, 2),
                 "lengths of the tangents at its ends, for curves in one plane; in space they follow from the curves. "
                 "Without them the cubic in a plane is polynomial")

@@ -62,7 +62,7 @@ std::optional<std::array<double, 2>> polynomial_handles(const G2End& from, const
   const Vec3 chord = to.point - from.point, n1 = normal_at(from), n2 = normal_at(to);
   const double a = 2 / (3 * glm::length(from.curvature)), b = glm::dot(n1, chord), c = glm::dot(n1, to.tangent);
   const double d = 2 / (3 * glm::length(to.curvature)), e = -glm::dot(n2, chord), f = glm::dot(n2, from.tangent);
-  // (x^2 - a b)^2 = a^2 c^2 y^2 = a^2 c^2 d (e + f x), of which the sign of y is tried.
+  // (x^2 - a b)^2 = a^2 c^2 y^2 = a^2 c^2 d (e + f x), which has the solutions with -y too.
   const std::array<double, 5> quartic{a * a * (b * b - c * c * d * e), -a * a * c * c * d * f, -2 * a * b, 0, 1};
   std::optional<std::array<double, 2>> best;
   for (const PolynomialRoot& root : quartic_roots(quartic, {0, kInfinity})) {

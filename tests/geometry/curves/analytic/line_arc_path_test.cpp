@@ -47,6 +47,7 @@ TEST(RoundedPath, SaysWhatFits) {
   }
   const NurbsCurve circle = rounded_path(square, std::vector<double>(4, 1.0), true, "corner_radius");
   for (int i = 0; i <= 40; ++i) EXPECT_NEAR(glm::length(circle.point(0.1 * i) - Vec3(1, 1, 0)), 1, 1e-15);
+  EXPECT_EQ(circle.domain().hi, 4);
   const std::vector<Vec3> back{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}};
   EXPECT_THROW(rounded_path(back, std::vector<double>{0, 0.1, 0}, false, "radius"), FieldError);
   EXPECT_NO_THROW(rounded_path(back, std::vector<double>{0, 0, 0}, false, "radius"));
@@ -54,7 +55,7 @@ TEST(RoundedPath, SaysWhatFits) {
 
 // An arc of more than half a turn, against its own circle.
 TEST(LineArcPath, DrawsLongArcs) {
-  LineArcPath path({1, 0, 0});
+  LineArcPath path({1, 0, 0}, 1);
   path.arc_to(Vec3(0), {0, 0, 1}, 1.75 * kPi, {std::sqrt(0.5), -std::sqrt(0.5), 0});
   const NurbsCurve arc = path.curve(false);
   EXPECT_NEAR(measure(arc).length.value, 1.75 * kPi, 1e-13);

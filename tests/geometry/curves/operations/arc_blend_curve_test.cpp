@@ -120,6 +120,9 @@ TEST(ArcBlendCurve, IsWithinItsBounds) {
 TEST(ArcBlendCurve, RefusesHalfCircles) {
   EXPECT_THROW(ArcBlendCurve({{0, 0, 0}, {0.2, 1, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}}, false), FieldError);
   EXPECT_THROW(ArcBlendCurve({{0, 0, 0}, {0, 0, 0}, {2, 0, 0}}, false), FieldError);
+  EXPECT_THROW(ArcBlendCurve({{0, 1, 0}, {0, 0, 0}, {1, 1 - 1e-7, 0}}, false), FieldError);
+  const ArcBlendCurve nearly({{0, 1, 0}, {0, 0, 0}, {1, 1 - 1e-4, 0}}, false);
+  checks::check_enclosures(nearly, nearly.domain());
 }
 
 TEST(EpsilonNet, IsANet) {

@@ -1,6 +1,8 @@
 // Lines, marks, ribbons and arrows in scenes: what is collected from the objects, and what is said about wrong ones.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "render/lines/strokes.h"
 #include "render/scene/scene_text.h"
 
@@ -61,6 +63,7 @@ TEST(LinesOfScenes, HelpersOutsideOfTheDomain) {
   EXPECT_EQ(said("r", "{ de_casteljau: { t: 0.5, levels: 1..2 } }"), "");
   EXPECT_EQ(said("r", "{ frames: { at: [0, 4] } }"), "9:31 t = 4 lies outside of the curve\nt goes from 0 to 1\n");
   EXPECT_EQ(said("c", "{ frames: { at: [0, 400 deg] } }"), "");
+  EXPECT_EQ(said("c", "{ frames: { surfaces: [s] } }"), "9:33 'kind: on_surfaces' and 'surfaces' belong together\n\n");
   EXPECT_EQ(said("s", "{ normals: { at_u: [0, 1], at_v: [0.5, -2] } }"),
             "9:50 v = -2 lies outside of the shape\nv goes from 0 to 1\n");
 }
@@ -214,6 +217,26 @@ TEST(LinesOfScenes, FramesOfCurves) {
   const std::vector<Vec3> ends = ends_of(work, "frames"), expected{{-0.5, 2, 0}, {0, 1.5, 0}, {0, 2, 0.5}};
   ASSERT_EQ(ends.size(), 3u);
   for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(ends[k] - expected[k]), 1e-14) << k;
+}
+
+// The same on a sphere, whose normal is outward, and between that and a plane's.
+TEST(LinesOfScenes, FramesOfCurvesOnSurfaces) {
+  const std::string ball = "{ type: sphere_surface, radius: 2 }", lid = "{ type: plane, size: [6, 6] }";
+  const auto ends_on = [](const std::string& surfaces) {
+    return ends_of(drawn_of("  - { shape: rim, show: { frames: { kind: on_surfaces, surfaces: [" + surfaces +
+                            "], at: [90 deg], length: 0.5 } } }\n"),
+                   "frames");
+  };
+  const std::vector<Vec3> one = ends_on(ball), both = ends_on(ball + ", " + lid);
+  const double half = std::sqrt(0.125);
+  const std::vector<Vec3> of_one{{-0.5, 2, 0}, {0, 2.5, 0}, {0, 2, -0.5}};
+  const std::vector<Vec3> of_both{{-0.5, 2, 0}, {0, 2 + half, half}, {0, 2 + half, -half}};
+  ASSERT_EQ(one.size(), 3u);
+  ASSERT_EQ(both.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LT(glm::length(one[k] - of_one[k]), 1e-13) << k;
+    EXPECT_LT(glm::length(both[k] - of_both[k]), 1e-13) << k;
+  }
 }
 
 // The vectors of curvature at the ends of a rational cubic (Korotkij, Studenova 2024): of the length
