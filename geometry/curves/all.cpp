@@ -60,7 +60,8 @@
   X(reduced_curve_type)           \
   X(elastica_type)                \
   X(fit_curve_type)               \
-  X(rounded_corners_type)
+  X(rounded_corners_type)         \
+  X(implicit_curve_type)
 
 namespace lekalo::geometry {
 

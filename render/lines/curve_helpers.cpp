@@ -16,6 +16,8 @@ namespace {
 
 // Curvature below this, in units of the curve's own derivatives, is none.
 constexpr double kStraight = 1e-12;
+// Neighbouring numbers give points as near as this, but at a jump.
+constexpr double kJump = 1e-5;
 
 // Of a line beside a curve, where the picture is framed by it.
 constexpr int kFramedPlaces = 64;
@@ -49,6 +51,25 @@ CurvatureComb curvature_comb(const Curve& curve, int count, double scale) {
     comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
   }
   return comb;
+}
+
+CurveJumps curve_jumps(const Curve& curve) {
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  CurveJumps jumps;
+  for (size_t k = 1; k < pieces.size(); ++k) {
+    // Where a pole parts them the curve has no value.
+    const double t = pieces[k].domain.lo;
+    if (pieces[k - 1].domain.hi != t) continue;
+    const Vec3 before = curve.point(next_down(t)), at = curve.point(t), after = curve.point(next_up(t));
+    const auto differ = [&](const Vec3& a, const Vec3& b) {
+      return glm::length(a - b) > kJump * (1 + glm::length(a) + glm::length(b));
+    };
+    if (!differ(before, after) && !differ(before, at)) continue;
+    jumps.values.push_back(at);
+    for (const Vec3& limit : {before, after})
+      if (differ(limit, at)) jumps.limits.push_back(limit);
+  }
+  return jumps;
 }
 
 std::vector<double> even_parameters(const Curve& curve, int count) {

@@ -15,6 +15,12 @@ struct CurvatureComb {
 };
 CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale);
 
+// Where the pieces of a curve do not meet: its own points there, and its limits from either side that are others.
+struct CurveJumps {
+  std::vector<geometry::Vec3> values, limits;
+};
+CurveJumps curve_jumps(const geometry::Curve& curve);
+
 // So many parameters, evenly spaced in arc length: both ends, or of a closed curve the first alone. One: the middle.
 std::vector<double> even_parameters(const geometry::Curve& curve, int count);
 

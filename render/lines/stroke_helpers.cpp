@@ -55,6 +55,10 @@ void StrokeCollector::add_helper(const Helper& helper) {
     add_figure(*curve, sign, helper);
   } else if (helper.type == "colored" && curve && drawing_) {
     add_colored(*curve, helper);
+  } else if (helper.type == "jumps" && curve) {
+    const CurveJumps jumps = curve_jumps(**curve);
+    for (const Vec3& point : jumps.limits) mark(point, "circle", helper.style, helper.hidden);
+    for (const Vec3& point : jumps.values) mark(point, "dot", helper.style, helper.hidden);
   } else if (helper.type == "comb" && curve && drawing_) {
     add_comb(**curve, helper);
   } else if (helper.type == "frames" && curve && drawing_) {

@@ -1,10 +1,7 @@
 // Scene types of contours: curves given by surfaces rather than by points.
 #include <fmt/format.h>
 
-#include "geometry/contour.h"
-#include "geometry/describe.h"
-#include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/contours/contour_length.h"
+#include "geometry/curves/on_surfaces/branch_choice.h"
 #include "geometry/queries/contours/isophote.h"
 #include "geometry/queries/contours/plane_section.h"
 #include "geometry/queries/contours/silhouette.h"
@@ -15,24 +12,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-TypeDeclaration& choose_branch(TypeDeclaration& type) {
-  return type
-      .optional("branch", integer().at_least(1),
-                "which of several, counted as `lekalo measure` lists them; without it there must be one only")
-      .optional("near", point(), "the branch that passes nearest to this point, instead");
-}
-
-std::string list_of(const std::vector<Contour>& branches) {
-  std::string text;
-  constexpr size_t kListed = 6;
-  for (size_t k = 0; k < branches.size() && k < kListed; ++k) {
-    const Vec3 at = branches[k].curve->point(0);
-    text += fmt::format("{}{} {}, length {:.4g}, through [{:.4g}, {:.4g}, {:.4g}]", k == 0 ? "" : "; ", k + 1,
-                        branches[k].closed ? "closed" : "open", contour_length(branches[k]).value, at.x, at.y, at.z);
-  }
-  return text + (branches.size() > kListed ? "; ..." : "");
-}
-
 CurvePtr chosen(const Contours& found, const Fields& f, const std::string& none) {
   const size_t count = found.branches.size();
   if (!found.complete)
@@ -41,25 +20,7 @@ CurvePtr chosen(const Contours& found, const Fields& f, const std::string& none)
   if (count == 0 && found.coincident)
     throw FieldError("of", "the surfaces coincide, and where they do so has no border", "move one of them a little");
   if (count == 0) throw FieldError("of", found.points.empty() ? none : none + " but for single points of contact");
-  if (f.has("branch")) {
-    const int branch = f.integer("branch");
-    if (branch > static_cast<int>(count))
-      throw FieldError("branch", fmt::format("there are only {} branches: {}", count, list_of(found.branches)));
-    return found.branches[branch - 1].curve;
-  }
-  if (f.has("near")) {
-    size_t best = 0;
-    double least = kInfinity;
-    for (size_t k = 0; k < count; ++k) {
-      const double distance = project(f.vec3("near"), *found.branches[k].curve).foot_points.front().distance;
-      if (distance < least) least = distance, best = k;
-    }
-    return found.branches[best].curve;
-  }
-  if (count > 1)
-    throw FieldError("of", fmt::format("there are {} branches: {}", count, list_of(found.branches)),
-                     "choose one with `branch` or `near`");
-  return found.branches.front().curve;
+  return chosen_branch(found.branches, f, "of");
 }
 
 // What a wrong operand makes a query say belongs to the field `of`.

@@ -243,8 +243,11 @@ std::optional<Vec3> Collector::singular_point(const Box3& box) const {
     p -= by;
     if (!(glm::length(p - box.center()) <= reach)) return std::nullopt;
     if (glm::length(by) > 1e-15 * size_) continue;
+    // At the origin rounding is smaller than what the last step left: the place counts as known to 1e-15 of the size.
     const Interval value = thin(formula_, p).value;
-    return std::abs(f.value) <= 4 * value.width() ? std::optional(p) : std::nullopt;
+    const Box3 around = Box3{p, p}.inflated(1e-15 * size_);
+    const bool is_on = std::abs(f.value) <= 4 * value.width() || formula_.enclose(around).contains(0);
+    return is_on ? std::optional(p) : std::nullopt;
   }
   return std::nullopt;
 }
