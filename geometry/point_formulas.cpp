@@ -8,21 +8,23 @@ namespace lekalo::geometry {
 
 namespace {
 
-Expression formula_of(const std::string& text, const std::vector<std::string>& variables) {
-  std::vector<Expression::Variable> bound;
-  for (const std::string& name : variables) bound.push_back({name, Measure::plain});
-  auto parsed = Expression::parse(text);
-  auto* expression = std::get_if<Expression>(&parsed);
-  if (!expression || expression->bind(bound)) throw std::invalid_argument("no formula of the variables: " + text);
-  return std::move(*expression);
-}
-
 std::vector<std::string> places(const std::vector<std::string>& variables) {
   return variables.size() == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
 }
 std::string short_form(const std::vector<std::string>& variables) { return variables.size() == 1 ? "y" : "z"; }
 
 }  // namespace
+
+Expression formula_of(const std::string& text, const std::vector<std::string>& variables,
+                      std::span<const Expression::Constant> constants) {
+  std::vector<Expression::Variable> bound;
+  for (const std::string& name : variables) bound.push_back({name, Measure::plain});
+  auto parsed = Expression::parse(text);
+  auto* expression = std::get_if<Expression>(&parsed);
+  if (!expression || expression->bind(bound, constants))
+    throw std::invalid_argument("no formula of the variables: " + text);
+  return std::move(*expression);
+}
 
 PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std::vector<std::string>& variables,
                              Coordinates coordinates) {

@@ -74,6 +74,10 @@ class PointFormulas {
 PointFormulas point_formulas(const std::array<std::string, 3>& texts, const std::vector<std::string>& variables,
                              Coordinates coordinates = Coordinates::cartesian);
 
+// A formula of the variables and named constants, from its text. Throws std::invalid_argument for one that is none.
+Expression formula_of(const std::string& text, const std::vector<std::string>& variables,
+                      std::span<const Expression::Constant> constants = {});
+
 inline bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 // The parameter of a closed curve or surface moved into the domain by whole turns.

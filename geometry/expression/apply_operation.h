@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "geometry/expression/operations.h"
@@ -10,6 +11,7 @@
 #include "geometry/numerics/interval.h"
 #include "geometry/numerics/jet.h"
 #include "geometry/numerics/sine_cosine.h"
+#include "geometry/numerics/special_functions.h"
 
 namespace lekalo::geometry::operations {
 
@@ -183,11 +185,25 @@ requires kIsJet<J> J remainder(const J& a, const J& b) {
   return r;
 }
 
+// The number that a value is, NaN where it is a variable or an interval.
+template <class T>
+double whole_constant(const T& x) {
+  if constexpr (kIsJet<T>) {
+    if (!x.is_constant()) return std::numeric_limits<double>::quiet_NaN();
+  }
+  if constexpr (std::is_same_v<Scalar<T>, Interval>) {
+    return value(x).lo == value(x).hi ? value(x).lo : std::numeric_limits<double>::quiet_NaN();
+  } else {
+    return value(x);
+  }
+}
+
 // What operations give that need no constant.
 template <class T>
 T result_of(Operation operation, const T& a, const T& b, const T& c, int exponent) {
   using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt, std::ceil;
   using std::cos, std::cosh, std::exp, std::floor, std::hypot, std::log, std::log10, std::max, std::min, std::pow;
+  using std::erf;
   using std::round, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   switch (operation) {
     case Operation::negate:
@@ -287,6 +303,20 @@ T result_of(Operation operation, const T& a, const T& b, const T& c, int exponen
       return remainder(a, b);
     case Operation::clamp:
       return min(max(a, b), c);
+    case Operation::erf:
+      return erf(a);
+    case Operation::fresnel_s:
+      return fresnel_s(a);
+    case Operation::fresnel_c:
+      return fresnel_c(a);
+    case Operation::sinc:
+      return sinc(a);
+    case Operation::factorial:
+      return factorial(a);
+    case Operation::lerp:
+      return a + (b - a) * c;
+    case Operation::binom:
+      return binom(a, whole_constant(b));
     default:  // operands, units, and what has a constant or two results
       return a;
   }

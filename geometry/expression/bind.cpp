@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "geometry/expression/expression.h"
 #include "geometry/expression/nearest_name.h"
 #include "geometry/expression/operations.h"
+#include "geometry/numerics/quadrature.h"
 
 namespace lekalo::geometry {
 namespace {
 
 constexpr int kLargestIntegerPower = 16;
+constexpr int kMostTerms = 1000, kGaussPoints = 32;
 
 // What is known of a value before it is computed.
 struct Known {
@@ -80,6 +83,13 @@ class ExpressionBinder {
         return replace(0, {Measure::plain, false, true});
       case Operation::name:
         return name(expression_.names_[in.index]);
+      case Operation::local:
+        append(counters_[static_cast<std::size_t>(in.index)]);
+        return replace(0, {});
+      case Operation::block: {
+        const Expression::Block& block = expression_.blocks_[static_cast<std::size_t>(in.index)];
+        return block.is_sum ? sum(block) : integral(block);
+      }
       case Operation::degrees:
       case Operation::radians:
       case Operation::turns:
@@ -123,6 +133,108 @@ class ExpressionBinder {
       default:
         return function(operation);
     }
+  }
+
+  using Program = std::vector<Expression::Instruction>;
+
+  void append(const Program& program) {
+    expression_.program_.insert(expression_.program_.end(), program.begin(), program.end());
+  }
+  bool steps(const Program& parsed) {
+    const std::size_t offset = offset_;
+    for (const Expression::Instruction& in : parsed) {
+      offset_ = in.offset;
+      if (!step(in)) return false;
+      if (expression_.program_.size() > Expression::kMostSteps)
+        return fail("the formula has too many operations", "take fewer terms");
+    }
+    offset_ = offset;
+    return true;
+  }
+  // What a part of a block computes, apart; a plain number.
+  std::optional<Program> part(const Program& parsed) {
+    Program outside;
+    outside.swap(expression_.program_);
+    if (!steps(parsed)) return std::nullopt;
+    if (top().measure != Measure::plain) {
+      fail("the ends are plain numbers", "divide an angle by its unit: a/(1 deg)");
+      return std::nullopt;
+    }
+    stack_.pop_back();
+    outside.swap(expression_.program_);
+    return outside;
+  }
+  std::optional<double> number_of(const Program& program) {
+    for (const Expression::Instruction& in : program)
+      if (static_cast<Operation>(in.operation) == Operation::variable) return std::nullopt;
+    Expression constant;
+    constant.program_ = program;
+    constant.compile();
+    return constant();
+  }
+  bool body(const Expression::Block& block, Program counter) {
+    counters_.push_back(std::move(counter));
+    const bool good = steps(block.body);
+    counters_.pop_back();
+    if (good && top().measure != Measure::plain)
+      return fail("the formula inside is no plain number", "divide an angle by its unit: a/(1 deg)");
+    return good;
+  }
+  static Expression::Instruction literal(double value) {
+    return {static_cast<std::uint8_t>(Operation::literal), 0, 0, value};
+  }
+
+  bool sum(const Expression::Block& block) {
+    const auto from = part(block.from), to = from ? part(block.to) : std::nullopt;
+    if (!from || !to) return false;
+    const auto a = number_of(*from), b = number_of(*to);
+    if (!a || !b || !(std::abs(*a) < kMostTerms && std::abs(*b) < kMostTerms) || *a != std::floor(*a) ||
+        *b != std::floor(*b))
+      return fail("a sum runs from one whole number to another",
+                  fmt::format("its ends hold parameters and counters, but no variables, and are below {}", kMostTerms));
+    bool is_first = true;
+    for (double i = *a; i <= *b; ++i) {
+      if (!body(block, {literal(i)})) return false;
+      if (!is_first) {
+        emit(Operation::add);
+        stack_.pop_back();
+      }
+      is_first = false;
+    }
+    if (!is_first) return true;
+    emit(Operation::literal, 0, 0);
+    return replace(0, {});
+  }
+
+  // (b - a)/2 sum w_k f(a + (b - a) (1 + x_k)/2) with the nodes and weights of Gauss's rule.
+  bool integral(const Expression::Block& block) {
+    const auto from = part(block.from), to = from ? part(block.to) : std::nullopt;
+    if (!from || !to) return false;
+    const auto width = [&] {
+      append(*to);
+      append(*from);
+      emit(Operation::subtract);
+    };
+    static const GaussRule rule = gauss_legendre(kGaussPoints);
+    for (int k = 0; k < kGaussPoints; ++k) {
+      Program outside;
+      outside.swap(expression_.program_);
+      append(*from);
+      width();
+      emit(Operation::literal, 0, 0.5 * (1 + rule.nodes[static_cast<std::size_t>(k)]));
+      emit(Operation::multiply);
+      emit(Operation::add);
+      outside.swap(expression_.program_);
+      if (!body(block, std::move(outside))) return false;
+      emit(Operation::literal, 0, 0.5 * rule.weights[static_cast<std::size_t>(k)]);
+      emit(Operation::multiply);
+      if (k == 0) continue;
+      emit(Operation::add);
+      stack_.pop_back();
+    }
+    width();
+    emit(Operation::multiply);
+    return replace(1, {});
   }
 
   bool name(const std::string& name) {
@@ -263,7 +375,8 @@ class ExpressionBinder {
     switch (function.signature) {
       case Signature::plain:
       case Signature::to_angle:
-        if (top().measure == Measure::angle) {
+        if (std::any_of(stack_.end() - operands, stack_.end(),
+                        [](const Known& known) { return known.measure == Measure::angle; })) {
           return fail(fmt::format("{} takes a plain number, not an angle", function.name),
                       fmt::format("divide the angle by its unit: {}(a/(1 deg))", function.name));
         }
@@ -294,6 +407,7 @@ class ExpressionBinder {
   std::span<const Expression::Variable> variables_;
   std::span<const Expression::Constant> constants_;
   std::vector<Known> stack_;
+  std::vector<Program> counters_;  // what stands for the counters of the blocks around
   std::size_t offset_ = 0;
   ExpressionError error_;
 };
@@ -301,6 +415,22 @@ class ExpressionBinder {
 std::optional<ExpressionError> Expression::bind(std::span<const Variable> variables,
                                                 std::span<const Constant> constants) {
   return ExpressionBinder(*this, variables, constants).run();
+}
+
+Expression Expression::of(std::span<const Expression> arguments) const {
+  Expression result = *this;
+  result.program_.clear();
+  for (const Instruction& in : program_) {
+    if (static_cast<Operation>(in.operation) == Operation::variable) {
+      const std::vector<Instruction>& argument = arguments[static_cast<std::size_t>(in.index)].program_;
+      result.program_.insert(result.program_.end(), argument.begin(), argument.end());
+    } else {
+      result.program_.push_back(in);
+    }
+    if (result.program_.size() > kMostSteps) throw std::length_error("the formula has too many operations");
+  }
+  result.compile();
+  return result;
 }
 
 void Expression::compile() { code_ = FormulaProgram(std::span<const Expression>(this, 1)); }

@@ -22,6 +22,9 @@
 // parameter. One that came from pi by + - * / and the like is an error there: whoever writes pi thinks in radians. The
 // result of a function such as cos(pi/4) has lost its pi. In a plain field, an angle counts as its radians.
 //
+// sum(i, a, b, formula) and integral(x, a, b, formula) name their counter first; they are written out when names are
+// bound, where the ends of a sum must be known.
+//
 // Nothing throws. Division by zero, the root of a negative number and the like evaluate to infinity or NaN (over
 // intervals: to the whole line), which the caller reports.
 #pragma once
@@ -53,6 +56,7 @@ class Expression {
  public:
   static constexpr int kDeepest = 200;            // nested parentheses, functions, signs, powers, else branches
   static constexpr std::size_t kLongest = 10000;  // bytes of text
+  static constexpr std::size_t kMostSteps = 20000;
 
   // A name that gets its value at each evaluation (t, u, v, s).
   struct Variable {
@@ -80,6 +84,9 @@ class Expression {
   std::optional<ExpressionError> bind(std::span<const Variable> variables, std::span<const Constant> constants = {});
 
   // The rest needs a bound expression.
+  // This one with an expression in the place of each variable, in their order in bind(); all have plain measures.
+  // Its variables are those of the arguments. std::length_error where it would have more than kMostSteps operations.
+  Expression of(std::span<const Expression> arguments) const;
   Measure measure() const { return measure_; }
   // A plain value in which pi survives: probably meant as radians.
   bool holds_pi() const { return holds_pi_; }
@@ -134,8 +141,15 @@ class Expression {
   std::string text_;
   std::vector<std::string> names_;
   void compile();
+  // sum(i, from, to, body), integral(x, from, to, body) as parsed; their counters are numbered from the outside.
+  struct Block {
+    bool is_sum = true;
+    std::string counter;
+    std::vector<Instruction> from, to, body;
+  };
 
   std::vector<Instruction> parsed_, program_;
+  std::vector<Block> blocks_;
   FormulaProgram code_;  // what the program computes
   Measure measure_ = Measure::plain;
   bool holds_pi_ = false;

@@ -36,6 +36,9 @@ enum class Operation : std::uint8_t {
   logical_or,
   logical_not,
   select,  // value if true, condition, value if false
+  // written out when names are bound: a block of formulas and the name of its counter
+  local,
+  block,
   // functions of one argument
   sin,
   cos,
@@ -59,6 +62,11 @@ enum class Operation : std::uint8_t {
   floor,
   ceil,
   round,
+  erf,
+  fresnel_s,
+  fresnel_c,
+  sinc,
+  factorial,
   // of two or more
   atan2,
   min,
@@ -66,6 +74,8 @@ enum class Operation : std::uint8_t {
   hypot,
   mod,
   clamp,
+  lerp,
+  binom,
   // what FormulaProgram makes of the others: a sum with a product, one operand and a constant in the step, two results
   multiply_add,  // a * b + c
   square,
@@ -92,6 +102,7 @@ struct Function {
   Operation operation;
   int fewest, most;  // arguments; min, max, hypot apply their operation again for each further one
   Signature signature;
+  std::string_view description;  // with its arguments: "sin(x)  sine"
 };
 
 std::span<const Function> functions();

@@ -305,6 +305,10 @@ class ExpressionParser {
     }
     advance();
     if (const Function* function = find_function(t.text)) return call(*function, t);
+    if (t.text == "sum" || t.text == "integral") return block(t);
+    const auto counter = std::find(counters_.rbegin(), counters_.rend(), t.text);
+    if (counter != counters_.rend())
+      return emit(Operation::local, t.offset, static_cast<int>(counters_.rend() - counter) - 1);
     if (token().text == "(") return unknown_function(t);
     if (t.text == "pi") return emit(Operation::pi, t.offset);
     const auto found = std::find(result_.names_.begin(), result_.names_.end(), t.text);
@@ -345,6 +349,41 @@ class ExpressionParser {
     return fail(name.offset, fmt::format("unknown function '{}'", name.text), hint);
   }
 
+  // sum(i, a, b, body): the three formulas aside, as a block of the expression.
+  bool block(const Token& name) {
+    const std::string hint =
+        fmt::format("write {}", name.text == "sum" ? "sum(i, 0, n, formula of i)" : "integral(x, a, b, formula of x)");
+    Expression::Block result;
+    result.is_sum = name.text == "sum";
+    if (!accept("("))
+      return fail(name.offset, fmt::format("the function '{}' needs its arguments in parentheses", name.text), hint);
+    const Token counter = token();
+    if (counter.kind != TokenKind::name || is_reserved_word(counter.text))
+      return fail(counter.offset,
+                  fmt::format("{} begins with the name of its {}", name.text, result.is_sum ? "counter" : "variable"),
+                  hint);
+    advance();
+    result.counter = counter.text;
+    std::vector<Expression::Instruction> outside;
+    outside.swap(result_.parsed_);
+    for (auto* part : {&result.from, &result.to, &result.body}) {
+      if (!accept(",")) return fail(name.offset, fmt::format("{} takes 4 arguments", name.text), hint);
+      if (part == &result.body) counters_.push_back(result.counter);
+      if (!choice()) return false;
+      part->swap(result_.parsed_);
+      result_.parsed_.clear();
+    }
+    counters_.pop_back();
+    result_.parsed_.swap(outside);
+    if (token().text == ",") return fail(name.offset, fmt::format("{} takes 4 arguments", name.text), hint);
+    if (!accept(")")) {
+      error_ = unexpected();
+      return false;
+    }
+    result_.blocks_.push_back(std::move(result));
+    return emit(Operation::block, name.offset, static_cast<int>(result_.blocks_.size()) - 1);
+  }
+
   bool call(const Function& function, const Token& name) {
     if (!accept("(")) {
       return fail(name.offset, fmt::format("the function '{}' needs its arguments in parentheses", name.text),
@@ -381,6 +420,7 @@ class ExpressionParser {
   std::vector<Token> tokens_;
   std::size_t at_ = 0, last_end_ = 0;
   int depth_ = 0;
+  std::vector<std::string> counters_;  // of the blocks around
   Expression result_;
   ExpressionError error_;
 };

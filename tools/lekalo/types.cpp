@@ -43,6 +43,10 @@ int describe_one(const std::string& name) {
     fmt::print("{}{}", found ? "\n" : "", section);
     found = true;
   }
+  if (name == "formulas") {
+    fmt::print("{}{}", found ? "\n" : "", render::description_of_formulas());
+    found = true;
+  }
   if (found) return kDone;
   const auto nearest = geometry::nearest_name(name, known);
   std::string meant;
@@ -60,7 +64,8 @@ int describe_one(const std::string& name) {
 void add_types(CLI::App& app, Action& action) {
   auto* sub = app.add_subcommand("types", "List the types that scene files can name, or explain one, or a section");
   sub->footer(
-      "Examples:\n  lekalo types\n  lekalo types circle\n  lekalo types drawing\n  lekalo types --markdown "
+      "Examples:\n  lekalo types\n  lekalo types circle\n  lekalo types drawing\n  lekalo types formulas\n  lekalo "
+      "types --markdown "
       "docs/reference");
   auto options = std::make_shared<Options>();
   auto* name = sub->add_option("type", options->name, "a type or a section to explain");

@@ -105,9 +105,18 @@ std::optional<Fields> Builder::read_fields(const std::vector<Field>& declared, c
 }
 
 bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declared, const Value& map,
-                               const Counters& counters, const std::string& what,
+                               const Counters& outer, const std::string& what,
                                const std::vector<std::string>& also_allowed) {
   bool good = true;
+  Counters counters = outer;
+  const bool has_formulas = takes_abbreviations(declared);
+  if (const Value* let = has_formulas ? map.find("let") : nullptr) {
+    if (let->is_map())
+      counters.abbreviations = let;
+    else
+      diagnostics_.error(let->place, fmt::format("expected a map of names to formulas, found {}", kind_name(*let)),
+                         "write for instance: let: { w: sqrt(1 + t^2) }");
+  }
   std::set<std::string> misspelt;  // fields that unknown ones were probably meant to be: not missing as well
   const auto is_declared = [&](const std::string& name) {
     return std::any_of(declared.begin(), declared.end(), [&](const Field& f) { return f.name == name; });
@@ -117,10 +126,12 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
   for (const Entry& entry : map.entries) {
     const std::string& name = entry.key.name;
     if (is_declared(name) || std::find(also_allowed.begin(), also_allowed.end(), name) != also_allowed.end()) continue;
+    if (has_formulas && name == "let") continue;
     if (has_frame && (name == "center" || name == "normal" || name == "axis")) continue;
     std::vector<std::string> known;
     for (const Field& field : declared) known.push_back(field.name);
     if (has_frame) known.insert(known.end(), {"center", "normal", "axis"});
+    if (has_formulas) known.emplace_back("let");
     known.insert(known.end(), also_allowed.begin(), also_allowed.end());
     const auto meant = geometry::nearest_name(name, known);
     diagnostics_.error(entry.key.place,

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <stdexcept>
 
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/values/scalars.h"
@@ -66,6 +69,8 @@ std::optional<Expression> Parameters::bind(const Value& value, const Counters& c
 std::optional<Expression> Parameters::bind(const Value& value, std::string_view text, std::size_t start,
                                            const Counters& counters, std::span<const Expression::Variable> variables) {
   if (value.invalid) return std::nullopt;
+  if (counters.abbreviations && !variables.empty())
+    return bind_with_abbreviations(value, text, start, counters, variables);
   const auto report = [&](const ExpressionError& error) {
     diagnostics_.error(value.place_of(start + error.offset, 1), error.message, error.hint);
   };
@@ -108,6 +113,68 @@ std::optional<Expression> Parameters::bind(const Value& value, std::string_view 
     return std::nullopt;
   }
   return expression;
+}
+
+namespace {
+
+std::set<std::string> names_in(std::string_view text) {
+  const auto parsed = Expression::parse(text);
+  const auto* expression = std::get_if<Expression>(&parsed);
+  if (!expression) return {};
+  return {expression->names().begin(), expression->names().end()};
+}
+
+// Those that a formula uses, and those that these use, in their order.
+std::vector<const Entry*> used_abbreviations(const Value& let, std::string_view text) {
+  std::set<std::string> used = names_in(text);
+  std::vector<const Entry*> result;
+  for (auto entry = let.entries.rbegin(); entry != let.entries.rend(); ++entry) {
+    if (!used.contains(entry->key.name)) continue;
+    result.insert(result.begin(), &*entry);
+    if (entry->value.is_scalar()) used.merge(names_in(entry->value.text));
+  }
+  return result;
+}
+
+}  // namespace
+
+// Each abbreviation is bound with the variables and the names before it, then these give way to what they stand for.
+std::optional<Expression> Parameters::bind_with_abbreviations(const Value& value, std::string_view text,
+                                                              std::size_t start, const Counters& counters,
+                                                              std::span<const Expression::Variable> variables) {
+  Counters outside = counters;
+  outside.abbreviations = nullptr;
+  std::vector<Expression::Variable> names(variables.begin(), variables.end());
+  std::vector<Expression> meanings;
+  for (const Expression::Variable& variable : variables) {
+    Expression itself = std::get<Expression>(Expression::parse(variable.name));
+    itself.bind(variables);
+    meanings.push_back(std::move(itself));
+  }
+  const auto resolved = [&](const Value& from, const std::optional<Expression>& bound) -> std::optional<Expression> {
+    if (!bound) return std::nullopt;
+    try {
+      return bound->of(meanings);
+    } catch (const std::length_error& error) {
+      diagnostics_.error(from.place, error.what(), "abbreviations are written out where they are used");
+      return std::nullopt;
+    }
+  };
+  for (const Entry* const used : used_abbreviations(*counters.abbreviations, text)) {
+    const Entry& entry = *used;
+    const std::string& name = entry.key.name;
+    const bool taken = std::any_of(names.begin(), names.end(), [&](const auto& known) { return known.name == name; });
+    if (taken || !may_be_called(name)) {
+      diagnostics_.error(entry.key.place, fmt::format("an abbreviation may not be called '{}'", name),
+                         "it is a variable, function or unit of formulas");
+      return std::nullopt;
+    }
+    const auto meaning = resolved(entry.value, bind(entry.value, outside, names));
+    if (!meaning) return std::nullopt;
+    names.push_back({name, meaning->measure()});
+    meanings.push_back(*meaning);
+  }
+  return resolved(value, bind(value, text, start, outside, names));
 }
 
 std::optional<double> Parameters::finish(const Value& value, const Expression& expression, double result) {

@@ -19,6 +19,8 @@ using geometry::Expression;
 // Values of the counters of the repeats around a place, the innermost last.
 struct Counters {
   std::vector<Expression::Constant> values;
+  // `let` of the map around the place: abbreviations, each of the formula's variables and those before it. May be null.
+  const Value* abbreviations = nullptr;
   Counters with(std::string name, double value, geometry::Measure measure) const;
 };
 
@@ -47,6 +49,9 @@ class Parameters {
   std::map<std::string, double> all();
 
  private:
+  std::optional<Expression> bind_with_abbreviations(const Value& value, std::string_view text, std::size_t offset,
+                                                    const Counters& counters,
+                                                    std::span<const Expression::Variable> variables);
   enum class State { unknown, in_work, known, wrong };
   struct Parameter {
     const Entry* entry = nullptr;

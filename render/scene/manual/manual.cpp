@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/expression/function_list.h"
 #include "render/scene/types/sections.h"
 #include "render/scene/values/value_text.h"
 #include "render/scene/values/words.h"
@@ -167,6 +168,7 @@ std::string page_of(Category category) {
     if (type.category != category) continue;
     text += fmt::format("\n## {}\n\n{}\n\n    {}\n\n", type.name, type.description, example_of(type));
     text += table(type.fields);
+    if (takes_abbreviations(type.fields)) text += fmt::format("| `let` | map of formulas |  | {} |\n", kLetDescription);
     if (!type.checks.empty()) text += "\n";
     for (const auto& check : type.checks) text += fmt::format("Must hold: `{}`.\n", check.condition);
     if (const auto helpers = helpers_of(type); !helpers.empty())
@@ -197,6 +199,22 @@ std::string page_of_sections() {
     }
     if (section.shape == Shape::list) text += "\nA list of maps, or one:\n";
     if (!section.fields.empty()) text += fmt::format("\n{}", table(section.fields));
+  }
+  return text;
+}
+
+std::string page_of_formulas() {
+  std::string text =
+      "# Formulas\n\nMade by `lekalo types --markdown`; the same text: `lekalo types formulas`. Every number of a "
+      "scene "
+      "may be a formula of parameters and counters; curves and surfaces by formulas have variables besides.\n\n"
+      "`a + b`, `a - b`, `a * b` (never left out), `a / b`, `a ^ b`; `a if c else b`; `== != < <= > >=`, `and`, `or`, "
+      "`not`; `pi`; the units `deg`, `rad`, `turn` behind a number or parentheses. In an angle field a plain number is "
+      "degrees.\n\n| function | meaning |\n| --- | --- |\n";
+  for (const std::string_view function : geometry::function_descriptions()) {
+    const std::string line(function);
+    const size_t colon = line.find(": ");
+    text += fmt::format("| `{}` | {} |\n", line.substr(0, colon), cell(line.substr(colon + 2)));
   }
   return text;
 }
@@ -274,6 +292,8 @@ std::string description_of(const TypeDeclaration& type) {
   std::string text = fmt::format("{} ({})\n  {}\n\n  {}\n", type.name, geometry::name(type.category), type.description,
                                  example_of(type));
   if (!type.fields.empty()) text += "\nfields\n" + lines_of(type.fields, "  ");
+  if (takes_abbreviations(type.fields))
+    text += fmt::format("  {:<16} map of formulas; optional\n  {:<16}   {}\n", "let", "", kLetDescription);
   if (const auto common = common_fields(type.category); !common.empty())
     text += fmt::format("\nfields of every {}\n{}", geometry::name(type.category), lines_of(common, "  "));
   for (const auto& check : type.checks) text += fmt::format("\nmust hold: {}\n", check.condition);
@@ -296,9 +316,17 @@ std::string description_of_section(std::string_view name) {
   return {};
 }
 
+std::string description_of_formulas() {
+  std::string text =
+      "formulas\n  Numbers are written as formulas: + - * / ^, a if c else b, comparisons, and, or, not; pi; the units "
+      "deg, rad, turn.\n  In an angle field a plain number is degrees.\n\nfunctions\n";
+  for (const std::string_view line : geometry::function_descriptions()) text += fmt::format("  {}\n", line);
+  return text;
+}
+
 std::vector<std::pair<std::string, std::string>> reference_pages() {
-  std::vector<std::pair<std::string, std::string>> pages{{"sections.md", page_of_sections()},
-                                                         {"suites.md", page_of_suites()}};
+  std::vector<std::pair<std::string, std::string>> pages{
+      {"sections.md", page_of_sections()}, {"formulas.md", page_of_formulas()}, {"suites.md", page_of_suites()}};
   for (const Category category : categories_of_manual()) pages.push_back({plural(category) + ".md", page_of(category)});
   return pages;
 }

@@ -302,6 +302,8 @@ Json SchemaWriter::type_definition(const TypeDeclaration& type) {
   const bool named = section_of(type.category);
   if (named) all["like"] = {{"type", "string"}};
   all["repeat"] = ref("repeat");
+  if (takes_abbreviations(type.fields))
+    all["let"] = {{"type", "object"}, {"additionalProperties", ref("formula")}, {"description", kLetDescription}};
   if (!is_implicit(type.category) && type.category != Category::helper) all["type"] = {{"const", type.name}};
   Json map = {
       {"description", type.description}, {"type", "object"}, {"properties", all}, {"additionalProperties", false}};

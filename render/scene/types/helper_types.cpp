@@ -217,6 +217,12 @@ TypeDeclaration moved_point() {
   return finish(type);
 }
 
+TypeDeclaration jumps() {
+  TypeDeclaration type = helper(
+      "jumps", "Where a graph or curve jumps: a full dot at its value, open ones at the limits beside it.", "thin");
+  return finish(type);
+}
+
 }  // namespace
 
 std::vector<TypeDeclaration> helper_types() {
@@ -239,7 +245,8 @@ std::vector<TypeDeclaration> helper_types() {
           insertion(),
           elevation(),
           finish(hull_type),
-          moved_point()};
+          moved_point(),
+          jumps()};
 }
 
 }  // namespace lekalo::render

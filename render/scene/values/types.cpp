@@ -141,6 +141,14 @@ const char* section_of(Category category) {
   return nullptr;
 }
 
+bool takes_abbreviations(const std::vector<geometry::Field>& fields) {
+  return std::any_of(fields.begin(), fields.end(), [](const geometry::Field& field) {
+    using geometry::Kind;
+    const bool is_formula = field.type.kind == Kind::formula || field.type.kind == Kind::formulas;
+    return is_formula && !field.type.variables.empty();
+  });
+}
+
 bool is_implicit(Category category) {
   return category == Category::style || category == Category::object || category == Category::panel;
 }
@@ -167,7 +175,7 @@ std::vector<geometry::Field> common_fields(Category category) {
 std::vector<std::string> helpers_of(Category category) {
   if (category == Category::curve)
     return {"comb",         "frames",    "osculating_circle", "evolute", "tangents",
-            "normal_lines", "hodograph", "direction",         "colored"};
+            "normal_lines", "hodograph", "direction",         "colored", "jumps"};
   if (category == Category::surface) return {"normals"};
   return {};
 }

@@ -45,6 +45,9 @@ bool is_geometry(Category category);
 // they are used.
 const char* section_of(Category category);
 
+// Whether a map of these fields may have `let`: it holds formulas of variables.
+bool takes_abbreviations(const std::vector<geometry::Field>& fields);
+
 // Categories of a single type, which is never written: styles, objects, panels.
 bool is_implicit(Category category);
 

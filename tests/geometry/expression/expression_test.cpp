@@ -377,7 +377,7 @@ TEST(Expression, every_message_of_parsing) {
 // The functions there are; what has several arguments is no product.
 TEST(ExpressionErrors, UnknownFunctionsNameThoseThereAre) {
   const auto hint = [](const char* text) { return std::get<ExpressionError>(Expression::parse(text)).hint; };
-  const std::string of_two = hint("binom(4, 2)*x^2"), of_one = hint("radius((1 + 2))");
+  const std::string of_two = hint("choose(4, 2)*x^2"), of_one = hint("radius((1 + 2))");
   for (const std::string_view name : function_names()) {
     EXPECT_NE(of_two.find(name), std::string::npos) << name;
     EXPECT_NE(of_one.find(name), std::string::npos) << name;
