@@ -68,6 +68,16 @@ FieldType FieldType::at_most(double highest) const {
   type.maximum = highest;
   return type;
 }
+FieldType FieldType::above(double bound) const {
+  FieldType type = at_least(bound);
+  type.minimum_excluded = true;
+  return type;
+}
+FieldType FieldType::below(double bound) const {
+  FieldType type = at_most(bound);
+  type.maximum_excluded = true;
+  return type;
+}
 FieldType FieldType::between(double lowest, double highest) const { return at_least(lowest).at_most(highest); }
 FieldType FieldType::count(int lowest, int highest) const {
   FieldType type = *this;

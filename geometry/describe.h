@@ -163,6 +163,8 @@ struct FieldType {
   FieldType at_least(double lowest) const;
   FieldType at_most(double highest) const;
   FieldType between(double lowest, double highest) const;
+  FieldType above(double bound) const;  // the bound itself excluded
+  FieldType below(double bound) const;
   FieldType count(int lowest, int highest = 1 << 30) const;
   FieldType for_each_direction() const;
   FieldType or_word(std::vector<std::string> words) const;

@@ -16,6 +16,11 @@
   X(hyperbola_type)               \
   X(parabola_type)                \
   X(arc_through_points_type)      \
+  X(helix_type)                   \
+  X(conic_arc_type)               \
+  X(circular_arc_type)            \
+  X(conic_type)                   \
+  X(named_curve_type)             \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
   X(local_interpolant_type)       \

@@ -15,8 +15,10 @@
 #include "geometry/curves/operations/arc_blend_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/queries/measures/enclosed_area.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/queries/measures/shape_measures.h"
+#include "geometry/queries/quadrics/conic_of_curve.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -35,6 +37,20 @@ void put(ordered_json& out, const char* key, const Measured& measured) {
 void put_centroid(ordered_json& out, const Vec3& centroid, double error) {
   out["centroid"] = to_json(centroid);
   out["centroid_error"] = error;
+}
+
+void put_conic(ordered_json& out, const geometry::Curve& curve) {
+  const auto conic = geometry::conic_of(curve);
+  if (!conic) return;
+  out["conic"] = geometry::name(conic->kind);
+  if (conic->kind == geometry::CanonicalConic::Kind::parabola) {
+    out["vertex"] = to_json(conic->frame.origin);
+    out["focal_length"] = conic->a;
+  } else {
+    out["center"] = to_json(conic->frame.origin);
+    out["half_axes"] = {conic->a, conic->b};
+  }
+  out["axis"] = to_json(conic->frame.x);
 }
 
 void put(ordered_json& out, const MassProperties& mass) {
@@ -251,6 +267,8 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
       out["kind"] = "curve";
       put(out, "length", measured.length);
       put_centroid(out, measured.centroid, measured.centroid_error);
+      if (const auto area = geometry::enclosed_area(**curve)) put(out, "enclosed_area", *area);
+      put_conic(out, **curve);
       out["parameters"] = parameters_of(**curve);
       // A line found by steps says how far it may be from the one that is meant.
       const auto* line = dynamic_cast<const geometry::SurfaceCurve*>(curve->get());
@@ -302,6 +320,7 @@ void print_measures(const ordered_json& measured) {
              : measured.value("volume", 0.0) < 0 ? ", inside out: its volume is negative"
                                                  : "");
   for (const auto& [key, value] : measured.items()) {
+    if (key == "conic") fmt::print("{:<18} {}\n", key, value.get<std::string>());
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
     if (key == "parameters") {
       print_parameters(value);
@@ -311,7 +330,9 @@ void print_measures(const ordered_json& measured) {
     std::string label = key;
     std::replace(label.begin(), label.end(), '_', ' ');
     fmt::print("{:<18} {}", label,
-               is_matrix          ? vector_text(value[0])
+               is_matrix ? vector_text(value[0])
+               : key == "half_axes"
+                   ? fmt::format("{} {}", digits(value[0].get<double>()), digits(value[1].get<double>()))
                : value.is_array() ? vector_text(value)
                                   : digits(value.get<double>()));
     if (const auto error = measured.find(key + "_error"); error != measured.end())
