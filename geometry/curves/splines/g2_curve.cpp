@@ -60,30 +60,41 @@ G2End reached(const Fields& f, const std::string& field, bool at_end, bool backw
   return end;
 }
 
-// Bezier pieces raised to the third degree.
-void add_cubics(const Curve& curve, const std::string& field, bool backwards, std::vector<BezierSegment>& segments) {
+// Bezier pieces raised to the degree of the segment that joins them.
+void add_pieces(const Curve& curve, const std::string& field, bool backwards, int degree,
+                std::vector<BezierSegment>& segments) {
   const auto form = curve.as_nurbs();
-  if (!form || form->degree > 3 || !form->maps.empty())
+  if (!form || form->degree > degree || !form->maps.empty())
     throw FieldError(field, "only splines of at most the third degree can be joined with the transition to one",
                      "leave `joined` out and draw the three curves");
-  const NurbsCurveForm cubic = elevate_degree(*form, 3 - form->degree);
+  const NurbsCurveForm raised = elevate_degree(*form, degree - form->degree);
   const Interval domain = curve.domain();
-  const Interval turned{cubic.domain().lo + cubic.domain().hi - domain.hi,
-                        cubic.domain().lo + cubic.domain().hi - domain.lo};
-  for (const CurvePiece& piece : backwards ? bezier_pieces(reversed(cubic), turned) : bezier_pieces(cubic, domain))
+  const double ends = raised.domain().lo + raised.domain().hi;
+  for (const CurvePiece& piece : backwards ? bezier_pieces(reversed(raised), {ends - domain.hi, ends - domain.lo})
+                                           : bezier_pieces(raised, domain))
     segments.push_back(piece.points);
+}
+
+BezierSegment transition_segment(const Fields& f, const G2End& from, const G2End& to) {
+  std::optional<std::array<double, 2>> handles;
+  if (f.has("handles")) handles = {f.numbers("handles")[0], f.numbers("handles")[1]};
+  try {
+    return g2_transition(from, to, handles, read_weights_choice(f)).bezier();
+  } catch (const FieldError&) {
+    if (f.text("fallback") == "none") throw;
+    return g2_quintic(from, to);
+  }
 }
 
 NurbsCurve transition(const Fields& f) {
   const bool from_end = f.text("from_at") == "end", to_end = f.text("to_at") == "end";
-  std::optional<std::array<double, 2>> handles;
-  if (f.has("handles")) handles = {f.numbers("handles")[0], f.numbers("handles")[1]};
-  const RationalCubic middle = g2_transition(reached(f, "from", from_end, !from_end), reached(f, "to", to_end, to_end),
-                                             handles, read_weights_choice(f));
+  const BezierSegment middle =
+      transition_segment(f, reached(f, "from", from_end, !from_end), reached(f, "to", to_end, to_end));
+  const int degree = static_cast<int>(middle.size()) - 1;
   std::vector<BezierSegment> segments;
-  if (f.boolean("joined")) add_cubics(*f.curve("from"), "from", !from_end, segments);
-  segments.push_back(middle.bezier());
-  if (f.boolean("joined")) add_cubics(*f.curve("to"), "to", to_end, segments);
+  if (f.boolean("joined")) add_pieces(*f.curve("from"), "from", !from_end, degree, segments);
+  segments.push_back(middle);
+  if (f.boolean("joined")) add_pieces(*f.curve("to"), "to", to_end, degree, segments);
   return NurbsCurve(bezier_chain(segments));
 }
 
@@ -140,6 +151,8 @@ TypeDeclaration g2_transition_type() {
       .optional("handles", numbers().positive().count(2, 2),
                 "lengths of the tangents at its ends, for curves in one plane; in space they follow from the curves. "
                 "Without them the cubic in a plane is polynomial")
+      .field("fallback", choice({"none", "quintic"}),
+             "where no such cubic is: an error that says why, or a polynomial of degree five, which always is", "none")
       .field("joined", boolean(), "gives all three as one curve; of splines of at most the third degree", "false")
       .field("weights_form", weights_choice(), kWeightsMeaning, "standard")
       .shows({"control_polygon", "knots"})

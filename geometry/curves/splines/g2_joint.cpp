@@ -174,6 +174,17 @@ RationalCubic g2_transition(const G2End& from, const G2End& to, const std::optio
   return between(from, to, q, p, weights);
 }
 
+BezierSegment g2_quintic(const G2End& from, const G2End& to) {
+  const double c = glm::length(to.point - from.point);
+  if (!(c > 0)) throw FieldError("to", "the ends coincide: there is no gap");
+  // r'(0) = 5 (p_1 - p_0), r''(0) = 20 (p_2 - 2 p_1 + p_0); k N = K x T.
+  const Vec3 a = c / 5 * from.tangent, b = c / 5 * to.tangent;
+  const Vec3 bend_a = c * c / 20 * glm::cross(from.curvature, from.tangent);
+  const Vec3 bend_b = c * c / 20 * glm::cross(to.curvature, to.tangent);
+  return {{from.point, 1},   {from.point + a, 1}, {from.point + 2.0 * a + bend_a, 1}, {to.point - 2.0 * b + bend_b, 1},
+          {to.point - b, 1}, {to.point, 1}};
+}
+
 NurbsCurveForm g2_chain_with_double_knots(std::span<const RationalCubic> segments) {
   NurbsCurveForm form;
   form.degree = 3;

@@ -44,6 +44,10 @@ RationalCubic g2_continuation(const G2End& joint, const G2Continuation& wish, Cu
 RationalCubic g2_transition(const G2End& from, const G2End& to, const std::optional<std::array<double, 2>>& handles,
                             CubicWeights weights);
 
+// The polynomial of degree five between any ends, with r' = c T and r'' = c^2 k N at both, c the length of the chord:
+// always there, but without the fairness of the cubic. Throws FieldError (field to) where the ends coincide.
+BezierSegment g2_quintic(const G2End& from, const G2End& to);
+
 // Segments as one NURBS curve with knots of multiplicity two at the joints, whose points vanish from the control
 // polygon: each segment is reparametrized (w_i -> m l^i w_i) and has a knot interval of its own, so that the
 // homogeneous curve is C1. With r = |R Q'|/|P R|, a = w_2/w_3 on the left, b = w_1'/w_0' = 1/(1 - r (1 - a)/a) must be

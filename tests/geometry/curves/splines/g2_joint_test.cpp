@@ -152,6 +152,24 @@ TEST(G2Transition, OfPlaneCurvesIsPolynomial) {
   EXPECT_LE(glm::length(other.end_curvature() - Vec3(0, 0, 1)), 1e-14);
 }
 
+// Of any ends, straight ones and those that turn away from each other too.
+TEST(G2Transition, OfDegreeFiveJoinsAnyEnds) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 20; ++i) {
+    RationalCubic before = random_cubic(random);
+    if (i == 0) before.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0)};
+    const NurbsCurve from = curve_of(before), to = curve_of(random_cubic(random));
+    const std::vector<BezierSegment> segment{g2_quintic(g2_end(from, true, "from"), g2_end(to, false, "to"))};
+    const NurbsCurve quintic(bezier_chain(segment));
+    EXPECT_EQ(quintic.degree(), 5);
+    for (const bool end : {false, true}) {
+      const CurveCurvature a = curvature(quintic, end ? 1 : 0), b = curvature(end ? to : from, end ? 0 : 1);
+      EXPECT_LE(glm::length(a.tangent - b.tangent), 1e-13);
+      EXPECT_LE(glm::length(a.curvature * a.normal - b.curvature * b.normal), 1e-11 * (b.curvature + 1));
+    }
+  }
+}
+
 TEST(G2Transition, SaysWhichConditionFails) {
   const G2End from{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto field_of = [&](const G2End& to) {
