@@ -16,7 +16,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 #include "geometry/numerics/gradient.h"
 #include "geometry/tolerances.h"
 

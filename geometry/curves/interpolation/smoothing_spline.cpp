@@ -7,15 +7,15 @@
 // Corridor: a point inside its bounds has D_i = 0, so the curve is the natural spline through the points at their
 // bounds alone, with D_i >= 0 at lower and <= 0 at upper ones (Zavyalov et al. 1985, 65): found by an active-set
 // search.
-#include "geometry/curves/splines/smoothing_spline.h"
+#include "geometry/curves/interpolation/smoothing_spline.h"
 
 #include <fmt/format.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 
-#include "geometry/curves/splines/point_parameters.h"
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/point_parameters.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 namespace lekalo::geometry {
 

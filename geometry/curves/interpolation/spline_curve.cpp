@@ -2,15 +2,15 @@
 //
 // r is polynomial of degree p between knots and of class C^(p-1). n points and p - 1 (p even: p) conditions at the ends
 // determine it: given derivatives, derivatives that vanish, or knots left out there ("not a knot").
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "geometry/curves/interpolation/collocation.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 #include "geometry/curves/splines/bspline_basis.h"
-#include "geometry/curves/splines/collocation.h"
-#include "geometry/curves/splines/point_parameters.h"
 
 namespace lekalo::geometry {
 

@@ -1,8 +1,8 @@
 // Composite Hermite curves and estimated tangents: what the estimates are exact for, the books' numbers, closed curves.
-#include "geometry/curves/splines/hermite_curve.h"
+#include "geometry/curves/interpolation/hermite_curve.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry::hermite_curve_test {
 namespace {

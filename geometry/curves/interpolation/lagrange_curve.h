@@ -1,7 +1,7 @@
 // Interpolating polynomials (Golovanov 2016, 2.3.2 to 2.3.6, 2.14 b; Zavyalov et al. 1985, I.1).
 #pragma once
 
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 namespace lekalo::geometry {
 

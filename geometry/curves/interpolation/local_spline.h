@@ -2,8 +2,8 @@
 // al. 1985, I.9).
 #pragma once
 
+#include "geometry/curves/interpolation/tangent_estimates.h"
 #include "geometry/curves/splines/nurbs_curve.h"
-#include "geometry/curves/splines/tangent_estimates.h"
 
 namespace lekalo::geometry {
 

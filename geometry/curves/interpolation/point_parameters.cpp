@@ -1,4 +1,4 @@
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 #include <fmt/format.h>
 

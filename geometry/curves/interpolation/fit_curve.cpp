@@ -1,6 +1,6 @@
 // sum_i w_i |r(t_i) - p_i|^2 + stiffness * integral of |r''|^2 is a sum of squares that are linear in the control
 // points: the integral by Gauss's rule on each span, which is exact. QR decomposition does not square the condition.
-#include "geometry/curves/splines/fit_curve.h"
+#include "geometry/curves/interpolation/fit_curve.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/interpolation/point_parameters.h"
 #include "geometry/curves/splines/bspline_basis.h"
-#include "geometry/curves/splines/point_parameters.h"
 #include "geometry/numerics/quadrature.h"
 
 namespace lekalo::geometry {

@@ -1,9 +1,9 @@
 // Splines through points: numbers of Golovanov 2016 and Zavyalov et al. 1985, what the definitions say on random
 // points, and what is refused.
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry::spline_curve_test {
 namespace {

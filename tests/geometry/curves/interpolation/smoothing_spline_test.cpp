@@ -1,10 +1,10 @@
 // Smoothing and local splines: optimality conditions, the blade section of Zavyalov et al. 1985, reproduction.
-#include "geometry/curves/splines/smoothing_spline.h"
+#include "geometry/curves/interpolation/smoothing_spline.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/curves/splines/blade_section.h"
-#include "geometry/curves/splines/local_spline.h"
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/blade_section.h"
+#include "geometry/curves/interpolation/local_spline.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 namespace lekalo::geometry::smoothing_spline_test {
 namespace {

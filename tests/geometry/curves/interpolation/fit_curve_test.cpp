@@ -1,9 +1,9 @@
 // Least squares: interpolation where there is no choice, optimality, tolerances, moving parameters.
-#include "geometry/curves/splines/fit_curve.h"
+#include "geometry/curves/interpolation/fit_curve.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/curves/splines/lagrange_curve.h"
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/lagrange_curve.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry::fit_curve_test {
 namespace {

@@ -1,14 +1,14 @@
 // Newton's form r(t) = a_0 + a_1 (t - t_0) + .. + a_n (t - t_0) .. (t - t_{n-1}) with divided differences a_k is the
 // same curve as Lagrange's sum_i p_i prod_{j != i} (t - t_j) / (t_i - t_j) (Golovanov 2016, 2.3.4, 2.3.5). It becomes a
 // Bezier curve by Horner's rule on Bernstein coefficients, in extended precision because terms cancel.
-#include "geometry/curves/splines/lagrange_curve.h"
+#include "geometry/curves/interpolation/lagrange_curve.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "geometry/curves/interpolation/point_parameters.h"
 #include "geometry/curves/splines/bspline_basis.h"
-#include "geometry/curves/splines/point_parameters.h"
 #include "geometry/numerics/divided_differences.h"
 
 namespace lekalo::geometry {

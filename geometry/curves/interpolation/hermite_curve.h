@@ -1,8 +1,8 @@
 // Composite cubic Hermite curves (Golovanov 2016, 2.3.10, 2.14.3; Zavyalov et al. 1985, I.5, II.4).
 #pragma once
 
+#include "geometry/curves/interpolation/tangent_estimates.h"
 #include "geometry/curves/splines/nurbs_curve.h"
-#include "geometry/curves/splines/tangent_estimates.h"
 
 namespace lekalo::geometry {
 

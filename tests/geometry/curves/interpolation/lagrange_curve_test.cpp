@@ -1,5 +1,5 @@
 // Divided differences and interpolating polynomials.
-#include "geometry/curves/splines/lagrange_curve.h"
+#include "geometry/curves/interpolation/lagrange_curve.h"
 
 #include "geometry/curves/curve_checks.h"
 #include "geometry/numerics/divided_differences.h"

@@ -3,11 +3,11 @@
 //   a0 = 1 - 3w^2 + 2w^3, a1 = 3w^2 - 2w^3, b0 = w - 2w^2 + w^3, b1 = -w^2 + w^3
 //
 // As a B-spline curve with double knots it has two control points beside each point, p_i -+ h q_i / 3 (2.14.3).
-#include "geometry/curves/splines/hermite_curve.h"
+#include "geometry/curves/interpolation/hermite_curve.h"
 
 #include <fmt/format.h>
 
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry {
 

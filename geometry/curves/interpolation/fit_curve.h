@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "geometry/curves/interpolation/tangent_estimates.h"
 #include "geometry/curves/splines/nurbs_curve.h"
-#include "geometry/curves/splines/tangent_estimates.h"
 
 namespace lekalo::geometry {
 

@@ -7,14 +7,14 @@
 //   h_{i-1} F_{i-1} M_{i-1} + (h_{i-1} F_{i-1} (2 + p_{i-1}) + h_i F_i (2 + p_i)) M_i + h_i F_i M_{i+1} = d_i -
 //   d_{i-1}.
 // Times (1 + p u) (1 + p (1 - u)) / (1 + p) it is of degree 4, with weights 1 at both ends.
-#include "geometry/curves/splines/tension_spline.h"
+#include "geometry/curves/interpolation/tension_spline.h"
 
 #include <fmt/format.h>
 
 #include <Eigen/SparseLU>
 #include <cmath>
 
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry {
 

@@ -1,9 +1,9 @@
 // Tension splines: the formula itself, their limits, smoothness, shape.
-#include "geometry/curves/splines/tension_spline.h"
+#include "geometry/curves/interpolation/tension_spline.h"
 
 #include "geometry/curves/curve_checks.h"
-#include "geometry/curves/splines/point_parameters.h"
-#include "geometry/curves/splines/spline_curve.h"
+#include "geometry/curves/interpolation/point_parameters.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 namespace lekalo::geometry::tension_spline_test {
 namespace {

@@ -1,6 +1,6 @@
 // Collocation: sum_j N_j^(k)(t_i) p_j = value_i (Golovanov 2016, 2.14; Zavyalov et al. 1985, I.8, I.10). The matrix
 // has degree + 1 entries in a row; rows are divided by their largest one, so that derivatives of any order weigh alike.
-#include "geometry/curves/splines/collocation.h"
+#include "geometry/curves/interpolation/collocation.h"
 
 #include <Eigen/SparseLU>
 #include <stdexcept>

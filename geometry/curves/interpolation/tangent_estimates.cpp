@@ -1,4 +1,4 @@
-#include "geometry/curves/splines/tangent_estimates.h"
+#include "geometry/curves/interpolation/tangent_estimates.h"
 
 #include <Eigen/SparseLU>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "geometry/curves/splines/local_interpolant.h"
+#include "geometry/curves/interpolation/local_interpolant.h"
 
 #include "geometry/curves/curve_checks.h"
 

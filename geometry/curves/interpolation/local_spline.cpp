@@ -2,12 +2,12 @@
 //   b_i = f_i + (h_i - h_{i-1})/3 m - h_{i-1} h_i / 6 M,   b_{i+-1} alike  (Zavyalov et al. 1985, 89),
 // h_i = t_{i+1} - t_i. Estimates of three neighbours for m, and for M (order 4) or 0 in its place (order 2), make a
 // spline near the points. Beyond the ends steps go on as the last one.
-#include "geometry/curves/splines/local_spline.h"
+#include "geometry/curves/interpolation/local_spline.h"
 
 #include <fmt/format.h>
 
-#include "geometry/curves/splines/lagrange_curve.h"
-#include "geometry/curves/splines/point_parameters.h"
+#include "geometry/curves/interpolation/lagrange_curve.h"
+#include "geometry/curves/interpolation/point_parameters.h"
 
 namespace lekalo::geometry {
 
