@@ -13,6 +13,9 @@ namespace lekalo::geometry {
 
 namespace {
 
+// Of steps that are too long at first, each.
+constexpr int kMaxHalvings = 30;
+
 NurbsCurve polyline_at(std::vector<double> knots, std::span<const Vec3> vertices) {
   knots.insert(knots.begin(), knots.front());
   knots.push_back(knots.back());
@@ -45,12 +48,36 @@ std::vector<Vec3> balanced_vertices(const Curve& curve, const std::vector<double
   return vertices;
 }
 
-bool are_within(const Curve& curve, const std::vector<double>& knots, const std::vector<Vec3>& vertices,
-                double tolerance) {
+// The spans whose straight line is not within the tolerance.
+std::vector<size_t> too_far(const Curve& curve, const std::vector<double>& knots, const std::vector<Vec3>& vertices,
+                            double tolerance) {
+  std::vector<size_t> spans;
   for (size_t i = 0; i + 1 < knots.size(); ++i)
     if (!is_within(curve, straight_span({knots[i], knots[i + 1]}, vertices[i], vertices[i + 1]), tolerance))
-      return false;
-  return true;
+      spans.push_back(i);
+  return spans;
+}
+
+// Chords of twice the tolerance, less where the second derivative changes within a step. Where it changes by much, some
+// steps are halved instead of making all shorter.
+NurbsCurve balanced_polyline(const Curve& curve, double tolerance, Steps steps) {
+  std::vector<double> knots;
+  std::vector<Vec3> vertices;
+  const auto far_spans = [&] {
+    vertices = balanced_vertices(curve, knots);
+    return too_far(curve, knots, vertices, tolerance);
+  };
+  for (double share = 2; share > 1; share *= 0.9) {
+    knots = knots_within(curve, share * tolerance, steps);
+    if (far_spans().empty()) return polyline_at(knots, vertices);
+  }
+  for (int halvings = 0; halvings < kMaxHalvings; ++halvings) {
+    const std::vector<size_t> far = far_spans();
+    if (far.empty()) return polyline_at(knots, vertices);
+    for (const size_t i : far) knots.push_back(0.5 * (knots[i] + knots[i + 1]));
+    std::sort(knots.begin(), knots.end());
+  }
+  throw FieldError("tolerance", "no balanced polyline was found within it", "balanced: false");
 }
 
 }  // namespace
@@ -63,12 +90,7 @@ NurbsCurve polyline_of_curve(const Curve& curve, double tolerance, const Polylin
     for (const double t : knots) vertices.push_back(curve.point(t));
     return polyline_at(knots, vertices);
   }
-  // Twice the tolerance for chords, less where the second derivative changes within a step.
-  for (double share = 2;; share *= 0.9) {
-    const std::vector<double> knots = knots_within(curve, share * tolerance, steps);
-    const std::vector<Vec3> vertices = balanced_vertices(curve, knots);
-    if (are_within(curve, knots, vertices, tolerance)) return polyline_at(knots, vertices);
-  }
+  return balanced_polyline(curve, tolerance, steps);
 }
 
 TypeDeclaration polyline_of_curve_type() {
