@@ -1,5 +1,5 @@
-// A natural cubic spline with values z has the second derivatives M of R M = Q^T z and jumps of its third derivative
-// D = Q M, where the integral of r''^2 is M^T R M:
+// A natural (or periodic) cubic spline with values z has the second derivatives M of R M = Q^T z and jumps of its third
+// derivative D = Q M, where the integral of r''^2 is M^T R M:
 //   R: (h_{i-1} + h_i) / 3 on the diagonal, h_i / 6 beside it;  Q^T z: first divided differences' differences.
 //
 // Smoothing: W (z - p) + stiffness Q M = 0, so (R + stiffness Q^T W^-1 Q) M = Q^T p (Reinsch 1967).
@@ -30,36 +30,46 @@ Sparse matrix_of(int rows, int columns, const Triplets& entries) {
   return matrix;
 }
 
-struct NaturalSystem {
-  Sparse q, r;  // n x (n - 2), (n - 2) x (n - 2)
+// Q and R of n points: of the n - 2 inner ones, or of all of a closed curve.
+struct SplineSystem {
+  Sparse q, r;
 };
 
-NaturalSystem natural_system(std::span<const double> t) {
-  const int inner = static_cast<int>(t.size()) - 2;
+// `t` has one more entry when closed.
+SplineSystem spline_system(std::span<const double> t, bool closed) {
+  const int count = static_cast<int>(t.size()) - (closed ? 1 : 0), unknowns = closed ? count : count - 2;
+  const auto step = [&](int i) { return i < 0 ? t[count] - t[count - 1] : t[i + 1] - t[i]; };
   Triplets q, r;
-  for (int k = 0; k < inner; ++k) {
-    const double before = t[k + 1] - t[k], after = t[k + 2] - t[k + 1];
-    q.emplace_back(k, k, 1 / before);
-    q.emplace_back(k + 1, k, -1 / before - 1 / after);
-    q.emplace_back(k + 2, k, 1 / after);
+  for (int k = 0; k < unknowns; ++k) {
+    const int i = closed ? k : k + 1;
+    const double before = step(i - 1), after = step(i);
+    q.emplace_back((i + count - 1) % count, k, 1 / before);
+    q.emplace_back(i, k, -1 / before - 1 / after);
+    q.emplace_back((i + 1) % count, k, 1 / after);
     r.emplace_back(k, k, (before + after) / 3);
-    if (k + 1 == inner) continue;
-    r.emplace_back(k, k + 1, after / 6);
-    r.emplace_back(k + 1, k, after / 6);
+    if (k + 1 == unknowns && !closed) continue;
+    r.emplace_back(k, (k + 1) % unknowns, after / 6);
+    r.emplace_back((k + 1) % unknowns, k, after / 6);
   }
-  return {matrix_of(inner + 2, inner, q), matrix_of(inner, inner, r)};
+  return {matrix_of(count, unknowns, q), matrix_of(unknowns, unknowns, r)};
 }
 
-NurbsCurve natural_spline(std::span<const Vec3> points, std::span<const double> parameters) {
+NurbsCurve spline_through(std::span<const Vec3> points, std::span<const double> parameters, bool closed) {
   const SplineEnd natural{EndRule::natural, {}, {}};
-  return spline_curve(points, parameters, 3, natural, natural);
+  return closed ? closed_spline_curve(points, parameters, 3) : spline_curve(points, parameters, 3, natural, natural);
 }
 
 // One coordinate of a corridor.
 class Corridor {
  public:
-  Corridor(std::span<const double> t, std::vector<double> center, std::span<const double> half_widths)
-      : t_(t), center_(std::move(center)), half_widths_(half_widths), z_(center_), side_(t.size(), kFree) {
+  // A period of 0 says that it is open.
+  Corridor(std::span<const double> t, double period, std::vector<double> center, std::span<const double> half_widths)
+      : t_(t),
+        period_(period),
+        center_(std::move(center)),
+        half_widths_(half_widths),
+        z_(center_),
+        side_(t.size(), kFree) {
     for (size_t i = 0; i < t.size(); ++i)
       if (half_widths[i] == 0) side_[i] = kFixed;
   }
@@ -87,11 +97,12 @@ class Corridor {
     return at;
   }
 
-  // The straight line nearest to the centers, through the only point at a bound if there is one.
+  // The straight line nearest to the centers, through the only point at a bound if there is one; closed, a constant.
   std::vector<double> line(const std::vector<size_t>& at) const {
     double t0 = 0, z0 = 0;
     for (size_t i = 0; i < t_.size(); ++i) t0 += t_[i] / t_.size(), z0 += center_[i] / t_.size();
     if (!at.empty()) t0 = t_[at[0]], z0 = bound(at[0]);
+    if (period_ > 0) return std::vector<double>(t_.size(), z0);
     double tt = 0, tz = 0;
     for (size_t i = 0; i < t_.size(); ++i) {
       tt += (t_[i] - t0) * (t_[i] - t0);
@@ -109,22 +120,25 @@ class Corridor {
   Through through(const std::vector<size_t>& at) const {
     Through spline;
     for (const size_t i : at) spline.t.push_back(t_[i]), spline.z.push_back(bound(i));
+    const bool closed = period_ > 0;
+    if (closed) spline.t.push_back(spline.t[0] + period_);
     spline.second.assign(at.size(), 0);
-    if (at.size() < 3) {
-      spline.jumps = Eigen::VectorXd::Zero(at.size());
-      return spline;
+    spline.jumps = Eigen::VectorXd::Zero(at.size());
+    if (at.size() >= (closed ? 2 : 3)) {
+      const SplineSystem system = spline_system(spline.t, closed);
+      const Eigen::SimplicialLDLT<Sparse> factors(system.r);
+      const Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(spline.z.data(), spline.z.size());
+      const Eigen::VectorXd second = factors.solve(system.q.transpose() * z);
+      for (int k = 0; k < second.size(); ++k) spline.second[closed ? k : k + 1] = second[k];
+      spline.jumps = system.q * second;
     }
-    const NaturalSystem system = natural_system(spline.t);
-    const Eigen::SimplicialLDLT<Sparse> factors(system.r);
-    const Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(spline.z.data(), spline.z.size());
-    const Eigen::VectorXd second = factors.solve(system.q.transpose() * z);
-    for (int k = 0; k < second.size(); ++k) spline.second[k + 1] = second[k];
-    spline.jumps = system.q * second;
+    if (closed) spline.z.push_back(spline.z[0]), spline.second.push_back(spline.second[0]);
     return spline;
   }
 
   // Beyond its ends a natural spline is straight.
-  static double value(const Through& s, double t) {
+  double value(const Through& s, double t) const {
+    if (period_ > 0 && t < s.t[0]) t += period_;
     const size_t last = s.t.size() - 1;
     const size_t k = std::clamp<size_t>(std::upper_bound(s.t.begin(), s.t.end(), t) - s.t.begin(), 1, last) - 1;
     const double h = s.t[k + 1] - s.t[k], w = (t - s.t[k]) / h, slope = (s.z[k + 1] - s.z[k]) / h;
@@ -163,7 +177,7 @@ class Corridor {
   // Lets go of the point that its bound pulls most instead of holding it; false where there is none.
   bool release_one() {
     const std::vector<size_t> at = at_bounds();
-    if (at.size() < 3) return false;
+    if (at.size() < (period_ > 0 ? 2 : 3)) return false;
     const Through spline = through(at);
     const double rounding = 1e-13 * spline.jumps.cwiseAbs().maxCoeff();
     double worst = rounding;
@@ -176,6 +190,7 @@ class Corridor {
   }
 
   std::span<const double> t_;
+  double period_;
   std::vector<double> center_;
   std::span<const double> half_widths_;
   std::vector<double> z_;
@@ -189,8 +204,8 @@ void check_count(std::span<const Vec3> points) {
 
 }  // namespace
 
-NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double> parameters, double stiffness,
-                            std::span<const double> weights) {
+NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double> parameters, bool closed,
+                            double stiffness, std::span<const double> weights) {
   check_count(points);
   const int count = static_cast<int>(points.size());
   if (!weights.empty() && static_cast<int>(weights.size()) != count)
@@ -202,39 +217,43 @@ NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double
   }
   Eigen::MatrixX3d p(count, 3);
   for (int i = 0; i < count; ++i) p.row(i) << points[i].x, points[i].y, points[i].z;
-  const NaturalSystem system = natural_system(parameters);
+  const SplineSystem system = spline_system(parameters, closed);
   const Sparse bent = system.r + stiffness * Sparse(system.q.transpose() * softness.asDiagonal() * system.q);
   const Eigen::SimplicialLDLT<Sparse> factors(bent);
   const Eigen::MatrixX3d second = factors.solve(system.q.transpose() * p);
   const Eigen::MatrixX3d z = p - stiffness * (softness.asDiagonal() * (system.q * second));
   std::vector<Vec3> smooth;
   for (int i = 0; i < count; ++i) smooth.emplace_back(z(i, 0), z(i, 1), z(i, 2));
-  return natural_spline(smooth, parameters);
+  return spline_through(smooth, parameters, closed);
 }
 
-NurbsCurve corridor_spline(std::span<const Vec3> points, std::span<const double> parameters,
+NurbsCurve corridor_spline(std::span<const Vec3> points, std::span<const double> parameters, bool closed,
                            std::span<const double> half_widths) {
   check_count(points);
   if (half_widths.size() != points.size())
     throw FieldError("corridor", fmt::format("{} half-widths do not fit {} points", half_widths.size(), points.size()));
   for (size_t i = 0; i < half_widths.size(); ++i)
     if (!(half_widths[i] >= 0)) throw FieldError("corridor", fmt::format("half-width {} is negative", i));
+  const std::span<const double> t = parameters.first(points.size());
+  const double period = closed ? parameters.back() - parameters.front() : 0;
   std::vector<Vec3> smooth(points.begin(), points.end());
   for (int k = 0; k < 3; ++k) {
     std::vector<double> center;
     for (const Vec3& p : points) center.push_back(p[k]);
-    const std::vector<double> z = Corridor(parameters, center, half_widths).smoothest();
+    const std::vector<double> z = Corridor(t, period, center, half_widths).smoothest();
     for (size_t i = 0; i < z.size(); ++i) smooth[i][k] = z[i];
   }
-  return natural_spline(smooth, parameters);
+  return spline_through(smooth, parameters, closed);
 }
 
 TypeDeclaration smoothing_spline_type() {
   return declare(Category::curve, "smoothing_spline",
                  "Cubic spline that passes near points, as smooth as a stiffness or a corridor lets it be.")
       .example("points: [[0, 0], [1, 1.2], [2, 0.9], [3, 1.1], [4, 0]], corridor: 0.2")
-      .field("points", points().count(3), "points that the curve passes by")
+      .field("points", points().count(3), "points that the curve passes by; those of a closed one are not repeated")
       .field("knots", knots(), kPointKnots, "chord_length")
+      .field("closed", boolean(),
+             "periodic curve, smooth over its seam; an open one has no second derivative at its ends", "false")
       .optional("stiffness", number().non_negative(),
                 "weight of the integral of the squared second derivative beside the sum of squared distances")
       .optional("weights", numbers(), "weight of each squared distance; all 1 when left out; with stiffness")
@@ -244,7 +263,8 @@ TypeDeclaration smoothing_spline_type() {
       .shows({"control_polygon", "knots"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");
-        const std::vector<double> parameters = point_parameters(f.knots("knots"), points, false);
+        const bool closed = f.boolean("closed");
+        const std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
         if (f.has("stiffness") == f.has("corridor"))
           throw FieldError(f.has("corridor") ? "corridor" : "points",
                            f.has("corridor") ? "stiffness and corridor do not go together" : "how smooth is not said",
@@ -252,11 +272,11 @@ TypeDeclaration smoothing_spline_type() {
         if (f.has("corridor") && f.has("weights"))
           throw FieldError("weights", "a corridor has no weights", "a length of corridor for each point");
         if (f.has("stiffness"))
-          return smoothing_spline(points, parameters, f.number("stiffness"),
+          return smoothing_spline(points, parameters, closed, f.number("stiffness"),
                                   f.has("weights") ? f.numbers("weights") : std::vector<double>());
         std::vector<double> half_widths = f.numbers("corridor");
         if (half_widths.size() == 1) half_widths.assign(points.size(), half_widths[0]);
-        return corridor_spline(points, parameters, half_widths);
+        return corridor_spline(points, parameters, closed, half_widths);
       });
 }
 

@@ -26,17 +26,23 @@ double energy(const NurbsCurve& curve, const List& t, int k = 1) {
 // Jumps of the third derivative at the parameters.
 List jumps(const NurbsCurve& curve, const List& t, int k) {
   List result;
+  const bool closed = curve.period() > 0;
+  // In the middle of a span, where no rounding of a knot takes it to the next one.
+  const auto third = [&](double from, double to) { return curve.evaluate(0.5 * (from + to), 3).d[3][k]; };
   for (size_t i = 0; i < t.size(); ++i) {
-    const double before = i > 0 ? curve.evaluate(t[i - 1], 3).d[3][k] : 0;
-    const double after = i + 1 < t.size() ? curve.evaluate(t[i], 3).d[3][k] : 0;
+    const double over_seam = closed ? third(t.back(), t[0] + curve.period()) : 0;
+    const double before = i > 0 ? third(t[i - 1], t[i]) : over_seam;
+    const double after = i + 1 < t.size() ? third(t[i], t[i + 1]) : over_seam;
     result.push_back(after - before);
   }
   return result;
 }
 
 // Kuhn, Tucker: inside the corridor no jump, at its borders one that pulls outwards (Zavyalov et al. 1985, 65).
-void check_optimal(const Points& points, const List& t, const List& half_widths) {
-  const NurbsCurve curve = corridor_spline(points, t, half_widths);
+void check_optimal(const Points& points, const List& t, const List& half_widths, double period = 0) {
+  List parameters = t;
+  if (period > 0) parameters.push_back(t[0] + period);
+  const NurbsCurve curve = corridor_spline(points, parameters, period > 0, half_widths);
   for (int k = 0; k < 3; ++k) {
     const List d = jumps(curve, t, k);
     double largest = 0, size = 0, step = kInfinity;
@@ -69,38 +75,44 @@ TEST(CorridorSpline, IsOptimal) {
       widths.push_back(i % 7 == 3 ? 0 : 0.3 * (1.1 + uniform(random)));
     }
     check_optimal(points, t, widths);
+    check_optimal(points, t, widths, t.back() - t[0] + 0.7);
   }
 }
 
 TEST(CorridorSpline, OfTheBladeSectionHasTheSmallestIntegral) {
   const SplineEnd natural{EndRule::natural, {}, {}};
   EXPECT_NEAR(energy(spline_curve(blade_points(), kBladeT, 3, natural, natural), kBladeT), 0.08923, 5e-6);
-  EXPECT_NEAR(energy(corridor_spline(blade_points(), kBladeT, List(23, 0.1)), kBladeT), 0.07774, 5e-6);
+  EXPECT_NEAR(energy(corridor_spline(blade_points(), kBladeT, false, List(23, 0.1)), kBladeT), 0.07774, 5e-6);
   check_optimal(blade_points(), kBladeT, List(23, 0.1));
 }
 
 TEST(CorridorSpline, WhereALineFitsIsALine) {
   const Points points = {{0, 0, 0}, {1, 1.05, 0}, {2, 1.95, 0}, {3, 3, 0}};
-  const NurbsCurve curve = corridor_spline(points, List{0, 1, 2, 3}, List(4, 0.1));
+  const NurbsCurve curve = corridor_spline(points, List{0, 1, 2, 3}, false, List(4, 0.1));
   EXPECT_LE(energy(curve, {0, 1, 2, 3}), 1e-28);
 }
 
 TEST(SmoothingSpline, StandsBetweenTheInterpolantAndTheLine) {
-  const NurbsCurve exact = smoothing_spline(blade_points(), kBladeT, 0);
+  const NurbsCurve exact = smoothing_spline(blade_points(), kBladeT, false, 0);
   for (size_t i = 0; i < kBladeT.size(); ++i) EXPECT_LE(distance(exact.point(kBladeT[i]), blade_points()[i]), 1e-12);
-  const NurbsCurve line = smoothing_spline(blade_points(), kBladeT, 1e15);
+  const NurbsCurve line = smoothing_spline(blade_points(), kBladeT, false, 1e15);
   EXPECT_LE(glm::length(line.evaluate(0, 2).d[2]), 1e-11);
 }
 
 // A change of any value of the smoothing spline makes its functional larger: the gradient vanishes.
 TEST(SmoothingSpline, IsStationary) {
   const double stiffness = 30;
-  List weights;
+  List weights, closed_t = kBladeT;
+  closed_t.push_back(60);
   for (int i = 0; i < 23; ++i) weights.push_back(1 + 0.1 * i);
-  const NurbsCurve curve = smoothing_spline(blade_points(), kBladeT, stiffness, weights);
+  const NurbsCurve curve = smoothing_spline(blade_points(), kBladeT, false, stiffness, weights);
   const List d = jumps(curve, kBladeT, 1);
   for (size_t i = 0; i < kBladeT.size(); ++i)
     EXPECT_NEAR(weights[i] * (curve.point(kBladeT[i]).y - kBladeZ[i]) + stiffness * d[i], 0, 1e-9);
+  const NurbsCurve closed = smoothing_spline(blade_points(), closed_t, true, stiffness, weights);
+  const List e = jumps(closed, kBladeT, 1);
+  for (size_t i = 0; i < kBladeT.size(); ++i)
+    EXPECT_NEAR(weights[i] * (closed.point(kBladeT[i]).y - kBladeZ[i]) + stiffness * e[i], 0, 1e-9);
 }
 
 TEST(LocalSpline, OfOrderFourReproducesCubicsOfOrderTwoLines) {
