@@ -35,6 +35,23 @@ void add_row(const SplineAxis& axis, const SplineCondition& condition, const Vec
 
 }  // namespace
 
+SplineAxis clamped_axis(int degree, double lo, double hi, std::span<const double> inner) {
+  std::vector<double> knots(degree + 1, lo);
+  knots.insert(knots.end(), inner.begin(), inner.end());
+  knots.insert(knots.end(), degree + 1, hi);
+  return SplineAxis(degree, std::move(knots), Extension::tangent);
+}
+
+SplineAxis periodic_axis(int degree, std::span<const double> knots, double period) {
+  const int count = static_cast<int>(knots.size());
+  std::vector<double> all;
+  for (int i = -degree; i <= count + degree; ++i) {
+    const int turns = (i + degree * count) / count - degree;
+    all.push_back(knots[i - turns * count] + turns * period);
+  }
+  return SplineAxis(degree, std::move(all), Extension::periodic);
+}
+
 NurbsCurve spline_with(SplineAxis axis, std::span<const SplineCondition> conditions) {
   const int count = axis.distinct();
   if (static_cast<int>(conditions.size()) != count)

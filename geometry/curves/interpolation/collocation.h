@@ -7,6 +7,11 @@
 
 namespace lekalo::geometry {
 
+// Open, with these inner knots between lo and hi, clamped there; throws as SplineAxis does.
+SplineAxis clamped_axis(int degree, double lo, double hi, std::span<const double> inner);
+// Periodic, with all knots of one period; the domain begins at the first.
+SplineAxis periodic_axis(int degree, std::span<const double> knots, double period);
+
 // The derivative of order 0 (the point itself) to kMaxCurveOrder at a parameter of the domain.
 struct SplineCondition {
   double t = 0;

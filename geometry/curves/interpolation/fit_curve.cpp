@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/interpolation/collocation.h"
 #include "geometry/curves/interpolation/point_parameters.h"
 #include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/numerics/quadrature.h"
@@ -23,19 +24,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 SplineAxis fit_axis(const PointSequence& data, const std::vector<double>& inner, int degree) {
   const double lo = data.parameters.front(), hi = data.parameters.back();
-  std::vector<double> knots;
-  if (data.closed) {
-    const int count = static_cast<int>(inner.size());
-    for (int i = -degree; i <= count + degree; ++i) {
-      const int turns = (i + degree * count) / count - degree;
-      knots.push_back(inner[i - turns * count] + turns * (hi - lo));
-    }
-    return SplineAxis(degree, std::move(knots), Extension::periodic);
-  }
-  knots.assign(degree + 1, lo);
-  knots.insert(knots.end(), inner.begin(), inner.end());
-  knots.insert(knots.end(), degree + 1, hi);
-  return SplineAxis(degree, std::move(knots), Extension::tangent);
+  return data.closed ? periodic_axis(degree, inner, hi - lo) : clamped_axis(degree, lo, hi, inner);
 }
 
 struct Rows {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/curves/interpolation/point_parameters.h"
+#include "geometry/curves/interpolation/spline_curve.h"
 
 namespace lekalo::geometry {
 
@@ -65,14 +66,10 @@ std::vector<Vec3> tangents_of(const Fields& f, const PointSequence& data) {
       f.has("tangents")     ? f.points("tangents")
       : f.has("directions") ? with_speeds(data, unit_directions(f.points("directions"), data.size()), f.text("speeds"))
                             : estimated_tangents(f.text("estimate"), data);
-  if (f.has("tangents_at"))
-    for (const Fields& one : f.groups("tangents_at")) {
-      const int point = one.integer("point");
-      if (point >= data.size())
-        throw FieldError("tangents_at",
-                         fmt::format("there is no point {}: the {} points are numbered from 0", point, data.size()));
-      if (point < static_cast<int>(tangents.size())) tangents[point] = one.vec3("vector");
-    }
+  const std::vector<PointTangent> given = point_tangents(f, "tangents_at");
+  check_tangents(given, data.size(), "tangents_at");
+  for (const PointTangent& one : given)
+    if (one.point < static_cast<int>(tangents.size())) tangents[one.point] = one.tangent;
   return tangents;
 }
 
@@ -97,10 +94,7 @@ TypeDeclaration hermite_curve_type() {
           "no second derivative at the ends), of a secant, by Akima, monotone in each coordinate, or along the circle "
           "through three or by five neighbours",
           "bessel")
-      .optional("tangents_at",
-                groups({{"point", integer().at_least(0), "number of the point, from 0", true, ""},
-                        {"vector", vector(), "derivative by t there", true, ""}}),
-                "derivatives given at some points")
+      .optional("tangents_at", point_tangents(), "derivatives given at some points")
       .shows({"control_polygon", "knots", "de_boor"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");

@@ -49,22 +49,11 @@ std::vector<Real3> times_linear(const std::vector<Real3>& b, Real node, Real lo,
   return result;
 }
 
-void check_tangents(std::span<const PointTangent> tangents, size_t points) {
-  std::vector<bool> has(points, false);
-  for (const PointTangent& one : tangents) {
-    if (one.point < 0 || one.point >= static_cast<int>(points))
-      throw FieldError("tangents",
-                       fmt::format("there is no point {}: the {} points are numbered from 0", one.point, points));
-    if (has[one.point]) throw FieldError("tangents", fmt::format("point {} has two tangents", one.point));
-    has[one.point] = true;
-  }
-}
-
 }  // namespace
 
 NurbsCurve lagrange_curve(std::span<const Vec3> points, std::span<const double> parameters,
                           std::span<const PointTangent> tangents) {
-  check_tangents(tangents, points.size());
+  check_tangents(tangents, static_cast<int>(points.size()));
   const size_t degree = points.size() + tangents.size() - 1;
   if (degree > kMaxDegree)
     throw FieldError("points",
@@ -95,17 +84,11 @@ TypeDeclaration lagrange_curve_type() {
       .example("points: [[0, 0], [1, 2], [3, 3], [4, 0], [6, 1]]")
       .field("points", points().count(2), "points of the curve")
       .field("knots", knots(), kPointKnots, "chord_length")
-      .optional("tangents",
-                groups({{"point", integer().at_least(0), "number of the point, from 0", true, ""},
-                        {"vector", vector(), "derivative by t there", true, ""}}),
-                "derivatives at some points; each makes the degree higher by one")
+      .optional("tangents", point_tangents(), "derivatives at some points; each makes the degree higher by one")
       .shows({"control_polygon", "knots"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");
-        std::vector<PointTangent> tangents;
-        if (f.has("tangents"))
-          for (const Fields& one : f.groups("tangents")) tangents.push_back({one.integer("point"), one.vec3("vector")});
-        return lagrange_curve(points, point_parameters(f.knots("knots"), points, false), tangents);
+        return lagrange_curve(points, point_parameters(f.knots("knots"), points, false), point_tangents(f, "tangents"));
       });
 }
 

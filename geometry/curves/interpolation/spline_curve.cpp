@@ -38,6 +38,8 @@ void check_end(int degree, const SplineEnd& end, int given) {
                      "ends: not_a_knot");
 }
 
+bool is_parabolic(const EndConditions& end) { return end.conditions.size() == 1 && end.conditions[0].order == 3; }
+
 EndConditions end_conditions(int degree, const SplineEnd& end, double t) {
   EndConditions result;
   std::vector<bool> given(degree + 3, false);
@@ -57,17 +59,6 @@ EndConditions end_conditions(int degree, const SplineEnd& end, double t) {
   }
   result.left_out = degree / 2 - static_cast<int>(result.conditions.size());
   return result;
-}
-
-void check_tangents(std::span<const PointTangent> tangents, int points) {
-  std::vector<bool> has(points, false);
-  for (const PointTangent& one : tangents) {
-    if (one.point < 0 || one.point >= points)
-      throw FieldError("tangents",
-                       fmt::format("there is no point {}: the {} points are numbered from 0", one.point, points));
-    if (has[one.point]) throw FieldError("tangents", fmt::format("point {} has two tangents", one.point));
-    has[one.point] = true;
-  }
 }
 
 void check_degree(int degree) {
@@ -102,7 +93,7 @@ bool has_tangent(std::span<const PointTangent> tangents, size_t point) {
   return std::any_of(tangents.begin(), tangents.end(), [&](const auto& one) { return one.point == int(point); });
 }
 
-// Of an open spline, those before `left_out` ones at either end are left out.
+// Of an open spline.
 std::vector<double> inner_knots(std::span<const double> parameters, int degree,
                                 std::span<const PointTangent> tangents) {
   std::vector<double> knots;
@@ -110,13 +101,6 @@ std::vector<double> inner_knots(std::span<const double> parameters, int degree,
   for (size_t i = 1; i + 1 < parameters.size(); ++i)
     add_knots_of(parameters[i], parameters[i] - parameters[i - 1], parameters[i + 1] - parameters[i],
                  has_tangent(tangents, i), degree, knots);
-  return knots;
-}
-
-std::vector<double> clamped(int degree, double lo, double hi, std::span<const double> inner) {
-  std::vector<double> knots(degree + 1, lo);
-  knots.insert(knots.end(), inner.begin(), inner.end());
-  knots.insert(knots.end(), degree + 1, hi);
   return knots;
 }
 
@@ -131,6 +115,29 @@ SplineEnd with_tangent(SplineEnd end, std::span<const PointTangent> tangents, in
 
 }  // namespace
 
+void check_tangents(std::span<const PointTangent> tangents, int points, const std::string& field) {
+  std::vector<bool> has(points, false);
+  for (const PointTangent& one : tangents) {
+    if (one.point < 0 || one.point >= points)
+      throw FieldError(field,
+                       fmt::format("there is no point {}: the {} points are numbered from 0", one.point, points));
+    if (has[one.point]) throw FieldError(field, fmt::format("point {} has two tangents", one.point));
+    has[one.point] = true;
+  }
+}
+
+FieldType point_tangents() {
+  return groups({{"point", integer().at_least(0), "number of the point, from 0", true, ""},
+                 {"vector", vector(), "derivative by t there", true, ""}});
+}
+
+std::vector<PointTangent> point_tangents(const Fields& f, std::string_view field) {
+  std::vector<PointTangent> tangents;
+  if (!f.has(field)) return tangents;
+  for (const Fields& one : f.groups(field)) tangents.push_back({one.integer("point"), one.vec3("vector")});
+  return tangents;
+}
+
 NurbsCurve spline_curve(std::span<const Vec3> points, std::span<const double> parameters, int degree,
                         const SplineEnd& start, const SplineEnd& end, std::span<const PointTangent> tangents) {
   const int last = static_cast<int>(points.size()) - 1;
@@ -142,9 +149,7 @@ NurbsCurve spline_curve(std::span<const Vec3> points, std::span<const double> pa
   const double lo = parameters.front(), hi = parameters.back();
   EndConditions first = end_conditions(degree, with_tangent(start, tangents, 0), lo);
   EndConditions final = end_conditions(degree, with_tangent(end, tangents, last), hi);
-  if (last == 1 && first.conditions.size() == 1 && final.conditions.size() == 1 && first.conditions[0].order == 3 &&
-      final.conditions[0].order == 3)
-    first.conditions.clear(), final.conditions.clear(), first.left_out = final.left_out = 1;
+  if (last == 1 && is_parabolic(first) && is_parabolic(final)) first = final = {{}, 1};  // both say the same
   std::vector<SplineCondition> conditions = inner_conditions(points, parameters, inner_tangents);
   conditions.insert(conditions.begin() + 1, first.conditions.begin(), first.conditions.end());
   conditions.insert(conditions.end(), final.conditions.begin(), final.conditions.end());
@@ -157,7 +162,7 @@ NurbsCurve spline_curve(std::span<const Vec3> points, std::span<const double> pa
     knots.erase(knots.begin(), knots.begin() + first.left_out);
     knots.erase(knots.end() - final.left_out, knots.end());
   }
-  return spline_with(SplineAxis(degree, clamped(degree, lo, hi, knots), Extension::tangent), conditions);
+  return spline_with(clamped_axis(degree, lo, hi, knots), conditions);
 }
 
 NurbsCurve closed_spline_curve(std::span<const Vec3> points, std::span<const double> parameters, int degree,
@@ -171,13 +176,7 @@ NurbsCurve closed_spline_curve(std::span<const Vec3> points, std::span<const dou
     const double before = i > 0 ? parameters[i] - parameters[i - 1] : period - (parameters[count - 1] - lo);
     add_knots_of(parameters[i], before, parameters[i + 1] - parameters[i], has_tangent(tangents, i), degree, inner);
   }
-  const int distinct = static_cast<int>(inner.size());
-  std::vector<double> knots;
-  for (int i = -degree; i <= distinct + degree; ++i) {
-    const int turns = (i + degree * distinct) / distinct - degree;
-    knots.push_back(inner[i - turns * distinct] + turns * period);
-  }
-  SplineAxis axis(degree, std::move(knots), Extension::periodic);
+  SplineAxis axis = periodic_axis(degree, inner, period);
   axis.restrict_to({lo, lo + period});
   return spline_with(std::move(axis), inner_conditions(points, parameters, tangents));
 }
@@ -220,10 +219,7 @@ TypeDeclaration spline_curve_type() {
       .optional("end_tangent", vector(), "derivative by t at the last point")
       .optional("start_second_derivative", vector(), "second derivative by t at the first point")
       .optional("end_second_derivative", vector(), "second derivative by t at the last point")
-      .optional("tangents",
-                groups({{"point", integer().at_least(0), "number of the point, from 0", true, ""},
-                        {"vector", vector(), "derivative by t there", true, ""}}),
-                "derivatives at any points")
+      .optional("tangents", point_tangents(), "derivatives at any points")
       .shows({"control_polygon", "knots", "de_boor"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");

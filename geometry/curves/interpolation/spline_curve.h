@@ -24,6 +24,12 @@ struct PointTangent {
   Vec3 tangent{0};  // dr/dt
 };
 
+// Throws FieldError unless tangents belong to points 0 .. points - 1, one for each at most.
+void check_tangents(std::span<const PointTangent> tangents, int points, const std::string& field = "tangents");
+// A field of such tangents, and what it holds: nothing where it was left out.
+FieldType point_tangents();
+std::vector<PointTangent> point_tangents(const Fields& f, std::string_view field);
+
 // The spline of class C^(degree - 1) through points at increasing parameters. Knots are the inner parameters (odd
 // degree) or their midpoints (even); at a point with a tangent two knots a third of the spans beside it.
 // Throws FieldError (fields degree, ends, tangents, points).
