@@ -2,10 +2,11 @@
 // (Zavyalov et al. 1985, 24): knots are placed one after the other by the difference itself, without that derivative.
 #include "geometry/curves/operations/spline_of_curve.h"
 
-#include <array>
+#include <algorithm>
 
 #include "geometry/curves/operations/arc_fraction.h"
 #include "geometry/curves/operations/hermite_span.h"
+#include "geometry/curves/splines/collocation.h"
 
 namespace lekalo::geometry {
 
@@ -15,6 +16,8 @@ namespace {
 // between: differences change like w^2 (1 - w)^2.
 constexpr int kPlaces = 32;
 constexpr double kKept = 0.98;
+// Tangents at a seam that differ by no more than this part are one.
+constexpr double kSmooth = 1e-9;
 
 // The same span over the length of arc.
 class ByLength {
@@ -46,20 +49,39 @@ class ByLength {
 };
 
 // Spans with one tangent where they meet have double knots there, at corners triple ones.
-NurbsCurve joined(const std::vector<HermiteSpan>& spans) {
-  std::vector<double> knots(4, spans.front().t.lo);
-  std::vector<Vec3> points{spans.front().from};
+NurbsCurve joined(const std::vector<HermiteSpan>& spans, bool closed) {
+  std::vector<double> knots;  // after the first
+  std::vector<Vec3> points;   // between the ends
   for (size_t k = 0; k < spans.size(); ++k) {
     const HermiteSpan& span = spans[k];
     const double third = span.t.width() / 3;
     points.push_back(span.from + third * span.tangent_from);
     points.push_back(span.to - third * span.tangent_to);
-    const bool last = k + 1 == spans.size();
-    const bool smooth = !last && span.tangent_to == spans[k + 1].tangent_from;
+    if (k + 1 == spans.size()) break;
+    const bool smooth = span.tangent_to == spans[k + 1].tangent_from;
     if (!smooth) points.push_back(span.to);
-    knots.insert(knots.end(), last ? 4 : smooth ? 2 : 3, span.t.hi);
+    knots.insert(knots.end(), smooth ? 2 : 3, span.t.hi);
   }
-  return NurbsCurve(SplineAxis(3, std::move(knots), Extension::tangent), points);
+  const double lo = spans.front().t.lo, hi = spans.back().t.hi;
+  if (!closed) {
+    points.insert(points.begin(), spans.front().from);
+    points.push_back(spans.back().to);
+    return NurbsCurve(clamped_axis(3, lo, hi, knots), points);
+  }
+  // The seam has a double knot as well; its first control point is the last one here.
+  std::rotate(points.begin(), points.end() - 1, points.end());
+  knots.insert(knots.begin(), lo);
+  knots.push_back(hi);
+  return NurbsCurve(periodic_axis(3, knots, hi - lo), points);
+}
+
+// Where the last span ends as the first begins, rounding apart.
+bool closes_smoothly(const Curve& curve, std::vector<HermiteSpan>& spans) {
+  const Vec3 start = spans.front().tangent_from, end = spans.back().tangent_to;
+  if (spans.size() < 3 || !curve.is_closed() || glm::length(end - start) > kSmooth * glm::length(start)) return false;
+  spans.back().tangent_to = start;
+  spans.back().to = spans.front().from;
+  return true;
 }
 
 }  // namespace
@@ -82,7 +104,8 @@ NurbsCurve spline_of_curve(const Curve& curve, double tolerance, const SplineOfC
       if (i > 1) spans[spans.size() - 2].tangent_to = spans.back().tangent_from;
     }
   }
-  return joined(spans);
+  const bool closed = closes_smoothly(curve, spans);
+  return joined(spans, closed);
 }
 
 TypeDeclaration spline_of_curve_type() {

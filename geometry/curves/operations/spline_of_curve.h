@@ -11,7 +11,8 @@ struct SplineOfCurveOptions {
 };
 
 // A composite Hermite curve with points and derivatives of the curve at its knots, nowhere farther from it than the
-// tolerance: proved at the same parameters; by length checked at places of each span. Throws FieldError (field of) for
+// tolerance: proved at the same parameters; by length checked at places of each span. Periodic where the
+// curve closes smoothly. Throws FieldError (field of) for
 // an infinite domain, or, by length, where the curve stops; (field tolerance) for too many spans.
 NurbsCurve spline_of_curve(const Curve& curve, double tolerance, const SplineOfCurveOptions& options = {});
 

@@ -39,6 +39,13 @@ TEST(SplineOfCurve, CircleTakesTheBooksSpans) {
   EXPECT_EQ(spans(spline), 15);
   EXPECT_NEAR(largest_distance(spline, kCircle), 0.07994, 5e-6);
   EXPECT_LE(spans(spline_of_curve(kCircle, 0.1)), 15);
+  EXPECT_NEAR(spline.period(), kTwoPi, 1e-15);
+  checks::check_period(spline);
+  checks::check_pieces(spline);
+  EXPECT_EQ(spline_of_curve(kQuarter, 0.1).period(), 0);
+  const NurbsCurve by_length = spline_of_curve(kCircle, 0.1, {.by_length = true});
+  EXPECT_NEAR(by_length.period(), 2000 * kPi, 1e-9);
+  EXPECT_NEAR(glm::length(by_length.point(-123)), 1000, 0.1);
 }
 
 // The same: a quarter of an ellipse 1000 x 10; four spans, five by length.
