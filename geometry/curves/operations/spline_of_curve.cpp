@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "geometry/curves/interpolation/collocation.h"
 #include "geometry/curves/operations/arc_fraction.h"
 #include "geometry/curves/operations/hermite_span.h"
-#include "geometry/curves/splines/collocation.h"
 
 namespace lekalo::geometry {
 
