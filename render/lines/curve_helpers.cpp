@@ -57,10 +57,10 @@ CurveJumps curve_jumps(const Curve& curve) {
   const std::vector<CurvePiece> pieces = curve.pieces();
   CurveJumps jumps;
   for (size_t k = 1; k < pieces.size(); ++k) {
-    // Where a pole parts them the curve has no value.
-    const double t = pieces[k].domain.lo;
-    if (pieces[k - 1].domain.hi != t) continue;
-    const Vec3 before = curve.point(next_down(t)), at = curve.point(t), after = curve.point(next_up(t));
+    // Where a pole parts them the curve has no value; a number with a value of its own lies between two pieces.
+    const double t = pieces[k - 1].domain.hi, next = pieces[k].domain.lo;
+    if (next > next_up(next_up(t))) continue;
+    const Vec3 before = curve.point(next_down(t)), at = curve.point(t), after = curve.point(next_up(next));
     const auto differ = [&](const Vec3& a, const Vec3& b) {
       return glm::length(a - b) > kJump * (1 + glm::length(a) + glm::length(b));
     };

@@ -186,6 +186,8 @@ class Builder {
 
   // --- builder_references.cpp, builder_repeats.cpp: names, families.
   void declare_section(const char* section);
+  // A name whose counters are put in: c.%i, or { of: c, member: i }; any other value itself.
+  const Value& with_counters(const Value& value, const Counters& counters);
   std::optional<Built> refer(const Value& value, const Counters& counters, std::span<const Category> wanted);
   std::optional<std::vector<std::any>> refer_all(const Value& value, const Counters& counters,
                                                  std::span<const Category> wanted);

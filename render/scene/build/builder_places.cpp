@@ -122,16 +122,17 @@ std::optional<Builder::Located> Builder::locate(const Value& map, const Counters
           "surface, point: [i, j] }");
       return std::nullopt;
     }
-  if (const Scoped* named = named_place(*map.find("of"))) {
+  const Value& of = with_counters(*map.find("of"), counters);
+  if (const Scoped* named = named_place(of)) {
     for (const Entry& entry : map.entries)
       if (entry.key.name != "of" && entry.key.name != "vector") {
         diagnostics_.error(entry.key.place,
-                           fmt::format("'{}' is a place: it says '{}' itself", map.find("of")->text, entry.key.name));
+                           fmt::format("'{}' is a place: it says '{}' itself", of.text, entry.key.name));
         return std::nullopt;
       }
     return locate(*named->value, named->counters, what);
   }
-  const auto built = refer(*map.find("of"), counters, kCurveOrSurface);
+  const auto built = refer(of, counters, kCurveOrSurface);
   if (!built) return std::nullopt;
   Located place;
   const bool on_curve = built->category == Category::curve;

@@ -28,6 +28,12 @@ bool is_place(const Value& map) {
                      [](const Entry& entry) { return known.contains(entry.key.name); });
 }
 
+// { of: c, member: i }: a member of a family, [i, j] of one in rows.
+bool is_member(const Value& map) {
+  const Value* of = map.is_map() && map.entries.size() == 2 ? map.find("of") : nullptr;
+  return of && of->is_scalar() && map.find("member");
+}
+
 }  // namespace
 
 // The place that a name stands for, if it is that of one.
@@ -269,7 +275,30 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   return result;
 }
 
-std::optional<Built> Builder::refer(const Value& value, const Counters& counters, std::span<const Category> wanted) {
+const Value& Builder::with_counters(const Value& value, const Counters& counters) {
+  Value name = value;
+  if (value.is_scalar() && value.text.find('%') != std::string::npos) {
+    if (const auto filled = fill_templates(value, counters))
+      name = *filled;
+    else
+      name.invalid = true;
+  } else if (const Value* member = is_member(value) ? value.find("member") : nullptr) {
+    name = *value.find("of");
+    for (const Value* one = member->is_sequence() ? member->items.data() : member;
+         one != (member->is_sequence() ? member->items.data() + member->items.size() : member + 1); ++one) {
+      const auto number = parameters_.integer(*one, counters);
+      name.text += fmt::format(".{}", number.value_or(0));
+      name.invalid = name.invalid || !number;
+    }
+  } else {
+    return value;
+  }
+  made_.push_back(std::move(name));
+  return made_.back();
+}
+
+std::optional<Built> Builder::refer(const Value& written, const Counters& counters, std::span<const Category> wanted) {
+  const Value& value = with_counters(written, counters);
   if (value.invalid) return std::nullopt;
   if (value.is_map() || !section_of(wanted.front())) return build_typed(value, counters, wanted);
   if (value.is_sequence()) {
@@ -302,8 +331,11 @@ std::optional<std::vector<std::any>> Builder::refer_all(const Value& value, cons
 bool Builder::refer_each(const Value& value, const Counters& counters, std::span<const Category> wanted,
                          const std::function<void(std::any)>& take) {
   bool good = true;
-  each_item(value, counters, [&](const Value& item, const Counters& inner) {
-    if (item.is_scalar() && section_of(wanted.front())) {
+  each_item(value, counters, [&](const Value& written, const Counters& inner) {
+    const Value& item = with_counters(written, inner);
+    if (item.invalid) {
+      good = false;
+    } else if (item.is_scalar() && section_of(wanted.front())) {
       auto some = named(item, wanted);
       good = good && some;
       if (some)
@@ -322,9 +354,10 @@ std::vector<std::string> Builder::names_of_references(const Value& value, const 
                                                       std::span<const Category> wanted) {
   std::vector<std::string> names;
   for (const Scoped& item : items(value, counters)) {
-    const bool is_name = item.value->is_scalar() && section_of(wanted.front());
-    const auto some = is_name ? named(*item.value, wanted) : std::nullopt;
-    names.insert(names.end(), some ? some->size() : 1, is_name ? item.value->text : std::string());
+    const Value& name = with_counters(*item.value, item.counters);
+    const bool is_name = name.is_scalar() && section_of(wanted.front());
+    const auto some = is_name ? named(name, wanted) : std::nullopt;
+    names.insert(names.end(), some ? some->size() : 1, is_name ? name.text : std::string());
   }
   return names;
 }
