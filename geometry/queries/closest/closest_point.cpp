@@ -208,7 +208,8 @@ class CurveProjection {
     if (distance(t - beside) > distance(t) && distance(t + beside) > distance(t)) add(t, FootPointKind::border);
   }
 
-  // Joints of pieces and ends: f falls from plus to minus there, or the curve ends on the rising side.
+  // Joints of pieces and ends: f falls from plus to minus there, or the curve ends on the rising side. Where f vanishes
+  // on both sides, but for rounding, either piece may have lost the foot point to the other.
   void add_joints() {
     const std::vector<Piece>& pieces = on_.pieces;
     for (size_t k = 0; k <= pieces.size(); ++k) {
@@ -217,15 +218,26 @@ class CurveProjection {
       const Piece* before = k > 0 ? &pieces[k - 1] : on_.closed ? &pieces.back() : nullptr;
       const Piece* behind = k < pieces.size() ? &pieces[k] : nullptr;
       const double t = inner || k == 0 ? pieces[k].domain.lo : domain_.hi;
-      const auto falls = [&](const Piece* piece, bool at_end) {
-        if (!piece) return true;
+      // f, or 0 where it is rounding.
+      const auto sign = [&](const Piece* piece, bool at_end) {
         const CurveJet& r = at_end ? piece->end : piece->begin;
         const double f = glm::dot(p_ - r.d[0], r.d[1]);
-        const double rounding = 1e-14 * glm::length(p_ - r.d[0]) * glm::length(r.d[1]);
-        return at_end ? f > rounding : f < -rounding;
+        return std::abs(f) > 1e-14 * glm::length(p_ - r.d[0]) * glm::length(r.d[1]) ? f : 0;
+      };
+      const auto falls = [&](const Piece* piece, bool at_end) {
+        return !piece || (at_end ? sign(piece, true) > 0 : sign(piece, false) < 0);
       };
       if (falls(before, true) && falls(behind, false)) add(t, FootPointKind::border);
+      if (before && behind && sign(before, true) == 0 && sign(behind, false) == 0) add_stationary(t);
     }
+  }
+
+  void add_stationary(double t) {
+    const CurveJet r = on_.curve->evaluate(t, 2);
+    const double turns = glm::dot(p_ - r.d[0], r.d[2]), square = glm::dot(r.d[1], r.d[1]);
+    // About the point as a center of curvature this side of the joint tells nothing.
+    if (!(std::abs(turns - square) > 1e-9 * square)) return;
+    keep(t, std::sqrt(square), 0, turns < square ? FootPointKind::minimum : FootPointKind::maximum);
   }
 
   const Vec3 p_;

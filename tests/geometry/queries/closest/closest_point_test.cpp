@@ -55,6 +55,20 @@ TEST(PointOnCurve, TheCentreOfACircleIsAsFarFromAllOfIt) {
   EXPECT_NEAR(found.foot_points[0].distance, std::sqrt(5.0), 1e-15);
 }
 
+// Where pieces meet, rounding may put the foot point beyond the end of either.
+TEST(PointOnCurve, AFootAtASeamIsFound) {
+  const Circle circle(Frame(), 1);
+  for (const double y : {0.0, -4.8985871965894128e-16, 3e-16, -1e-300}) {
+    const CurveFootPoints found = project({3, y, 0}, circle);
+    ASSERT_EQ(found.foot_points.size(), 2u) << y;
+    EXPECT_NEAR(found.foot_points[0].distance, 2, 1e-15);
+    EXPECT_EQ(found.foot_points[0].kind, FootPointKind::minimum);
+  }
+  const CurveFootPoints above = project({1e-16, 3, 0}, circle);  // between the first two quarters
+  ASSERT_EQ(above.foot_points.size(), 2u);
+  EXPECT_NEAR(above.foot_points[0].distance, 2, 1e-15);
+}
+
 TEST(PointOnCurve, AnArcOfACircleHasEnds) {
   const Circle arc(Frame(), 2, {0, 1});
   const CurveFootPoints found = project({0, -3, 0}, arc);
