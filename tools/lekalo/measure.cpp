@@ -111,12 +111,13 @@ constexpr double kSmooth = 1e-6;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, section, silhouette, position, cells, line;
+  std::string name, against, to, section, silhouette, position, cells, line, hausdorff, frechet, arc, at_length;
   std::vector<std::string> intersect;     // one, or two: common points of three
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
-  bool topology = false, regularity = false, self_intersection = false, nearest = false, nurbs = false, json = false;
+  bool topology = false, regularity = false, self_intersection = false, nearest = false, nurbs = false,
+       features = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -183,7 +184,23 @@ int run(const Options& options) {
   const double same_point = options.tolerance.value_or(geometry::kSamePoint);
   ordered_json out;
   void (*print)(const ordered_json&) = print_measures;
-  if (options.nurbs) {
+  if (options.features) {
+    out = curve_shape(options.name, entity);
+    print = print_curve_shape;
+  } else if (!options.arc.empty()) {
+    const std::vector<double> ends = parse_numbers(options.arc, 2, "--arc");
+    out = arc_of(options.name, entity, ends[0], ends[1]);
+    print = print_arc;
+  } else if (!options.at_length.empty()) {
+    out = parameter_at(options.name, entity, parse_numbers(options.at_length, 1, "--at-length")[0]);
+    print = print_arc;
+  } else if (!options.hausdorff.empty()) {
+    out = hausdorff_between(options.name, entity, options.hausdorff, find_geometry(scene, options.hausdorff));
+    print = print_nearness;
+  } else if (!options.frechet.empty()) {
+    out = frechet_between(options.name, entity, options.frechet, find_geometry(scene, options.frechet));
+    print = print_nearness;
+  } else if (options.nurbs) {
     out = nurbs_form(options.name, entity);
     print = print_nurbs_form;
   } else if (of_pair) {
@@ -359,6 +376,9 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure curves.yaml dome --position 0,0,3\n"
       "  lekalo measure plate.yaml plate --continuity\n"
       "  lekalo measure ring.yaml ring --against samples.csv --tolerance 1e-12 --json\n"
+      "  lekalo measure curves.yaml rim --features\n"
+      "  lekalo measure curves.yaml rim --arc 0,pi/2\n"
+      "  lekalo measure curves.yaml rim --hausdorff chord\n"
       "  lekalo measure curves.yaml rim --nurbs --json\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
@@ -399,10 +419,12 @@ void add_measure(CLI::App& app, Action& action) {
              "--silhouette", options->silhouette,
              "the outline of the surface or body as the scene's camera sees it, along a direction, or from an eye")
           ->type_name("camera|DX,DY,DZ|eye:X,Y,Z");
-  auto* position = sub->add_option("--position", options->position,
-                                   "where a point lies: above or below a surface, inside or outside of a body; or U,V "
-                                   "in the region of a trimmed surface")
-                       ->type_name("NAME|X,Y,Z|U,V");
+  auto* position =
+      sub->add_option(
+             "--position", options->position,
+             "where a point lies: above or below a surface, inside or outside of a body or closed plane curve; or U,V "
+             "in the region of a trimmed surface")
+          ->type_name("NAME|X,Y,Z|U,V");
   auto* continuity =
       sub->add_option("--continuity", options->continuity,
                       "how smoothly it joins another curve or surface; alone, how a body's faces join: G0 to G3")
@@ -410,6 +432,21 @@ void add_measure(CLI::App& app, Action& action) {
           ->expected(0, 1);
   auto* nurbs = sub->add_flag("--nurbs", options->nurbs,
                               "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted");
+  auto* features = sub->add_flag("--features", options->features,
+                                 "inflections, vertices, cusps and corners of the curve, total curvature; of a closed "
+                                 "plane one its turning number and area");
+  auto* arc =
+      sub->add_option("--arc", options->arc, "the length of the curve's part between two parameters")->type_name("T,T");
+  auto* at_length =
+      sub->add_option("--at-length", options->at_length, "the parameter at this length from the curve's beginning")
+          ->type_name("LENGTH");
+  auto* hausdorff =
+      sub->add_option("--hausdorff", options->hausdorff,
+                      "how far the farthest point of the curve or of another one is from the other: a certain bracket")
+          ->type_name("NAME");
+  auto* frechet = sub->add_option("--frechet", options->frechet,
+                                  "the same for points that run along both curves at best, from beginning to end")
+                      ->type_name("NAME");
   auto* against =
       sub->add_option(
              "--against", options->against,
@@ -417,8 +454,9 @@ void add_measure(CLI::App& app, Action& action) {
              "domain is mapped linearly")
           ->type_name("FILE|NAME");
   // One question at a time.
-  const std::array modes{topology, regular,    cells,    to,         intersect, self_intersection,
-                         section,  silhouette, position, continuity, nurbs,     against};
+  const std::array modes{topology, regular,    cells,     to,         intersect, self_intersection,
+                         section,  silhouette, position,  continuity, nurbs,     features,
+                         arc,      at_length,  hausdorff, frechet,    against};
   for (size_t i = 0; i < modes.size(); ++i)
     for (size_t j = 0; j < i; ++j) modes[i]->excludes(modes[j]);
   sub->add_option("--tolerance", options->tolerance,

@@ -98,6 +98,21 @@ void print_continuity(const ordered_json& found);
 ordered_json nurbs_form(const std::string& name, const render::Entity& entity);
 void print_nurbs_form(const ordered_json& form);
 
+// Inflections, vertices, cusps, corners of a curve, total curvature, turning number, enclosed area; the length of the
+// part between two parameters; the parameter at a length from the beginning. All throw UsageError for anything else.
+ordered_json curve_shape(const std::string& name, const render::Entity& entity);
+void print_curve_shape(const ordered_json& found);
+ordered_json arc_of(const std::string& name, const render::Entity& entity, double from, double to);
+ordered_json parameter_at(const std::string& name, const render::Entity& entity, double length);
+void print_arc(const ordered_json& found);
+
+// Hausdorff's and Frechet's distance of two curves as brackets. Throw UsageError for anything else.
+ordered_json hausdorff_between(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                               const render::Entity& other);
+ordered_json frechet_between(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                             const render::Entity& other);
+void print_nearness(const ordered_json& found);
+
 // Parts of these outputs: what keeps a mesh from being closed, as convex_sides, turned_sides, crowded_sides; a range of
 // a parameter; a point back from JSON; the row's parameters as text.
 void put_open_sides(ordered_json& out, const geometry::MeshSides& sides);

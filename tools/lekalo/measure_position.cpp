@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "geometry/queries/closest/position.h"
+#include "geometry/queries/measures/curve_features.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -63,11 +64,16 @@ ordered_json position_in_space(const std::string& name, const render::Entity& en
   } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
     out["kind"] = "body";
     out.update(row_of(position(point, **body)));
+  } else if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+    const int winding = geometry::winding_number(**curve, point);
+    out["kind"] = "curve";
+    out["position"] = winding != 0 ? "inside" : "outside";
+    out["winding_number"] = winding;
   } else if (const auto* shape = std::get_if<geometry::ShapePtr>(&entity)) {
     out["kind"] = "shape";
     out["position"] = is_inside(point, **shape) ? "inside" : "outside";
   } else {
-    throw UsageError(fmt::format("'{}' is no surface, body or shape: a point has no position by it", name));
+    throw UsageError(fmt::format("'{}' is no curve, surface, body or shape: a point has no position by it", name));
   }
   return out;
 }
@@ -92,6 +98,8 @@ ordered_json position_of(const std::string& name, const render::Entity& entity, 
 void print_position(const ordered_json& found) {
   fmt::print("{} is {} {} '{}'", found["of"].get<std::string>(), found["position"].get<std::string>(),
              found["kind"].get<std::string>(), found["name"].get<std::string>());
+  if (found.contains("winding_number"))
+    fmt::print(", which goes round it {} times", found["winding_number"].get<int>());
   if (!found.contains("distance") || found["distance"].is_null()) return fmt::print("\n");
   fmt::print(": distance {}\n", digits(found["distance"].get<double>()));
   const ordered_json& nearest = found["nearest"];

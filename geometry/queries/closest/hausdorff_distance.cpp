@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <stdexcept>
+
+#include "geometry/curves/operations/smooth_pieces.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/curve_nearness.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Distances below this part of the size need not be told apart.
+constexpr double kSmall = 1e-8;
+constexpr double kRounding = 1e-15;
+
+double farthest(const Box3& box, const Vec3& from) {
+  return box.bounded() ? glm::length(glm::max(glm::abs(box.lo - from), glm::abs(box.hi - from))) : kInfinity;
+}
+
+Box3 over(const Box3& a, double k, const Box3& b) {  // a - k b
+  Box3 result;
+  for (int i = 0; i < 3; ++i) {
+    const Interval x = along(a, i) - Interval(k) * along(b, i);
+    result.lo[i] = x.lo, result.hi[i] = x.hi;
+  }
+  return result;
+}
+
+// Farthest points of a curve from another.
+class Search {
+ public:
+  Search(const Curve& a, const CurvePtr& b, int most_parts) : a_(a), b_(*b), projector_(b), most_parts_(most_parts) {}
+
+  struct Found {
+    double lower = 0, upper = 0, t = 0;
+    Vec3 point{0}, nearest{0};
+  };
+
+  // `good`: what is not above this need not be known better.
+  Found run(double good) {
+    for (const CurvePiece& piece : a_.pieces()) add(piece.domain, kInfinity);
+    for (const double t : {a_.domain().lo, a_.domain().hi}) look_at(t);
+    int parts = 0;
+    while (!parts_.empty() && parts_.top().upper > enough(good) && ++parts < most_parts_) {
+      const Part part = parts_.top();
+      parts_.pop();
+      const double middle = part.t.middle();
+      if (!(part.t.lo < middle && middle < part.t.hi)) {
+        rest_ = std::max(rest_, part.upper);
+        continue;
+      }
+      add({part.t.lo, middle}, part.upper);
+      add({middle, part.t.hi}, part.upper);
+    }
+    found_.upper = std::max({found_.lower, rest_, parts_.empty() ? 0.0 : parts_.top().upper});
+    return found_;
+  }
+
+ private:
+  struct Part {
+    double upper;
+    Interval t;
+    bool operator<(const Part& other) const { return upper < other.upper; }
+  };
+
+  double enough(double good) const { return std::max(good, found_.lower * (1 + 0.9 * kNearness)); }
+
+  CurveFootPoint look_at(double t) {
+    const Vec3 point = a_.point(t);
+    const CurveFootPoints feet = projector_.foot_points(point);
+    if (feet.foot_points.empty()) throw std::invalid_argument("a curve has no nearest point");
+    const CurveFootPoint foot = feet.foot_points.front();
+    if (foot.distance > found_.lower)
+      found_.lower = foot.distance, found_.t = t, found_.point = point, found_.nearest = foot.point;
+    return foot;
+  }
+
+  void add(const Interval& t, double upper) {
+    const double middle = t.middle();
+    const CurveFootPoint foot = look_at(middle);
+    const Vec3 point = a_.point(middle);
+    upper = std::min({upper, foot.distance + farthest(a_.enclose(t, 0).d[0], point), beside(t, point, foot)});
+    parts_.push({upper * (1 + kRounding), t});
+  }
+
+  // |A(t) - B(s + k (t - m))| over the part: w + F' (t - m) with w . F' small, as w is across B at the foot point.
+  double beside(const Interval& t, const Vec3& point, const CurveFootPoint& foot) const {
+    const Vec3 a1 = evaluate_within(a_, t, t.middle(), 1).d[1], b1 = b_.evaluate(foot.t, 1).d[1];
+    const double square_of_speed = glm::dot(b1, b1);
+    const double k = square_of_speed > 0 ? glm::dot(a1, b1) / square_of_speed : 0;
+    const double half = 0.5 * t.width() * (1 + 1e-15);
+    const Interval s(foot.t - std::abs(k) * half, foot.t + std::abs(k) * half);
+    if (!std::isfinite(k) || s.lo < b_.domain().lo || s.hi > b_.domain().hi) return kInfinity;
+    const Box3 slope = over(a_.enclose(t, 1).d[1], k, k == 0 ? Box3{Vec3(0), Vec3(0)} : b_.enclose(s, 1).d[1]);
+    if (!slope.bounded()) return kInfinity;
+    const Vec3 w = point - foot.point;
+    Interval along_w(0);
+    for (int i = 0; i < 3; ++i) along_w += Interval(w[i]) * along(slope, i);
+    const double growth = std::max(std::abs(along_w.lo), std::abs(along_w.hi));
+    return std::sqrt(foot.distance * foot.distance + 2 * half * growth + half * half * square(slope).hi);
+  }
+
+  const Curve& a_;
+  const Curve& b_;
+  CurveProjector projector_;
+  int most_parts_;
+  std::priority_queue<Part> parts_;
+  Found found_;
+  double rest_ = 0;  // of parts that are not halved further
+};
+
+}  // namespace
+
+HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int most_parts) {
+  for (const CurvePtr& curve : {a, b})
+    if (!(curve->domain().width() < kInfinity)) throw std::invalid_argument("the curve is not bounded");
+  const double small = kSmall * std::max(bounds(*a).diameter(), bounds(*b).diameter());
+  const Search::Found of_a = Search(*a, b, most_parts).run(small),
+                      of_b = Search(*b, a, most_parts).run(std::max(small, of_a.lower));
+  const bool first = of_a.lower >= of_b.lower;
+  const Search::Found& far = first ? of_a : of_b;
+  HausdorffDistance result;
+  result.lower = far.lower, result.upper = std::max(of_a.upper, of_b.upper);
+  result.of_first = first, result.t = far.t, result.point = far.point, result.nearest = far.nearest;
+  return result;
+}
+
+}  // namespace lekalo::geometry
