@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/curves/splines/rational.h"
 #include "geometry/curves/splines/rational_enclosure.h"
@@ -94,6 +96,27 @@ std::vector<double> polygon_steps(std::span<const Vec3> points, bool closed) {
   return steps;
 }
 
+namespace {
+
+// The full knot vector of distinct knots and how often each stands, as STEP files have them.
+Knots repeated(const Fields& f) {
+  Knots knots = f.knots("knots");
+  if (!f.has("multiplicities")) return knots;
+  const std::vector<double>& copies = f.numbers("multiplicities");
+  if (!knots.rule.empty() || copies.size() != knots.values.size())
+    throw FieldError("multiplicities", "each knot of a list has one", "knots: [0, 1, 2], multiplicities: [4, 1, 4]");
+  std::vector<double> all;
+  for (size_t i = 0; i < copies.size(); ++i) {
+    if (copies[i] != std::floor(copies[i]))
+      throw FieldError("multiplicities", fmt::format("{:g} is no whole number", copies[i]));
+    all.insert(all.end(), static_cast<size_t>(copies[i]), knots.values[i]);
+  }
+  knots.values = std::move(all);
+  return knots;
+}
+
+}  // namespace
+
 TypeDeclaration nurbs_curve_type() {
   return declare(Category::curve, "nurbs_curve", "Rational B-spline curve of any degree, open or closed.")
       .example("degree: 2, points: [[0, 0], [1, 2], [3, 2], [4, 0]]")
@@ -104,6 +127,8 @@ TypeDeclaration nurbs_curve_type() {
           "the full knot vector (points + degree + 1 numbers; points + 2 degree + 1 when closed), or a rule: clamped "
           "(integers), uniform, chord_length, centripetal",
           "clamped")
+      .optional("multiplicities", numbers().between(1, kMaxDegree + 1),
+                "how often each of the knots stands, where 'knots' lists each once")
       .optional("weights", numbers(), "one weight for each point; all 1 when left out")
       .field("closed", boolean(), "periodic curve, smooth over its seam", "false")
       .optional("domain", range(), "part of the curve, in the knots' parameter; over the seam too when closed")
@@ -111,7 +136,7 @@ TypeDeclaration nurbs_curve_type() {
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");
         const bool closed = f.boolean("closed");
-        SplineAxis axis = make_axis(f.integer("degree"), f.knots("knots"), closed, static_cast<int>(points.size()),
+        SplineAxis axis = make_axis(f.integer("degree"), repeated(f), closed, static_cast<int>(points.size()),
                                     polygon_steps(points, closed));
         if (f.has("domain")) axis.restrict_to(f.range("domain"));
         return NurbsCurve(std::move(axis), points, f.has("weights") ? f.numbers("weights") : std::vector<double>());
