@@ -18,7 +18,10 @@ constexpr double kTick = 0.8;  // millimetres
 // The multiples of 1, 2 or 5 times a power of ten in the range, about `count` of them.
 std::vector<double> round_numbers(const Interval& range, int count) {
   const double wanted = range.width() / std::max(1, count), power = std::pow(10, std::floor(std::log10(wanted)));
-  const double step = power * (wanted > 5 * power ? 10 : wanted > 2 * power ? 5 : wanted > power ? 2 : 1);
+  const double part = wanted / power, step = power * (part > std::sqrt(50.0)   ? 10
+                                                      : part > std::sqrt(10.0) ? 5
+                                                      : part > std::sqrt(2.0)  ? 2
+                                                                               : 1);
   std::vector<double> numbers;
   for (double k = std::ceil(range.lo / step - 1e-9); k <= range.hi / step + 1e-9; ++k) numbers.push_back(k * step);
   return numbers;
