@@ -14,6 +14,7 @@
 #include "geometry/curves/operations/spline_curves.h"
 #include "geometry/queries/differential/osculation.h"
 #include "geometry/queries/measures/arc_length.h"
+#include "geometry/queries/measures/curve_features.h"
 #include "render/lines/curve_helpers.h"
 
 namespace lekalo::render {
@@ -86,6 +87,15 @@ CurveFigure rays(const CurvePtr& curve, const Fields& f, const std::function<Vec
     figure.lines.push_back(std::make_shared<Segment>(both ? point - tip : point, point + tip));
     figure.points.push_back(point);
   }
+  return figure;
+}
+
+CurveFigure features(const CurvePtr& curve, const Fields& f) {
+  const auto& kinds = f.get<std::vector<std::string>>("kinds");
+  CurveFigure figure;
+  for (const CurveFeature& feature : curve_features(*curve).points)
+    if (std::find(kinds.begin(), kinds.end(), name(feature.kind)) != kinds.end())
+      figure.points.push_back(feature.point);
   return figure;
 }
 
@@ -240,6 +250,7 @@ const std::map<std::string, Draw, std::less<>>& figures() {
                       const Fields& f) { return rays(c, f, [](const CurveCurvature& at) { return at.tangent; }); }},
       {"normal_lines", [](const CurvePtr& c,
                           const Fields& f) { return rays(c, f, [](const CurveCurvature& at) { return at.normal; }); }},
+      {"features", features},
       {"hodograph", hodograph},
       {"direction", direction},
       {"insertion",

@@ -1,6 +1,6 @@
 // What helpers draw of a curve: lines and points beside it, in the curve's own coordinates.
 //
-//   osculating_circle, evolute, tangents, normal_lines, hodograph, direction      (Golovanov 2016, 2.1)
+//   osculating_circle, evolute, tangents, normal_lines, features, hodograph, direction      (Golovanov 2016, 2.1)
 //   insertion, elevation, hulls, moved_point                                      (2.4, 2.6, 2.11, 2.8: local support)
 #pragma once
 

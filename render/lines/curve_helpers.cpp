@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/curves/operations/moving_frame.h"
+#include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/measures/arc_length.h"
 #include "render/lines/curve_figures.h"
@@ -41,14 +42,19 @@ std::vector<Frame> frames_on_surfaces(const Curve& curve, const std::vector<doub
 
 }  // namespace
 
-CurvatureComb curvature_comb(const Curve& curve, int count, double scale) {
+CurvatureComb curvature_comb(const Curve& curve, int count, double scale, bool torsion) {
   const Interval domain = curve.domain();
   CurvatureComb comb;
   for (int k = 0; k < count; ++k) {
-    const CurveJet at = curve.evaluate(domain.clamp(domain.lo + domain.width() * k / (count - 1)), 2);
+    const CurveJet at = curve.evaluate(domain.clamp(domain.lo + domain.width() * k / (count - 1)), torsion ? 3 : 2);
     if (!(glm::length(at.d[1]) > 0)) continue;
     comb.foot_points.push_back(at.d[0]);
-    comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
+    if (torsion) {
+      const CurveCurvature frame = curvature(at);
+      comb.tips.push_back(at.d[0] + scale * frame.torsion * frame.binormal);
+    } else {
+      comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
+    }
   }
   return comb;
 }
@@ -131,7 +137,8 @@ std::vector<Vec3> helper_points(const Object& object) {
       }
     }
     if (helper.type == "comb" && curve) {
-      const CurvatureComb comb = curvature_comb(**curve, f.integer("count"), f.number("scale"));
+      const CurvatureComb comb =
+          curvature_comb(**curve, f.integer("count"), f.number("scale"), f.text("by") == "torsion");
       points.insert(points.end(), comb.tips.begin(), comb.tips.end());
     }
     if (helper.type == "frames" && curve && (*curve)->domain().width() < kInfinity)

@@ -8,12 +8,12 @@
 
 namespace lekalo::render {
 
-// Teeth r - scale k n across the curve, on the side away from the centre of curvature (k n the vector of curvature), at
-// `count` even parameters; where the curve rests there are none.
+// Teeth across the curve at `count` even parameters: r - scale k n, on the side away from the centre of curvature (k n
+// the vector of curvature), or with `torsion` r + scale chi b along the binormal; where the curve rests there are none.
 struct CurvatureComb {
   std::vector<geometry::Vec3> foot_points, tips;
 };
-CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale);
+CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale, bool torsion);
 
 // Where the pieces of a curve do not meet: its own points there, and its limits from either side that are others.
 struct CurveJumps {

@@ -18,21 +18,6 @@ using geometry::CurveFeature;
 using geometry::CurvePtr;
 using geometry::Measured;
 
-const char* word(CurveFeature::Kind kind) {
-  switch (kind) {
-    case CurveFeature::Kind::inflection:
-      return "inflection";
-    case CurveFeature::Kind::vertex:
-      return "vertex";
-    case CurveFeature::Kind::cusp:
-      return "cusp";
-    case CurveFeature::Kind::rest:
-      return "rest";
-    default:
-      return "corner";
-  }
-}
-
 const CurvePtr& curve_of(const std::string& name, const render::Entity& entity, const char* option) {
   const auto* curve = std::get_if<CurvePtr>(&entity);
   if (!curve) throw UsageError(fmt::format("'{}' is no curve: {} takes curves", name, option));
@@ -45,7 +30,7 @@ void put_value(ordered_json& out, const char* key, const Measured& measured) {
 }
 
 ordered_json row_of(const CurveFeature& feature) {
-  ordered_json row{{"kind", word(feature.kind)}, {"t", feature.t}, {"point", to_json(feature.point)}};
+  ordered_json row{{"kind", geometry::name(feature.kind)}, {"t", feature.t}, {"point", to_json(feature.point)}};
   if (feature.kind == CurveFeature::Kind::vertex) row["curvature"] = feature.curvature;
   if (feature.kind == CurveFeature::Kind::corner) row["angle"] = feature.angle;
   return row;

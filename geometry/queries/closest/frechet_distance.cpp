@@ -9,7 +9,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Points of a polyline, at most; halvings of a smooth piece.
-constexpr size_t kMostPoints = 20000, kManyPoints = 4000;  // with so many it is not made finer
+constexpr size_t kMostPoints = 40000, kManyPoints = 8000;  // with so many it is not made finer
 constexpr int kMostHalvings = 40;
 
 struct Polyline {

@@ -337,6 +337,21 @@ class Features {
 
 }  // namespace
 
+std::string_view name(CurveFeature::Kind kind) {
+  switch (kind) {
+    case CurveFeature::Kind::inflection:
+      return "inflection";
+    case CurveFeature::Kind::vertex:
+      return "vertex";
+    case CurveFeature::Kind::cusp:
+      return "cusp";
+    case CurveFeature::Kind::rest:
+      return "rest";
+    default:
+      return "corner";
+  }
+}
+
 CurveFeatures curve_features(const Curve& curve) { return Features(curve).run(); }
 
 // The angle at the point between neighbours that are so near that it cannot go round: their arc stays on one side.

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "geometry/queries/measures/mass_properties.h"
@@ -21,6 +22,9 @@ struct CurveFeature {
   double curvature = 0;  // of a vertex, signed on plane curves; else 0
   double angle = 0;      // of a corner or cusp, by which the tangent turns, radians
 };
+
+// inflection, vertex, cusp, rest, corner.
+std::string_view name(CurveFeature::Kind kind);
 
 struct CurveFeatures {
   std::vector<CurveFeature> points;  // by t

@@ -78,9 +78,11 @@ TypeDeclaration triangle(const char* name, const char* description, bool of_surf
 }
 
 TypeDeclaration comb() {
-  TypeDeclaration type = helper("comb", "The curvature of a curve as teeth across it.", "hairline");
+  TypeDeclaration type = helper("comb", "The curvature or torsion of a curve as teeth across it.", "hairline");
   type.field("count", integer().between(2, 10000), "number of teeth", "60")
-      .field("scale", number(), "length of a tooth for curvature 1, in scene units", "1")
+      .field("by", choice({"curvature", "torsion"}), "torsion: along the binormal, backwards where it is negative",
+             "curvature")
+      .field("scale", number(), "length of a tooth for curvature or torsion 1, in scene units", "1")
       .field("envelope", boolean(), "join the ends of the teeth", "true");
   return finish(type);
 }
@@ -162,6 +164,17 @@ TypeDeclaration rays(const char* name, const char* description) {
   return finish_with_places(type);
 }
 
+TypeDeclaration features_helper() {
+  TypeDeclaration type = helper("features", "Places where the shape of a curve changes (Golovanov 2016, 2.1).", "thin");
+  type.field(
+          "kinds", words({"inflection", "vertex", "cusp", "rest", "corner"}),
+          "which: the curvature changes its sign, is largest or least; the curve stops and turns, stops; the tangent "
+          "jumps",
+          "[inflection, vertex, cusp, rest, corner]")
+      .field("marker", marker(), "sign at them", "circle");
+  return finish(type);
+}
+
 TypeDeclaration hodograph_helper() {
   TypeDeclaration type = helper("hodograph", "The tips of a curve's derivative vectors drawn from one point.", "thin");
   type.field("at", point(), "where the vectors begin", "[0, 0, 0]")
@@ -239,6 +252,7 @@ std::vector<TypeDeclaration> helper_types() {
           evolute_helper(),
           rays("tangents", "Unit tangents of a curve, or tangent lines."),
           rays("normal_lines", "Principal normals of a curve, towards the center of curvature, or normal lines."),
+          features_helper(),
           hodograph_helper(),
           direction_helper(),
           colored_helper(),

@@ -174,8 +174,8 @@ std::vector<geometry::Field> common_fields(Category category) {
 
 std::vector<std::string> helpers_of(Category category) {
   if (category == Category::curve)
-    return {"comb",         "frames",    "osculating_circle", "evolute", "tangents",
-            "normal_lines", "hodograph", "direction",         "colored", "jumps"};
+    return {"comb",     "frames",    "osculating_circle", "evolute", "tangents", "normal_lines",
+            "features", "hodograph", "direction",         "colored", "jumps"};
   if (category == Category::surface) return {"normals"};
   return {};
 }

@@ -21,6 +21,7 @@ geometry:
   oval: { type: ellipse, semi_axes: [3, 2] }
   cubic: { type: bezier_curve, points: [[0, 0], [1, 3], [4, 2], [5, -1]] }
   spline: { type: nurbs_curve, points: [[0, 0], [1, 2], [3, 2.4], [4, 0], [6, 0.2], [7, 2], [9, 1]] }
+  helix: { type: formula_curve, point: [2*cos(t), 2*sin(t), t/2], domain: [0, 6] }
 lights: {}
 image: { size: [96, 72] }
 objects:
@@ -83,6 +84,25 @@ TEST(CurveFigures, MovedPoint) {
       curves_of(drawn("  - { shape: spline, show: { moved_point: { index: 0, by: [0, 1] } } }\n"), "moved_point");
   EXPECT_EQ(first[0]->domain(), geometry::Interval(0, 1));
   EXPECT_EQ(first[0]->point(0), Vec3(0, 1, 0));
+}
+
+TEST(CurveFigures, FeaturesAreMarked) {
+  EXPECT_EQ(drawn("  - { shape: oval, show: features }\n").marks.size(), 4u);
+  EXPECT_EQ(drawn("  - { shape: oval, show: { features: { kinds: [inflection] } } }\n").marks.size(), 0u);
+  const LineWork cubic = drawn("  - { shape: spline, show: { features: { kinds: [inflection] } } }\n");
+  EXPECT_EQ(cubic.marks.size(), 2u);
+}
+
+// A helix (2 cos t, 2 sin t, t/2) has the torsion c/(4 + c^2), c = 1/2, along the binormal.
+TEST(CurveFigures, TorsionComb) {
+  const auto teeth = curves_of(
+      drawn("  - { shape: helix, show: { comb: { by: torsion, count: 3, scale: 2, envelope: false } } }\n"), "comb");
+  ASSERT_EQ(teeth.size(), 3u);
+  for (const auto& tooth : teeth) {
+    const Vec3 way = tooth->point(1) - tooth->point(0);
+    EXPECT_NEAR(glm::length(way), 2 * 0.5 / 4.25, 1e-13);
+    EXPECT_GT(way.z, 0);
+  }
 }
 
 TEST(CurveFigures, HullsHoldTheCurve) {
