@@ -179,12 +179,15 @@ int export_json(const Options& options, const std::string& output) {
   check_inputs_stay(scene, {output});
   ordered_json curves = ordered_json::array();
   for (const std::string& name : options.names) curves.push_back(nurbs_form(name, find_geometry(scene, name)));
-  if (options.names.empty())
-    for (const render::Object& object : scene.model->objects)
-      if (const auto* curve = std::get_if<geometry::CurvePtr>(&object.shape)) {
-        const bool moved = !object.transform.is_identity();
-        curves.push_back(nurbs_form(object.name, moved ? transformed(*curve, object.transform) : *curve));
-      }
+  if (options.names.empty()) {
+    for (const render::Object& object : scene.model->objects) {
+      const auto* curve = std::get_if<geometry::CurvePtr>(&object.shape);
+      if (curve)
+        curves.push_back(nurbs_form(object.name, transformed(*curve, object.transform)));
+      else if (!options.quiet)
+        fmt::print(stderr, "note: '{}' is left out: JSON files hold curves\n", object.name);
+    }
+  }
   if (curves.empty()) throw UsageError("there is nothing to export: no curve is shown");
   render::write_file_atomically(output, ordered_json{{"curves", curves}}.dump(2) + "\n");
   if (!options.quiet) fmt::print(stderr, "{}: {} NURBS curves\n", output, curves.size());

@@ -98,6 +98,8 @@ NurbsCurve as_nurbs(const Fields& f) {
   if (part.lo < whole.lo || part.hi > whole.hi)
     throw FieldError("domain", "it is not inside the curve's domain",
                      fmt::format("t goes from {} to {}", whole.lo, whole.hi));
+  const auto* spline = dynamic_cast<const NurbsCurve*>(curve.get());
+  if (f.boolean("closed") && part == whole && spline && is_whole_period(*spline)) return *spline;
   try {
     const NurbsOfCurve found = nurbs_of(*curve, part, tolerance_of(f, CurvePart(curve, part)));
     return f.boolean("closed") ? periodic_curve(found.form) : NurbsCurve(found.form);

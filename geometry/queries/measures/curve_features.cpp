@@ -142,6 +142,12 @@ class Features {
     return (found_.plane ? glm::dot(across, found_.normal) : glm::length(across)) / (speed * speed * speed);
   }
 
+  // An end of the piece, if t is one but for rounding.
+  static double at_end(const Interval& piece, double t) {
+    const double rounding = 1e-15 * piece.width();
+    return t - piece.lo <= rounding ? piece.lo : piece.hi - t <= rounding ? piece.hi : t;
+  }
+
   void add(CurveFeature::Kind kind, double t, double curvature = 0, double angle = 0) {
     found_.points.push_back({kind, t, curve_.point(t) + Vec3(0.0), curvature, angle});
   }
@@ -210,7 +216,7 @@ class Features {
         const double t = falls(lo) < 0 && falls(hi) > 0 ? root_between(falls, lo, hi) : part.middle();
         if (f(t) <= kFlat * bending) add(CurveFeature::Kind::inflection, t);
       } else if ((f(lo) < 0) != (f(hi) < 0)) {
-        add(CurveFeature::Kind::inflection, root_between(f, lo, hi));
+        add(CurveFeature::Kind::inflection, at_end(piece, root_between(f, lo, hi)));
       }
     }
   }
@@ -224,17 +230,14 @@ class Features {
       values.push_back(f(at(k)));
       if (std::isfinite(values.back())) largest = std::max(largest, std::abs(values.back()));
     }
-    // Below this the curvature is constant, as that of arcs, but for rounding.
-    const CurveJet middle = evaluate_within(curve_, piece, piece.middle(), 3);
-    const double speed = glm::length(middle.d[1]),
-                 scale = std::pow(speed, 4) * glm::length(middle.d[2]) / piece.width();
-    if (!(largest > 1e-10 * std::max(scale, 0.0))) return;
+    // Else the curvature is constant, as that of arcs, but for rounding.
+    if (!(largest > 1e-10 * growth_scale(piece))) return;
     const double noise = 1e-13 * largest;
     int before = -1;  // the last place where the sign is known
     for (int k = 0; k <= kPlaces; ++k) {
       if (!(std::abs(values[static_cast<size_t>(k)]) > noise)) continue;
       if (before >= 0 && (values[static_cast<size_t>(before)] < 0) != (values[static_cast<size_t>(k)] < 0)) {
-        const double t = root_between(f, at(before), at(k));
+        const double t = at_end(piece, root_between(f, at(before), at(k)));
         if (!is_rest(t, 2 * piece.width() / kPlaces)) add_vertex(piece, t);
       }
       before = k;
@@ -323,7 +326,9 @@ class Features {
     if (!found_.plane && !cusps && !flexes && std::isfinite(torsion))
       found_.total_torsion = Measured{torsion, torsion_error};
     if (!found_.plane || !found_.closed || straight_) return;
-    if (!cusps) found_.turning_number = turning / kTwoPi;
+    // A whole number, but for the error of the integral.
+    const double turns = turning / kTwoPi, whole = std::nearbyint(turns);
+    if (!cusps) found_.turning_number = std::abs(turns - whole) < 1e-6 ? whole + 0.0 : turns;
     found_.area = Measured{area, area_error};
   }
 
