@@ -62,6 +62,10 @@ NurbsCurve elevated(const Fields& f) {
   return with_degree(f.curve("of"), f.has("degree") ? std::optional(f.integer("degree")) : std::nullopt);
 }
 
+std::vector<double> inner_knots_of(const NurbsCurveForm& form) {
+  return {form.knots.begin() + form.degree + 1, form.knots.end() - form.degree - 1};
+}
+
 NurbsCurve reduced(const Fields& f) {
   const CurvePtr& curve = f.curve("of");
   const NurbsCurveForm form = exact_form(curve);
@@ -79,11 +83,17 @@ NurbsCurve reduced(const Fields& f) {
     try {
       result = without_knots(form, f.numbers("remove"));
     } catch (const std::invalid_argument& error) {
-      throw FieldError("remove", error.what());
+      throw FieldError("remove", error.what(),
+                       inner_knots_of(form).empty()
+                           ? "the curve has none"
+                           : fmt::format("the knots inside are {}", fmt::join(inner_knots_of(form), ", ")));
     }
   } else {
     result = with_fewest_knots(form, tolerance);
   }
+  if (!(result.bound < kInfinity))
+    throw FieldError("of", "how far it is from a curve with weights that are not positive cannot be told",
+                     "positive weights");
   if (!(result.bound <= tolerance))
     throw FieldError(f.has("degree") ? "degree" : "remove",
                      fmt::format("the reduced curve may be {:.2g} away from the curve, the tolerance is {:.2g}",
@@ -102,16 +112,24 @@ NurbsCurve as_nurbs(const Fields& f) {
   if (f.boolean("closed") && part == whole && spline && is_whole_period(*spline)) return *spline;
   try {
     const NurbsOfCurve found = nurbs_of(*curve, part, tolerance_of(f, CurvePart(curve, part)));
-    return f.boolean("closed") ? periodic_curve(found.form) : NurbsCurve(found.form);
+    if (!f.boolean("closed")) return NurbsCurve(found.form);
+    try {
+      return periodic_curve(found.form);
+    } catch (const std::invalid_argument& error) {
+      throw FieldError("closed", error.what(), "leave 'closed' out");
+    }
   } catch (const std::invalid_argument& error) {
-    throw FieldError("of", error.what(), "a larger tolerance, or another domain");
+    if (dynamic_cast<const FieldError*>(&error)) throw;
+    throw FieldError("of", error.what(), "another 'domain', or a larger 'tolerance'");
   }
 }
 
 TypeDeclaration operation(const char* name, const char* description) {
   return declare(Category::curve, name, description)
       .example("of: { type: bezier_curve, points: [[0, 0], [1, 2], [3, 2], [4, 0]] }")
-      .field("of", reference({Category::curve}), "a curve with an exact NURBS form");
+      .field("of", reference({Category::curve}),
+             "a curve with an exact NURBS form; of circles and other conics the parameter "
+             "becomes the rational one");
 }
 
 }  // namespace

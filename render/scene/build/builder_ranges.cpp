@@ -137,13 +137,13 @@ bool Builder::check_helper_values(const Helper& helper, const Value& map, const 
     if (const auto form = (*curve)->as_nurbs()) degree = std::max(degree, form->degree);
     if (const Value* t = map.find("t"); t && f.has("t"))
       if (!is_in(domain, f.number("t"))) outside_of_domain(*t, "t", f.number("t"), "curve", domain), good = false;
-    if (is_curve_figure(helper.type)) good = check_figure(*curve, helper, map) && good;
-    const Value* at = map.find("at");
-    if (!at || !f.holds<std::vector<double>>("at")) continue;
-    const std::vector<double>& values = f.numbers("at");
-    const bool listed = at->is_sequence() && at->items.size() == values.size();
-    for (size_t k = 0; k < values.size(); ++k)
-      good = check_parameter(listed ? at->items[k] : *at, "t", values[k], "curve", domain, period) && good;
+    if (const Value* at = map.find("at"); at && f.holds<std::vector<double>>("at")) {
+      const std::vector<double>& values = f.numbers("at");
+      const bool listed = at->is_sequence() && at->items.size() == values.size();
+      for (size_t k = 0; k < values.size(); ++k)
+        good = check_parameter(listed ? at->items[k] : *at, "t", values[k], "curve", domain, period) && good;
+    }
+    if (good && is_curve_figure(helper.type)) good = check_figure(*curve, helper, map);
   }
   const Value* levels = map.find("levels");
   if (!levels || !f.has("levels") || degree == 0) return good;
