@@ -10,9 +10,9 @@ namespace lekalo::geometry {
 
 struct FitOptions {
   int degree = 3;
-  std::vector<double> weights;  // of squared distances, > 0; none: all 1
-  double stiffness = 0;         // of the integral of |r''|^2 beside them
-  int passes = 0;               // of moving parameters to the feet of the points, each followed by another fit
+  std::vector<double> weights{};  // of squared distances, > 0; none: all 1
+  double stiffness = 0;           // of the integral of |r''|^2 beside them
+  int passes = 0;                 // of moving parameters to the feet of the points, each followed by another fit
 };
 
 // The spline with these inner knots (closed: all knots of a period, the first one the seam) that makes the sum of
