@@ -56,6 +56,9 @@ class Usage(ProgramTest):
                                 (["render", "ball.yaml", "--crop", "9,9,5,50"], "X0 < X1")]:
             self.assertIn(said, self.run_program(*arguments, code=USAGE)[1])
         self.assertIn("annotations", self.run_program("types", "drawing")[0])
+        formulas = self.run_program("types", "formulas")[0]
+        for words in ("sin(x): sine", "sum(i, a, b, formula)", "integral(x, a, b, formula)", "fresnel_s(x)", "deg, rad, turn"):
+            self.assertIn(words, formulas)
         image = self.run_program("types", "image")[0]
         self.assertIn("image (texture)", image)
         self.assertIn("image (section)", image)

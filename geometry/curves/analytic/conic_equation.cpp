@@ -14,6 +14,7 @@ namespace {
 
 // Below these parts of the coefficients' size a conic is a parabola, or a pair of lines.
 constexpr double kParabola = 1e-10, kPair = 1e-12;
+constexpr double kSameAxes = 1e-12;
 constexpr double kFlat = 1e-9;  // of the points' size
 
 Vec3 in_plane(const Frame& plane, const Vec4& p) {
@@ -89,6 +90,20 @@ std::optional<CanonicalConic> parabola_of(const Frame& plane, const Mat3& q, con
                         std::abs(focal_length), 0};
 }
 
+// Both ends of an axis are alike: x is that on the side of the global x, or y, or z; of a circle that of the plane.
+void turn_to_plane(CanonicalConic& conic, const Frame& plane) {
+  Frame& frame = conic.frame;
+  if (std::abs(conic.a - conic.b) <= kSameAxes * conic.a && conic.kind == CanonicalConic::Kind::ellipse) {
+    frame.x = plane.x, frame.y = plane.y;
+    return;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(frame.x[k]) <= kSameAxes) continue;
+    if (frame.x[k] < 0) frame.x = -frame.x, frame.y = -frame.y;
+    return;
+  }
+}
+
 }  // namespace
 
 std::string_view name(CanonicalConic::Kind kind) {
@@ -129,6 +144,7 @@ std::optional<CanonicalConic> canonical(const ConicEquation& equation) {
                             std::sqrt(std::abs(x_first ? x2 : y2)), std::sqrt(std::abs(x_first ? y2 : x2))};
   }
   if (!result) return std::nullopt;
+  if (result->kind != CanonicalConic::Kind::parabola) turn_to_plane(*result, equation.plane);
   result->frame.origin = equation.plane.origin + unit * result->frame.origin;
   result->a *= unit;
   result->b *= unit;

@@ -17,7 +17,8 @@ struct ConicEquation {
 };
 
 // The conic by its axes: (a cos t, b sin t) with a >= b, (+-a cosh t, b sinh t), or (a t^2, 2 a t) in the frame, whose
-// origin is the center or the vertex.
+// origin is the center or the vertex. The first axis of an ellipse or a hyperbola points to the side of the global x
+// (else y, z); a circle has those of its plane.
 struct CanonicalConic {
   enum class Kind { ellipse, hyperbola, parabola };
   Kind kind = Kind::ellipse;

@@ -62,6 +62,16 @@ TEST(ConicEquation, pencils_pass_through_their_points) {
   }
 }
 
+TEST(ConicEquation, axes_point_forward) {
+  const std::array<Vec3, 4> p{Vec3(0, 0, 0), Vec3(-3, 0, 0), Vec3(0, -1, 0), Vec3(-3, -1, 0)};
+  const Frame plane = plane_of(p, "points");
+  const auto ellipse = canonical(pencil_member(plane, p, 0.7));
+  ASSERT_TRUE(ellipse);
+  EXPECT_GT(ellipse->frame.x.x + ellipse->frame.x.y, 0);
+  const std::array<Vec3, 4> square{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
+  EXPECT_EQ(canonical(pencil_member(plane_of(square, "points"), square, 0.5))->frame.x, Vec3(1, 0, 0));
+}
+
 TEST(ConicEquation, lines_and_points_are_none) {
   const Frame plane;
   const std::array<Vec3, 4> square{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
