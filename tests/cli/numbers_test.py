@@ -347,7 +347,7 @@ outputs: [touch.png]
                                (("rim", "--to", "tile"), "'tile' is no point"),
                                (("floor", "--to", "floor"), "give one of the planes a domain"),
                                (("rim", "--nearest"), "--nearest belongs to --to"),
-                               (("rim", "--position", "0,0,0"), "'rim' is no surface"),
+                               (("chord", "--position", "0,0,0"), "the curve is not closed"),
                                (("disc", "--position", "0,0,1"), "the body is not closed"),
                                (("block", "--position", "0,1"), "'block' is no body of one face"),
                                (("rim", "--continuity"), "'rim' is no body"),

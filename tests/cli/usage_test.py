@@ -51,7 +51,7 @@ class Usage(ProgramTest):
                                 (["check", "ball.yaml", "other.yaml"], "there is no place for 'other.yaml'"),
                                 (["evaluate", "ball.yaml", "ball"], "'lekalo evaluate --help'"),
                                 (["measure", "ball.yaml", "red"], "this is a material"),
-                                (["types", "nurbs"], "did you mean 'nurbs_curve', 'nurbs_surface'?"),
+                                (["types", "nurbs"], "did you mean 'nurbs_curve', 'nurbs_of', 'nurbs_surface'?"),
                                 (["render", "ball.yaml", "--size", "15360x10240"], "a picture 100 million"),
                                 (["render", "ball.yaml", "--crop", "9,9,5,50"], "X0 < X1")]:
             self.assertIn(said, self.run_program(*arguments, code=USAGE)[1])

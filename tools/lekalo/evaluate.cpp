@@ -172,7 +172,9 @@ ordered_json placement_of(const render::LoadedScene& scene, const geometry::Curv
 
 int run(const Options& options) {
   if (options.at.empty() == options.divided_difference.empty())
-    throw UsageError("evaluate takes --at T or --at U,V, or of a curve --divided-difference T,T,..");
+    throw UsageError(
+        "evaluate takes --at T or --at U,V, or of a curve --divided-difference T,T,..\n"
+        "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
   ordered_json out;

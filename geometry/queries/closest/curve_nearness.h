@@ -24,9 +24,9 @@ struct HausdorffDistance : Nearness {
   Vec3 point{0}, nearest{0};  // it, and the nearest point of the other
 };
 
-// Both throw std::invalid_argument for an unbounded curve. Branch and bound: a part of a curve is left out where its
-// farthest possible point is not above the farthest seen, by the enclosures of A(t) - B(s(t)) about a foot point; with
-// so many parts of each curve, at most.
+// Both throw std::invalid_argument for a curve that is unbounded or jumps. Branch and bound: a part of a curve is left
+// out where its farthest possible point is not above the farthest seen, by the enclosures of A(t) - B(s(t)) about a
+// foot point; with so many parts of each curve, at most.
 HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int most_parts = 30000);
 
 // By the free-space diagram of polylines (Alt, Godau 1995) whose deviation from the curves, bounded by h^2/8 |r''|, is

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/queries/closest/continuous_curve.h"
 #include "geometry/queries/closest/curve_nearness.h"
 
 namespace lekalo::geometry {
@@ -132,8 +133,7 @@ class FreeSpace {
 }  // namespace
 
 Nearness frechet_distance(const Curve& a, const Curve& b) {
-  for (const Curve* curve : {&a, &b})
-    if (!(curve->domain().width() < kInfinity)) throw std::invalid_argument("the curve is not bounded");
+  demand_continuous(a), demand_continuous(b);
   const Box3 box_a = bounds(a), box_b = bounds(b);
   const double size = std::max(box_a.diameter(), box_b.diameter());
   const auto ends_apart = [&](double Interval::*end) {

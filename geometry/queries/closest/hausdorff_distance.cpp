@@ -3,8 +3,8 @@
 #include <queue>
 #include <stdexcept>
 
-#include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/continuous_curve.h"
 #include "geometry/queries/closest/curve_nearness.h"
 
 namespace lekalo::geometry {
@@ -85,14 +85,19 @@ class Search {
     parts_.push({upper * (1 + kRounding), t});
   }
 
-  // |A(t) - B(s + k (t - m))| over the part: w + F' (t - m) with w . F' small, as w is across B at the foot point.
+  // By |A(t) - B(s + k (t - m))| over the part, k so that both run side by side, or 0 at a corner of B.
   double beside(const Interval& t, const Vec3& point, const CurveFootPoint& foot) const {
     const Vec3 a1 = evaluate_within(a_, t, t.middle(), 1).d[1], b1 = b_.evaluate(foot.t, 1).d[1];
     const double square_of_speed = glm::dot(b1, b1);
     const double k = square_of_speed > 0 ? glm::dot(a1, b1) / square_of_speed : 0;
+    return std::min(beside(t, point, foot, 0), std::isfinite(k) ? beside(t, point, foot, k) : kInfinity);
+  }
+
+  // w + F' (t - m), where w . F' is small if w lies across both curves.
+  double beside(const Interval& t, const Vec3& point, const CurveFootPoint& foot, double k) const {
     const double half = 0.5 * t.width() * (1 + 1e-15);
     const Interval s(foot.t - std::abs(k) * half, foot.t + std::abs(k) * half);
-    if (!std::isfinite(k) || s.lo < b_.domain().lo || s.hi > b_.domain().hi) return kInfinity;
+    if (k != 0 && (s.lo < b_.domain().lo || s.hi > b_.domain().hi)) return kInfinity;
     const Box3 slope = over(a_.enclose(t, 1).d[1], k, k == 0 ? Box3{Vec3(0), Vec3(0)} : b_.enclose(s, 1).d[1]);
     if (!slope.bounded()) return kInfinity;
     const Vec3 w = point - foot.point;
@@ -114,8 +119,7 @@ class Search {
 }  // namespace
 
 HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int most_parts) {
-  for (const CurvePtr& curve : {a, b})
-    if (!(curve->domain().width() < kInfinity)) throw std::invalid_argument("the curve is not bounded");
+  demand_continuous(*a), demand_continuous(*b);
   const double small = kSmall * std::max(bounds(*a).diameter(), bounds(*b).diameter());
   const Search::Found of_a = Search(*a, b, most_parts).run(small),
                       of_b = Search(*b, a, most_parts).run(std::max(small, of_a.lower));

@@ -8,6 +8,7 @@
 
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/formula_curve.h"
+#include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/splines/bezier_curve.h"
 
@@ -43,6 +44,17 @@ TEST(HausdorffDistance, ClosedForms) {
   expect_bracket(hausdorff_distance(bar, segment({0, -1, 0}, {0, -3, 0})), 3);
   expect_bracket(hausdorff_distance(bar, segment({0, -1, 0}, {0, -1.2, 0})), std::sqrt(5.0));
   expect_bracket(hausdorff_distance(segment({0, 1, 0}, {5, 1, 0}), segment({0.5, 0, 0}, {4, 0, 0})), std::sqrt(2.0));
+}
+
+// A circle about the corner of a polyline: a quarter of it is as far from the corner.
+TEST(HausdorffDistance, AboutACorner) {
+  const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  expect_bracket(hausdorff_distance(std::make_shared<NurbsCurve>(polyline(square, true)), circle({0, 0, 0}, 1)), 1);
+}
+
+TEST(HausdorffDistance, CurvesThatJump) {
+  EXPECT_THROW(hausdorff_distance(circle({0, 0, 0}, 1), formula({"t", "floor(t)", "0"}, {0, 2.5})),
+               std::invalid_argument);
 }
 
 TEST(HausdorffDistance, OfACurveFromItself) {
