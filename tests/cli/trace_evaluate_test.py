@@ -26,6 +26,24 @@ SURFACES = {
     "nurbs_surface": f"points: [{NET}], degree: 2",
     "formula_surface": "point: ['(2 + cos(v))*cos(u)', '(2 + cos(v))*sin(u)', sin(v) + 0.3*sin(3*u)], "
                        "domain: { u: [0, 2*pi], v: [0, 2*pi] }, closed: true",
+    "ruled_surface": "of: [{ type: circle, radius: 1.5 }, { type: circle, radius: 0.7, center: [0.3, 0, 2] }]",
+    "sector_surface": "of: { type: circle, radius: 2, center: [0, 0, -0.5] }, apex: [0.5, 0.5, 1.5]",
+    "translation_surface": "of: { type: bezier_curve, points: [[-1.5, -1, 0], [0, -1, 2], [2, -1, 0]] }, "
+                           "along: { type: formula_curve, point: [0, t, 0.3*sin(t)], domain: [0, 3] }",
+    "loft_surface": "of: [{ type: circle, radius: 1, center: [0, 0, -0.5] }, { type: ellipse, semi_axes: [1.5, 0.7] }, "
+                    "{ type: circle, radius: 1.2, center: [0, 0, 1.5] }]",
+    "sweep_surface": "path: { type: bezier_curve, points: [[-1.5, 0, 0], [0.5, 0, 2], [1.5, 2, 0]] }, "
+                     "section: { type: circle, radius: 0.6 }, scale: 1 + 0.3*s, twist: 90 deg*s",
+    "bridge_surface": "from: { type: cylinder_surface, radius: 1, height: 0.5, frame: { origin: [0, 0, -0.6] } }, to: { type: "
+                      "cylinder_surface, radius: 1.6, height: 1, frame: { origin: [0, 0, 1.5] } }",
+    "offset_surface": f"of: {{ type: bezier_surface, points: [{NET}] }}, distance: 0.1",
+    "bilinear_surface": "points: [[[-1, -1, 0], [-1, 2, 1]], [[2, -1, 1], [2, 2, 0]]]",
+    "coons_surface": "u_lines: [{ type: segment, from: [-1, -1], to: [2, -1] }, { type: bezier_curve, points: [[-1, 2, 1], "
+                     "[0, 3, 2], [2, 2]] }], v_lines: [{ type: formula_curve, point: [-1, 3*t - 1, t^2], domain: [0, 1] }, "
+                     "{ type: segment, from: [2, -1], to: [2, 2] }]",
+    "gordon": "u_lines: [{ type: segment, from: [-1, -1], to: [2, -1] }, { type: formula_curve, point: [3*t - 1, 2, "
+              "sin(pi*t)], domain: [0, 1] }], v_lines: [{ type: segment, from: [-1, -1], to: [-1, 2] }, { type: segment, "
+              "from: [2, -1], to: [2, 2] }]",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 

@@ -12,19 +12,18 @@
 #include "geometry/shapes/tube/tube.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "render/completeness/patch_entries.h"
+#include "render/scene/scene_text.h"
 #include "support/sweep_oracle.h"
 
 namespace lekalo::render::completeness {
 
 // -------------------------------------------------------------------------------- formulas
 
-// A surface by formulas that lies near the origin, moved by its object's transform; its seams, poles and edges are
-// those of the domain.
-inline Subject formula_subject(const std::array<std::string, 3>& point, const Rectangle& domain,
-                               FormulaSurface::Closed closing, const Vec3& offset, const Truth& truth) {
-  const auto surface = std::make_shared<FormulaSurface>(point_formulas(point, {"u", "v"}), domain, closing);
+// A surface that lies near the origin, moved by its object's transform; its seams, poles and edges are those of the
+// domain.
+inline Subject moved_subject(const SurfacePtr& surface, const Vec3& offset, const Truth& truth) {
   Subject subject;
-  subject.entity = SurfacePtr(surface);
+  subject.entity = surface;
   subject.transform = Affine::translation(offset);
   subject.box = transformed(bounds(*surface), subject.transform);
   subject.truth = moved(offset, truth);
@@ -33,6 +32,12 @@ inline Subject formula_subject(const std::array<std::string, 3>& point, const Re
     return std::pair(first + offset, second + offset);
   };
   return subject;
+}
+
+inline Subject formula_subject(const std::array<std::string, 3>& point, const Rectangle& domain,
+                               FormulaSurface::Closed closing, const Vec3& offset, const Truth& truth) {
+  return moved_subject(std::make_shared<FormulaSurface>(point_formulas(point, {"u", "v"}), domain, closing), offset,
+                       truth);
 }
 
 // F of x, y, z for the sign oracle, over Interval and Quad.
@@ -133,6 +138,57 @@ inline std::vector<Entry> formula_entries() {
                                 offset,
                                 truth_of_signs<WavesSigns>({Vec3(-1.5, -1.5, -0.75), Vec3(1.5, 1.5, 0.75)}, false));
        }},
+  };
+}
+
+// -------------------------------------------------------------------------------- surfaces made of others
+
+// As a scene makes them of curves and surfaces without rational forms, each beside an oracle of what it is.
+inline SurfacePtr composed_surface(const std::string& fields) {
+  const BuiltText built = build_text("geometry:\n  s: " + fields + "\n");
+  return std::get<SurfacePtr>(built.model.geometry.at("s"));
+}
+
+inline std::vector<Entry> composed_entries() {
+  const auto torus = [](const std::string& name, const std::string& fields) {
+    return Entry{name,
+                 [=](const Vec3& offset) {
+                   return moved_subject(
+                       composed_surface(fields), offset,
+                       truth_of_signs<TorusSigns>({Vec3(-2.8, -2.8, -0.8), Vec3(2.8, 2.8, 0.8)}, false));
+                 },
+                 true};
+  };
+  const auto polynomial = [](const std::string& name, const std::string& fields, int p, int q, const Rectangle& domain,
+                             const std::function<Vec3(double, double)>& at) {
+    return Entry{name, [=](const Vec3& offset) {
+                   const SurfacePtr patch = interpolated(p, q, domain, at);
+                   return moved_subject(composed_surface(fields), offset, truth_of({patch}, bounds(*patch).diameter()));
+                 }};
+  };
+  const auto graph = [](const std::string& point) {
+    return "{ type: formula_curve, point: [" + point + "], domain: [0, 1] }";
+  };
+  return {
+      torus("sweep_along_a_circle",
+            "{ type: sweep_surface, path: { type: circle, radius: 2 }, section: { type: circle, radius: 0.7 } }"),
+      torus(
+          "offset_of_a_formula",
+          "{ type: offset_surface, distance: 0.2, of: { type: formula_surface, domain: { u: [0, 2*pi], v: [0, 2*pi] }, "
+          "closed: true, point: [(2 + 0.5*cos(v))*cos(u), (2 + 0.5*cos(v))*sin(u), 0.5*sin(v)] } }"),
+      polynomial("coons_of_formulas",
+                 "{ type: coons_surface, u_lines: [" + graph("t, 0, t*(1 - t)") + ", " + graph("t, 1, t^2") +
+                     "], v_lines: [" + graph("0, t, 0") + ", " + graph("1, t, t") + "] }",
+                 2, 1, {{0, 1}, {0, 1}},
+                 [](double u, double v) { return Vec3(u, v, (1 - v) * u * (1 - u) + v * u * u); }),
+      polynomial("loft_of_formulas",
+                 "{ type: loft_surface, method: lagrange, at_v: [0, 1, 2], of: [" + graph("t, 0, t - t^2") + ", " +
+                     graph("t, 1, 1.5*t^2 - 0.2") + ", " + graph("t, 2, 0.3 + t") + "] }",
+                 2, 2, {{0, 1}, {0, 2}},
+                 [](double u, double v) {
+                   const double l0 = (v - 1) * (v - 2) / 2, l1 = v * (2 - v), l2 = v * (v - 1) / 2;
+                   return Vec3(u, v, l0 * (u - u * u) + l1 * (1.5 * u * u - 0.2) + l2 * (0.3 + u));
+                 }),
   };
 }
 
