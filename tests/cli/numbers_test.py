@@ -341,6 +341,9 @@ outputs: [touch.png]
         self.assertEqual(self.measure("chord", "--continuity", "bend", "--tolerance", 1)["joints"][0]["order"], 3)
         text = self.run_program("measure", "scene.yaml", "chord", "--continuity", "bend")[0]
         self.assertIn("G1: last end with first end", text)
+        joints = self.measure("rim", "--continuity")["joints"]
+        self.assertEqual([joint["order"] for joint in joints], [3] * 4)
+        self.assertIn("G3: t 0", self.run_program("measure", "scene.yaml", "rim", "--continuity")[0])
 
     def test_questions_without_an_answer(self):
         for words, message in ((("tile", "--to", "0,0,0"), "'tile' is no curve"),
@@ -350,7 +353,7 @@ outputs: [touch.png]
                                (("chord", "--position", "0,0,0"), "the curve is not closed"),
                                (("disc", "--position", "0,0,1"), "the body is not closed"),
                                (("block", "--position", "0,1"), "'block' is no body of one face"),
-                               (("rim", "--continuity"), "'rim' is no body"),
+                               (("tire", "--continuity"), "'tire' is neither a curve nor a body"),
                                (("rim", "--continuity", "chord"), "a closed curve has no ends"),
                                (("rim", "--continuity", "tire"), "do not join"),
                                (("rim", "--to", "apexx"), "apex"), (("rim", "--to", "1,2"), "--to"),

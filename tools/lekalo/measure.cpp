@@ -425,11 +425,11 @@ void add_measure(CLI::App& app, Action& action) {
              "where a point lies: above or below a surface, inside or outside of a body or closed plane curve; or U,V "
              "in the region of a trimmed surface")
           ->type_name("NAME|X,Y,Z|U,V");
-  auto* continuity =
-      sub->add_option("--continuity", options->continuity,
-                      "how smoothly it joins another curve or surface; alone, how a body's faces join: G0 to G3")
-          ->type_name("[NAME]")
-          ->expected(0, 1);
+  auto* continuity = sub->add_option("--continuity", options->continuity,
+                                     "how smoothly it joins another curve or surface; alone, how a body's faces or the "
+                                     "pieces of a curve join: G0 to G3")
+                         ->type_name("[NAME]")
+                         ->expected(0, 1);
   auto* nurbs = sub->add_flag("--nurbs", options->nurbs,
                               "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted");
   auto* features = sub->add_flag("--features", options->features,

@@ -39,6 +39,16 @@ ordered_json joints_of(const geometry::Curve& a, const geometry::Curve& b, const
   return ordered_json::array({row});
 }
 
+ordered_json joints_of(const geometry::Curve& curve, const ContinuityTolerances& tolerances) {
+  ordered_json rows = ordered_json::array();
+  for (const geometry::CurveOwnJoint& one : joints(curve, tolerances)) {
+    ordered_json row{{"t", one.t}};
+    put(row, one.continuity);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 ordered_json joints_of(const geometry::Surface& a, const geometry::Surface& b, const ContinuityTolerances& tolerances) {
   ordered_json rows = ordered_json::array();
   for (const geometry::SurfaceJoint& one : joints(a, b, tolerances)) {
@@ -74,6 +84,7 @@ std::string joint_text(const ordered_json& joint) {
   if (joint.contains("faces"))
     return fmt::format("edge {}, faces {} and {}", joint["edge"].get<int>(), joint["faces"][0].get<int>(),
                        joint["faces"][1].get<int>());
+  if (joint.contains("t")) return fmt::format("t {:.9g}", joint["t"].get<double>());
   if (joint.contains("end"))
     return fmt::format("{} end with {} end", joint["end"].get<std::string>(), joint["end_other"].get<std::string>());
   return edge_text(joint["edge"]) + " with " + edge_text(joint["edge_other"]);
@@ -89,8 +100,10 @@ ordered_json continuity_of(const std::string& name, const render::Entity& entity
     ordered_json found;
     if (!other) {
       const auto* body = std::get_if<geometry::BodyPtr>(&entity);
-      if (!body) throw UsageError(fmt::format("'{}' is no body: --continuity needs another curve or surface", name));
-      found = joints_of(**body, tolerances);
+      const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
+      if (!body && !curve)
+        throw UsageError(fmt::format("'{}' is neither a curve nor a body: --continuity needs another surface", name));
+      found = body ? joints_of(**body, tolerances) : joints_of(**curve, tolerances);
     } else {
       const auto *a = std::get_if<geometry::CurvePtr>(&entity), *b = std::get_if<geometry::CurvePtr>(other);
       const auto *s = std::get_if<geometry::SurfacePtr>(&entity), *t = std::get_if<geometry::SurfacePtr>(other);

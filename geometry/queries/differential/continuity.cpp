@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/tolerances.h"
 
@@ -138,6 +139,30 @@ std::optional<Jumps> jumps_between(const std::optional<AcrossEdge>& a, const std
   return jumps;
 }
 
+// What arrives at a joint of curves, or leaves it; the curve itself may run the other way.
+struct JointSide {
+  CurveJet jet;
+  bool reversed;
+};
+
+Continuity at_joint(const JointSide& a, const JointSide& b, double t, double size,
+                    const ContinuityTolerances& tolerances) {
+  if (!(glm::length(a.jet.d[1]) > 0) || !(glm::length(b.jet.d[1]) > 0))
+    throw std::invalid_argument("a curve has a cusp at the joint: it has no tangent there");
+  std::array<Vec3, 3> da = by_arc_length(a.jet), db = by_arc_length(b.jet);
+  if (a.reversed) da[0] = -da[0], da[2] = -da[2];
+  if (b.reversed) db[0] = -db[0], db[2] = -db[2];
+  const double curvature = order_of_curvature(glm::length(da[1]), glm::length(db[1]), size);
+  const double differences[] = {glm::length(a.jet.d[0] - b.jet.d[0]), angle_between(da[0], db[0]),
+                                glm::length(da[1] - db[1]), glm::length(da[2] - db[2])};
+  const double scales[] = {size, 1, curvature,
+                           order_of_derivative(glm::length(da[2]), glm::length(db[2]), curvature, size)};
+  Continuity result;
+  for (int i = 0; i < 4; ++i) result.jumps[i] = {differences[i], differences[i] / scales[i], t, a.jet.d[0]};
+  judge(result, tolerances);
+  return result;
+}
+
 }  // namespace
 
 CurveJoint joint(const Curve& a, const Curve& b, const ContinuityTolerances& tolerances) {
@@ -154,20 +179,22 @@ CurveJoint joint(const Curve& a, const Curve& b, const ContinuityTolerances& tol
       if (gap < nearest) nearest = gap, result.a_end = a_end, result.b_end = b_end;
     }
   const double t = end_of(a, result.a_end);
-  const CurveJet ja = a.evaluate(t, 3), jb = b.evaluate(end_of(b, result.b_end), 3);
-  if (!(glm::length(ja.d[1]) > 0) || !(glm::length(jb.d[1]) > 0))
-    throw std::invalid_argument("a curve has a cusp at the joint: it has no tangent there");
-  std::array<Vec3, 3> da = by_arc_length(ja), db = by_arc_length(jb);
-  // The first arrives at the joint, the second leaves it.
-  if (!result.a_end) da[0] = -da[0], da[2] = -da[2];
-  if (result.b_end) db[0] = -db[0], db[2] = -db[2];
-  const double curvature = order_of_curvature(glm::length(da[1]), glm::length(db[1]), size);
-  const double differences[] = {nearest, angle_between(da[0], db[0]), glm::length(da[1] - db[1]),
-                                glm::length(da[2] - db[2])};
-  const double scales[] = {size, 1, curvature,
-                           order_of_derivative(glm::length(da[2]), glm::length(db[2]), curvature, size)};
-  for (int i = 0; i < 4; ++i) result.continuity.jumps[i] = {differences[i], differences[i] / scales[i], t, ja.d[0]};
-  judge(result.continuity, tolerances);
+  result.continuity = at_joint({a.evaluate(t, 3), !result.a_end},
+                               {b.evaluate(end_of(b, result.b_end), 3), result.b_end}, t, size, tolerances);
+  return result;
+}
+
+std::vector<CurveOwnJoint> joints(const Curve& curve, const ContinuityTolerances& tolerances) {
+  if (!(curve.domain().width() < kInfinity)) throw std::invalid_argument("the curve is unbounded");
+  const double size = std::max(bounds(curve).diameter(), 1e-300);
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  std::vector<CurveOwnJoint> result;
+  for (size_t i = curve.is_closed() ? 0 : 1; i < pieces.size(); ++i) {
+    const Interval before = pieces[i > 0 ? i - 1 : pieces.size() - 1].domain, after = pieces[i].domain;
+    result.push_back(
+        {after.lo, at_joint({evaluate_within(curve, before, before.hi, 3), false},
+                            {evaluate_within(curve, after, after.lo, 3), false}, after.lo, size, tolerances)});
+  }
   return result;
 }
 

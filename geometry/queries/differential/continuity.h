@@ -43,6 +43,14 @@ struct CurveJoint {
 // Throws std::invalid_argument for a closed curve, which has no ends, or a cusp at a joint.
 CurveJoint joint(const Curve& a, const Curve& b, const ContinuityTolerances& tolerances = {});
 
+// Where smooth pieces of one curve follow one another, in the order of the parameter; of a closed curve also where it
+// closes, first. Throws std::invalid_argument for an unbounded curve, or a cusp at a joint.
+struct CurveOwnJoint {
+  double t = 0;
+  Continuity continuity;
+};
+std::vector<CurveOwnJoint> joints(const Curve& curve, const ContinuityTolerances& tolerances = {});
+
 // A part of an edge of a surface's domain.
 struct DomainEdge {
   IsoDirection held = IsoDirection::u;

@@ -71,6 +71,32 @@ TEST(ArcBlendCurve, LiesBetweenBothArcs) {
   }
 }
 
+// The same nodes: the largest distance from y = x^2 along the normal of the chord, by bisection.
+TEST(ArcBlendCurve, DeviatesFromAParabolaByTheThirdOrder) {
+  for (const auto& [d, deviation] :
+       {std::pair(1.0, 0.0199), std::pair(0.5, 0.0145), std::pair(0.25, 1.615e-3), std::pair(0.125, 1.680e-4)}) {
+    std::vector<Vec3> nodes;
+    for (int k = -1; k <= 2; ++k) {
+      const double x = 0.5 + d * (k - 0.5);
+      nodes.push_back({x, x * x, 0});
+    }
+    const ArcBlendCurve curve(nodes, false);
+    const Interval part = curve.pieces()[1].domain;
+    const Vec3 along = glm::normalize(nodes[2] - nodes[1]), across(-along.y, along.x, 0);
+    double largest = 0;
+    for (int i = 1; i < 400; ++i) {
+      const Vec3 p = curve.point(part.lo + part.width() * i / 400);
+      double below = -1, above = 1;
+      while (above - below > 1e-15) {
+        const Vec3 q = p + 0.5 * (below + above) * across;
+        (q.y < q.x * q.x ? below : above) = 0.5 * (below + above);
+      }
+      largest = std::max(largest, std::abs(below));
+    }
+    EXPECT_NEAR(largest / deviation, 1, 3e-3) << d;
+  }
+}
+
 // The distance from a curve of samples, brute force.
 double farthest(const Curve& blend, const Curve& curve) {
   std::vector<Vec3> samples;

@@ -5,6 +5,7 @@
 
 #include "geometry/bodies/primitives/primitives.h"
 #include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/splines/bezier_curve.h"
 #include "geometry/surfaces/analytic/sphere.h"
@@ -79,6 +80,25 @@ NurbsSurface power_sheet(int k, double b, double shear, int edge) {
       net.values.push_back(at(edge % 2 ? 3 - i : i, j));
     }
   return bezier_surface(net);
+}
+
+// Two parabolas of curvatures 2 and 4 with a common vertex tangent: y = x^2 before x = 0, y = 2 x^2 behind; a corner;
+// and a closed curve at its seam.
+TEST(CurveContinuity, BetweenThePiecesOfACurve) {
+  const std::vector<Vec3> points{{-1, 1, 0}, {-0.5, 0, 0}, {0, 0, 0}, {0.5, 0, 0}, {1, 2, 0}, {2, 2, 0}, {3, 2, 0}};
+  const NurbsCurve curve(SplineAxis(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 3}, Extension::tangent), points);
+  const std::vector<CurveOwnJoint> found = joints(curve);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].t, 1);
+  EXPECT_EQ(found[0].continuity.order, 1);
+  EXPECT_NEAR(found[0].continuity.jumps[2].largest, 2, 1e-12);
+  EXPECT_EQ(found[1].continuity.order, 0);
+  EXPECT_NEAR(found[1].continuity.jumps[1].largest, std::atan(4.0), 1e-12);
+  const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<CurveOwnJoint> corners = joints(polyline(square, true));
+  ASSERT_EQ(corners.size(), 4u);
+  EXPECT_EQ(corners[0].t, 0);
+  for (const CurveOwnJoint& corner : corners) EXPECT_NEAR(corner.continuity.jumps[1].largest, kPi / 2, 1e-12);
 }
 
 TEST(SurfaceContinuity, EachOrderHasItsJumpAtItsWorstPlace) {
