@@ -21,6 +21,7 @@
   X(circular_arc_type)            \
   X(conic_type)                   \
   X(named_curve_type)             \
+  X(pursuit_curve_type)           \
   X(bezier_curve_type)            \
   X(nurbs_curve_type)             \
   X(local_interpolant_type)       \
