@@ -1,8 +1,11 @@
 #include "geometry/composition.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/describe.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -124,12 +127,19 @@ std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& 
   return form;
 }
 
-DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain) {
+SampledShape sampled_shape(const Surface& surface, const Rectangle& domain) {
   constexpr int kTried = 16;
   Box3 box;
   const auto at = [](const Interval& range, int i) { return range.lo + range.width() * i / kTried; };
   for (int i = 0; i <= kTried; ++i)
-    for (int j = 0; j <= kTried; ++j) box.include(surface.point(at(domain.u, i), at(domain.v, j)));
+    for (int j = 0; j <= kTried; ++j) {
+      const double u = at(domain.u, i), v = at(domain.v, j);
+      const Vec3 p = surface.point(u, v);
+      if (!std::isfinite(p.x + p.y + p.z))
+        throw FieldError("of", fmt::format("the surface has no point at u = {:.6g}, v = {:.6g}", u, v),
+                         "take a part without that place");
+      box.include(p);
+    }
   const auto is_point = [&](const Interval& range, auto edge) {
     const Vec3 first = edge(range.lo);
     for (int i = 1; i <= kTried; ++i)
@@ -138,8 +148,22 @@ DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain)
   };
   const auto at_u = [&](double u) { return [&surface, u](double v) { return surface.point(u, v); }; };
   const auto at_v = [&](double v) { return [&surface, v](double u) { return surface.point(u, v); }; };
-  return {is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
-          is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))};
+  return {{is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
+           is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))},
+          box.diameter()};
+}
+
+double sampled_size(const Curve& curve, const Interval& domain) {
+  constexpr int kTried = 64;
+  Box3 box;
+  for (int i = 0; i <= kTried; ++i) {
+    const double t = domain.lo + domain.width() * i / kTried;
+    const Vec3 p = curve.point(t);
+    if (!std::isfinite(p.x + p.y + p.z))
+      throw FieldError("of", fmt::format("the curve has no point at t = {:.6g}", t), "take a part without that place");
+    box.include(p);
+  }
+  return box.diameter();
 }
 
 namespace detail {

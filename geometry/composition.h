@@ -225,6 +225,12 @@ void cut_to(CurveMakeup& makeup, const Interval& domain);
 
 namespace detail {
 
+// Over a long stretch the bounds of a quotient or a root may be infinite, or enormous, where those of its parts are
+// not: stretches down to this part of the domain are taken in halves then.
+constexpr double kMinHalved = 1.0 / 32;
+constexpr double kEnormous = 8;  // times the size
+constexpr double kCoarse = 0.2;  // of the domain
+
 // An interval in the parts between breaks.
 std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t);
 CurvePiece plain_curve_piece(const Interval& domain);
@@ -237,7 +243,8 @@ std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, cons
 template <class Formula>
 class ComposedCurve final : public Curve {
  public:
-  ComposedCurve(Formula formula, CurveMakeup makeup) : formula_(std::move(formula)), makeup_(std::move(makeup)) {}
+  ComposedCurve(Formula formula, CurveMakeup makeup)
+      : formula_(std::move(formula)), makeup_(std::move(makeup)), size_(sampled_size(*this, makeup_.domain)) {}
 
   const Formula& formula() const { return formula_; }
 
@@ -256,6 +263,7 @@ class ComposedCurve final : public Curve {
  private:
   Formula formula_;
   CurveMakeup makeup_;
+  double size_;
 };
 
 struct SurfaceMakeup {
@@ -273,8 +281,14 @@ SurfaceMakeup makeup_along_u(const Curve& operand, const Interval& v, int deriva
 enum class Along { u, v };
 void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int derivatives = 0);
 
-// The edges of a domain that are points, found by looking.
-DegenerateEdges collapsed_edges(const Surface& surface, const Rectangle& domain);
+// What is found by looking at points of a grid: the edges of the domain that are points, and the size. Throws
+// FieldError (field of) where there is none.
+struct SampledShape {
+  DegenerateEdges degenerate;
+  double size = 0;
+};
+SampledShape sampled_shape(const Surface& surface, const Rectangle& domain);
+double sampled_size(const Curve& curve, const Interval& domain);
 
 // One form of patches over the cells of a grid, u outer, all of one degree: knots of that multiplicity at its lines.
 // None if they are not rational, or do not share the weights along the lines.
@@ -290,7 +304,7 @@ class ComposedSurface final : public Surface {
     if constexpr (requires { formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v); })
       pieces_ = formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v);
     if (pieces_.empty()) pieces_ = detail::plain_pieces(makeup_.breaks_u, makeup_.breaks_v);
-    degenerate_ = collapsed_edges(*this, makeup_.domain);
+    shape_ = sampled_shape(*this, makeup_.domain);
   }
 
   const Formula& formula() const { return formula_; }
@@ -307,13 +321,13 @@ class ComposedSurface final : public Surface {
   std::optional<NurbsSurfaceForm> as_nurbs() const override {
     return form_of_pieces(pieces_, makeup_.breaks_u, makeup_.breaks_v);
   }
-  DegenerateEdges degenerate_edges() const override { return degenerate_; }
+  DegenerateEdges degenerate_edges() const override { return shape_.degenerate; }
 
  private:
   Formula formula_;
   SurfaceMakeup makeup_;
   std::vector<SurfacePiece> pieces_;
-  DegenerateEdges degenerate_;
+  SampledShape shape_;
 };
 
 template <class Formula>
@@ -322,7 +336,15 @@ CurveEnclosure ComposedCurve<Formula>::enclose(const Interval& t, int order) con
   CurveEnclosure result;
   for (const Interval& part : detail::between(makeup_.breaks, t)) {
     const CurveEnclosure boxes = enclose_curve_centered(formula_, part, order);
-    for (int k = 0; k <= order; ++k) result.d[k].include(boxes.d[k]);
+    bool is_bounded = boxes.d[0].diameter() <= detail::kEnormous * size_;
+    for (int k = 0; k <= order; ++k) is_bounded = is_bounded && boxes.d[k].bounded();
+    if (!is_bounded && part.width() > detail::kMinHalved * makeup_.domain.width())
+      for (const Interval& half : {Interval(part.lo, part.middle()), Interval(part.middle(), part.hi)}) {
+        const CurveEnclosure some = enclose(half, order);
+        for (int k = 0; k <= order; ++k) result.d[k].include(some.d[k]);
+      }
+    else
+      for (int k = 0; k <= order; ++k) result.d[k].include(boxes.d[k]);
   }
   return result;
 }
@@ -342,7 +364,25 @@ SurfaceEnclosure ComposedSurface<Formula>::enclose(const Rectangle& box, int ord
   for (const Interval& u : detail::between(makeup_.breaks_u, box.u))
     for (const Interval& v : detail::between(makeup_.breaks_v, box.v)) {
       const SurfaceEnclosure boxes = detail::mean_values(formula_, {u, v}, order, makeup_.enclosure_order);
-      for (int k = 0; k <= SurfaceJet::index(0, order); ++k) result.values[k].include(boxes.values[k]);
+      const int count = SurfaceJet::index(0, order) + 1;
+      const bool is_bounded = boxes.values[0].diameter() <= detail::kEnormous * shape_.size &&
+                              std::all_of(boxes.values.begin(), boxes.values.begin() + count,
+                                          [](const Box3& value) { return value.bounded(); });
+      const double share_u = u.width() / makeup_.domain.u.width(), share_v = v.width() / makeup_.domain.v.width();
+      // Points alone are asked for of whole surfaces: a box of the parts is much narrower.
+      const bool is_coarse = order == 0 && std::max(share_u, share_v) > detail::kCoarse;
+      if ((is_bounded && !is_coarse) || !(std::max(share_u, share_v) > detail::kMinHalved)) {
+        for (int k = 0; k < count; ++k) result.values[k].include(boxes.values[k]);
+        continue;
+      }
+      const bool across_u = share_u >= share_v;
+      for (const bool upper : {false, true}) {
+        Rectangle half{u, v};
+        Interval& side = across_u ? half.u : half.v;
+        (upper ? side.lo : side.hi) = side.middle();
+        const SurfaceEnclosure some = enclose(half, order);
+        for (int k = 0; k < count; ++k) result.values[k].include(some.values[k]);
+      }
     }
   return result;
 }

@@ -177,17 +177,17 @@ inline std::vector<Entry> composed_entries() {
           "{ type: offset_surface, distance: 0.2, of: { type: formula_surface, domain: { u: [0, 2*pi], v: [0, 2*pi] }, "
           "closed: true, point: [(2 + 0.5*cos(v))*cos(u), (2 + 0.5*cos(v))*sin(u), 0.5*sin(v)] } }"),
       polynomial("coons_of_formulas",
-                 "{ type: coons_surface, u_lines: [" + graph("t, 0, t*(1 - t)") + ", " + graph("t, 1, t^2") +
-                     "], v_lines: [" + graph("0, t, 0") + ", " + graph("1, t, t") + "] }",
+                 "{ type: coons_surface, u_lines: [" + graph("t, 0, 4*t*(1 - t)") + ", " + graph("t, 1, 4*t^2") +
+                     "], v_lines: [" + graph("0, t, 0") + ", " + graph("1, t, 4*t") + "] }",
                  2, 1, {{0, 1}, {0, 1}},
-                 [](double u, double v) { return Vec3(u, v, (1 - v) * u * (1 - u) + v * u * u); }),
+                 [](double u, double v) { return Vec3(u, v, 4 * ((1 - v) * u * (1 - u) + v * u * u)); }),
       polynomial("loft_of_formulas",
-                 "{ type: loft_surface, method: lagrange, at_v: [0, 1, 2], of: [" + graph("t, 0, t - t^2") + ", " +
-                     graph("t, 1, 1.5*t^2 - 0.2") + ", " + graph("t, 2, 0.3 + t") + "] }",
+                 "{ type: loft_surface, method: lagrange, at_v: [0, 1, 2], of: [" + graph("2*t, 0, 3*t - 3*t^2") +
+                     ", " + graph("2*t, 1, 4.5*t^2 - 0.6") + ", " + graph("2*t, 2, 0.9 + 3*t") + "] }",
                  2, 2, {{0, 1}, {0, 2}},
                  [](double u, double v) {
                    const double l0 = (v - 1) * (v - 2) / 2, l1 = v * (2 - v), l2 = v * (v - 1) / 2;
-                   return Vec3(u, v, l0 * (u - u * u) + l1 * (1.5 * u * u - 0.2) + l2 * (0.3 + u));
+                   return Vec3(2 * u, v, 3 * (l0 * (u - u * u) + l1 * (1.5 * u * u - 0.2) + l2 * (0.3 + u)));
                  }),
   };
 }
