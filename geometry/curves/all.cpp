@@ -58,6 +58,11 @@
   X(offset_curve_type)            \
   X(transition_curve_type)        \
   X(wrapped_curve_type)           \
+  X(evolute_curve_type)           \
+  X(involute_curve_type)          \
+  X(pedal_curve_type)             \
+  X(conchoid_curve_type)          \
+  X(roulette_curve_type)          \
   X(polyline_of_curve_type)       \
   X(spline_of_curve_type)         \
   X(nurbs_of_type)                \
