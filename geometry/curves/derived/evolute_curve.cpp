@@ -126,7 +126,7 @@ CurvePtr made(Formula formula, int derivatives) {
 TypeDeclaration evolute_curve_type() {
   return declare(Category::curve, "evolute_curve",
                  "The centers of curvature of a plane curve, over the curve's parameter.")
-      .example("of: round")
+      .example("of: { type: ellipse, semi_axes: [2, 1] }")
       .field("of", reference({Category::curve}), "the curve, without inflections")
       .field("normal", direction(), "of its plane", "z")
       .built_by([](const Fields& f) {

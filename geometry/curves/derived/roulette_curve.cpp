@@ -102,8 +102,8 @@ TypeDeclaration roulette_curve_type() {
   return declare(Category::curve, "roulette_curve",
                  "The path of a point that a curve carries as it rolls along another without slipping. The parameter "
                  "is the length rolled.")
-      .example("on: round, of: { type: circle, radius: 0.25 }")
-      .field("on", reference({Category::curve}), "the curve that rests")
+      .example("base: round, of: { type: circle, radius: 0.25 }")
+      .field("base", reference({Category::curve}), "the curve that rests")
       .field("of", reference({Category::curve}),
              "the curve that rolls; it begins with its start on the other's start, and both tangents agree")
       .optional("point", point(), "that is carried along, in the place of `of` as it is given; its start when left out")
@@ -112,11 +112,11 @@ TypeDeclaration roulette_curve_type() {
       .field("turns", number().positive(), "how often a closed curve that rests is gone around", "1")
       .field("normal", direction(), "of the plane", "z")
       .built_by([](const Fields& f) {
-        const CurvePtr on = f.curve("on"), of = f.curve("of");
+        const CurvePtr on = f.curve("base"), of = f.curve("of");
         const Vec3 normal = f.vec3("normal");
         const CurvePtr rolling = f.boolean("backward") ? reversed_curve(of) : of;
         const double turns = f.number("turns");
-        Roulette roulette{track_of(on, "on", normal, turns > 1), track_of(rolling, "of", normal, true), normal,
+        Roulette roulette{track_of(on, "base", normal, turns > 1), track_of(rolling, "of", normal, true), normal,
                           Vec3(0)};
         roulette.point = f.has("point") ? f.vec3("point") : rolling->point(rolling->domain().lo);
         if (turns > 1 && !on->is_closed()) throw FieldError("turns", "the curve that rests is not closed");

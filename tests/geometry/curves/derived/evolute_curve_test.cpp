@@ -93,7 +93,7 @@ TEST(ConchoidCurve, keeps_its_distance) {
 // Rolling without slipping: the carried point moves across the line from the point of contact.
 TEST(RouletteCurve, turns_about_the_point_of_contact) {
   Fields fields = of(std::make_shared<Circle>(Frame(), 0.6));
-  fields.set("on", kEllipse);
+  fields.set("base", kEllipse);
   fields.set("point", Vec3(0.3, 0.1, 0));
   fields.set("turns", 2.0);
   const CurvePtr roulette = built("roulette_curve", fields);
@@ -110,7 +110,7 @@ TEST(RouletteCurve, turns_about_the_point_of_contact) {
   checks::check_enclosures(*roulette, roulette->domain());
   // Against arc length by hand: on a line of length 2 pi a circle's start draws a cycloid.
   Fields on_line = of(std::make_shared<Circle>(Frame(), 1));
-  on_line.set("on", CurvePtr(std::make_shared<Segment>(Vec3(0), Vec3(6, 0, 0))));
+  on_line.set("base", CurvePtr(std::make_shared<Segment>(Vec3(0), Vec3(6, 0, 0))));
   const CurvePtr cycloid = built("roulette_curve", on_line);
   for (const double s : {0.0, 1.0, 2.5, 6.0})
     EXPECT_LT(glm::length(cycloid->point(s) - Vec3(s - std::sin(s), 1 - std::cos(s), 0)), 1e-11);
@@ -123,7 +123,7 @@ TEST(DerivedByTangents, errors) {
   through.set("distance", 1.0);
   EXPECT_THROW(built("conchoid_curve", through), FieldError);
   Fields too_short = of(wave);
-  too_short.set("on", kEllipse);
+  too_short.set("base", kEllipse);
   EXPECT_THROW(built("roulette_curve", too_short), FieldError);
   Fields to_the_pole = of(std::make_shared<Circle>(Frame(), 2));
   to_the_pole.set("distance", -2.0);
@@ -133,10 +133,10 @@ TEST(DerivedByTangents, errors) {
       std::make_shared<NurbsCurve>(NurbsCurveForm{1, {0, 0, 1, 2, 2}, {{0, 0, 0, 1}, {9, 0, 0, 1}, {9, 9, 0, 1}}, {}});
   EXPECT_THROW(built("involute_curve", of(bent)), FieldError);
   Fields around_a_corner = of(std::make_shared<Circle>(Frame(), 2));
-  around_a_corner.set("on", CurvePtr(bent));
+  around_a_corner.set("base", CurvePtr(bent));
   EXPECT_THROW(built("roulette_curve", around_a_corner), FieldError);
   Fields turns = of(kEllipse);
-  turns.set("on", CurvePtr(wave)), turns.set("turns", 2.0);
+  turns.set("base", CurvePtr(wave)), turns.set("turns", 2.0);
   EXPECT_THROW(built("roulette_curve", turns), FieldError);
 }
 
