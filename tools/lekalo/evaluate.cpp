@@ -3,8 +3,11 @@
 #include <CLI/CLI.hpp>
 
 #include "command.h"
+#include "evaluate.h"
+#include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/divided_difference.h"
+#include "geometry/queries/differential/fundamental_forms.h"
 #include "geometry/queries/differential/osculation.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "parameters.h"
@@ -14,8 +17,6 @@ namespace lekalo::command {
 namespace {
 
 using geometry::Vec3;
-
-ordered_json json_or_null(bool known, double x) { return known ? finite_or_null(x) : ordered_json(nullptr); }
 
 // The columns t, n, b and the point: a matrix that places things at the point of the curve.
 ordered_json placement(const geometry::Frame& frame) {
@@ -36,6 +37,17 @@ void put_osculation(ordered_json& out, const geometry::CurveJet& jet, const geom
   out["sphere_center"] = o.sphere ? finite_or_null(o.sphere->center) : ordered_json(nullptr);
 }
 
+// How a curve on a surface bends across it and within it.
+void put_on_surface(ordered_json& out, const geometry::Curve& curve, double t) {
+  const auto* on = dynamic_cast<const geometry::SurfaceCurve*>(&curve);
+  if (!on) return;
+  const Vec3 uv = on->image()->point(t), normal = on->surface()->normal(uv.x, uv.y);
+  const geometry::CurveOnSurfaceCurvature c = geometry::curvature_on_surface(curve.evaluate(t, 2), normal);
+  out["surface_normal"] = finite_or_null(normal);
+  out["normal_curvature"] = finite_or_null(c.normal);
+  out["geodesic_curvature"] = finite_or_null(c.geodesic);
+}
+
 ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   const geometry::CurveJet jet = curve.evaluate(t, order);
   ordered_json out;
@@ -51,6 +63,7 @@ ordered_json evaluate_curve(const geometry::Curve& curve, double t, int order) {
   out["curvature"] = json_or_null(c.has_curvature, c.curvature);
   out["torsion"] = json_or_null(c.has_normal || c.is_straight, c.torsion);
   put_osculation(out, curve.evaluate(t, 3), c);
+  put_on_surface(out, curve, t);
   out["parameters"] = parameters_of(curve);
   return out;
 }
@@ -72,26 +85,10 @@ ordered_json differences_of(const geometry::Curve& curve, const std::vector<doub
   return out;
 }
 
-ordered_json evaluate_surface(const geometry::Surface& surface, double u, double v) {
-  const geometry::SurfaceJet jet = surface.evaluate(u, v, 2);
-  ordered_json out;
-  out["u"] = u;
-  out["v"] = v;
-  out["point"] = to_json(jet.point());
-  out["du"] = finite_or_null(jet.du());
-  out["dv"] = finite_or_null(jet.dv());
-  out["duu"] = finite_or_null(jet.duu());
-  out["duv"] = finite_or_null(jet.duv());
-  out["dvv"] = finite_or_null(jet.dvv());
-  const Vec3 normal = surface.normal(u, v);
-  out["normal"] = finite_or_null(normal);
-  const geometry::SurfaceCurvature c = geometry::curvature(surface, u, v);
-  out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
-  out["mean_curvature"] = json_or_null(c.regular, c.mean);
-  out["principal_curvatures"] =
-      c.regular ? ordered_json::array({c.principal[0], c.principal[1]}) : ordered_json(nullptr);
-  out["parameters"] = parameters_of(surface);
-  return out;
+std::string numbers_of(const ordered_json& list) {
+  std::string text;
+  for (const auto& x : list) text += (text.empty() ? "" : " ") + digits(x.get<double>());
+  return text;
 }
 
 void print(const ordered_json& out) {
@@ -109,10 +106,12 @@ void print(const ordered_json& out) {
       for (size_t k = 0; k < value.size(); ++k)
         fmt::print("{:<21} {}\n", divided ? fmt::format("difference {}", k) : fmt::format("derivative {}", k + 1),
                    value[k].is_null() ? "-" : digits(Vec3(value[k][0], value[k][1], value[k][2])));
+    } else if (value.is_string()) {
+      fmt::print("{:<21} {}\n", key, value.get<std::string>());
+    } else if (value.is_array() && !value.empty() && value[0].is_array()) {
+      for (const auto& row : value) fmt::print("{:<21} {}\n", &row == &value[0] ? key : "", numbers_of(row));
     } else if (value.is_array()) {
-      std::string text;
-      for (const auto& x : value) text += (text.empty() ? "" : " ") + digits(x.get<double>());
-      fmt::print("{:<21} {}\n", key, text);
+      fmt::print("{:<21} {}\n", key, numbers_of(value));
     } else {
       fmt::print("{:<21} {}\n", key, digits(value.get<double>()));
     }
@@ -122,7 +121,7 @@ void print(const ordered_json& out) {
 struct Options {
   SceneOptions scene;
   std::string name, at, face, divided_difference;
-  std::vector<std::string> on;
+  std::vector<std::string> on, along;
   double share = 0.5;
   int order = 2;
   bool placement = false, json = false;
@@ -170,6 +169,16 @@ ordered_json placement_of(const render::LoadedScene& scene, const geometry::Curv
   }
 }
 
+std::vector<geometry::Vec2> directions_of(const Options& options) {
+  std::vector<geometry::Vec2> result;
+  for (const std::string& one : options.along) {
+    const std::vector<double> d = parse_numbers(one, 2, "--along");
+    if (d[0] == 0 && d[1] == 0) throw UsageError("--along 0,0 is no direction");
+    result.emplace_back(d[0], d[1]);
+  }
+  return result;
+}
+
 int run(const Options& options) {
   if (options.at.empty() == options.divided_difference.empty())
     throw UsageError(
@@ -177,6 +186,8 @@ int run(const Options& options) {
         "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
+  if (!options.along.empty() && std::holds_alternative<geometry::CurvePtr>(entity))
+    throw UsageError("--along belongs to surfaces");
   ordered_json out;
   if (!options.divided_difference.empty()) {
     const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
@@ -196,7 +207,7 @@ int run(const Options& options) {
     const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
     note_outside("u", uv[0], surface->domain().u, surface->periods().u);
     note_outside("v", uv[1], surface->domain().v, surface->periods().v);
-    out = evaluate_surface(*surface, uv[0], uv[1]);
+    out = evaluate_surface(*surface, {uv[0], uv[1]}, directions_of(options));
   }
   demand_finite(out);
   if (options.json)
@@ -217,7 +228,11 @@ void add_evaluate(CLI::App& app, Action& action) {
       "circle\n"
       "(its centre is the point of the evolute) and the osculating sphere. Divided differences are the coefficients "
       "of\n"
-      "Newton's polynomial through the curve's points at the nodes; a node given twice stands for the derivative.");
+      "Newton's polynomial through the curve's points at the nodes; a node given twice stands for the derivative.\n\n"
+      "Of a surface it prints the fundamental forms (E F G, L M N), Weingarten's map W (m_u = -W11 r_u - W12 r_v,\n"
+      "m_v = -W21 r_u - W22 r_v), the derivatives of the normal, the principal curvatures with their directions, what\n"
+      "kind of point it is, and the directions without normal curvature. Of a curve on a surface it prints the normal\n"
+      "curvature and the geodesic curvature, positive where it turns left seen from the normal.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
@@ -227,6 +242,10 @@ void add_evaluate(CLI::App& app, Action& action) {
       ->type_name("T,T,..");
   sub->add_option("--face", options->face, "face of a body or patch of a set, as trace and measure --topology call it")
       ->type_name("NUMBER|NAME");
+  sub->add_option("--along", options->along,
+                  "of a surface its normal curvature in this direction of its parameters; of two the angle between")
+      ->type_name("DU,DV")
+      ->expected(1, 2);
   sub->add_option("--order", options->order, "derivatives of a curve up to this order")
       ->check(CLI::Range(1, geometry::kMaxCurveOrder));
   sub->add_flag("--placement", options->placement,
