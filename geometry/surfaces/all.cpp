@@ -24,6 +24,7 @@
   X(bridge_surface_type)         \
   X(offset_surface_type)         \
   X(sweep_surface_type)          \
+  X(guided_loft_type)            \
   X(bilinear_surface_type)       \
   X(coons_surface_type)          \
   X(gordon_type)                 \

@@ -11,6 +11,7 @@
 
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/moving_frame.h"
+#include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/describe.h"
 #include "geometry/expression/scalar_law.h"
 #include "geometry/surfaces/nets/boolean_sum.h"
@@ -99,6 +100,79 @@ FrameLaw read_frame(const Fields& f) {
   return law;
 }
 
+// Through curves that stand in space along a guide (Golovanov 2016, 3.4.9): each is carried along the guide by its
+// frame,
+//
+//   r_i(u, v) = g(v) + A(v) A^T(v_i) (c_i(u) - g(v_i)),   r = a_0(w) r_i + a_1(w) r_(i+1)
+//
+// with a_0 = 1 - 3 w^2 + 2 w^3, a_1 = 1 - a_0 between v_i and v_(i+1). (The printed g(v) in place of g(v_i) would miss
+// the curves.) Sections in the frame's own coordinates do not ask where they come from: the blend is of these.
+struct GuidedLoft {
+  CurvePtr guide, across;
+  Family sections;
+
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    Triple<T> p{T(0), T(0), T(0)};
+    for (size_t i = 0; i < sections.curves.size(); ++i)
+      p += curve_at(*sections.functions[i], v).x * curve_at(*sections.curves[i], u);
+    const Triple<T> along = curve_at(*guide, v, 1), n = curve_at(*across, v);
+    const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
+    return curve_at(*guide, v) + (p.x * n + p.y * b + p.z * t);
+  }
+};
+
+// 1 at the node, 0 at the others, between by a_0 and a_1: derivatives vanish at the nodes.
+CurvePtr step_at(const std::vector<double>& nodes, size_t node) {
+  NurbsCurveForm form;
+  form.degree = 3;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const bool end = i == 0 || i + 1 == nodes.size();
+    form.knots.insert(form.knots.end(), end ? 4 : 2, nodes[i]);
+    form.points.insert(form.points.end(), 2, Vec4(i == node ? 1 : 0, 0, 0, 1));
+  }
+  return std::make_shared<NurbsCurve>(form);
+}
+
+std::vector<double> read_places(const Fields& f, size_t count, const Curve& guide) {
+  const std::vector<double>& at = f.numbers("at_v");
+  if (at.size() != count) throw FieldError("at_v", fmt::format("{} values for {} curves", at.size(), count));
+  for (size_t i = 0; i < count; ++i) {
+    if (i > 0 && !(at[i] > at[i - 1]))
+      throw FieldError("at_v", fmt::format("value {} is not greater than the one before", i), "they increase");
+    if (!guide.domain().contains(at[i]))
+      throw FieldError("at_v", fmt::format("value {} lies outside of the guide's {:.6g} to {:.6g}", i,
+                                           guide.domain().lo, guide.domain().hi));
+  }
+  return at;
+}
+
+std::any guided_loft(const Fields& f) {
+  const std::vector<CurvePtr> curves = read_family(f, "of");
+  const CurvePtr guide = f.curve("along");
+  const std::vector<double> at = read_places(f, curves.size(), *guide);
+  GuidedLoft formula{guide, direction_across(*guide, read_frame(f)), {}};
+  SurfaceMakeup makeup = makeup_along_u(*curves.front(), {at.front(), at.back()});
+  for (size_t i = 0; i < curves.size(); ++i) {
+    const CurveJet here = guide->evaluate(at[i], 1);
+    const Vec3 t = glm::normalize(here.d[1]), n = formula.across->point(at[i]);
+    const Frame frame{here.d[0], n, glm::cross(t, n), t};
+    formula.sections.curves.push_back(
+        std::make_shared<ComposedCurve<InFrame>>(InFrame{curves[i], frame}, makeup_of(*curves[i])));
+    formula.sections.functions.push_back(step_at(at, i));
+    add_operand(makeup, *curves[i], Along::u);
+    if (curves[i]->period() != curves.front()->period()) makeup.periods.u = 0;
+  }
+  CurveMakeup along = makeup_of(*guide, 1);
+  add_operand(along, *formula.across);
+  cut_to(along, {at.front(), at.back()});
+  add_operand(along, *formula.sections.functions.front());
+  makeup.breaks_v = along.breaks;
+  makeup.max_order = std::min(makeup.max_order, along.max_order);
+  makeup.enclosure_order = std::min(makeup.enclosure_order, along.enclosure_order);
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<GuidedLoft>>(std::move(formula), std::move(makeup))));
+}
+
 bool is_periodic(const Surface& surface) {
   const Rectangle domain = surface.domain();
   const double near = 1e-9 * bounds(surface).diameter();
@@ -147,7 +221,30 @@ std::any sweep(const Fields& f) {
   return std::any(SurfacePtr(std::make_shared<ComposedSurface<Sweep>>(std::move(surface))));
 }
 
+FieldType frame_kind() {
+  return group({{"fixed", direction(), "the normal is as near as possible to this direction", true, {}}})
+      .or_word({"rotation_minimizing", "frenet"});
+}
+
 }  // namespace
+
+TypeDeclaration guided_loft_type() {
+  return declare(Category::surface, "guided_loft",
+                 "Surface through curves that stand along a guide: the guide's frame carries each to its neighbours, "
+                 "and between two they are blended smoothly. u is the curves' parameter, v the guide's.")
+      .example(
+          "of: [{ type: circle, radius: 0.5, center: [2, 0, 0], normal: y }, { type: circle, radius: 1, center: "
+          "[0, 2, 0], normal: -x }], along: { type: circle, radius: 2 }, at_v: [0, 90 deg], frame: { fixed: z }")
+      .field("of", references({Category::curve}), "the curves in their order, where they stand")
+      .field("along", reference({Category::curve}), "the guide; smooth")
+      .field("at_v", numbers(), "the guide's parameter at each curve, increasing")
+      .field("frame", frame_kind(),
+             "how the guide's frame turns: no more than it must, as the guide's normal and binormal, or { fixed: "
+             "direction }",
+             "rotation_minimizing")
+      .field("match", choice({"parameter", "arc_length"}), "which points of the curves belong together", "parameter")
+      .built_by(guided_loft);
+}
 
 TypeDeclaration sweep_surface_type() {
   return declare(
@@ -164,9 +261,7 @@ TypeDeclaration sweep_surface_type() {
                 groups({{"s", number().between(0, 1), "fraction of the path's length, 0..1", true, {}},
                         {"section", reference({Category::curve}), "the curve there", true, {}}}),
                 "several in place of one, the first at s: 0, the last at s: 1; between them the shape changes smoothly")
-      .field("frame",
-             group({{"fixed", direction(), "the normal is as near as possible to this direction", true, {}}})
-                 .or_word({"rotation_minimizing", "frenet"}),
+      .field("frame", frame_kind(),
              "how it turns: about the path no more than it must (and closing with a closed path), as the path's normal "
              "and "
              "binormal, or { fixed: direction }",
