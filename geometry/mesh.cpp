@@ -58,14 +58,15 @@ MeshSides sides(const Mesh& mesh) {
   };
   std::unordered_map<uint64_t, Uses> used;
   used.reserve(2 * mesh.triangles.size());
+  MeshSides result;
   for (const Mesh::Triangle& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = t.point[k], b = t.point[(k + 1) % 3];
       Uses& uses = used[(static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b)];
+      if (uses.up + uses.down == 0) result.length += glm::length(mesh.points[a] - mesh.points[b]);
       ++(a < b ? uses.up : uses.down);
     }
   }
-  MeshSides result;
   result.count = used.size();
   for (const auto& [side, uses] : used) {
     if (uses.up + uses.down == 1)

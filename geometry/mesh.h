@@ -37,6 +37,7 @@ struct MeshSides {
   size_t free = 0;     // of one triangle
   size_t turned = 0;   // of two triangles, one of which is turned: both run the same way
   size_t crowded = 0;  // of more than two
+  double length = 0;   // of all, each once
   bool closed() const { return free + turned + crowded == 0; }
 };
 MeshSides sides(const Mesh& mesh);

@@ -109,6 +109,7 @@ ordered_json mesh_topology(const Mesh& mesh) {
   out["sides"] = sides.count;
   put_open_sides(out, sides);
   out["triangles"] = mesh.triangles.size();
+  out["length_of_sides"] = sides.length;
   return out;
 }
 

@@ -67,7 +67,11 @@ class Sorting {
     // Of two triangles that run along their side the same way one is turned round.
     const Vec3 m = one.backwards == other.backwards ? -normal_of(other.triangle) : normal_of(other.triangle);
     const double angle = std::atan2(glm::length(glm::cross(n, m)), glm::dot(n, m));
-    if (angle < kOnePlane) return {};
+    // Within one plane there is a line only between faces.
+    if (angle < kOnePlane) {
+      if (mesh_.triangles[one.triangle].face == mesh_.triangles[other.triangle].face) return {};
+      return {MeshLineKind::smooth};
+    }
     if (angle > kCreaseAngle || !share_normals(side)) return {MeshLineKind::sharp};
     if (faces_viewer(n, side) != faces_viewer(m, side)) return {MeshLineKind::smooth, MeshLineKind::silhouette};
     return {MeshLineKind::smooth};

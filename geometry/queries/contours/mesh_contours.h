@@ -14,7 +14,7 @@ namespace lekalo::geometry {
 enum class MeshLineKind {
   boundary,  // a side of one triangle
   sharp,   // where normals of the corners differ, or triangles meet at more than kCreaseAngle; sides of three and more
-  smooth,  // other sides
+  smooth,  // other sides; within a plane those between faces
   silhouette  // smooth sides between a triangle that faces the viewer and one that does not
 };
 

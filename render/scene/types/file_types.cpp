@@ -1,5 +1,5 @@
-// The geometry types that come from files: one line each; their readers belong to this folder because geometry knows no
-// files.
+// The geometry types that come from files, and meshes: one line each; their readers belong to this folder because
+// geometry knows no files.
 #include "geometry/describe.h"
 #include "geometry/surfaces/splines/patches.h"
 #include "render/model/model.h"
@@ -7,7 +7,8 @@
 
 #define LEKALO_FILE_TYPES(X) \
   X(patches_type)            \
-  X(mesh_type)
+  X(mesh_type)               \
+  X(triangulation_type)
 
 namespace lekalo::render {
 
@@ -29,6 +30,7 @@ TypeDeclaration patches_type() {
 }
 
 TypeDeclaration mesh_type();
+TypeDeclaration triangulation_type();
 
 #define CALL(type) type(),
 std::vector<TypeDeclaration> file_types() { return {LEKALO_FILE_TYPES(CALL)}; }

@@ -1,0 +1,267 @@
+#include "geometry/tessellation/planar_triangulations.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "geometry/tessellation/predicates.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+using Edge = std::pair<int, int>;  // smaller index first
+
+Edge edge(int a, int b) { return std::minmax(a, b); }
+
+// Whether c, on the line of a and b, lies between them.
+bool is_between(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return orient2d(a, b, c) == 0 && glm::dot(c - a, c - b) < 0;
+}
+
+// Whether two segments have more in common than end points.
+bool cross(std::span<const Vec2> p, const Edge& s, const Edge& t) {
+  const Vec2 &a = p[s.first], &b = p[s.second], &c = p[t.first], &d = p[t.second];
+  if (s == t || is_between(a, b, c) || is_between(a, b, d) || is_between(c, d, a) || is_between(c, d, b)) return true;
+  const double c_side = orient2d(a, b, c), d_side = orient2d(a, b, d);
+  const double a_side = orient2d(c, d, a), b_side = orient2d(c, d, b);
+  return ((c_side > 0 && d_side < 0) || (c_side < 0 && d_side > 0)) &&
+         ((a_side > 0 && b_side < 0) || (a_side < 0 && b_side > 0));
+}
+
+std::vector<int> distinct(std::span<const Vec2> points) {
+  std::map<std::pair<double, double>, int> first;
+  std::vector<int> result;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+    if (first.emplace(std::pair(points[i].x, points[i].y), i).second) result.push_back(i);
+  return result;
+}
+
+bool encloses(std::span<const Vec2> p, const IndexTriangle& t, const std::vector<int>& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(), [&](int v) {
+    if (v == t[0] || v == t[1] || v == t[2]) return false;
+    return orient2d(p[t[0]], p[t[1]], p[v]) > 0 && orient2d(p[t[1]], p[t[2]], p[v]) > 0 &&
+           orient2d(p[t[2]], p[t[0]], p[v]) > 0;
+  });
+}
+
+// The empty triangles that edges make.
+std::vector<IndexTriangle> triangles_of(std::span<const Vec2> p, const std::set<Edge>& edges,
+                                        const std::vector<int>& vertices) {
+  std::vector<IndexTriangle> result;
+  for (const auto& [a, b] : edges)
+    for (const int c : vertices) {
+      if (c < b || !edges.count(edge(a, c)) || !edges.count(edge(b, c))) continue;
+      const double side = orient2d(p[a], p[b], p[c]);
+      const IndexTriangle t = side > 0 ? IndexTriangle{a, b, c} : IndexTriangle{a, c, b};
+      if (side != 0 && !encloses(p, t, vertices)) result.push_back(t);
+    }
+  return result;
+}
+
+// Triangles by their sides in the direction in which they run.
+std::map<Edge, int> corner_over(const std::vector<IndexTriangle>& triangles) {
+  std::map<Edge, int> result;
+  for (const IndexTriangle& t : triangles)
+    for (size_t k = 0; k < 3; ++k) result[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
+  return result;
+}
+
+// A diagonal a b that may become c d: c left of it, d right.
+struct Flip {
+  int a, b, c, d;
+};
+
+std::vector<Flip> possible_flips(std::span<const Vec2> p, const std::vector<IndexTriangle>& triangles) {
+  const std::map<Edge, int> corners = corner_over(triangles);
+  std::vector<Flip> result;
+  for (const auto& [side, c] : corners) {
+    const auto [a, b] = side;
+    const auto other = corners.find({b, a});
+    if (a > b || other == corners.end()) continue;
+    const int d = other->second;
+    if (orient2d(p[c], p[d], p[b]) > 0 && orient2d(p[c], p[d], p[a]) < 0) result.push_back({a, b, c, d});
+  }
+  return result;
+}
+
+IndexTriangle from_least(int a, int b, int c) {
+  IndexTriangle t{a, b, c};
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+// In a normal form: sorted.
+std::vector<IndexTriangle> flipped(std::vector<IndexTriangle> triangles, const Flip& f) {
+  for (IndexTriangle& t : triangles) t = from_least(t[0], t[1], t[2]);
+  const IndexTriangle left = from_least(f.a, f.b, f.c), right = from_least(f.b, f.a, f.d);
+  std::replace(triangles.begin(), triangles.end(), left, from_least(f.a, f.d, f.c));
+  std::replace(triangles.begin(), triangles.end(), right, from_least(f.b, f.c, f.d));
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+double length_of_edges(std::span<const Vec2> p, const std::vector<IndexTriangle>& triangles) {
+  std::set<Edge> edges;
+  for (const IndexTriangle& t : triangles)
+    for (size_t k = 0; k < 3; ++k) edges.insert(edge(t[k], t[(k + 1) % 3]));
+  double sum = 0;
+  for (const auto& [a, b] : edges) sum += glm::length(p[a] - p[b]);
+  return sum;
+}
+
+// The front of algorithm 5: directed edges with the region on their left, and the vertices that may still be joined.
+class Front {
+ public:
+  Front(std::span<const Vec2> points, const std::vector<std::vector<int>>& polygons) : points_(points) {
+    std::set<int> on_polygons;
+    for (const std::vector<int>& polygon : polygons)
+      for (size_t i = 0; i < polygon.size(); ++i) {
+        active_.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+        on_polygons.insert(polygon[i]);
+      }
+    // The region's own triangles tell which points lie inside, and that polygons are in order.
+    for (const IndexTriangle& t : triangulate(points, polygons)) vertices_.insert(t.begin(), t.end());
+    if (vertices_.empty()) throw std::invalid_argument("the polygons have no region on their left");
+    for (const int v : vertices_)
+      if (!on_polygons.count(v)) inner_.insert(v);
+  }
+
+  bool is_done() const { return active_.empty(); }
+
+  // One triangle over the first edge that allows one with its nearest vertex, else with any.
+  IndexTriangle advance() {
+    for (const bool nearest_alone : {true, false})
+      for (size_t i = 0; i < active_.size(); ++i)
+        for (const int v : candidates(active_[i])) {
+          if (is_possible(active_[i], v)) return build(i, v);
+          if (nearest_alone) break;
+        }
+    throw std::invalid_argument("the polygons leave a region that has no triangles: they touch or cross");
+  }
+
+ private:
+  // Active vertices left of an edge, the nearest first; ties by index.
+  std::vector<int> candidates(const Edge& e) const {
+    std::vector<std::pair<double, int>> found;
+    for (const int v : vertices_)
+      if (orient2d(points_[e.first], points_[e.second], points_[v]) > 0)
+        found.push_back({circumcenter_parameter(points_[e.first], points_[e.second], points_[v]), v});
+    std::sort(found.begin(), found.end());
+    std::vector<int> result;
+    for (const auto& [t, v] : found) result.push_back(v);
+    return result;
+  }
+
+  bool is_possible(const Edge& e, int v) const {
+    if (encloses(points_, {e.first, e.second, v}, {vertices_.begin(), vertices_.end()})) return false;
+    for (const Edge& side : {Edge(e.second, v), Edge(v, e.first)}) {
+      if (is_active(side)) continue;
+      for (const Edge& other : active_)
+        if (edge(other.first, other.second) == edge(side.first, side.second) || cross(points_, side, other))
+          return false;
+      for (const int inner : inner_)
+        if (is_between(points_[side.first], points_[side.second], points_[inner])) return false;
+    }
+    return true;
+  }
+
+  bool is_active(const Edge& e) const { return std::find(active_.begin(), active_.end(), e) != active_.end(); }
+
+  IndexTriangle build(size_t i, int v) {
+    const auto [a, b] = active_[i];
+    active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
+    inner_.erase(v);
+    // Sides b v and v a of the triangle: on the front they end there, else the front goes on along their other side.
+    for (const Edge& side : {Edge(b, v), Edge(v, a)}) {
+      const auto found = std::find(active_.begin(), active_.end(), side);
+      if (found != active_.end())
+        active_.erase(found);
+      else
+        active_.push_back({side.second, side.first});
+    }
+    // A vertex counts no more when no active edge meets it.
+    for (const int w : {a, b, v})
+      if (std::none_of(active_.begin(), active_.end(), [&](const Edge& e) { return e.first == w || e.second == w; }))
+        vertices_.erase(w);
+    return {a, b, v};
+  }
+
+  std::span<const Vec2> points_;
+  std::vector<Edge> active_;
+  std::set<int> vertices_, inner_;
+};
+
+}  // namespace
+
+double circumcenter_parameter(const Vec2& a, const Vec2& b, const Vec2& v) {
+  const Vec2 from_a = v - a, from_b = v - b, side = b - a;
+  const double area = from_b.y * side.x - from_b.x * side.y;
+  return area == 0 ? kInfinity : 0.5 * glm::dot(from_b, from_a) / area;
+}
+
+std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points) {
+  const std::vector<int> vertices = distinct(points);
+  std::vector<std::pair<double, Edge>> pairs;
+  for (const int a : vertices)
+    for (const int b : vertices)
+      if (a < b) pairs.push_back({glm::length(points[a] - points[b]), {a, b}});
+  std::sort(pairs.begin(), pairs.end());
+  std::set<Edge> edges;
+  for (const auto& [length, e] : pairs) {
+    const bool free =
+        std::none_of(edges.begin(), edges.end(), [&, &e = e](const Edge& o) { return cross(points, e, o); });
+    const bool passes = std::any_of(vertices.begin(), vertices.end(), [&, &e = e](int v) {
+      return is_between(points[e.first], points[e.second], points[v]);
+    });
+    if (free && !passes) edges.insert(e);
+  }
+  return triangles_of(points, edges, vertices);
+}
+
+std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points) {
+  if (points.size() > kMaxOptimalPoints)
+    throw std::invalid_argument(
+        "the optimal triangulation is sought among all: that takes too long for so many points");
+  std::vector<IndexTriangle> start = greedy_triangulation(points);
+  for (IndexTriangle& t : start) t = from_least(t[0], t[1], t[2]);
+  std::sort(start.begin(), start.end());
+  std::set<std::vector<IndexTriangle>> known{start};
+  std::vector<std::vector<IndexTriangle>> waiting{start};
+  std::pair<double, std::vector<IndexTriangle>> best{length_of_edges(points, start), start};
+  while (!waiting.empty()) {
+    const std::vector<IndexTriangle> here = std::move(waiting.back());
+    waiting.pop_back();
+    for (const Flip& flip : possible_flips(points, here)) {
+      std::vector<IndexTriangle> next = flipped(here, flip);
+      if (!known.insert(next).second) continue;
+      best = std::min(best, {length_of_edges(points, next), next});
+      waiting.push_back(std::move(next));
+    }
+  }
+  return best.second;
+}
+
+std::vector<IndexTriangle> triangulation_by_flips(std::span<const Vec2> points, std::optional<int> steps) {
+  std::vector<IndexTriangle> result = greedy_triangulation(points);
+  for (int done = 0; !steps || done < *steps; ++done) {
+    const std::vector<Flip> flips = possible_flips(points, result);
+    const auto bad = std::find_if(flips.begin(), flips.end(), [&](const Flip& f) {
+      return surely_in_circle(points[f.a], points[f.b], points[f.c], points[f.d]);
+    });
+    if (bad == flips.end()) break;
+    result = flipped(std::move(result), *bad);
+  }
+  return result;
+}
+
+std::vector<IndexTriangle> advancing_front(std::span<const Vec2> points, const std::vector<std::vector<int>>& polygons,
+                                           std::optional<int> steps) {
+  Front front(points, polygons);
+  std::vector<IndexTriangle> result;
+  while (!front.is_done() && (!steps || static_cast<int>(result.size()) < *steps)) result.push_back(front.advance());
+  return result;
+}
+
+}  // namespace lekalo::geometry
