@@ -41,6 +41,7 @@
   X(intersection_curve_type)      \
   X(self_intersection_curve_type) \
   X(section_curve_type)           \
+  X(normal_section_type)          \
   X(silhouette_curve_type)        \
   X(isophote_curve_type)          \
   X(reflection_line_type)         \
