@@ -14,7 +14,7 @@ ROWS = {"golovanov": 379, "zavyalov_splines": 69, "zavyalov_visualisation": 35, 
 
 # What rows speak of, in words of their titles, and the kinds of types that can provide it.
 SPOKEN = [(r"\bcurves?\b", {"curves", "helpers", "objects", "annotations"}),
-          (r"\bsurfaces?\b", {"surfaces", "curves", "bodies", "shapes", "helpers", "objects", "materials", "textures"}),
+          (r"\b(surfaces?|loft)\b", {"surfaces", "curves", "bodies", "shapes", "helpers", "objects", "materials", "textures"}),
           (r"\bbod(y|ies)\b", {"bodies", "shapes", "objects"}),
           (r"\b(mesh|triangulation)", {"meshes", "objects"}),
           (r"\b(lights?|shadows?)\b", {"lights", "integrators", "materials"})]
