@@ -28,6 +28,11 @@
   X(bilinear_surface_type)       \
   X(coons_surface_type)          \
   X(gordon_type)                 \
+  X(hermite_surface_type)        \
+  X(spline_surface_type)         \
+  X(bezier_triangle_type)        \
+  X(triangle_surface_type)       \
+  X(transfinite_triangle_type)   \
   X(ribbon_type)
 
 namespace lekalo::geometry {

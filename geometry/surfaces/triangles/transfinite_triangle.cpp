@@ -1,0 +1,103 @@
+// Surfaces on three curves (Golovanov 2016, 3.10.11), c_1 from p_3 to p_2 (side a = 0), c_2 from p_1 to p_3 (b = 0),
+// c_3 from p_2 to p_1 (c = 0), each over 0..1:
+//
+//   r = a (c_3(1 - b) + c_2(c) - p_1) + b (c_1(1 - c) + c_3(a) - p_2) + c (c_2(1 - a) + c_1(b) - p_3)
+//
+// It has no quadratic precision: over short arcs it bulges by a third too much. `balanced` takes that off,
+//
+//   r - 4abc (c_1(1/2) + c_2(1/2) + c_3(1/2) - p_1 - p_2 - p_3)
+//
+// over the square a = u, b = (1 - u) v, c = (1 - u)(1 - v): the edge u = 1 is p_1.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "geometry/composition.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/describe.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+struct OnThreeCurves {
+  std::array<CurvePtr, 3> c;
+  std::array<Vec3, 3> p;
+  Vec3 correction{0};  // times -4abc
+
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    const T a = u, b = (1.0 - u) * v, d = (1.0 - u) * (1.0 - v);
+    const auto at = [&](int k, const T& t) { return curve_at(*c[k], t); };
+    return a * (at(2, 1.0 - b) + at(1, d) - triple(p[0])) + b * (at(0, 1.0 - d) + at(2, a) - triple(p[1])) +
+           d * (at(1, 1.0 - a) + at(0, b) - triple(p[2])) - (a * b * d) * triple(4.0 * correction);
+  }
+};
+
+// Curves meet to this part of their size.
+constexpr double kMeeting = 1e-7;
+
+CurvePtr over_unit(const CurvePtr& curve) {
+  if (!(curve->domain().width() < kInfinity)) throw FieldError("of", "a curve is unbounded", "give it a domain");
+  return curve->domain() == Interval(0, 1) ? curve : with_domain(curve, {0, 1});
+}
+
+// The curves in one round: each, turned where needed, begins where the one before ended.
+std::array<CurvePtr, 3> in_a_round(const Fields& f) {
+  std::vector<CurvePtr> given;
+  Box3 box;
+  for (const std::any& one : f.references("of")) {
+    given.push_back(over_unit(std::any_cast<CurvePtr>(one)));
+    box.include(bounds(*given.back()));
+  }
+  if (given.size() != 3) throw FieldError("of", fmt::format("three curves are needed, not {}", given.size()));
+  const double near = kMeeting * box.diameter();
+  const auto meet = [&](const Vec3& a, const Vec3& b) { return glm::length(a - b) <= near; };
+  for (const int turned : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    std::array<CurvePtr, 3> c;
+    for (int k = 0; k < 3; ++k) c[k] = turned >> k & 1 ? reversed_curve(given[k]) : given[k];
+    bool closed = true;
+    for (int k = 0; k < 3; ++k) closed = closed && meet(c[k]->point(0), c[(k + 1) % 3]->point(1));
+    if (closed) return c;
+  }
+  throw FieldError("of", "the curves do not meet in three corners",
+                   "their ends must coincide in pairs; any direction will do");
+}
+
+std::any on_three_curves(const Fields& f) {
+  OnThreeCurves formula;
+  formula.c = in_a_round(f);
+  // c_1 ends at p_2, where c_3 begins, ...
+  for (int k = 0; k < 3; ++k) formula.p[k] = formula.c[(k + 1) % 3]->point(0);
+  if (f.text("method") == "balanced")
+    for (int k = 0; k < 3; ++k) formula.correction += formula.c[k]->point(0.5) - formula.p[k];
+  SurfaceMakeup makeup{{{0, 1}, {0, 1}}, {}, {0, 1}, {0, 1}};
+  for (const CurvePtr& curve : formula.c) {
+    makeup.max_order = std::min(makeup.max_order, curve->max_order());
+    makeup.enclosure_order = std::min(makeup.enclosure_order, curve->enclosure_order());
+    if (curve->pieces().size() > 1)
+      throw FieldError("of", "a curve has several pieces, whose joints would be kinks across the surface",
+                       "take curves of one piece: arcs, formulas, Bezier curves");
+  }
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<OnThreeCurves>>(formula, makeup)));
+}
+
+}  // namespace
+
+TypeDeclaration transfinite_triangle_type() {
+  return declare(Category::surface, "transfinite_triangle",
+                 "Surface on three curves that meet in three corners. Over the square: u is the barycentric coordinate "
+                 "of the first corner, where the second and third curve meet and u = 1 is a pole; v is b/(b + c).")
+      .field("of", references({Category::curve}),
+             "three curves of one smooth piece each, in any direction; the first is opposite to the first corner")
+      .field("method", choice({"plain", "balanced"}),
+             "plain: the sum of three ruled surfaces, which bulges by a third too much on shallow arcs; balanced: with "
+             "that taken off, exact for parabolas",
+             "plain")
+      .example(
+          "of: [{ type: segment, from: [0, 0, 1], to: [0, 1, 0] }, { type: circle, normal: -y, arc: [0, 90] }, "
+          "{ type: segment, from: [0, 1, 0], to: [1, 0, 0] }]")
+      .built_by(on_three_curves);
+}
+
+}  // namespace lekalo::geometry
