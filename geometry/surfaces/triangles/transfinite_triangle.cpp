@@ -95,8 +95,9 @@ TypeDeclaration transfinite_triangle_type() {
              "that taken off, exact for parabolas",
              "plain")
       .example(
-          "of: [{ type: segment, from: [0, 0, 1], to: [0, 1, 0] }, { type: circle, normal: -y, arc: [0, 90] }, "
-          "{ type: segment, from: [0, 1, 0], to: [1, 0, 0] }]")
+          "of: [{ type: segment, from: [0, 0, 1], to: [0, 1, 0] }, { type: bezier_curve, points: [[0, 0, 1], [1, 0, "
+          "1], "
+          "[1, 0, 0]] }, { type: segment, from: [0, 1, 0], to: [1, 0, 0] }]")
       .built_by(on_three_curves);
 }
 
