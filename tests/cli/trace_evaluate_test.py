@@ -73,6 +73,18 @@ class TraceThenEvaluate(ProgramTest):
                 met.add(name)
         self.assertEqual(met, set(names))
 
+    def test_table_of_parameters(self):
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  c: { type: circle, radius: 2 }\n"
+                   "  ball: { type: sphere_surface, radius: 2 }\n")
+        self.write("t.csv", "t\n0\n0.5\n1\n")
+        self.write("uv.csv", "0, 0.5\n1, 0.25\n")
+        rows = self.json_of("evaluate", "scene.yaml", "c", "--table", "t.csv")["rows"]
+        self.assertEqual(rows, [self.json_of("evaluate", "scene.yaml", "c", "--at", at) for at in ("0", "0.5", "1")])
+        rows = self.json_of("evaluate", "scene.yaml", "ball", "--table", "uv.csv")["rows"]
+        self.assertEqual(rows[1], self.json_of("evaluate", "scene.yaml", "ball", "--at", "1,0.25"))
+        self.run_program("evaluate", "scene.yaml", "ball", "--table", "t.csv", code=2)
+        self.run_program("evaluate", "scene.yaml", "c", "--at", "0", "--table", "t.csv", code=2)
+
     def test_every_type_is_here(self):
         listed = (ROOT / "geometry/surfaces/all.cpp").read_text().split("namespace")[0]
         self.assertEqual(sorted(SURFACES), sorted(re.findall(r"X\((\w+)_type\)", listed)))

@@ -120,7 +120,7 @@ void print(const ordered_json& out) {
 
 struct Options {
   SceneOptions scene;
-  std::string name, at, face, divided_difference;
+  std::string name, at, table, face, divided_difference;
   std::vector<std::string> on, along;
   double share = 0.5;
   int order = 2;
@@ -179,41 +179,75 @@ std::vector<geometry::Vec2> directions_of(const Options& options) {
   return result;
 }
 
+ordered_json divided_differences_of(const render::Entity& entity, const Options& options) {
+  const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
+  if (!curve) throw UsageError(fmt::format("'{}' is no curve: divided differences are those of curves", options.name));
+  const std::vector<double> nodes = parse_numbers(options.divided_difference, 0, "--divided-difference");
+  for (const double t : nodes) note_outside("t", t, (*curve)->domain(), (*curve)->period());
+  return differences_of(**curve, nodes);
+}
+
+// At the parameter of a curve, or those of a surface.
+ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity& entity, const Options& options,
+                         const std::vector<double>& at) {
+  if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+    note_outside("t", at[0], (*curve)->domain(), (*curve)->period());
+    ordered_json out = evaluate_curve(**curve, at[0], options.order);
+    if (options.placement || !options.on.empty()) out["placement"] = placement_of(scene, **curve, at[0], options);
+    return out;
+  }
+  const geometry::SurfacePtr surface = surface_of(entity, options);
+  note_outside("u", at[0], surface->domain().u, surface->periods().u);
+  note_outside("v", at[1], surface->domain().v, surface->periods().v);
+  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options));
+}
+
+// At each row of a table.
+ordered_json evaluate_table(const render::LoadedScene& scene, const render::Entity& entity, const Options& options) {
+  const render::Table table = load_table(options.table);
+  const size_t count = std::holds_alternative<geometry::CurvePtr>(entity) ? 1 : 2;
+  if (table.column_count != count)
+    throw UsageError(fmt::format("{}: a row is {}; these rows have {} numbers", options.table,
+                                 count == 1 ? "the parameter of the curve" : "u and v", table.column_count));
+  ordered_json rows = ordered_json::array();
+  for (size_t row = 0; row < table.row_count(); ++row) {
+    std::vector<double> at;
+    for (size_t k = 0; k < count; ++k) at.push_back(table.at(row, k));
+    rows.push_back(evaluate_at(scene, entity, options, at));
+  }
+  return {{"rows", rows}};
+}
+
 int run(const Options& options) {
-  if (options.at.empty() == options.divided_difference.empty())
+  if (!options.at.empty() + !options.divided_difference.empty() + !options.table.empty() != 1)
     throw UsageError(
-        "evaluate takes --at T or --at U,V, or of a curve --divided-difference T,T,..\n"
+        "evaluate takes --at T or --at U,V, --table FILE, or of a curve --divided-difference T,T,..\n"
         "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
-  if (!options.along.empty() && std::holds_alternative<geometry::CurvePtr>(entity))
-    throw UsageError("--along belongs to surfaces");
+  const bool is_curve = std::holds_alternative<geometry::CurvePtr>(entity);
+  if (!options.along.empty() && is_curve) throw UsageError("--along belongs to surfaces");
+  if (options.divided_difference.empty() && !is_curve && (options.placement || !options.on.empty()))
+    throw UsageError("--placement and --on belong to curves");
   ordered_json out;
-  if (!options.divided_difference.empty()) {
-    const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
-    if (!curve)
-      throw UsageError(fmt::format("'{}' is no curve: divided differences are those of curves", options.name));
-    const std::vector<double> nodes = parse_numbers(options.divided_difference, 0, "--divided-difference");
-    for (const double t : nodes) note_outside("t", t, (*curve)->domain(), (*curve)->period());
-    out = differences_of(**curve, nodes);
-  } else if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
-    const double t = parse_numbers(options.at, 1, "--at of a curve")[0];
-    note_outside("t", t, (*curve)->domain(), (*curve)->period());
-    out = evaluate_curve(**curve, t, options.order);
-    if (options.placement || !options.on.empty()) out["placement"] = placement_of(scene, **curve, t, options);
-  } else {
-    if (options.placement || !options.on.empty()) throw UsageError("--placement and --on belong to curves");
-    const geometry::SurfacePtr surface = surface_of(entity, options);
-    const std::vector<double> uv = parse_numbers(options.at, 2, "--at of a surface");
-    note_outside("u", uv[0], surface->domain().u, surface->periods().u);
-    note_outside("v", uv[1], surface->domain().v, surface->periods().v);
-    out = evaluate_surface(*surface, {uv[0], uv[1]}, directions_of(options));
-  }
-  demand_finite(out);
-  if (options.json)
-    fmt::print("{}\n", out.dump(2));
+  if (!options.divided_difference.empty())
+    out = divided_differences_of(entity, options);
+  else if (!options.table.empty())
+    out = evaluate_table(scene, entity, options);
   else
+    out = evaluate_at(scene, entity, options,
+                      parse_numbers(options.at, is_curve ? 1 : 2, is_curve ? "--at of a curve" : "--at of a surface"));
+  demand_finite(out);
+  if (options.json) {
+    fmt::print("{}\n", out.dump(2));
+  } else if (out.contains("rows")) {
+    for (const auto& row : out["rows"]) {
+      if (&row != &out["rows"][0]) fmt::print("\n");
+      print(row);
+    }
+  } else {
     print(out);
+  }
   return kDone;
 }
 
@@ -237,6 +271,7 @@ void add_evaluate(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
   sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->type_name("T|U,V");
+  sub->add_option("--table", options->table, "at each row of a table: t, or u and v")->type_name("FILE");
   sub->add_option("--divided-difference", options->divided_difference,
                   "of a curve its divided differences over these nodes instead")
       ->type_name("T,T,..");
