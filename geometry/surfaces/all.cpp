@@ -33,7 +33,8 @@
   X(bezier_triangle_type)        \
   X(triangle_surface_type)       \
   X(transfinite_triangle_type)   \
-  X(ribbon_type)
+  X(ribbon_type)                 \
+  X(vintoid_type)
 
 namespace lekalo::geometry {
 

@@ -1,0 +1,116 @@
+// Grezdov, Filippenko 2010 names the figures and gives no formulas. a, b, c are sizes, e and k the height and number of
+// waves, h the rise of one turn, n turns, p and q how often a knot goes round its axis and its centre circle.
+#include "geometry/surfaces/named/vintoid_presets.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+std::vector<VintoidPreset> made() {
+  const std::string_view turn = "2*pi", turns = "2*pi*n";
+  return {
+      {"spheroid",
+       "cos(t)",
+       "sin(t)",
+       "-pi/2",
+       "pi/2",
+       false,
+       "0",
+       "0",
+       "0",
+       "a*(1 + e*cos(k*u))",
+       "b",
+       turn,
+       {{"a", 1}, {"b", 1}, {"e", 0}, {"k", 6}}},
+      {"ring", "cos(t)", "sin(t)", "0", "2*pi", true, "a", "0", "0", "b", "c", turn, {{"a", 3}, {"b", 0.3}, {"c", 1}}},
+      {"toroid",
+       "b*cos(t)",
+       "c*sin(t)",
+       "0",
+       "2*pi",
+       true,
+       "a",
+       "0",
+       "n*u/2",
+       "1 + e*cos(k*u)",
+       "1 + e*cos(k*u)",
+       turn,
+       {{"a", 3}, {"b", 1}, {"c", 1}, {"e", 0}, {"k", 12}, {"n", 0}}},
+      {"knot",
+       "cos(t)",
+       "sin(t)",
+       "0",
+       "2*pi",
+       true,
+       "a + c*cos(q*u/p)",
+       "c*sin(q*u/p)",
+       "0",
+       "b",
+       "b",
+       "2*pi*p",
+       {{"a", 2}, {"b", 0.3}, {"c", 0.8}, {"p", 2}, {"q", 3}}},
+      {"screw",
+       "cos(t)",
+       "sin(t)",
+       "0",
+       "2*pi",
+       true,
+       "a",
+       "h*u/(2*pi)",
+       "0",
+       "b",
+       "b",
+       turns,
+       {{"a", 1}, {"b", 0.3}, {"h", 1}, {"n", 3}}},
+      {"shell",
+       "cos(t)",
+       "sin(t)",
+       "0",
+       "2*pi",
+       true,
+       "a*exp(k*u)",
+       "-c*exp(k*u)",
+       "0",
+       "b*exp(k*u)",
+       "b*exp(k*u)",
+       turns,
+       {{"a", 0.1}, {"b", 0.1}, {"c", 0.2}, {"k", 0.1}, {"n", 4}}},
+      {"helicoid",
+       "a*t",
+       "0",
+       "-1",
+       "1",
+       false,
+       "0",
+       "h*u/(2*pi)",
+       "0",
+       "1",
+       "1",
+       turns,
+       {{"a", 1}, {"h", 2}, {"n", 1}}},
+      {"cup",
+       "t",
+       "k*t^2",
+       "0",
+       "a",
+       false,
+       "0",
+       "0",
+       "0",
+       "1",
+       "1 + e*cos(n*u)",
+       turn,
+       {{"a", 1}, {"k", 1}, {"e", 0}, {"n", 6}}},
+      {"cone", "t", "k*t", "0", "a", false, "0", "0", "0", "1", "1", turn, {{"a", 1}, {"k", 2}}},
+      {"saddle", "t", "k*t^n", "0", "a", false, "0", "0", "0", "1", "cos(n*u)", turn, {{"a", 1}, {"k", 1}, {"n", 2}}},
+  };
+}
+
+}  // namespace
+
+std::span<const VintoidPreset> vintoid_presets() {
+  static const std::vector<VintoidPreset> presets = made();
+  return presets;
+}
+
+}  // namespace lekalo::geometry
