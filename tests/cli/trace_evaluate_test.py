@@ -44,6 +44,15 @@ SURFACES = {
     "gordon": "u_lines: [{ type: segment, from: [-1, -1], to: [2, -1] }, { type: formula_curve, point: [3*t - 1, 2, "
               "sin(pi*t)], domain: [0, 1] }], v_lines: [{ type: segment, from: [-1, -1], to: [-1, 2] }, { type: segment, "
               "from: [2, -1], to: [2, 2] }]",
+    "guided_loft": "along: { type: bezier_curve, points: [[0, 0, -1], [0.3, 0, 1], [0, 0, 2]] }, of: [{ type: circle, radius: 1, "
+                   "center: [0, 0, -1] }, { type: circle, radius: 1.4, center: [0, 0, 2] }], at_v: [0, 1]",
+    "hermite_surface": f"points: [{NET}]",
+    "spline_surface": f"points: [{NET}], degree: 2",
+    "bezier_triangle": "points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]]",
+    "triangle_surface": "points: [[-1, -1, 0], [3, 0, 1], [0, 3, 0.5]]",
+    "transfinite_triangle": "of: [{ type: segment, from: [-1, -1], to: [3, 0] }, { type: segment, from: [3, 0], to: [0, 3] }, "
+                            "{ type: segment, from: [0, 3], to: [-1, -1] }]",
+    "vintoid": "preset: toroid",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 

@@ -10,7 +10,7 @@ _lekalo() {
     --isa) words='sse2 avx2 avx512 native' ;;
     --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
     --format) words='pov obj ply stl json' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --ray | --filter | --jobs | --accept | --reason)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --along | --ray | --filter | --jobs | --accept | --reason)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;
@@ -26,7 +26,7 @@ _lekalo() {
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         check) words='--set --allow-external' ;;
         measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
-        evaluate) words='--at --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
+        evaluate) words='--at --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
         trace) words='--ray --rays --set --allow-external --json' ;;
         export) words='--format --sag --patch-steps --flatness -o --output --set --allow-external --quiet' ;;
         types) words='--markdown' ;;

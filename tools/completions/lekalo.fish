@@ -66,6 +66,8 @@ complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l face -x -d 'of a
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l regularity -d 'whether it is regular, with bounds'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l cells -x -d 'bounds of the diameters of cells'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l line -x -d 'of --cells, a line'
+complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l along -x -d 'direction in the parameters of a surface'
+complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l table -r -d 'table of parameters'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l on -x -d 'with the normal of a surface'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l share -x -d 'of two surfaces, that of the first'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l placement -d 'the matrix that places things there'
