@@ -66,6 +66,7 @@ class Library(External):
         theirs = self.json_of("evaluate", "kernel.yaml", "theirs", "--at", "0.7,2.1", ALLOW)
         ours = self.json_of("evaluate", "kernel.yaml", "ours", "--at", "0.7,2.1", ALLOW)
         self.assertEqual(theirs.pop("parameters"), ours.pop("parameters"))
+        self.assertEqual(theirs.pop("point_type"), ours.pop("point_type"))
         for key, value in ours.items():
             self.assert_near(theirs[key], value, 1e-15)
         border = self.json_of("evaluate", "kernel.yaml", "border", "--at", "2", "--order", 2, ALLOW)
