@@ -33,60 +33,60 @@ void join(std::vector<double>& breaks, const std::vector<double>& others) {
 
 }  // namespace
 
-CurveMakeup makeup_of(const Curve& operand, int derivatives) {
+CurveProperties properties_of(const Curve& operand, int derivatives) {
   return {operand.domain(), operand.period(), breaks_of(operand), operand.max_order() - derivatives,
           operand.enclosure_order() - derivatives};
 }
 
-void add_operand(CurveMakeup& makeup, const Curve& operand, int derivatives) {
-  join(makeup.breaks, breaks_of(operand));
-  makeup.max_order = std::min(makeup.max_order, operand.max_order() - derivatives);
-  makeup.enclosure_order = std::min(makeup.enclosure_order, operand.enclosure_order() - derivatives);
+void add_operand(CurveProperties& properties, const Curve& operand, int derivatives) {
+  join(properties.breaks, breaks_of(operand));
+  properties.max_order = std::min(properties.max_order, operand.max_order() - derivatives);
+  properties.enclosure_order = std::min(properties.enclosure_order, operand.enclosure_order() - derivatives);
 }
 
-void cut_to(CurveMakeup& makeup, const Interval& domain) {
+void cut_to(CurveProperties& properties, const Interval& domain) {
   std::vector<double> breaks{domain.lo};
   const double room = kSameBreak * domain.width();
-  for (const double t : makeup.breaks)
+  for (const double t : properties.breaks)
     if (domain.lo + room < t && t < domain.hi - room) breaks.push_back(t);
   breaks.push_back(domain.hi);
-  makeup.domain = domain;
-  makeup.breaks = std::move(breaks);
+  properties.domain = domain;
+  properties.breaks = std::move(breaks);
 }
 
-SurfaceMakeup makeup_of(const Surface& operand, int derivatives) {
-  SurfaceMakeup makeup;
-  makeup.domain = operand.domain();
-  makeup.periods = operand.periods();
-  makeup.breaks_u = {makeup.domain.u.lo, makeup.domain.u.hi};
-  makeup.breaks_v = {makeup.domain.v.lo, makeup.domain.v.hi};
+SurfaceProperties properties_of(const Surface& operand, int derivatives) {
+  SurfaceProperties properties;
+  properties.domain = operand.domain();
+  properties.periods = operand.periods();
+  properties.breaks_u = {properties.domain.u.lo, properties.domain.u.hi};
+  properties.breaks_v = {properties.domain.v.lo, properties.domain.v.hi};
   std::vector<double> lines_u, lines_v;
   for (const SurfacePiece& piece : operand.pieces()) {
     lines_u.push_back(piece.domain.u.lo);
     lines_v.push_back(piece.domain.v.lo);
   }
-  join(makeup.breaks_u, lines_u);
-  join(makeup.breaks_v, lines_v);
-  makeup.max_order = operand.max_order() - derivatives;
-  makeup.enclosure_order = operand.enclosure_order() - derivatives;
-  return makeup;
+  join(properties.breaks_u, lines_u);
+  join(properties.breaks_v, lines_v);
+  properties.max_order = operand.max_order() - derivatives;
+  properties.enclosure_order = operand.enclosure_order() - derivatives;
+  return properties;
 }
 
-SurfaceMakeup makeup_along_u(const Curve& operand, const Interval& v, int derivatives) {
-  SurfaceMakeup makeup;
-  makeup.domain = {operand.domain(), v};
-  makeup.periods.u = operand.period();
-  makeup.breaks_u = breaks_of(operand);
-  makeup.breaks_v = {v.lo, v.hi};
-  makeup.max_order = std::min(kMaxSurfaceOrder, operand.max_order() - derivatives);
-  makeup.enclosure_order = operand.enclosure_order() - derivatives;
-  return makeup;
+SurfaceProperties properties_along_u(const Curve& operand, const Interval& v, int derivatives) {
+  SurfaceProperties properties;
+  properties.domain = {operand.domain(), v};
+  properties.periods.u = operand.period();
+  properties.breaks_u = breaks_of(operand);
+  properties.breaks_v = {v.lo, v.hi};
+  properties.max_order = std::min(kMaxSurfaceOrder, operand.max_order() - derivatives);
+  properties.enclosure_order = operand.enclosure_order() - derivatives;
+  return properties;
 }
 
-void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int derivatives) {
-  join(along == Along::u ? makeup.breaks_u : makeup.breaks_v, breaks_of(operand));
-  makeup.max_order = std::min(makeup.max_order, operand.max_order() - derivatives);
-  makeup.enclosure_order = std::min(makeup.enclosure_order, operand.enclosure_order() - derivatives);
+void add_operand(SurfaceProperties& properties, const Curve& operand, Along along, int derivatives) {
+  join(along == Along::u ? properties.breaks_u : properties.breaks_v, breaks_of(operand));
+  properties.max_order = std::min(properties.max_order, operand.max_order() - derivatives);
+  properties.enclosure_order = std::min(properties.enclosure_order, operand.enclosure_order() - derivatives);
 }
 
 std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& pieces,
@@ -151,6 +151,23 @@ SampledShape sampled_shape(const Surface& surface, const Rectangle& domain) {
   return {{is_point(domain.v, at_u(domain.u.lo)), is_point(domain.v, at_u(domain.u.hi)),
            is_point(domain.u, at_v(domain.v.lo)), is_point(domain.u, at_v(domain.v.hi))},
           box.diameter()};
+}
+
+bool is_closed_along(const Surface& surface, Along along) {
+  const Rectangle domain = surface.domain();
+  const double near = 1e-9 * bounds(surface).diameter();
+  const Interval &run = along == Along::u ? domain.u : domain.v, &other = along == Along::u ? domain.v : domain.u;
+  const auto at = [&](double t, double x) {
+    return along == Along::u ? surface.evaluate(t, x, 1) : surface.evaluate(x, t, 1);
+  };
+  constexpr int kTried = 12;
+  for (int i = 0; i <= kTried; ++i) {
+    const double x = other.lo + other.width() * i / kTried;
+    const SurfaceJet a = at(run.lo, x), b = at(next_down(run.hi), x);
+    const Vec3 turn = along == Along::u ? a.du() - b.du() : a.dv() - b.dv();
+    if (glm::length(a.point() - b.point()) > near || glm::length(turn) > 1e3 * near) return false;
+  }
+  return true;
 }
 
 double sampled_size(const Curve& curve, const Interval& domain) {

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "geometry/formula.h"
@@ -100,6 +101,8 @@ Triple<S> at(const Curve& curve, const S& t, int k) {
   if (k > known_order(curve, t)) return {unknown(t), unknown(t), unknown(t)};
   return derivative_of(known_at(curve, t, k), k);
 }
+
+// Whether they are u and v themselves.
 template <class S, int N>
 bool are_variables(const Jet2<S, N>& u, const Jet2<S, N>& v) {
   for (int k = 1; k < Jet2<S, N>::kCount; ++k)
@@ -208,7 +211,7 @@ SurfaceEnclosure mean_values(const Formula& formula, const Rectangle& box, int o
 }  // namespace detail
 
 // What a composed curve has from its operands.
-struct CurveMakeup {
+struct CurveProperties {
   Interval domain;
   double period = 0;
   std::vector<double> breaks;  // of smoothness, ends of the domain included
@@ -217,11 +220,11 @@ struct CurveMakeup {
 };
 
 // As the operand has it over a part of its domain, where the formula asks for derivatives up to `derivatives`.
-CurveMakeup makeup_of(const Curve& operand, int derivatives = 0);
+CurveProperties properties_of(const Curve& operand, int derivatives = 0);
 // Of another operand at the same parameter, whose breaks and orders count too.
-void add_operand(CurveMakeup& makeup, const Curve& operand, int derivatives = 0);
+void add_operand(CurveProperties& properties, const Curve& operand, int derivatives = 0);
 // Over a part of the domain, or beyond it.
-void cut_to(CurveMakeup& makeup, const Interval& domain);
+void cut_to(CurveProperties& properties, const Interval& domain);
 
 namespace detail {
 
@@ -230,6 +233,12 @@ namespace detail {
 constexpr double kMinHalved = 1.0 / 32;
 constexpr double kEnormous = 8;  // times the size
 constexpr double kCoarse = 0.2;  // of the domain
+
+// The parameter in the domain where that is a period: operands need not have this one.
+inline double inside(double t, const Interval& domain, double period) {
+  if (period == 0 || domain.contains(t) || std::abs(period - domain.width()) > 1e-12 * period) return t;
+  return t - period * std::floor((t - domain.lo) / period);
+}
 
 // An interval in the parts between breaks.
 std::vector<Interval> between(const std::vector<double>& breaks, const Interval& t);
@@ -243,17 +252,21 @@ std::vector<SurfacePiece> plain_pieces(const std::vector<double>& breaks_u, cons
 template <class Formula>
 class ComposedCurve final : public Curve {
  public:
-  ComposedCurve(Formula formula, CurveMakeup makeup)
-      : formula_(std::move(formula)), makeup_(std::move(makeup)), size_(sampled_size(*this, makeup_.domain)) {}
+  ComposedCurve(Formula formula, CurveProperties properties)
+      : formula_(std::move(formula)),
+        properties_(std::move(properties)),
+        size_(sampled_size(*this, properties_.domain)) {}
 
   const Formula& formula() const { return formula_; }
 
-  Interval domain() const override { return makeup_.domain; }
-  double period() const override { return makeup_.period; }
-  CurveJet evaluate(double t, int order) const override { return evaluate_curve_formula(formula_, t, order); }
-  int max_order() const override { return makeup_.max_order; }
+  Interval domain() const override { return properties_.domain; }
+  double period() const override { return properties_.period; }
+  CurveJet evaluate(double t, int order) const override {
+    return evaluate_curve_formula(formula_, detail::inside(t, properties_.domain, properties_.period), order);
+  }
+  int max_order() const override { return properties_.max_order; }
   CurveEnclosure enclose(const Interval& t, int order) const override;
-  int enclosure_order() const override { return makeup_.enclosure_order; }
+  int enclosure_order() const override { return properties_.enclosure_order; }
   std::vector<CurvePiece> pieces() const override;
   std::optional<NurbsCurveForm> as_nurbs() const override {
     if constexpr (requires { formula_.as_nurbs(); }) return formula_.as_nurbs();
@@ -262,11 +275,11 @@ class ComposedCurve final : public Curve {
 
  private:
   Formula formula_;
-  CurveMakeup makeup_;
+  CurveProperties properties_;
   double size_;
 };
 
-struct SurfaceMakeup {
+struct SurfaceProperties {
   Rectangle domain;
   Periods periods;
   std::vector<double> breaks_u, breaks_v;  // lines of kinks and the borders of the domain
@@ -275,11 +288,11 @@ struct SurfaceMakeup {
 };
 
 // Of a surface, as above.
-SurfaceMakeup makeup_of(const Surface& operand, int derivatives = 0);
+SurfaceProperties properties_of(const Surface& operand, int derivatives = 0);
 // Of a curve whose parameter is u, and v in a range without breaks.
-SurfaceMakeup makeup_along_u(const Curve& operand, const Interval& v, int derivatives = 0);
+SurfaceProperties properties_along_u(const Curve& operand, const Interval& v, int derivatives = 0);
 enum class Along { u, v };
-void add_operand(SurfaceMakeup& makeup, const Curve& operand, Along along, int derivatives = 0);
+void add_operand(SurfaceProperties& properties, const Curve& operand, Along along, int derivatives = 0);
 
 // What is found by looking at points of a grid: the edges of the domain that are points, and the size. Throws
 // FieldError (field of) where there is none.
@@ -288,6 +301,9 @@ struct SampledShape {
   double size = 0;
 };
 SampledShape sampled_shape(const Surface& surface, const Rectangle& domain);
+// Whether the surface goes on at the end of u, or v, as it begins: points and first derivatives are the same, looked at
+// in some places.
+bool is_closed_along(const Surface& surface, Along along);
 double sampled_size(const Curve& curve, const Interval& domain);
 
 // One form of patches over the cells of a grid, u outer, all of one degree: knots of that multiplicity at its lines.
@@ -300,32 +316,34 @@ std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& 
 template <class Formula>
 class ComposedSurface final : public Surface {
  public:
-  ComposedSurface(Formula formula, SurfaceMakeup makeup) : formula_(std::move(formula)), makeup_(std::move(makeup)) {
-    if constexpr (requires { formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v); })
-      pieces_ = formula_.rational_pieces(makeup_.breaks_u, makeup_.breaks_v);
-    if (pieces_.empty()) pieces_ = detail::plain_pieces(makeup_.breaks_u, makeup_.breaks_v);
-    shape_ = sampled_shape(*this, makeup_.domain);
+  ComposedSurface(Formula formula, SurfaceProperties properties)
+      : formula_(std::move(formula)), properties_(std::move(properties)) {
+    if constexpr (requires { formula_.rational_pieces(properties_.breaks_u, properties_.breaks_v); })
+      pieces_ = formula_.rational_pieces(properties_.breaks_u, properties_.breaks_v);
+    if (pieces_.empty()) pieces_ = detail::plain_pieces(properties_.breaks_u, properties_.breaks_v);
+    shape_ = sampled_shape(*this, properties_.domain);
   }
 
   const Formula& formula() const { return formula_; }
 
-  Rectangle domain() const override { return makeup_.domain; }
-  Periods periods() const override { return makeup_.periods; }
+  Rectangle domain() const override { return properties_.domain; }
+  Periods periods() const override { return properties_.periods; }
   SurfaceJet evaluate(double u, double v, int order) const override {
-    return evaluate_surface_formula(formula_, u, v, order);
+    return evaluate_surface_formula(formula_, detail::inside(u, properties_.domain.u, properties_.periods.u),
+                                    detail::inside(v, properties_.domain.v, properties_.periods.v), order);
   }
-  int max_order() const override { return makeup_.max_order; }
+  int max_order() const override { return properties_.max_order; }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
-  int enclosure_order() const override { return makeup_.enclosure_order; }
+  int enclosure_order() const override { return properties_.enclosure_order; }
   std::vector<SurfacePiece> pieces() const override { return pieces_; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override {
-    return form_of_pieces(pieces_, makeup_.breaks_u, makeup_.breaks_v);
+    return form_of_pieces(pieces_, properties_.breaks_u, properties_.breaks_v);
   }
   DegenerateEdges degenerate_edges() const override { return shape_.degenerate; }
 
  private:
   Formula formula_;
-  SurfaceMakeup makeup_;
+  SurfaceProperties properties_;
   std::vector<SurfacePiece> pieces_;
   SampledShape shape_;
 };
@@ -334,11 +352,11 @@ template <class Formula>
 CurveEnclosure ComposedCurve<Formula>::enclose(const Interval& t, int order) const {
   // Mean values hold where the derivative is one.
   CurveEnclosure result;
-  for (const Interval& part : detail::between(makeup_.breaks, t)) {
+  for (const Interval& part : detail::between(properties_.breaks, t)) {
     const CurveEnclosure boxes = enclose_curve_centered(formula_, part, order);
     bool is_bounded = boxes.d[0].diameter() <= detail::kEnormous * size_;
     for (int k = 0; k <= order; ++k) is_bounded = is_bounded && boxes.d[k].bounded();
-    if (!is_bounded && part.width() > detail::kMinHalved * makeup_.domain.width())
+    if (!is_bounded && part.width() > detail::kMinHalved * properties_.domain.width())
       for (const Interval& half : {Interval(part.lo, part.middle()), Interval(part.middle(), part.hi)}) {
         const CurveEnclosure some = enclose(half, order);
         for (int k = 0; k <= order; ++k) result.d[k].include(some.d[k]);
@@ -351,9 +369,9 @@ CurveEnclosure ComposedCurve<Formula>::enclose(const Interval& t, int order) con
 
 template <class Formula>
 std::vector<CurvePiece> ComposedCurve<Formula>::pieces() const {
-  if (const auto form = as_nurbs()) return bezier_pieces(*form, makeup_.domain);
+  if (const auto form = as_nurbs()) return bezier_pieces(*form, properties_.domain);
   std::vector<CurvePiece> result;
-  for (const Interval& part : detail::between(makeup_.breaks, makeup_.domain))
+  for (const Interval& part : detail::between(properties_.breaks, properties_.domain))
     result.push_back(detail::plain_curve_piece(part));
   return result;
 }
@@ -361,14 +379,15 @@ std::vector<CurvePiece> ComposedCurve<Formula>::pieces() const {
 template <class Formula>
 SurfaceEnclosure ComposedSurface<Formula>::enclose(const Rectangle& box, int order) const {
   SurfaceEnclosure result;
-  for (const Interval& u : detail::between(makeup_.breaks_u, box.u))
-    for (const Interval& v : detail::between(makeup_.breaks_v, box.v)) {
-      const SurfaceEnclosure boxes = detail::mean_values(formula_, {u, v}, order, makeup_.enclosure_order);
+  for (const Interval& u : detail::between(properties_.breaks_u, box.u))
+    for (const Interval& v : detail::between(properties_.breaks_v, box.v)) {
+      const SurfaceEnclosure boxes = detail::mean_values(formula_, {u, v}, order, properties_.enclosure_order);
       const int count = SurfaceJet::index(0, order) + 1;
       const bool is_bounded = boxes.values[0].diameter() <= detail::kEnormous * shape_.size &&
                               std::all_of(boxes.values.begin(), boxes.values.begin() + count,
                                           [](const Box3& value) { return value.bounded(); });
-      const double share_u = u.width() / makeup_.domain.u.width(), share_v = v.width() / makeup_.domain.v.width();
+      const double share_u = u.width() / properties_.domain.u.width(),
+                   share_v = v.width() / properties_.domain.v.width();
       // Points alone are asked for of whole surfaces: a box of the parts is much narrower.
       const bool is_coarse = order == 0 && std::max(share_u, share_v) > detail::kCoarse;
       if ((is_bounded && !is_coarse) || !(std::max(share_u, share_v) > detail::kMinHalved)) {

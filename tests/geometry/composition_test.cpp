@@ -37,7 +37,7 @@ NurbsCurve spline() {
 }
 
 TEST(Composition, ParallelOfAnEllipse) {
-  const ComposedCurve curve(Parallel{oval()}, makeup_of(*oval(), 1));
+  const ComposedCurve curve(Parallel{oval()}, properties_of(*oval(), 1));
   EXPECT_EQ(curve.max_order(), kMaxCurveOrder - 1);
   EXPECT_EQ(curve.enclosure_order(), kMaxCurveEnclosureOrder - 1);
   checks::check_derivatives(
@@ -76,9 +76,9 @@ TEST(Composition, EnclosuresOfHighOrdersAreNarrow) {
 
 TEST(Composition, InnerFunction) {
   const auto of = std::make_shared<NurbsCurve>(spline());
-  CurveMakeup makeup = makeup_of(*of);
-  cut_to(makeup, {0.7, 1});
-  const ComposedCurve curve(Squared{of}, makeup);
+  CurveProperties properties = properties_of(*of);
+  cut_to(properties, {0.7, 1});
+  const ComposedCurve curve(Squared{of}, properties);
   for (const double w : {0.72, 0.8, 0.93}) {
     const CurveJet jet = curve.evaluate(w, 3), inner = of->evaluate(w * w, 3);
     EXPECT_LT(glm::length(jet.d[1] - 2 * w * inner.d[1]), 1e-13);
@@ -98,10 +98,10 @@ struct OverTorus {
 // The torus with its formula put in.
 TEST(Composition, OfASurface) {
   const auto torus = std::make_shared<TorusSurface>(Frame{}, 3, 1);
-  SurfaceMakeup makeup = makeup_of(*torus, 1);
-  makeup.domain = {{0.5, 1.5}, {0.2, 1.1}};
-  makeup.breaks_u = {0.5, 1.5}, makeup.breaks_v = {0.2, 1.1};
-  const ComposedSurface surface(OverTorus{torus}, makeup);
+  SurfaceProperties properties = properties_of(*torus, 1);
+  properties.domain = {{0.5, 1.5}, {0.2, 1.1}};
+  properties.breaks_u = {0.5, 1.5}, properties.breaks_v = {0.2, 1.1};
+  const ComposedSurface surface(OverTorus{torus}, properties);
   const auto formula = [](const auto& u, const auto& v) {
     using std::cos;
     using std::sin;

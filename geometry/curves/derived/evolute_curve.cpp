@@ -117,8 +117,8 @@ void demand_size(const Curve& curve, double size, const char* field, const char*
 
 template <class Formula>
 CurvePtr made(Formula formula, int derivatives) {
-  const CurveMakeup makeup = makeup_of(*formula.of, derivatives);
-  return std::make_shared<ComposedCurve<Formula>>(std::move(formula), makeup);
+  const CurveProperties properties = properties_of(*formula.of, derivatives);
+  return std::make_shared<ComposedCurve<Formula>>(std::move(formula), properties);
 }
 
 }  // namespace
@@ -151,9 +151,9 @@ TypeDeclaration involute_curve_type() {
                            "round the corner, or take a part of the curve by trimmed_curve");
         // Past the end of a closed curve the thread is as long as it was: the involute is no closed curve.
         Involute involute{by_arc_length(f.curve("of")), f.number("start")};
-        CurveMakeup makeup = makeup_of(*involute.of, 1);
-        makeup.period = 0;
-        return std::any(CurvePtr(std::make_shared<ComposedCurve<Involute>>(std::move(involute), makeup)));
+        CurveProperties properties = properties_of(*involute.of, 1);
+        properties.period = 0;
+        return std::any(CurvePtr(std::make_shared<ComposedCurve<Involute>>(std::move(involute), properties)));
       });
 }
 

@@ -124,12 +124,13 @@ TypeDeclaration offset_curve_type() {
           if (f.given("normal") || f.given("loops"))
             throw FieldError("across", "across the curve in space there is no plane", "leave out 'normal' and 'loops'");
           const auto direction = direction_across(*of, read_frame_law(f));
-          CurveMakeup makeup = makeup_of(*of);
-          add_operand(makeup, *direction);
-          return std::any(CurvePtr(std::make_shared<ComposedCurve<Across>>(Across{of, direction, distance}, makeup)));
+          CurveProperties properties = properties_of(*of);
+          add_operand(properties, *direction);
+          return std::any(
+              CurvePtr(std::make_shared<ComposedCurve<Across>>(Across{of, direction, distance}, properties)));
         }
         const CurvePtr offset =
-            std::make_shared<ComposedCurve<InPlane>>(InPlane{of, f.vec3("normal"), distance}, makeup_of(*of, 1));
+            std::make_shared<ComposedCurve<InPlane>>(InPlane{of, f.vec3("normal"), distance}, properties_of(*of, 1));
         if (f.text("loops") == "keep") return std::any(offset);
         if (!distance.is_constant())
           throw FieldError("loops", "loops are cut of offsets at one distance", "give the distance as a number");

@@ -59,12 +59,12 @@ struct Affinely {
 };
 
 CurvePtr affinely(const CurvePtr& of, const Interval& domain, double begin, double slope) {
-  CurveMakeup makeup = makeup_of(*of);
-  for (double& t : makeup.breaks) t = domain.lo + (t - begin) / slope;
-  std::sort(makeup.breaks.begin(), makeup.breaks.end());
-  cut_to(makeup, domain);
-  makeup.period = of->period() / std::abs(slope);
-  return std::make_shared<ComposedCurve<Affinely>>(Affinely{of, domain, begin, slope}, makeup);
+  CurveProperties properties = properties_of(*of);
+  for (double& t : properties.breaks) t = domain.lo + (t - begin) / slope;
+  std::sort(properties.breaks.begin(), properties.breaks.end());
+  cut_to(properties, domain);
+  properties.period = of->period() / std::abs(slope);
+  return std::make_shared<ComposedCurve<Affinely>>(Affinely{of, domain, begin, slope}, properties);
 }
 
 // t = law(w), a curve or formulas whose first coordinate is meant.
@@ -118,16 +118,18 @@ CurvePtr by_formula(const CurvePtr& of, const ScalarLaw& law, const Interval& do
                        "a parameter must run one way; 'reversed_curve' turns a curve round");
     const Interval all = of->domain();
     const double slack = 1e-12 * all.width();
-    if (of->period() == 0 && !(all.lo - slack <= t && t <= all.hi + slack))
-      throw FieldError("parameter", fmt::format("w = {:.6g} gives t = {:.6g}, outside of the curve's {:.6g} to {:.6g}",
-                                                w, t, all.lo, all.hi));
+    if (!(all.lo - slack <= t && t <= all.hi + slack))
+      throw FieldError(
+          "parameter",
+          fmt::format("w = {:.6g} gives t = {:.6g}, outside of the curve's {:.6g} to {:.6g}", w, t, all.lo, all.hi),
+          "trimmed_curve takes parts of a closed curve over its seam");
     before = t;
   }
-  CurveMakeup makeup = makeup_of(*of);
-  makeup.breaks = breaks_under(at, domain, makeup.breaks);
-  makeup.domain = domain;
-  makeup.period = 0;
-  return std::make_shared<ComposedCurve<ByLaw<ScalarLaw>>>(ByLaw<ScalarLaw>{of, law}, makeup);
+  CurveProperties properties = properties_of(*of);
+  properties.breaks = breaks_under(at, domain, properties.breaks);
+  properties.domain = domain;
+  properties.period = 0;
+  return std::make_shared<ComposedCurve<ByLaw<ScalarLaw>>>(ByLaw<ScalarLaw>{of, law}, properties);
 }
 
 }  // namespace
@@ -184,17 +186,18 @@ CurvePtr by_arc_length(const CurvePtr& of) {
     return t.middle();
   };
   std::vector<Interval> stretches;
-  CurveMakeup makeup = makeup_of(*of);
-  for (double& t : makeup.breaks) t = fraction.at(t) * length;
-  makeup.breaks.front() = 0, makeup.breaks.back() = length;
-  for (size_t i = 0; i + 1 < makeup.breaks.size(); ++i) stretches.push_back({makeup.breaks[i], makeup.breaks[i + 1]});
+  CurveProperties properties = properties_of(*of);
+  for (double& t : properties.breaks) t = fraction.at(t) * length;
+  properties.breaks.front() = 0, properties.breaks.back() = length;
+  for (size_t i = 0; i + 1 < properties.breaks.size(); ++i)
+    stretches.push_back({properties.breaks[i], properties.breaks[i + 1]});
   const auto law =
       polynomial_approximation([&](double s) { return Vec3(t_at(s), 0, 0); }, stretches, 1e-13 * domain.width());
   if (!law) throw FieldError("of", "the curve rests somewhere: its parameter is no smooth function of the length");
-  makeup.domain = {0, length};
-  if (makeup.period > 0) makeup.period = length;
-  add_operand(makeup, *law);
-  return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, makeup);
+  properties.domain = {0, length};
+  if (properties.period > 0) properties.period = length;
+  add_operand(properties, *law);
+  return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, properties);
 }
 
 TypeDeclaration reversed_curve_type() {

@@ -74,26 +74,26 @@ Track track_of(const CurvePtr& curve, const char* field, const Vec3& normal, boo
   return {even, length};
 }
 
-void add_breaks(CurveMakeup& makeup, const Track& track) {
-  const std::vector<double> once = makeup_of(*track.curve).breaks;
-  for (double begin = 0; begin < makeup.domain.hi; begin += track.length)
-    for (const double s : once) makeup.breaks.push_back(begin + s);
+void add_breaks(CurveProperties& properties, const Track& track) {
+  const std::vector<double> once = properties_of(*track.curve).breaks;
+  for (double begin = 0; begin < properties.domain.hi; begin += track.length)
+    for (const double s : once) properties.breaks.push_back(begin + s);
 }
 
-CurveMakeup makeup_of_both(const Roulette& roulette, double length) {
-  CurveMakeup makeup = makeup_of(*roulette.fixed.curve, 1);
-  add_operand(makeup, *roulette.moving.curve, 1);
-  makeup.period = 0;
-  makeup.domain = {0, length};
-  makeup.breaks.clear();
-  add_breaks(makeup, roulette.fixed);
-  add_breaks(makeup, roulette.moving);
-  std::sort(makeup.breaks.begin(), makeup.breaks.end());
-  makeup.breaks.erase(std::unique(makeup.breaks.begin(), makeup.breaks.end(),
-                                  [&](double a, double b) { return b - a <= 1e-13 * length; }),
-                      makeup.breaks.end());
-  cut_to(makeup, {0, length});
-  return makeup;
+CurveProperties properties_of_both(const Roulette& roulette, double length) {
+  CurveProperties properties = properties_of(*roulette.fixed.curve, 1);
+  add_operand(properties, *roulette.moving.curve, 1);
+  properties.period = 0;
+  properties.domain = {0, length};
+  properties.breaks.clear();
+  add_breaks(properties, roulette.fixed);
+  add_breaks(properties, roulette.moving);
+  std::sort(properties.breaks.begin(), properties.breaks.end());
+  properties.breaks.erase(std::unique(properties.breaks.begin(), properties.breaks.end(),
+                                      [&](double a, double b) { return b - a <= 1e-13 * length; }),
+                          properties.breaks.end());
+  cut_to(properties, {0, length});
+  return properties;
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ TypeDeclaration roulette_curve_type() {
                            fmt::format("the rolling curve is shorter, {:.6g}, than what it is to roll along, {:.6g}",
                                        roulette.moving.length, length),
                            "make it longer, or trim the other");
-        CurveMakeup makeup = makeup_of_both(roulette, length);
-        return std::any(CurvePtr(std::make_shared<ComposedCurve<Roulette>>(std::move(roulette), makeup)));
+        CurveProperties properties = properties_of_both(roulette, length);
+        return std::any(CurvePtr(std::make_shared<ComposedCurve<Roulette>>(std::move(roulette), properties)));
       });
 }
 

@@ -38,10 +38,10 @@ TypeDeclaration wrapped_curve_type() {
       .field("frame", frame(), "placement: z is the axis, x = 0 of the curve lies at the frame's x", "{}")
       .built_by([](const Fields& f) {
         const CurvePtr of = f.curve("of");
-        CurveMakeup makeup = makeup_of(*of);
-        makeup.period = 0;
+        CurveProperties properties = properties_of(*of);
+        properties.period = 0;
         return std::any(CurvePtr(
-            std::make_shared<ComposedCurve<OnCylinder>>(OnCylinder{of, f.frame(), f.number("radius")}, makeup)));
+            std::make_shared<ComposedCurve<OnCylinder>>(OnCylinder{of, f.frame(), f.number("radius")}, properties)));
       });
 }
 

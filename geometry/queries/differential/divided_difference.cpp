@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/numerics/divided_differences.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -24,22 +26,14 @@ DividedDifferences divided_differences(const Curve& curve, std::span<const doubl
   if (given.empty()) throw std::invalid_argument("divided differences need a node");
   DividedDifferences result{grouped(given), {}};
   const std::vector<double>& t = result.nodes;
-  std::vector<CurveJet> jets;
-  for (const double node : t) {
-    if (std::count(t.begin(), t.end(), node) > kMaxCurveOrder + 1)
+  std::vector<Vec3> values;  // of equal nodes r, r', r'', ..
+  for (size_t i = 0, first = 0; i < t.size(); ++i) {
+    if (t[i] != t[first]) first = i;
+    if (i - first > kMaxCurveOrder)
       throw std::invalid_argument("a node stands at most " + std::to_string(kMaxCurveOrder + 1) + " times");
-    jets.push_back(curve.evaluate(node, kMaxCurveOrder));
+    values.push_back(curve.evaluate(t[i], kMaxCurveOrder).d[i - first]);
   }
-  std::vector<Vec3> column;  // r[t_i .. t_(i+k)]
-  for (const CurveJet& jet : jets) column.push_back(jet.d[0]);
-  double factorial = 1;
-  for (size_t k = 0; k < t.size(); ++k) {
-    result.differences.push_back(column[0]);
-    factorial *= static_cast<double>(k + 1);
-    for (size_t i = 0; i + k + 1 < t.size(); ++i)
-      column[i] =
-          t[i + k + 1] == t[i] ? jets[i].d[k + 1] / factorial : (column[i + 1] - column[i]) / (t[i + k + 1] - t[i]);
-  }
+  result.differences = divided_differences(t, values);
   return result;
 }
 

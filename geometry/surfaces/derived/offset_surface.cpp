@@ -85,7 +85,7 @@ TypeDeclaration offset_surface_type() {
         if (!offset) {
           check_normals(*of);
           offset =
-              std::make_shared<ComposedSurface<Offset>>(Offset{of, distance, of->normal_sign()}, makeup_of(*of, 1));
+              std::make_shared<ComposedSurface<Offset>>(Offset{of, distance, of->normal_sign()}, properties_of(*of, 1));
         }
         offset->set_reversed(of->reversed());
         return std::any(SurfacePtr(offset));

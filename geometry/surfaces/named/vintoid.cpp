@@ -114,19 +114,6 @@ Interval range_of(const Fields& f, const VintoidPreset* preset, const Constants&
   return f.has("range") ? f.range("range") : Interval(0, to);
 }
 
-// As it ends it goes on from its beginning.
-bool is_closed(const Surface& surface) {
-  const Rectangle domain = surface.domain();
-  const double near = 1e-9 * bounds(surface).diameter();
-  constexpr int kTried = 12;
-  for (int i = 0; i <= kTried; ++i) {
-    const double v = domain.v.lo + domain.v.width() * i / kTried;
-    const SurfaceJet a = surface.evaluate(domain.u.lo, v, 1), b = surface.evaluate(domain.u.hi, v, 1);
-    if (glm::length(a.point() - b.point()) > near || glm::length(a.du() - b.du()) > 1e3 * near) return false;
-  }
-  return true;
-}
-
 std::any vintoid(const Fields& f) {
   const VintoidPreset* preset = chosen(f);
   const Constants constants = constants_of(f, preset);
@@ -156,17 +143,17 @@ std::any vintoid(const Fields& f) {
                   law("turn", preset ? preset->turn : "", "0"),
                   scale(false),
                   scale(true)};
-  SurfaceMakeup makeup;
-  makeup.domain = {range, profile->domain()};
-  makeup.periods.v = profile->period();
-  makeup.breaks_u = {range.lo, range.hi};
-  makeup.breaks_v = {makeup.domain.v.lo, makeup.domain.v.hi};
-  add_operand(makeup, *profile, Along::v);
-  if (around) add_operand(makeup, *around, Along::u);
-  auto surface = std::make_shared<ComposedSurface<Vintoid>>(formula, makeup);
-  if (is_closed(*surface)) {
-    makeup.periods.u = range.width();
-    surface = std::make_shared<ComposedSurface<Vintoid>>(std::move(formula), std::move(makeup));
+  SurfaceProperties properties;
+  properties.domain = {range, profile->domain()};
+  properties.periods.v = profile->period();
+  properties.breaks_u = {range.lo, range.hi};
+  properties.breaks_v = {properties.domain.v.lo, properties.domain.v.hi};
+  add_operand(properties, *profile, Along::v);
+  if (around) add_operand(properties, *around, Along::u);
+  auto surface = std::make_shared<ComposedSurface<Vintoid>>(formula, properties);
+  if (is_closed_along(*surface, Along::u)) {
+    properties.periods.u = range.width();
+    surface = std::make_shared<ComposedSurface<Vintoid>>(std::move(formula), std::move(properties));
   }
   return std::any(SurfacePtr(surface));
 }

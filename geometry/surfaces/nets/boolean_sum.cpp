@@ -20,16 +20,14 @@ struct Cells {
 
 Cells cells_of(const std::vector<CurvePtr>& curves, const std::vector<double>& breaks) {
   Cells cells;
-  for (size_t k = 0; k + 1 < breaks.size(); ++k) {
-    auto& part = cells.parts.emplace_back();
-    for (const CurvePtr& curve : curves) {
-      const auto form = curve->as_nurbs();
-      const auto pieces = form ? bezier_pieces(*form, {breaks[k], breaks[k + 1]}) : std::vector<CurvePiece>();
-      if (pieces.size() != 1) {
-        cells.is_rational = false;
-        return cells;
-      }
-      part.push_back(pieces.front());
+  cells.parts.resize(breaks.size() - 1);
+  for (const CurvePtr& curve : curves) {
+    const auto form = curve->as_nurbs();
+    if (!form) return {0, {}, false};
+    for (size_t k = 0; k + 1 < breaks.size(); ++k) {
+      const auto pieces = bezier_pieces(*form, {breaks[k], breaks[k + 1]});
+      if (pieces.size() != 1) return {0, {}, false};
+      cells.parts[k].push_back(pieces.front());
       cells.degree = std::max(cells.degree, pieces.front().degree());
     }
   }
@@ -137,16 +135,16 @@ std::vector<SurfacePiece> BooleanSum::rational_pieces(const std::vector<double>&
 }
 
 BlendedSurface blended_surface(BooleanSum sum, const Rectangle& domain, const Periods& periods) {
-  SurfaceMakeup makeup;
-  makeup.domain = domain;
-  makeup.periods = periods;
-  makeup.breaks_u = {domain.u.lo, domain.u.hi};
-  makeup.breaks_v = {domain.v.lo, domain.v.hi};
-  for (const CurvePtr& curve : sum.along_u.curves) add_operand(makeup, *curve, Along::u);
-  for (const CurvePtr& curve : sum.along_v.functions) add_operand(makeup, *curve, Along::u);
-  for (const CurvePtr& curve : sum.along_v.curves) add_operand(makeup, *curve, Along::v);
-  for (const CurvePtr& curve : sum.along_u.functions) add_operand(makeup, *curve, Along::v);
-  return BlendedSurface(std::move(sum), std::move(makeup));
+  SurfaceProperties properties;
+  properties.domain = domain;
+  properties.periods = periods;
+  properties.breaks_u = {domain.u.lo, domain.u.hi};
+  properties.breaks_v = {domain.v.lo, domain.v.hi};
+  for (const CurvePtr& curve : sum.along_u.curves) add_operand(properties, *curve, Along::u);
+  for (const CurvePtr& curve : sum.along_v.functions) add_operand(properties, *curve, Along::u);
+  for (const CurvePtr& curve : sum.along_v.curves) add_operand(properties, *curve, Along::v);
+  for (const CurvePtr& curve : sum.along_u.functions) add_operand(properties, *curve, Along::v);
+  return BlendedSurface(std::move(sum), std::move(properties));
 }
 
 }  // namespace lekalo::geometry

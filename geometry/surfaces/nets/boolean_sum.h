@@ -48,6 +48,8 @@ std::vector<CurvePtr> hermite_functions(const std::vector<double>& nodes, bool c
 void mean_twists(BooleanSum& sum, const std::vector<double>& at_u, const std::vector<double>& at_v);
 // C2 cubic splines, natural or periodic.
 std::vector<CurvePtr> spline_functions(const std::vector<double>& nodes, bool closed);
+// Cubics between neighbouring nodes whose derivatives vanish at all of them.
+std::vector<CurvePtr> step_functions(const std::vector<double>& nodes);
 // The B-splines of a knot vector, rational with weights (none: all 1).
 std::vector<CurvePtr> b_spline_functions(int degree, const std::vector<double>& knots,
                                          const std::vector<double>& weights, int count);

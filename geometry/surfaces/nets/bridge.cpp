@@ -47,10 +47,10 @@ struct Edge {
   CurvePtr across(int order, bool leaves, double scale) const {
     const double sign = order % 2 == 1 && at_end != leaves ? -1 : 1;
     const CurvePtr line = curve();
-    CurveMakeup makeup = makeup_of(*line);
-    makeup.max_order = std::min(makeup.max_order, of->max_order() - order);
-    makeup.enclosure_order = std::min(makeup.enclosure_order, of->enclosure_order() - order);
-    return std::make_shared<ComposedCurve<AcrossEdge>>(AcrossEdge{of, at_u, held(), order, sign * scale}, makeup);
+    CurveProperties properties = properties_of(*line);
+    properties.max_order = std::min(properties.max_order, of->max_order() - order);
+    properties.enclosure_order = std::min(properties.enclosure_order, of->enclosure_order() - order);
+    return std::make_shared<ComposedCurve<AcrossEdge>>(AcrossEdge{of, at_u, held(), order, sign * scale}, properties);
   }
 };
 

@@ -36,16 +36,17 @@ struct LawfulRevolution {
 };
 
 SurfacePtr revolved_by_law(const CurvePtr& curve, const Axis& axis, const Rectangle& domain, ScalarLaw factor) {
-  SurfaceMakeup makeup = makeup_along_u(*curve, domain.v);
+  SurfaceProperties properties = properties_along_u(*curve, domain.v);
   if (domain.u != curve->domain())
     throw FieldError("domain", "with a factor the whole curve is turned", "give 'start' and 'angle'");
   // Quarters, as of circles: enclosures over a whole turn tell nothing.
-  for (int k = 1; k < 8; ++k) makeup.breaks_v.insert(makeup.breaks_v.end() - 1, domain.v.lo + domain.v.width() * k / 8);
+  for (int k = 1; k < 8; ++k)
+    properties.breaks_v.insert(properties.breaks_v.end() - 1, domain.v.lo + domain.v.width() * k / 8);
   const double begin = factor(domain.v.lo), end = factor(domain.v.hi);
   if (std::abs(domain.v.width() - kTwoPi) <= 1e-14 && std::abs(end - begin) <= 1e-12 * std::abs(begin))
-    makeup.periods.v = kTwoPi;
+    properties.periods.v = kTwoPi;
   return std::make_shared<ComposedSurface<LawfulRevolution>>(
-      LawfulRevolution{curve, frame_about(axis.through, axis.along), std::move(factor)}, std::move(makeup));
+      LawfulRevolution{curve, frame_about(axis.through, axis.along), std::move(factor)}, std::move(properties));
 }
 
 DomainRules rules(const Curve& curve) { return {{curve.domain(), Interval::entire()}, false, true}; }

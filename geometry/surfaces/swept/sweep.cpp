@@ -11,7 +11,6 @@
 
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/moving_frame.h"
-#include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/describe.h"
 #include "geometry/expression/scalar_law.h"
 #include "geometry/surfaces/nets/boolean_sum.h"
@@ -20,6 +19,23 @@
 namespace lekalo::geometry {
 
 namespace {
+
+// The curves blended at (u, v).
+template <class T>
+Triple<T> blended(const Family& family, const T& u, const T& v) {
+  Triple<T> p{T(0), T(0), T(0)};
+  for (size_t i = 0; i < family.curves.size(); ++i)
+    p += curve_at(*family.functions[i], v).x * curve_at(*family.curves[i], u);
+  return p;
+}
+
+// g + X n + Y b + Z t at v, from coordinates in the frame that moves along g.
+template <class T>
+Triple<T> placed_on(const Curve& path, const Curve& across, const T& v, const Triple<T>& local) {
+  const Triple<T> along = curve_at(path, v, 1), n = curve_at(across, v);
+  const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
+  return curve_at(path, v) + (local.x * n + local.y * b + local.z * t);
+}
 
 struct Sweep {
   CurvePtr path, across;  // g and n, over 0..1
@@ -30,13 +46,9 @@ struct Sweep {
   Triple<T> operator()(const T& u, const T& v) const {
     using std::cos;
     using std::sin;
-    Triple<T> p{T(0), T(0), T(0)};
-    for (size_t i = 0; i < sections.curves.size(); ++i)
-      p += curve_at(*sections.functions[i], v).x * curve_at(*sections.curves[i], u);
-    const Triple<T> along = curve_at(*path, v, 1), n = curve_at(*across, v);
-    const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
+    const Triple<T> p = blended(sections, u, v);
     const T x = scale_x(v) * p.x, y = scale_y(v) * p.y, angle = twist(v), c = cos(angle), s = sin(angle);
-    return curve_at(*path, v) + ((c * x - s * y) * n + (s * x + c * y) * b + p.z * t);
+    return placed_on(*path, *across, v, Triple<T>{c * x - s * y, s * x + c * y, p.z});
   }
 };
 
@@ -113,26 +125,9 @@ struct GuidedLoft {
 
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const {
-    Triple<T> p{T(0), T(0), T(0)};
-    for (size_t i = 0; i < sections.curves.size(); ++i)
-      p += curve_at(*sections.functions[i], v).x * curve_at(*sections.curves[i], u);
-    const Triple<T> along = curve_at(*guide, v, 1), n = curve_at(*across, v);
-    const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
-    return curve_at(*guide, v) + (p.x * n + p.y * b + p.z * t);
+    return placed_on(*guide, *across, v, blended(sections, u, v));
   }
 };
-
-// 1 at the node, 0 at the others, between by a_0 and a_1: derivatives vanish at the nodes.
-CurvePtr step_at(const std::vector<double>& nodes, size_t node) {
-  NurbsCurveForm form;
-  form.degree = 3;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const bool end = i == 0 || i + 1 == nodes.size();
-    form.knots.insert(form.knots.end(), end ? 4 : 2, nodes[i]);
-    form.points.insert(form.points.end(), 2, Vec4(i == node ? 1 : 0, 0, 0, 1));
-  }
-  return std::make_shared<NurbsCurve>(form);
-}
 
 std::vector<double> read_places(const Fields& f, size_t count, const Curve& guide) {
   const std::vector<double>& at = f.numbers("at_v");
@@ -151,38 +146,25 @@ std::any guided_loft(const Fields& f) {
   const std::vector<CurvePtr> curves = read_family(f, "of");
   const CurvePtr guide = f.curve("along");
   const std::vector<double> at = read_places(f, curves.size(), *guide);
-  GuidedLoft formula{guide, direction_across(*guide, read_frame(f)), {}};
-  SurfaceMakeup makeup = makeup_along_u(*curves.front(), {at.front(), at.back()});
+  GuidedLoft formula{guide, direction_across(*guide, read_frame(f)), {{}, step_functions(at)}};
+  SurfaceProperties properties = properties_along_u(*curves.front(), {at.front(), at.back()});
   for (size_t i = 0; i < curves.size(); ++i) {
     const CurveJet here = guide->evaluate(at[i], 1);
     const Vec3 t = glm::normalize(here.d[1]), n = formula.across->point(at[i]);
     const Frame frame{here.d[0], n, glm::cross(t, n), t};
     formula.sections.curves.push_back(
-        std::make_shared<ComposedCurve<InFrame>>(InFrame{curves[i], frame}, makeup_of(*curves[i])));
-    formula.sections.functions.push_back(step_at(at, i));
-    add_operand(makeup, *curves[i], Along::u);
-    if (curves[i]->period() != curves.front()->period()) makeup.periods.u = 0;
+        std::make_shared<ComposedCurve<InFrame>>(InFrame{curves[i], frame}, properties_of(*curves[i])));
+    add_operand(properties, *curves[i], Along::u);
+    if (curves[i]->period() != curves.front()->period()) properties.periods.u = 0;
   }
-  CurveMakeup along = makeup_of(*guide, 1);
+  CurveProperties along = properties_of(*guide, 1);
   add_operand(along, *formula.across);
   cut_to(along, {at.front(), at.back()});
   add_operand(along, *formula.sections.functions.front());
-  makeup.breaks_v = along.breaks;
-  makeup.max_order = std::min(makeup.max_order, along.max_order);
-  makeup.enclosure_order = std::min(makeup.enclosure_order, along.enclosure_order);
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<GuidedLoft>>(std::move(formula), std::move(makeup))));
-}
-
-bool is_periodic(const Surface& surface) {
-  const Rectangle domain = surface.domain();
-  const double near = 1e-9 * bounds(surface).diameter();
-  constexpr int kTried = 12;
-  for (int i = 0; i <= kTried; ++i) {
-    const double u = domain.u.lo + domain.u.width() * i / kTried;
-    const SurfaceJet a = surface.evaluate(u, 0, 1), b = surface.evaluate(u, next_down(1.0), 1);
-    if (glm::length(a.point() - b.point()) > near || glm::length(a.dv() - b.dv()) > 1e3 * near) return false;
-  }
-  return true;
+  properties.breaks_v = along.breaks;
+  properties.max_order = std::min(properties.max_order, along.max_order);
+  properties.enclosure_order = std::min(properties.enclosure_order, along.enclosure_order);
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<GuidedLoft>>(std::move(formula), std::move(properties))));
 }
 
 std::any sweep(const Fields& f) {
@@ -195,7 +177,7 @@ std::any sweep(const Fields& f) {
     const Vec3 t = glm::normalize(at.d[1]), n = across->point(0);
     for (CurvePtr& curve : placed.curves)
       curve = std::make_shared<ComposedCurve<InFrame>>(InFrame{curve, {at.d[0], n, glm::cross(t, n), t}},
-                                                       makeup_of(*curve));
+                                                       properties_of(*curve));
   }
   const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
   const auto& scale = f.get<std::vector<Expression>>("scale");
@@ -205,18 +187,18 @@ std::any sweep(const Fields& f) {
                 ScalarLaw(f.get<Expression>("twist")),
                 ScalarLaw(scale.front()),
                 ScalarLaw(scale.back())};
-  SurfaceMakeup makeup = makeup_along_u(*curves.front(), {0, 1});
+  SurfaceProperties properties = properties_along_u(*curves.front(), {0, 1});
   for (const CurvePtr& curve : curves) {
-    add_operand(makeup, *curve, Along::u);
-    if (curve->period() != curves.front()->period()) makeup.periods.u = 0;
+    add_operand(properties, *curve, Along::u);
+    if (curve->period() != curves.front()->period()) properties.periods.u = 0;
   }
-  for (const CurvePtr& one : formula.sections.functions) add_operand(makeup, *one, Along::v);
-  add_operand(makeup, *path, Along::v, 1);
-  add_operand(makeup, *across, Along::v);
-  ComposedSurface<Sweep> surface(formula, makeup);
-  if (path->is_closed() && is_periodic(surface)) {
-    makeup.periods.v = 1;
-    surface = ComposedSurface<Sweep>(std::move(formula), std::move(makeup));
+  for (const CurvePtr& one : formula.sections.functions) add_operand(properties, *one, Along::v);
+  add_operand(properties, *path, Along::v, 1);
+  add_operand(properties, *across, Along::v);
+  ComposedSurface<Sweep> surface(formula, properties);
+  if (path->is_closed() && is_closed_along(surface, Along::v)) {
+    properties.periods.v = 1;
+    surface = ComposedSurface<Sweep>(std::move(formula), std::move(properties));
   }
   return std::any(SurfacePtr(std::make_shared<ComposedSurface<Sweep>>(std::move(surface))));
 }

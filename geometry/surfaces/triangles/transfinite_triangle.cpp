@@ -71,15 +71,15 @@ std::any on_three_curves(const Fields& f) {
   for (int k = 0; k < 3; ++k) formula.p[k] = formula.c[(k + 1) % 3]->point(0);
   if (f.text("method") == "balanced")
     for (int k = 0; k < 3; ++k) formula.correction += formula.c[k]->point(0.5) - formula.p[k];
-  SurfaceMakeup makeup{{{0, 1}, {0, 1}}, {}, {0, 1}, {0, 1}};
+  SurfaceProperties properties{{{0, 1}, {0, 1}}, {}, {0, 1}, {0, 1}};
   for (const CurvePtr& curve : formula.c) {
-    makeup.max_order = std::min(makeup.max_order, curve->max_order());
-    makeup.enclosure_order = std::min(makeup.enclosure_order, curve->enclosure_order());
+    properties.max_order = std::min(properties.max_order, curve->max_order());
+    properties.enclosure_order = std::min(properties.enclosure_order, curve->enclosure_order());
     if (curve->pieces().size() > 1)
       throw FieldError("of", "a curve has several pieces, whose joints would be kinks across the surface",
                        "take curves of one piece: arcs, formulas, Bezier curves");
   }
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<OnThreeCurves>>(formula, makeup)));
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<OnThreeCurves>>(formula, properties)));
 }
 
 }  // namespace
