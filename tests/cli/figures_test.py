@@ -1,6 +1,7 @@
 """The figures of scenes/figures and the features of scenes/drawing: each is listed, draws without a word of warning, and independent readers take it."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 import unittest
@@ -13,6 +14,8 @@ from program import ProgramTest
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 FIGURES = SCENES / "figures"
 FEATURES = SCENES / "drawing"
+# How many figures the sources have.
+NUMBERS = {"golovanov": 312, "zavyalov_splines": 64, "zavyalov_visualisation": 21, "korotkij": 8, "coursework": 22}
 
 
 class Figures(ProgramTest):
@@ -52,6 +55,33 @@ class Figures(ProgramTest):
                 self.assertNotIn("note", errors)
                 paths = tree.fromstring(self.bytes_of("figure.svg")).iter("{http://www.w3.org/2000/svg}path")
                 self.assertGreater(len(list(paths)), 2)
+
+    def test_numbers(self):
+        """docs/figures.yaml: every number of the sources, and the scene that draws it; a scene that names a number is listed."""
+        listed = yaml.safe_load((SCENES.parent / "docs/figures.yaml").read_text())
+        self.assertEqual({name: len({row["figure"] for row in rows}) for name, rows in listed.items()}, NUMBERS)
+        for name, rows in listed.items():
+            for row in rows:
+                with self.subTest(f"{name} {row['figure']}"):
+                    self.assertTrue(row["title"])
+                    self.assertFalse("scene" in row and "not_ours" in row)
+                    if "scene" in row:
+                        self.assertTrue((FIGURES / row["scene"]).is_file())
+            scenes = {row["figure"]: row.get("scene", "") for row in rows}
+            for path in sorted((FIGURES / name).glob("*.yaml")):
+                for number in str(yaml.safe_load(path.read_text())["info"]["figure"]).split(", "):
+                    with self.subTest(f"{name}/{path.name}", number=number):
+                        self.assertTrue(scenes.get(number, "composed"), f"docs/figures.yaml has no scene for {number}")
+
+    def test_pictures_of_reference(self):
+        """Each picture that the reference shows is there, and shows something; none is left over."""
+        reference = SCENES.parent / "docs/reference"
+        shown = {name for page in reference.glob("*.md") for name in re.findall(r"\(images/(\w+)\.svg\)", page.read_text())}
+        self.assertEqual(shown, {path.stem for path in (reference / "images").glob("*.svg")}, "run tools/figures reference")
+        for name in shown:
+            with self.subTest(name):
+                paths = tree.parse(reference / "images" / f"{name}.svg").iter("{http://www.w3.org/2000/svg}path")
+                self.assertGreater(len(list(paths)), 0)
 
     def test_bezier_construction(self):
         """The words of the figure can be found in its PDF."""

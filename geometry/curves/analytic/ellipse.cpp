@@ -61,6 +61,7 @@ std::optional<NurbsCurveForm> Ellipse::as_nurbs() const {
 
 TypeDeclaration ellipse_type() {
   return declare(Category::curve, "ellipse", "Ellipse or elliptic arc in the x, y plane of its frame.")
+      .example("semi_axes: [2, 1]")
       .field("frame", frame(), "placement: x and y carry the semi-axes, z is normal to the plane", "{}")
       .field("semi_axes", numbers().count(2, 2).positive(), "semi-axes along x and y")
       .optional("arc", angle_range(),

@@ -469,6 +469,7 @@ const std::vector<Category> kSolids{Category::body, Category::shape, Category::s
 
 TypeDeclaration of_several(const std::string& name, const std::string& description, Csg::Operation operation) {
   return declare(Category::shape, name, description)
+      .example("of: [{ type: box, size: [2, 2, 2] }, { type: cylinder_body, radius: 0.6, height: 2 }]")
       .field("of", references(kSolids).count(1),
              "bodies, closed shapes and closed surfaces; where faces coincide the first counts")
       .built_by([operation](const Fields& f) -> ShapePtr {
@@ -490,6 +491,7 @@ TypeDeclaration intersection_type() {
 
 TypeDeclaration difference_type() {
   return declare(Category::shape, "difference", "A solid without what lies in others.")
+      .example("of: { type: box, size: [2, 2, 2] }, minus: { type: ball, radius: 1.2 }")
       .field("of", reference(kSolids), "body, closed shape or closed surface")
       .field("minus", references(kSolids).count(1), "bodies, closed shapes and closed surfaces to take away")
       .built_by([](const Fields& f) -> ShapePtr {

@@ -119,6 +119,7 @@ TypeDeclaration cone_surface_type() {
 TypeDeclaration cylinder_surface_type() {
   return declare(Category::surface, "cylinder_surface",
                  "Lateral surface of a circular cylinder; the normal points outward. Without a height it is unbounded.")
+      .example("radius: 1, height: 2")
       .field("frame", frame(), "placement: the center of the base circle, the axis z, x at the angle 0", "{}")
       .field("radius", length().positive(), "radius")
       .optional("height", length().positive(), "length along the axis")

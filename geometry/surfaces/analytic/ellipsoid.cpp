@@ -33,6 +33,7 @@ void Ellipsoid::line_hits(const Line& line, const Interval& t, LineHits& hits) c
 
 TypeDeclaration ellipsoid_type() {
   return declare(Category::surface, "ellipsoid", "Ellipsoid with its axes along those of its frame; normal outward.")
+      .example("semi_axes: [3, 2, 1]")
       .field("frame", frame(), "placement: the center and the directions of the axes", "{}")
       .field("semi_axes", numbers().count(3, 3).positive(), "semi-axes a, b, c along x, y, z")
       .field("domain", rectangle(), "part of the surface: u longitude, v latitude (of the sphere that is stretched)",

@@ -53,6 +53,7 @@ TypeDeclaration hyperboloid_one_sheet_type() {
   return declare(Category::surface, "hyperboloid_one_sheet",
                  "Hyperboloid of one sheet about the axis z of its frame, x^2/a^2 + y^2/b^2 - z^2/c^2 = 1; the normal "
                  "points away from the axis. Without heights or a domain it is unbounded.")
+      .example("semi_axes: [1, 1, 1], heights: [-1.5, 1.5]")
       .field("frame", frame(), "placement: the center, the axis z, x and y along the semi-axes of the waist", "{}")
       .field("semi_axes", numbers().count(3, 3).positive(), "real semi-axes a, b of the waist, imaginary semi-axis c")
       .optional("heights", range(), "the part between two heights z, which are lengths along the axis")
@@ -69,6 +70,7 @@ TypeDeclaration hyperboloid_two_sheets_type() {
   return declare(Category::surface, "hyperboloid_two_sheets",
                  "One sheet of the hyperboloid of two sheets about the axis z of its frame, "
                  "x^2/a^2 + y^2/b^2 - z^2/c^2 = -1. Without heights or a domain it is unbounded.")
+      .example("semi_axes: [1, 1, 1], heights: [1, 3]")
       .field("frame", frame(), "placement: the center, the axis z, x and y along the imaginary semi-axes", "{}")
       .field("semi_axes", numbers().count(3, 3).positive(), "imaginary semi-axes a, b, real semi-axis c")
       .field("sheet", choice({"upper", "lower"}),

@@ -79,6 +79,7 @@ TypeDeclaration elliptic_paraboloid_type() {
              Category::surface, "elliptic_paraboloid",
              "Elliptic paraboloid x^2/a^2 + y^2/b^2 = z in its frame; the normal points to the convex side. Without "
              "heights or a domain it is unbounded.")
+      .example("semi_axes: [1, 1], heights: [0, 2]")
       .field("frame", frame(), "placement: the vertex, the axis z, x and y along the semi-axes", "{}")
       .field("semi_axes", numbers().count(2, 2).positive(), "semi-axes a, b of the section z = 1")
       .optional("heights", range(), "the part between two heights z >= 0, which are lengths along the axis")
@@ -100,6 +101,7 @@ TypeDeclaration hyperbolic_paraboloid_type() {
              Category::surface, "hyperbolic_paraboloid",
              "Hyperbolic paraboloid (saddle) x^2/a^2 - y^2/b^2 = z in its frame; the normal points upward. Without a "
              "domain it is unbounded.")
+      .example("semi_axes: [1, 1], domain: { u: [-1, 1], v: [-1, 1] }")
       .field("frame", frame(), "placement: the saddle point; the surface rises along x and falls along y", "{}")
       .field("semi_axes", numbers().count(2, 2).positive(), "a, b: z = 1 at x = a on the axis x, z = -1 at y = b on y")
       .optional("domain", rectangle(), "part of the surface: x = a u, y = b v")

@@ -117,6 +117,7 @@ TypeDeclaration plane_type() {
              Category::surface, "plane",
              "Plane, or a rectangle in it; u and v are lengths along x and y of its frame, the normal is z. Without "
              "a size or domain it is unbounded.")
+      .example("size: [3, 2]")
       .field("frame", frame(), "placement: z is the normal", "{}")
       .optional("origin", point(), "origin of the frame, the center of the rectangle; in place of the frame's")
       .optional("size", numbers().count(2, 2).positive(),

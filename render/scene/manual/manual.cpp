@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/expression/function_list.h"
@@ -157,6 +158,16 @@ std::string lines_of(const std::vector<Field>& fields, const std::string& indent
   return text;
 }
 
+// Whether tools/figures draws its example: not of what comes from outside, nor of what has no end.
+bool is_pictured(const TypeDeclaration& type) {
+  using enum Category;
+  static constexpr std::array kPictured = {curve, surface, body, shape, mesh};
+  return std::ranges::count(kPictured, type.category) != 0 && type.name != "half_space" &&
+         !type.name.starts_with("external_") && std::ranges::none_of(type.fields, [](const Field& field) {
+           return field.type.kind == geometry::Kind::file && field.required;
+         });
+}
+
 std::string page_of(Category category) {
   const std::string title = plural(category);
   std::string text =
@@ -167,6 +178,7 @@ std::string page_of(Category category) {
   for (const TypeDeclaration& type : all_types()) {
     if (type.category != category) continue;
     text += fmt::format("\n## {}\n\n{}\n\n    {}\n\n", type.name, type.description, example_of(type));
+    if (is_pictured(type)) text += fmt::format("![{0}](images/{0}.svg)\n\n", type.name);
     text += table(type.fields);
     if (takes_abbreviations(type.fields)) text += fmt::format("| `let` | map of formulas |  | {} |\n", kLetDescription);
     if (!type.checks.empty()) text += "\n";
