@@ -335,6 +335,7 @@ class ComposedSurface final : public Surface {
   int max_order() const override { return properties_.max_order; }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return properties_.enclosure_order; }
+  bool is_composed() const override { return true; }
   std::vector<SurfacePiece> pieces() const override { return pieces_; }
   std::optional<NurbsSurfaceForm> as_nurbs() const override {
     return form_of_pieces(pieces_, properties_.breaks_u, properties_.breaks_v);

@@ -43,6 +43,7 @@ class TransformedSurface final : public Surface {
   double fit_distance() const override { return map_.operator_norm_bound() * original_->fit_distance(); }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return original_->enclosure_order(); }
+  bool is_composed() const override { return original_->is_composed(); }
   int max_order() const override { return original_->max_order(); }
   std::vector<SurfacePiece> pieces() const override;
   std::optional<NurbsSurfaceForm> as_nurbs() const override;

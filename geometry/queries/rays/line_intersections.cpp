@@ -9,6 +9,7 @@
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
+#include "geometry/queries/rays/fitted_pieces.h"
 #include "geometry/queries/rays/line_cells.h"
 #include "geometry/queries/rays/patch_target.h"
 #include "geometry/queries/rays/sampled_extent.h"
@@ -72,11 +73,9 @@ struct CellBudget {
 // Any other surface: rectangles certified by its own enclosures.
 class EnclosureTarget final : public LineTarget {
  public:
-  EnclosureTarget(SurfacePtr surface, const std::vector<SurfacePiece>& pieces, std::shared_ptr<const TrimRegion> trim,
+  EnclosureTarget(SurfacePtr surface, const std::vector<Rectangle>& boxes, std::shared_ptr<const TrimRegion> trim,
                   const CellBudget& wanted)
       : surface_(std::move(surface)), acceptance_(std::move(trim)) {
-    std::vector<Rectangle> boxes;
-    for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
     cut(boxes, wanted);
   }
   int piece_count() const override { return static_cast<int>(cells_.size()); }
@@ -170,42 +169,19 @@ class EnclosureTarget final : public LineTarget {
   std::vector<Cell> cells_;
 };
 
-std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
-                                               double min_area, const CellBudget& wanted) {
-  if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
-  std::vector<SurfacePiece> pieces = surface->pieces();
-  const bool rational =
-      std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
-  if (rational) return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), min_area);
-  return std::make_unique<EnclosureTarget>(std::move(surface), pieces, std::move(trim), wanted);
-}
-
-// A surface of formulas with kinks: its smooth parts, with the hits on the right sides. At a crease both parts may have
-// one, as neighbours have at a common border.
-class PartsTarget final : public LineTarget {
+// Several targets in place of one.
+class JointTarget : public LineTarget {
  public:
-  PartsTarget(SurfacePtr surface, std::vector<SmoothPart> parts, const std::shared_ptr<const TrimRegion>& trim,
-              double min_area)
-      : surface_(std::move(surface)), parts_(std::move(parts)) {
-    const Rectangle domain = surface_->domain();
-    slack_ = kHitSlack * Vec3(domain.u.width(), domain.v.width(), 0);
-    const size_t share = std::max(kMaxEnclosedCells / parts_.size(), kMinShare);
-    for (const SmoothPart& part : parts_) {
-      const auto may_hold = [&](const Rectangle& r) {
-        return geometry::may_hold(part.sides, {{r.u.lo, r.v.lo, 0}, {r.u.hi, r.v.hi, 0}});
-      };
-      targets_.push_back(make_smooth_target(part.surface, trim, min_area, {may_hold, share}));
-      for (int i = 0; i < targets_.back()->piece_count(); ++i) pieces_.emplace_back(targets_.size() - 1, i);
-    }
+  explicit JointTarget(SurfacePtr surface) : surface_(std::move(surface)) {}
+  void add(std::unique_ptr<LineTarget> target) {
+    for (int i = 0; i < target->piece_count(); ++i) pieces_.emplace_back(targets_.size(), i);
+    targets_.push_back(std::move(target));
   }
   int piece_count() const override { return static_cast<int>(pieces_.size()); }
   std::string_view method() const override { return targets_[0]->method(); }
   Box3 piece_bounds(int i) const override { return target(i).piece_bounds(pieces_[i].second); }
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
-    LineHits all;
-    target(i).piece_hits(pieces_[i].second, line, t, all);
-    for (int k = 0; k < all.size(); ++k)
-      if (holds(parts_[pieces_[i].first], {all[k].u, all[k].v, 0})) hits.add(all[k]);
+    target(i).piece_hits(pieces_[i].second, line, t, hits);
   }
   bool meets_once(int i, const Vec3& direction) const override {
     return target(i).meets_once(pieces_[i].second, direction);
@@ -220,8 +196,66 @@ class PartsTarget final : public LineTarget {
     return sum;
   }
 
+ protected:
+  size_t target_of(int i) const { return pieces_[i].first; }
+
  private:
   const LineTarget& target(int i) const { return *targets_[pieces_[i].first]; }
+
+  SurfacePtr surface_;
+  std::vector<std::unique_ptr<LineTarget>> targets_;
+  std::vector<std::pair<size_t, int>> pieces_;  // target, its piece
+};
+
+std::unique_ptr<LineTarget> make_fitted_target(const SurfacePtr& surface, const std::vector<Rectangle>& boxes,
+                                               const std::shared_ptr<const TrimRegion>& trim, double min_area,
+                                               const CellBudget& wanted) {
+  FittedPieces fitted = fitted_pieces(*surface, boxes);
+  auto result = std::make_unique<JointTarget>(surface);
+  if (!fitted.patches.empty())
+    result->add(std::make_unique<PatchTarget>(surface, std::move(fitted.patches), trim, min_area));
+  if (!fitted.rest.empty()) result->add(std::make_unique<EnclosureTarget>(surface, fitted.rest, trim, wanted));
+  return result;
+}
+
+std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
+                                               double min_area, const CellBudget& wanted) {
+  if (surface->has_line_formula()) return std::make_unique<FormulaTarget>(std::move(surface), std::move(trim));
+  std::vector<SurfacePiece> pieces = surface->pieces();
+  const bool rational =
+      std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
+  if (rational) return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), min_area);
+  std::vector<Rectangle> boxes;
+  for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
+  if (surface->is_composed()) return make_fitted_target(surface, boxes, trim, min_area, wanted);
+  return std::make_unique<EnclosureTarget>(std::move(surface), boxes, std::move(trim), wanted);
+}
+
+// A surface of formulas with kinks: its smooth parts, with the hits on the right sides. At a crease both parts may have
+// one, as neighbours have at a common border.
+class PartsTarget final : public JointTarget {
+ public:
+  PartsTarget(const SurfacePtr& surface, std::vector<SmoothPart> parts, const std::shared_ptr<const TrimRegion>& trim,
+              double min_area)
+      : JointTarget(surface), parts_(std::move(parts)) {
+    const Rectangle domain = surface->domain();
+    slack_ = kHitSlack * Vec3(domain.u.width(), domain.v.width(), 0);
+    const size_t share = std::max(kMaxEnclosedCells / parts_.size(), kMinShare);
+    for (const SmoothPart& part : parts_) {
+      const auto may_hold = [&](const Rectangle& r) {
+        return geometry::may_hold(part.sides, {{r.u.lo, r.v.lo, 0}, {r.u.hi, r.v.hi, 0}});
+      };
+      add(make_smooth_target(part.surface, trim, min_area, {may_hold, share}));
+    }
+  }
+  void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
+    LineHits all;
+    JointTarget::piece_hits(i, line, t, all);
+    for (int k = 0; k < all.size(); ++k)
+      if (holds(parts_[target_of(i)], {all[k].u, all[k].v, 0})) hits.add(all[k]);
+  }
+
+ private:
   bool holds(const SmoothPart& part, const Vec3& uv) const {
     return std::all_of(part.sides.begin(), part.sides.end(), [&](const ImplicitSide& side) {
       const double value = side.value(uv);
@@ -229,10 +263,7 @@ class PartsTarget final : public LineTarget {
     });
   }
 
-  SurfacePtr surface_;
   std::vector<SmoothPart> parts_;
-  std::vector<std::unique_ptr<LineTarget>> targets_;
-  std::vector<std::pair<size_t, int>> pieces_;  // target, its piece
   Vec3 slack_{0};
 };
 
@@ -241,7 +272,7 @@ class PartsTarget final : public LineTarget {
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
                                              double min_area) {
   if (std::vector<SmoothPart> parts = smooth_parts(surface); parts.size() > 1)
-    return std::make_unique<PartsTarget>(std::move(surface), std::move(parts), trim, min_area);
+    return std::make_unique<PartsTarget>(surface, std::move(parts), trim, min_area);
   return make_smooth_target(std::move(surface), std::move(trim), min_area, {});
 }
 

@@ -1,0 +1,198 @@
+// With the zeros x_j of T_8 as nodes the error of interpolation is f^(8)(y)/8! times T_8(x)/2^7: it is largest near the
+// nine places cos(k pi/8) where |T_8| = 1, and shrinks with the eighth power of the interval (Trefethen 2013, ch. 4).
+#include "geometry/queries/rays/fitted_pieces.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/numerics/chebyshev.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr int kNodes = 8;  // degree 7
+constexpr int kMostParts = 8;
+constexpr size_t kMostPatches = 4096;
+// Parts of a smooth surface gain more. Parts that do not, twice in a row, are beside a place that is not smooth, or
+// rounding is all that is left.
+constexpr double kLeastGain = 4;
+constexpr int kMostMisses = 2;
+
+using Values = std::array<std::array<Vec3, kNodes>, kNodes>;
+using Matrix = std::array<std::array<double, kNodes>, kNodes>;
+
+double node(int j) { return chebyshev_point(j, kNodes); }
+double extremum(int k) { return std::cos(std::numbers::pi * k / kNodes); }
+
+// Bernstein coefficients on [-1, 1] from values in the nodes.
+const Matrix& bernstein_of_values() {
+  static const Matrix matrix = [] {
+    Eigen::Matrix<long double, kNodes, kNodes> at;
+    for (int j = 0; j < kNodes; ++j) {
+      const long double s = 0.5L * (1 + static_cast<long double>(node(j)));
+      long double choose = 1;
+      for (int k = 0; k < kNodes; ++k) {
+        at(j, k) = choose * std::pow(s, k) * std::pow(1 - s, kNodes - 1 - k);
+        choose = choose * (kNodes - 1 - k) / (k + 1);
+      }
+    }
+    const Eigen::Matrix<long double, kNodes, kNodes> inverse = at.inverse();
+    Matrix result;
+    for (int i = 0; i < kNodes; ++i)
+      for (int j = 0; j < kNodes; ++j) result[i][j] = static_cast<double>(inverse(i, j));
+    return result;
+  }();
+  return matrix;
+}
+
+// Lagrange's polynomials of the nodes at x (barycentric form of the second kind; x is no node).
+std::array<double, kNodes> lagrange_at(double x) {
+  std::array<double, kNodes> result;
+  double sum = 0;
+  for (int j = 0; j < kNodes; ++j) {
+    const double weight = (j % 2 == 0 ? 1 : -1) * std::sin(std::numbers::pi * (j + 0.5) / kNodes);
+    result[j] = weight / (x - node(j));
+    sum += result[j];
+  }
+  for (double& value : result) value /= sum;
+  return result;
+}
+
+// What a part's fit is like, in the worse places along each parameter.
+struct Fit {
+  Rectangle box;
+  double before_u = kInfinity, before_v = kInfinity;  // the distances of the part that it comes from
+  int misses = 0;                                     // parts before this one that gained nothing
+  double off_u = 0, off_v = 0;
+  Values values;
+
+  double u(double x) const { return box.u.middle() + 0.5 * box.u.width() * x; }
+  double v(double y) const { return box.v.middle() + 0.5 * box.v.width() * y; }
+  bool is_near(double tolerance) const { return off_u <= tolerance && off_v <= tolerance; }
+  // Finer parts are no better.
+  bool misses_again(double tolerance) const {
+    const auto gains = [&](double off, double before) { return off <= tolerance || off * kLeastGain <= before; };
+    return !gains(off_u, before_u) || !gains(off_v, before_v);
+  }
+};
+
+SurfacePiece patch_of(const Fit& fit) {
+  const Matrix& matrix = bernstein_of_values();
+  // About a point of the part, so that the matrix magnifies the rounding of its size only.
+  const Vec3 middle = fit.values[kNodes / 2][kNodes / 2];
+  SurfacePiece piece = plain_piece(fit.box);
+  piece.degree_u = piece.degree_v = kNodes - 1;
+  for (int i = 0; i < kNodes; ++i)
+    for (int j = 0; j < kNodes; ++j) {
+      Vec3 sum(0);
+      for (int k = 0; k < kNodes; ++k)
+        for (int l = 0; l < kNodes; ++l) sum += matrix[i][k] * matrix[j][l] * (fit.values[k][l] - middle);
+      piece.points.push_back(Vec4(middle + sum, 1));
+    }
+  return piece;
+}
+
+void fit(const Surface& surface, Fit& fit, double tolerance) {
+  for (int i = 0; i < kNodes; ++i)
+    for (int j = 0; j < kNodes; ++j) fit.values[i][j] = surface.point(fit.u(node(i)), fit.v(node(j)));
+  const auto off = [&](const Vec3& point, const Vec3& there) {
+    const double distance = glm::length(point - there);
+    return std::isfinite(distance) ? distance : kInfinity;
+  };
+  for (const int k : {0, 3, 4, 8}) {
+    const double x = extremum(k);
+    const auto weights = lagrange_at(x);
+    for (const int j : {0, 3, 7}) {
+      Vec3 along_u(0), along_v(0);
+      for (int i = 0; i < kNodes; ++i) {
+        along_u += weights[i] * fit.values[i][j];
+        along_v += weights[i] * fit.values[j][i];
+      }
+      fit.off_u = std::max(fit.off_u, off(along_u, surface.point(fit.u(x), fit.v(node(j)))));
+      fit.off_v = std::max(fit.off_v, off(along_v, surface.point(fit.u(node(j)), fit.v(x))));
+    }
+    if (fit.off_u > tolerance && fit.off_v > tolerance) return;
+  }
+  if (!fit.is_near(tolerance)) return;
+  for (int k = 0; k <= kNodes; k += 2)
+    for (int l = 0; l <= kNodes; l += 2) {
+      const double x = extremum(k), y = extremum(l);
+      const auto in_u = lagrange_at(x), in_v = lagrange_at(y);
+      Vec3 sum(0);
+      for (int i = 0; i < kNodes; ++i)
+        for (int j = 0; j < kNodes; ++j) sum += in_u[i] * in_v[j] * fit.values[i][j];
+      const double here = off(sum, surface.point(fit.u(x), fit.v(y)));
+      if (here > 4 * tolerance) fit.off_u = fit.off_v = here;
+    }
+}
+
+// In how many parts a distance comes below the tolerance, by the eighth power.
+int parts(double off, double tolerance, int most) {
+  if (off <= tolerance) return 1;
+  return static_cast<int>(std::clamp(std::ceil(std::pow(2 * off / tolerance, 1.0 / kNodes)), 2.0, 1.0 * most));
+}
+
+void divide(const Fit& whole, double tolerance, std::vector<Fit>& result) {
+  const int most = whole.misses > 0 ? 2 : kMostParts;
+  const int across_u = parts(whole.off_u, tolerance, most), across_v = parts(whole.off_v, tolerance, most);
+  const auto part = [](const Interval& range, int k, int count) -> Interval {
+    const auto at = [&](int i) { return i == count ? range.hi : range.lo + range.width() * i / count; };
+    return {at(k), at(k + 1)};
+  };
+  for (int i = 0; i < across_u; ++i)
+    for (int j = 0; j < across_v; ++j) {
+      Fit one;
+      one.box = {part(whole.box.u, i, across_u), part(whole.box.v, j, across_v)};
+      one.misses = whole.misses;
+      one.before_u = across_u > 1 ? whole.off_u : kInfinity;
+      one.before_v = across_v > 1 ? whole.off_v : kInfinity;
+      result.push_back(one);
+    }
+}
+
+// From points, since boxes of composed surfaces are wide.
+double size_of(const Surface& surface, const std::vector<Rectangle>& boxes) {
+  constexpr int kTried = 4;
+  Box3 all;
+  const auto at = [](const Interval& range, int k) { return range.lo + range.width() * k / kTried; };
+  for (const Rectangle& box : boxes)
+    for (int i = 0; i <= kTried; ++i)
+      for (int j = 0; j <= kTried; ++j) all.include(surface.point(at(box.u, i), at(box.v, j)));
+  return all.diameter();
+}
+
+}  // namespace
+
+FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>& boxes) {
+  FittedPieces result;
+  const double tolerance = kFitDistance * size_of(surface, boxes);
+  std::vector<Fit> open(boxes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) open[i].box = boxes[i];
+  while (!open.empty()) {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, open.size()), [&](const tbb::blocked_range<size_t>& some) {
+      for (size_t i = some.begin(); i < some.end(); ++i) fit(surface, open[i], tolerance);
+    });
+    std::vector<Fit> next;
+    for (Fit& one : open) {
+      if (one.is_near(tolerance)) {
+        result.patches.push_back(patch_of(one));
+        continue;
+      }
+      one.misses = one.misses_again(tolerance) ? one.misses + 1 : 0;
+      if (one.misses > kMostMisses || result.patches.size() + next.size() > kMostPatches)
+        result.rest.push_back(one.box);
+      else
+        divide(one, tolerance, next);
+    }
+    open = std::move(next);
+  }
+  return result;
+}
+
+}  // namespace lekalo::geometry

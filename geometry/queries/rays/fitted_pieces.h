@@ -1,0 +1,25 @@
+// Polynomial patches that agree with a surface but for a stated distance. A surface that is made of the evaluations of
+// others costs much to evaluate and far more to enclose; lines meet its patches as they meet Bezier pieces.
+#pragma once
+
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace lekalo::geometry {
+
+// Share of the surface's size from which patches may differ from it.
+inline constexpr double kFitDistance = 1e-12;
+
+struct FittedPieces {
+  std::vector<SurfacePiece> patches;
+  // Where no patch comes near enough, as beside a place at which derivatives have no bounds.
+  std::vector<Rectangle> rest;
+};
+
+// Over the rectangles, in each of which the surface is smooth: interpolation of degree 7 in each parameter in Chebyshev
+// points, on parts as small as it takes. The distance is looked at where the error of interpolation is largest, not
+// proven.
+FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>& boxes);
+
+}  // namespace lekalo::geometry
