@@ -16,6 +16,8 @@
   X(revolution_surface_type)     \
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
+  X(t_spline_type)               \
+  X(t_spline_functions_type)     \
   X(formula_surface_type)        \
   X(ruled_surface_type)          \
   X(sector_surface_type)         \

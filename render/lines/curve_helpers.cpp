@@ -145,7 +145,10 @@ std::vector<Vec3> helper_points(const Object& object) {
       for (const Frame& frame : helper_frames(**curve, helper))
         for (const Vec3& axis : {frame.x, frame.y, frame.z}) points.push_back(frame.origin + f.number("length") * axis);
     for (const SurfacePtr& surface : surfaces) {
-      if (helper.type == "control_net")
+      const auto* spline = dynamic_cast<const TSpline*>(surface.get());
+      if (spline && (helper.type == "control_net" || helper.type == "t_mesh"))
+        for (const Vec3& point : mesh_points(*spline, helper)) points.push_back(point);
+      else if (helper.type == "control_net")
         if (const auto form = surface->as_nurbs()) add(form->points);
       if (helper.type == "normals" && surface->bounded()) {
         const Rectangle domain = surface->domain();
@@ -157,6 +160,13 @@ std::vector<Vec3> helper_points(const Object& object) {
   }
   std::erase_if(points, [](const Vec3& p) { return !std::isfinite(p.x + p.y + p.z); });
   return points;
+}
+
+std::vector<Vec3> mesh_points(const TSpline& spline, const Helper& helper) {
+  if (helper.type == "control_net") return spline.points();
+  std::vector<Vec3> places;
+  for (size_t i = 0; i < spline.points().size(); ++i) places.emplace_back(spline.place(static_cast<int>(i)), 0);
+  return places;
 }
 
 std::vector<Vec3> normal_tips(const Surface& surface, double u, double v, const Helper& helper) {

@@ -17,6 +17,7 @@
 #include "geometry/shapes/implicit/implicit_contours.h"
 #include "geometry/shapes/tube/ball_outlines.h"
 #include "geometry/shapes/tube/tube_lines.h"
+#include "geometry/surfaces/splines/t_spline.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -252,6 +253,7 @@ class StrokeCollector {
 
   void add_net(const geometry::NurbsSurfaceForm& form, const geometry::Periods& periods, const std::string& sign,
                const Helper& helper);
+  void add_mesh(const geometry::TSpline& spline, const std::string& sign, const Helper& helper);
 
   void blossom(const Vec3& point, const geometry::NurbsCurveForm& form, size_t index, int level, double t,
                const Helper& helper);

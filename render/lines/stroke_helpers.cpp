@@ -66,7 +66,11 @@ void StrokeCollector::add_helper(const Helper& helper) {
   }
   each_surface([&](const SurfacePtr& surface) {
     const auto form = surface->as_nurbs();
-    if (helper.type == "control_net" && form) add_net(*form, surface->periods(), sign, helper);
+    if (const auto* spline = dynamic_cast<const TSpline*>(surface.get())) {
+      if (helper.type == "control_net" || helper.type == "t_mesh") add_mesh(*spline, sign, helper);
+    } else if (helper.type == "control_net" && form) {
+      add_net(*form, surface->periods(), sign, helper);
+    }
     if (helper.type == "knots" && form) {
       // Of those of a period alone: others come back into it.
       const auto within = [](const std::vector<double>& knots, const Interval& domain) {
@@ -163,6 +167,16 @@ void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& perio
       const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
       if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j)}, helper);
     }
+}
+
+// The points of a T-spline, or their places in the parameter plane, joined as in its mesh.
+void StrokeCollector::add_mesh(const TSpline& spline, const std::string& sign, const Helper& helper) {
+  const std::vector<Vec3> points = mesh_points(spline, helper);
+  for (const auto& [a, b] : spline.edges()) polygon({points[a], points[b]}, false, helper.style, helper.hidden);
+  for (size_t i = 0; i < points.size(); ++i) {
+    mark(points[i], sign, helper.style, helper.hidden);
+    label(points[i], {static_cast<double>(i), 0.0}, helper);
+  }
 }
 
 void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign, const Helper& helper) {

@@ -16,7 +16,7 @@ ROWS = {"golovanov": 379, "zavyalov_splines": 69, "zavyalov_visualisation": 35, 
 SPOKEN = [(r"\bcurves?\b", {"curves", "helpers", "objects", "annotations"}),
           (r"\b(surfaces?|loft)\b", {"surfaces", "curves", "bodies", "shapes", "helpers", "objects", "materials", "textures"}),
           (r"\bbod(y|ies)\b", {"bodies", "shapes", "objects"}),
-          (r"\b(mesh|triangulation)", {"meshes", "objects"}),
+          (r"(?<!T-)\b(mesh|triangulation)", {"meshes", "objects"}),
           (r"\b(lights?|shadows?)\b", {"lights", "integrators", "materials"})]
 # What the C++ of types is called where it is not called like them.
 CALLED = {"object": ["representation", "tessellate"], "intersection_curve": ["intersect"], "union": ["unite"],

@@ -54,6 +54,13 @@ TypeDeclaration control_net() {
   return finish(type);
 }
 
+TypeDeclaration t_mesh_helper() {
+  TypeDeclaration type = helper("t_mesh", "The mesh of a T-spline in the parameter plane: at (u, v, 0).", "thin");
+  type.field("marker", marker(), "sign at the vertices", "dot")
+      .optional("label", label({"i", "j"}), "text at each vertex; %i is its number");
+  return finish(type);
+}
+
 // The points of de Casteljau's and de Boor's triangles; the levels count from 1.
 TypeDeclaration triangle(const char* name, const char* description, bool of_surfaces_too) {
   TypeDeclaration type = helper(name, description, "construction");
@@ -242,6 +249,7 @@ std::vector<TypeDeclaration> helper_types() {
   TypeDeclaration hull_type = hulls();
   return {control_polygon(),
           control_net(),
+          t_mesh_helper(),
           triangle("de_casteljau", "De Casteljau's construction of a point (Golovanov 2016, 2.4).", true),
           triangle("de_boor", "De Boor's construction of a point (Golovanov 2016, 2.9).", false),
           comb(),

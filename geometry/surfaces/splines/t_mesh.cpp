@@ -1,0 +1,219 @@
+#include "geometry/surfaces/splines/t_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "geometry/describe.h"
+#include "geometry/tolerances.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+std::string words(const std::vector<Vec2>& vertices, int i) {
+  return fmt::format("vertex {} at ({:.6g}, {:.6g})", i, vertices[i].x, vertices[i].y);
+}
+
+// Coordinates closer than kSameKnot of their range become equal.
+void join_equal(std::vector<Vec2>& vertices, int axis) {
+  std::vector<size_t> order(vertices.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return vertices[a][axis] < vertices[b][axis]; });
+  const double near = kSameKnot * (vertices[order.back()][axis] - vertices[order.front()][axis]);
+  for (size_t k = 1; k < order.size(); ++k) {
+    double& own = vertices[order[k]][axis];
+    const double before = vertices[order[k - 1]][axis];
+    if (own - before <= near) own = before;
+  }
+}
+
+// The edges of one line between two vertices, cut at the vertices on it.
+void add_line(const std::vector<Vec2>& vertices, int from, int to, std::set<std::array<int, 2>>& edges) {
+  const Vec2 a = vertices[from], b = vertices[to];
+  const bool along_u = a.y == b.y;
+  if (along_u == (a.x == b.x))
+    throw FieldError(
+        "lines",
+        fmt::format("the line from {} to {} is not parallel to an axis", words(vertices, from), words(vertices, to)),
+        "neighbours of a line have the same u or the same v");
+  const int axis = along_u ? 0 : 1;
+  const double lo = std::min(a[axis], b[axis]), hi = std::max(a[axis], b[axis]);
+  std::vector<int> on;
+  for (size_t i = 0; i < vertices.size(); ++i)
+    if (vertices[i][1 - axis] == a[1 - axis] && vertices[i][axis] >= lo && vertices[i][axis] <= hi)
+      on.push_back(static_cast<int>(i));
+  std::sort(on.begin(), on.end(), [&](int i, int j) { return vertices[i][axis] < vertices[j][axis]; });
+  for (size_t k = 1; k < on.size(); ++k) edges.insert({on[k - 1], on[k]});
+}
+
+enum Side { kRight, kLeft, kUp, kDown };
+
+// Neighbours of each vertex by side, -1 where there is none.
+std::vector<std::array<int, 4>> neighbours(const TMesh& mesh) {
+  std::vector<std::array<int, 4>> of(mesh.vertices.size(), {-1, -1, -1, -1});
+  for (const auto& [a, b] : mesh.edges) {
+    const bool along_u = mesh.vertices[a].y == mesh.vertices[b].y;
+    of[a][along_u ? kRight : kUp] = b;
+    of[b][along_u ? kLeft : kDown] = a;
+  }
+  return of;
+}
+
+struct MeshBox {
+  Vec2 lo{kInfinity}, hi{-kInfinity};
+  bool at_end(const Vec2& p, int side) const {
+    return side == kRight ? p.x == hi.x : side == kLeft ? p.x == lo.x : side == kUp ? p.y == hi.y : p.y == lo.y;
+  }
+};
+
+MeshBox box_of(const TMesh& mesh) {
+  MeshBox box;
+  for (const Vec2& p : mesh.vertices) box.lo = glm::min(box.lo, p), box.hi = glm::max(box.hi, p);
+  return box;
+}
+
+void check_crossings(const TMesh& mesh) {
+  const auto& at = mesh.vertices;
+  for (const auto& [a, b] : mesh.edges) {
+    if (at[a].y != at[b].y) continue;
+    for (const auto& [c, d] : mesh.edges)
+      if (at[c].x == at[d].x && at[a].x < at[c].x && at[c].x < at[b].x && at[c].y < at[a].y && at[a].y < at[d].y)
+        throw FieldError("lines",
+                         fmt::format("lines cross at ({:.6g}, {:.6g}), where there is no vertex", at[c].x, at[a].y),
+                         "every meeting of lines is a vertex with a control point");
+  }
+}
+
+void check_vertices(const TMesh& mesh, const std::vector<std::array<int, 4>>& beside) {
+  constexpr const char* kNames[] = {"right", "left", "upper", "lower"};
+  const MeshBox box = box_of(mesh);
+  for (size_t k = 0; k < mesh.vertices.size(); ++k) {
+    const int i = static_cast<int>(k);
+    const Vec2& p = mesh.vertices[k];
+    const auto& own = beside[k];
+    if (std::all_of(own.begin(), own.end(), [](int j) { return j < 0; }))
+      throw FieldError("at", fmt::format("{} is on no line", words(mesh.vertices, i)), "name it in one of the lines");
+    for (const int side : {kRight, kLeft, kUp, kDown}) {
+      const bool border = box.at_end(p, side);
+      // Along a border the edges go on to its ends.
+      for (const int along : {kRight, kLeft, kUp, kDown})
+        if (border && (along < kUp) != (side < kUp) && !box.at_end(p, along) && own[along] < 0)
+          throw FieldError("lines",
+                           fmt::format("the {} border has a gap beside {}", kNames[side], words(mesh.vertices, i)),
+                           "the outline of the mesh is a rectangle of lines");
+    }
+    const bool inside_u = !box.at_end(p, kRight) && !box.at_end(p, kLeft),
+               inside_v = !box.at_end(p, kUp) && !box.at_end(p, kDown);
+    const bool through_u = own[kRight] >= 0 && own[kLeft] >= 0, through_v = own[kUp] >= 0 && own[kDown] >= 0;
+    if (inside_u && inside_v && !through_u && !through_v)
+      throw FieldError(
+          "lines",
+          fmt::format("at {} a line ends or turns: the cells there are not rectangles", words(mesh.vertices, i)),
+          "carry the line on to the next one across");
+  }
+}
+
+void check_connected(const TMesh& mesh, const std::vector<std::array<int, 4>>& beside) {
+  std::vector<bool> reached(mesh.vertices.size(), false);
+  std::vector<int> open{0};
+  reached[0] = true;
+  while (!open.empty()) {
+    const int i = open.back();
+    open.pop_back();
+    for (const int j : beside[i])
+      if (j >= 0 && !reached[j]) reached[j] = true, open.push_back(j);
+  }
+  for (size_t i = 0; i < reached.size(); ++i)
+    if (!reached[i])
+      throw FieldError("lines",
+                       fmt::format("{} and {} are not joined by lines", words(mesh.vertices, 0),
+                                   words(mesh.vertices, static_cast<int>(i))),
+                       "the mesh is one rectangle cut into rectangles");
+}
+
+// Parameters of the edges across the line through p along the axis, on one side, from p on.
+std::vector<double> met(const TMesh& mesh, const Vec2& p, int axis, double sign) {
+  std::set<double> places;
+  for (const auto& [a, b] : mesh.edges) {
+    const Vec2 &from = mesh.vertices[a], &to = mesh.vertices[b];
+    if (from[axis] == to[axis] && from[1 - axis] <= p[1 - axis] && p[1 - axis] <= to[1 - axis] &&
+        sign * (from[axis] - p[axis]) > 0)
+      places.insert(sign * from[axis]);
+  }
+  std::vector<double> result(places.begin(), places.end());
+  for (double& x : result) x *= sign;
+  return result;
+}
+
+// Vertices that face each other across a cell (Sederberg et al. 2003, rule 2).
+void check_facing(const TMesh& mesh, const std::vector<std::array<int, 4>>& beside) {
+  const MeshBox box = box_of(mesh);
+  for (size_t i = 0; i < mesh.vertices.size(); ++i)
+    for (const int side : {kRight, kUp}) {
+      const Vec2& p = mesh.vertices[i];
+      if (beside[i][side] >= 0 || box.at_end(p, side)) continue;
+      const int axis = side == kRight ? 0 : 1;
+      Vec2 facing = p;
+      facing[axis] = met(mesh, p, axis, 1).front();
+      const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), facing);
+      if (found != mesh.vertices.end())
+        throw FieldError(
+            "lines",
+            fmt::format("{} and {} face each other across a cell", words(mesh.vertices, static_cast<int>(i)),
+                        words(mesh.vertices, static_cast<int>(found - mesh.vertices.begin()))),
+            "join them by a line");
+    }
+}
+
+std::vector<double> knots_along(const TMesh& mesh, const Vec2& p, int axis, int degree) {
+  const size_t half = (degree + 1) / 2;
+  std::vector<double> knots;
+  for (const double sign : {-1.0, 1.0}) {
+    std::vector<double> beside = met(mesh, p, axis, sign);
+    beside.insert(beside.end(), half, beside.empty() ? p[axis] : beside.back());
+    beside.resize(half);
+    if (sign < 0) std::reverse(beside.begin(), beside.end());
+    knots.insert(knots.end(), beside.begin(), beside.end());
+    if (sign < 0) knots.push_back(p[axis]);
+  }
+  return knots;
+}
+
+}  // namespace
+
+TMesh t_mesh(const std::vector<Vec3>& at, const std::vector<std::vector<int>>& lines) {
+  if (at.size() < 4) throw FieldError("at", fmt::format("a mesh has 4 vertices at least, not {}", at.size()));
+  TMesh mesh;
+  for (const Vec3& p : at) mesh.vertices.emplace_back(p);
+  join_equal(mesh.vertices, 0);
+  join_equal(mesh.vertices, 1);
+  for (size_t i = 0; i < at.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (mesh.vertices[i] == mesh.vertices[j])
+        throw FieldError("at", fmt::format("vertices {} and {} are both at ({:.6g}, {:.6g})", j, i, at[i].x, at[i].y));
+  std::set<std::array<int, 2>> edges;
+  for (size_t k = 0; k < lines.size(); ++k) {
+    if (lines[k].size() < 2) throw FieldError("lines", fmt::format("line {} joins less than two vertices", k));
+    for (const int i : lines[k])
+      if (i < 0 || i >= static_cast<int>(at.size()))
+        throw FieldError("lines", fmt::format("line {} names vertex {}, but there are 0 to {}", k, i, at.size() - 1));
+    for (size_t j = 1; j < lines[k].size(); ++j) add_line(mesh.vertices, lines[k][j - 1], lines[k][j], edges);
+  }
+  mesh.edges.assign(edges.begin(), edges.end());
+  const auto beside = neighbours(mesh);
+  check_crossings(mesh);
+  check_vertices(mesh, beside);
+  check_connected(mesh, beside);
+  check_facing(mesh, beside);
+  return mesh;
+}
+
+std::vector<LocalKnots> inferred_knots(const TMesh& mesh, int degree) {
+  std::vector<LocalKnots> all;
+  for (const Vec2& p : mesh.vertices) all.push_back({knots_along(mesh, p, 0, degree), knots_along(mesh, p, 1, degree)});
+  return all;
+}
+
+}  // namespace lekalo::geometry

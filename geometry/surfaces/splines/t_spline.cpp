@@ -1,0 +1,364 @@
+// Each function is a sum of the B-splines on all knots, with discrete B-splines for coefficients (Cohen, Lyche,
+// Riesenfeld 1980): on knots t that contain its own, s,
+//
+//   a_i^0(j) = 1 where s_i <= t_j < s_{i+1}, else 0
+//   a_i^d(j) = (t_{j+d} - s_i)/(s_{i+d} - s_i) a_i^{d-1}(j) + (s_{i+d+1} - t_{j+d})/(s_{i+d+1} - s_{i+1})
+//   a_{i+1}^{d-1}(j)
+//
+// The sum of their products with w_i p_i and w_i is the control net of the surface as a NURBS surface.
+#include "geometry/surfaces/splines/t_spline.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseQR>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "geometry/curves/splines/bspline_basis.h"
+#include "geometry/numerics/quadrature.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Sums of functions are 1 to this, where they are 1.
+constexpr double kSumIsOne = 1e-14;
+constexpr double kMaxNet = 4e6;  // control points
+
+int degree_of(const std::vector<LocalKnots>& functions) { return static_cast<int>(functions.front().u.size()) - 2; }
+
+double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+struct Refined {
+  int first = 0;  // index of the first coefficient
+  std::vector<double> coefficients;
+};
+
+Refined refined(const std::vector<double>& s, const std::vector<double>& t) {
+  const int degree = static_cast<int>(s.size()) - 2, count = static_cast<int>(t.size()) - degree - 1;
+  Refined result;
+  std::vector<double> a(degree + 1);
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i <= degree; ++i) a[i] = s[i] <= t[j] && t[j] < s[i + 1] ? 1 : 0;
+    for (int d = 1; d <= degree; ++d)
+      for (int i = 0; i <= degree - d; ++i)
+        a[i] = share(t[j + d] - s[i], s[i + d] - s[i]) * a[i] +
+               share(s[i + d + 1] - t[j + d], s[i + d + 1] - s[i + 1]) * a[i + 1];
+    const double value = std::max(a[0], 0.0);
+    if (value == 0 && result.coefficients.empty()) continue;
+    if (result.coefficients.empty()) result.first = j;
+    result.coefficients.push_back(value);
+  }
+  return result;
+}
+
+// All knots inside the domain as often as one of the functions has them, and its ends, clamped.
+std::vector<double> all_knots(const std::vector<LocalKnots>& functions, bool along_u, const Interval& domain) {
+  std::map<double, int> inner;
+  for (const LocalKnots& function : functions) {
+    std::map<double, int> own;
+    for (const double knot : along_u ? function.u : function.v)
+      if (knot > domain.lo && knot < domain.hi) ++own[knot];
+    for (const auto& [knot, times] : own) inner[knot] = std::max(inner[knot], times);
+  }
+  const int ends = degree_of(functions) + 1;
+  std::vector<double> knots(ends, domain.lo);
+  for (const auto& [knot, times] : inner) knots.insert(knots.end(), times, knot);
+  knots.insert(knots.end(), ends, domain.hi);
+  return knots;
+}
+
+// The sums of the functions times these values, as a NURBS surface on all knots.
+NurbsSurfaceForm sum_of(const std::vector<LocalKnots>& functions, const std::vector<Vec4>& values,
+                        const Rectangle& domain) {
+  NurbsSurfaceForm form;
+  form.degree_u = form.degree_v = degree_of(functions);
+  form.knots_u = all_knots(functions, true, domain.u), form.knots_v = all_knots(functions, false, domain.v);
+  const int columns = form.count_v();
+  if (static_cast<double>(form.count_u()) * columns > kMaxNet)
+    throw FieldError("points", fmt::format("all knots make a net of {} x {} points", form.count_u(), columns),
+                     "fewer lines");
+  form.points.assign(static_cast<size_t>(form.count_u()) * columns, Vec4(0));
+  for (size_t i = 0; i < functions.size(); ++i) {
+    const Refined a = refined(functions[i].u, form.knots_u), b = refined(functions[i].v, form.knots_v);
+    for (size_t k = 0; k < a.coefficients.size(); ++k)
+      for (size_t l = 0; l < b.coefficients.size(); ++l)
+        form.points[(a.first + k) * columns + b.first + l] += a.coefficients[k] * b.coefficients[l] * values[i];
+  }
+  return form;
+}
+
+NurbsSurface rational_sum(const std::vector<LocalKnots>& functions, const std::vector<Vec3>& points,
+                          const std::vector<double>& weights, const Rectangle& domain) {
+  if (points.size() != functions.size())
+    throw FieldError("points", fmt::format("{} vertices need as many points, not {}", functions.size(), points.size()));
+  if (!weights.empty() && weights.size() != points.size())
+    throw FieldError("weights", fmt::format("{} weights do not fit {} points", weights.size(), points.size()));
+  std::vector<Vec4> values;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double w = weights.empty() ? 1 : weights[i];
+    if (!(w > 0)) throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, w));
+    values.emplace_back(w * points[i], w);
+  }
+  NurbsSurfaceForm form = sum_of(functions, values, domain);
+  for (Vec4& p : form.points) {
+    if (!(p.w > 0))
+      throw FieldError("domain", "somewhere in the domain all functions vanish", "a smaller domain, or more functions");
+    if (std::abs(p.w - 1) <= kSumIsOne) p = Vec4(Vec3(p) / p.w, 1);
+  }
+  return NurbsSurface(form);
+}
+
+}  // namespace
+
+TSpline::TSpline(std::vector<LocalKnots> functions, std::vector<Vec3> points, std::vector<double> weights,
+                 const Rectangle& domain, std::vector<std::array<int, 2>> edges)
+    : functions_(std::move(functions)),
+      points_(std::move(points)),
+      edges_(std::move(edges)),
+      surface_(rational_sum(functions_, points_, weights, domain)) {}
+
+Vec2 TSpline::place(int i) const {
+  const size_t middle = functions_[i].u.size() / 2;
+  return {functions_[i].u[middle], functions_[i].v[middle]};
+}
+
+Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functions) {
+  Vec2 lo(kInfinity), hi(-kInfinity);
+  for (const Vec2& p : mesh.vertices) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  const int degree = degree_of(functions);
+  Rectangle domain{{lo.x, hi.x}, {lo.y, hi.y}};
+  for (size_t i = 0; i < functions.size(); ++i) {
+    const Vec2& p = mesh.vertices[i];
+    if (p.x == lo.x) domain.u.lo = std::max(domain.u.lo, functions[i].u[degree]);
+    if (p.x == hi.x) domain.u.hi = std::min(domain.u.hi, functions[i].u[1]);
+    if (p.y == lo.y) domain.v.lo = std::max(domain.v.lo, functions[i].v[degree]);
+    if (p.y == hi.y) domain.v.hi = std::min(domain.v.hi, functions[i].v[1]);
+  }
+  if (!(domain.u.lo < domain.u.hi && domain.v.lo < domain.v.hi))
+    throw FieldError(
+        "lines",
+        fmt::format("no cell is {} cells away from the whole border, as degree {} needs", (degree - 1) / 2, degree),
+        "more lines, or a lower degree");
+  return domain;
+}
+
+std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const std::vector<double>& weights,
+                                const Rectangle& domain, const Surface& of) {
+  const Rectangle all = of.domain();
+  if (!(all.u.contains(domain.u.lo) && all.u.contains(domain.u.hi) && all.v.contains(domain.v.lo) &&
+        all.v.contains(domain.v.hi)))
+    throw FieldError(
+        "of",
+        fmt::format("the surface goes over u {:.6g}..{:.6g}, v {:.6g}..{:.6g}, the T-spline over u "
+                    "{:.6g}..{:.6g}, v {:.6g}..{:.6g}",
+                    all.u.lo, all.u.hi, all.v.lo, all.v.hi, domain.u.lo, domain.u.hi, domain.v.lo, domain.v.hi),
+        "draw the mesh over the surface's own parameters");
+  const int degree = degree_of(functions), count = static_cast<int>(functions.size());
+  const auto rule = gauss_legendre(degree + 1);
+  const auto places = [&](bool along_u, const Interval& range) {
+    const std::vector<double> knots = all_knots(functions, along_u, range);
+    std::vector<double> at;
+    for (size_t k = 1; k < knots.size(); ++k)
+      for (size_t g = 0; knots[k] > knots[k - 1] && g < rule.nodes.size(); ++g)
+        at.push_back(0.5 * (knots[k - 1] + knots[k] + rule.nodes[g] * (knots[k] - knots[k - 1])));
+    return at;
+  };
+  const std::vector<double> at_u = places(true, domain.u), at_v = places(false, domain.v);
+  // Values of one function at the places, between the first and last that it reaches.
+  const auto values = [&](const std::vector<double>& knots, const std::vector<double>& at) {
+    std::vector<double> padded(degree, knots.front());
+    padded.insert(padded.end(), knots.begin(), knots.end());
+    padded.insert(padded.end(), degree, knots.back());
+    std::vector<std::pair<int, double>> result;
+    std::vector<double> basis(degree + 1);
+    for (size_t k = 0; k < at.size(); ++k) {
+      if (!(at[k] > knots.front() && at[k] < knots.back())) continue;
+      const int span = static_cast<int>(std::upper_bound(padded.begin(), padded.end(), at[k]) - padded.begin()) - 1;
+      basis_derivative(degree, padded, span, at[k], 0, basis);
+      result.emplace_back(static_cast<int>(k), basis[degree - (span - degree)]);
+    }
+    return result;
+  };
+  const size_t columns = at_v.size(), height = at_u.size() * columns;
+  std::vector<double> sums(height, 0.0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < count; ++i) {
+    const auto a = values(functions[i].u, at_u), b = values(functions[i].v, at_v);
+    for (const auto& [k, x] : a)
+      for (const auto& [l, y] : b) {
+        const size_t row = k * columns + l;
+        const double value = x * y * (weights.empty() ? 1 : weights[i]);
+        entries.emplace_back(static_cast<int>(row), i, value);
+        sums[row] += value;
+      }
+  }
+  for (auto& entry : entries) entry = {entry.row(), entry.col(), entry.value() / sums[entry.row()]};
+  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(height), count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixX3d right(height, 3);
+  for (size_t k = 0; k < at_u.size(); ++k)
+    for (size_t l = 0; l < columns; ++l) {
+      const Vec3 p = of.point(at_u[k], at_v[l]);
+      right.row(static_cast<Eigen::Index>(k * columns + l)) << p.x, p.y, p.z;
+    }
+  const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors(matrix);
+  if (factors.rank() < count)
+    throw FieldError("lines", fmt::format("{} functions of the mesh depend on one another", count - factors.rank()),
+                     "lines that end opposite to one another, or cross in their continuations, do this");
+  const Eigen::MatrixX3d solution = factors.solve(right);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(solution(i, 0), solution(i, 1), solution(i, 2));
+  return points;
+}
+
+namespace {
+
+struct GivenFunctions {
+  std::vector<LocalKnots> functions;
+  std::vector<std::array<int, 2>> edges;
+  Rectangle domain;
+};
+
+void check_own_knots(const Grid<double>& knots, const char* field) {
+  for (int i = 0; i < knots.rows; ++i) {
+    for (int k = 1; k < knots.columns; ++k)
+      if (!(knots.at(i, k) >= knots.at(i, k - 1)))
+        throw FieldError(field, fmt::format("the knots of function {} decrease: {} follows {}", i, knots.at(i, k),
+                                            knots.at(i, k - 1)));
+    if (!(knots.at(i, 0) < knots.at(i, knots.columns - 1)))
+      throw FieldError(field, fmt::format("the knots of function {} are all the same", i));
+  }
+}
+
+GivenFunctions own_knots(const Fields& f, int degree) {
+  GivenFunctions given;
+  if (!f.has("knots_u") || !f.has("knots_v"))
+    throw FieldError(f.has("knots_u") ? "knots_v" : "knots_u", "knots of the functions are needed in both directions");
+  const Grid<double>&u = f.number_grid("knots_u"), &v = f.number_grid("knots_v");
+  if (u.rows != v.rows)
+    throw FieldError("knots_v", fmt::format("{} rows of knots do not fit the {} of knots_u", v.rows, u.rows));
+  for (const auto& [grid, field] : {std::pair(&u, "knots_u"), std::pair(&v, "knots_v")}) {
+    if (grid->columns != degree + 2)
+      throw FieldError(field,
+                       fmt::format("a function of degree {} has {} knots, not {}", degree, degree + 2, grid->columns));
+    check_own_knots(*grid, field);
+  }
+  for (int i = 0; i < u.rows; ++i) {
+    const auto row = [i](const Grid<double>& grid) {
+      const auto begin = grid.values.begin() + static_cast<std::ptrdiff_t>(i) * grid.columns;
+      return std::vector<double>(begin, begin + grid.columns);
+    };
+    given.functions.push_back({row(u), row(v)});
+  }
+  if (!f.has("domain")) throw FieldError("domain", "functions with knots of their own need a domain");
+  given.domain = f.rectangle("domain");
+  return given;
+}
+
+GivenFunctions read_functions(const Fields& f) {
+  const int degree = f.integer("degree");
+  if (degree % 2 == 0) throw FieldError("degree", fmt::format("{} is even", degree), "1, 3, 5 or 7");
+  const bool of_mesh = f.has("at") || f.has("lines");
+  if (of_mesh == (f.has("knots_u") || f.has("knots_v")))
+    throw FieldError(of_mesh ? "knots_u" : "at", "the functions come either from a mesh or from knots of their own",
+                     "give 'at' and 'lines', or 'knots_u', 'knots_v' and 'domain'");
+  if (!of_mesh) return own_knots(f, degree);
+  if (!f.has("at") || !f.has("lines"))
+    throw FieldError(f.has("at") ? "lines" : "at", "a mesh has vertices and lines", "give 'at' and 'lines'");
+  const TMesh mesh = t_mesh(f.points("at"), f.indices("lines"));
+  GivenFunctions given{inferred_knots(mesh, degree), mesh.edges, {}};
+  given.domain = f.has("domain") ? f.rectangle("domain") : valid_domain(mesh, given.functions);
+  return given;
+}
+
+TSpline build(const Fields& f) {
+  GivenFunctions given = read_functions(f);
+  const std::vector<double> weights = f.has("weights") ? f.numbers("weights") : std::vector<double>();
+  if (f.has("points") && f.has("of"))
+    throw FieldError("of", "the points are either given or fitted to a surface", "give 'points' or 'of'");
+  if (!weights.empty() && weights.size() != given.functions.size())
+    throw FieldError("weights", fmt::format("{} weights do not fit {} points", weights.size(), given.functions.size()));
+  std::vector<Vec3> points;
+  if (f.has("of"))
+    points = fitted_points(given.functions, weights, given.domain, *f.surface("of"));
+  else if (f.has("points") || f.has("at"))
+    points = f.points(f.has("points") ? "points" : "at");
+  return TSpline(std::move(given.functions), std::move(points), weights, given.domain, std::move(given.edges));
+}
+
+// (u, v, sum of some functions) over a rectangle.
+NurbsSurface graph_of_sum(const TSpline& of, const std::vector<double>& which, const std::optional<Rectangle>& part) {
+  const std::vector<LocalKnots>& functions = of.functions();
+  Rectangle domain{{functions[0].u.front(), functions[0].u.back()}, {functions[0].v.front(), functions[0].v.back()}};
+  for (const LocalKnots& function : functions) {
+    domain.u = hull(domain.u, {function.u.front(), function.u.back()});
+    domain.v = hull(domain.v, {function.v.front(), function.v.back()});
+  }
+  std::vector<Vec4> values(functions.size(), which.empty() ? Vec4(0, 0, 1, 0) : Vec4(0));
+  for (const double i : which) {
+    if (!(i >= 0 && i < static_cast<double>(functions.size()) && i == std::floor(i)))
+      throw FieldError("vertices", fmt::format("{} is not the number of a vertex, 0 to {}", i, functions.size() - 1));
+    values[static_cast<size_t>(i)].z = 1;
+  }
+  NurbsSurfaceForm form = sum_of(functions, values, part.value_or(domain));
+  const auto greville = [&](const std::vector<double>& knots, int i) {
+    double sum = 0;
+    for (int k = 1; k <= form.degree_u; ++k) sum += knots[i + k] / form.degree_u;
+    return sum;
+  };
+  for (int i = 0; i < form.count_u(); ++i)
+    for (int j = 0; j < form.count_v(); ++j) {
+      Vec4& p = form.points[static_cast<size_t>(i) * form.count_v() + j];
+      p = Vec4(greville(form.knots_u, i), greville(form.knots_v, j), p.z, 1);
+    }
+  return NurbsSurface(form);
+}
+
+}  // namespace
+
+TypeDeclaration t_spline_type() {
+  return declare(Category::surface, "t_spline",
+                 "T-spline surface: control points at the vertices of a mesh of rectangles whose lines need not go all "
+                 "the way through. The functions of a mesh sum to 1 from (degree - 1)/2 cells inside its border on, "
+                 "where the surface is defined; where lines end near one another the sum is another one, by which the "
+                 "points' sum is divided.")
+      .example(
+          "degree: 1, at: [[0, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]], lines: [[0, 1], [2, 4], "
+          "[5, 7], [0, 5], [3, 6], [1, 7]], points: [[0, 0], [2, 0], [0, 1], [1, 1, 1], [2, 1], [0, 2], [1, 2], "
+          "[2, 2]]")
+      .field("degree", integer().between(1, 7), "of the functions in both directions; odd", "3")
+      .optional("at", parameter_points(), "places (u, v) of the vertices")
+      .optional("lines", indices(), "lines of the mesh, each by the numbers of vertices on it, ends at least")
+      .optional("knots_u", number_grid(), "without a mesh: the degree + 2 knots of each point's function of u")
+      .optional("knots_v", number_grid(), "and of its function of v")
+      .optional("points", points(),
+                "control points, in the order of the vertices; else the vertices themselves, in the plane z = 0")
+      .optional("of", reference({Category::surface}),
+                "a surface instead, over the same parameters: the points of least squared distance from it")
+      .optional("weights", numbers(), "one for each point; all 1 when left out")
+      .optional("domain", rectangle(), "where the surface is wanted; else where the functions of the mesh sum to 1")
+      .shows({"control_net", "t_mesh"})
+      .built_by(build);
+}
+
+TypeDeclaration t_spline_functions_type() {
+  return declare(Category::surface, "t_spline_functions",
+                 "Graph over the parameter plane of the functions of a T-spline: z is the sum of some of them, or of "
+                 "all.")
+      .example(
+          "of: { type: t_spline, degree: 1, at: [[0, 0], [2, 0], [1, 0], [0, 2], [1, 2], [2, 2]], lines: [[0, 1], "
+          "[3, 5], [0, 3], [1, 5], [2, 4]] }, vertices: [2]")
+      .field("of", reference({Category::surface}), "the T-spline")
+      .optional("vertices", numbers(), "whose functions are added; all without it")
+      .optional("domain", rectangle(), "part of the plane; else where the functions are not zero")
+      .built_by([](const Fields& f) {
+        const auto* spline = dynamic_cast<const TSpline*>(f.surface("of").get());
+        if (!spline) throw FieldError("of", "the surface is not a t_spline");
+        return graph_of_sum(*spline, f.has("vertices") ? f.numbers("vertices") : std::vector<double>(),
+                            f.has("domain") ? std::optional(f.rectangle("domain")) : std::nullopt);
+      });
+}
+
+}  // namespace lekalo::geometry
