@@ -11,9 +11,15 @@ class ScalarLaw {
  public:
   explicit ScalarLaw(double constant) : constant_(constant) {}
   // The expression is bound to one variable.
-  explicit ScalarLaw(Expression formula) : formula_(std::make_shared<const Expression>(std::move(formula))) {}
+  explicit ScalarLaw(Expression formula) {
+    if (formula.is_constant())
+      constant_ = formula.evaluate(std::span<const double>());
+    else
+      formula_ = std::make_shared<const Expression>(std::move(formula));
+  }
 
-  bool is_constant() const { return !formula_ || formula_->is_constant(); }
+  bool is_constant() const { return !formula_; }
+  bool is_zero() const { return !formula_ && constant_ == 0; }
 
   // T: those of FormulaProgram.
   template <class T>
@@ -23,7 +29,7 @@ class ScalarLaw {
 
  private:
   double constant_ = 0;
-  std::shared_ptr<const Expression> formula_;
+  std::shared_ptr<const Expression> formula_;  // null: the constant
 };
 
 }  // namespace lekalo::geometry

@@ -36,7 +36,8 @@
   X(triangle_surface_type)       \
   X(transfinite_triangle_type)   \
   X(ribbon_type)                 \
-  X(vintoid_type)
+  X(vintoid_type)                \
+  X(serpentine_type)
 
 namespace lekalo::geometry {
 

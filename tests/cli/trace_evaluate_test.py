@@ -57,6 +57,7 @@ SURFACES = {
     "transfinite_triangle": "of: [{ type: segment, from: [-1, -1], to: [3, 0] }, { type: segment, from: [3, 0], to: [0, 3] }, "
                             "{ type: segment, from: [0, 3], to: [-1, -1] }]",
     "vintoid": "preset: toroid",
+    "serpentine": "preset: coil, n: 1",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "geometry/composition.h"
 #include "geometry/curves/analytic/formula_curve.h"
@@ -43,64 +42,10 @@ struct Vintoid {
   }
 };
 
-std::string parameters_of(const VintoidPreset& preset) {
-  std::string text;
-  for (const VintoidParameter& p : preset.parameters)
-    text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", p.name, p.value);
-  return text;
-}
-
-std::vector<std::string> names() {
-  std::vector<std::string> result;
-  for (const VintoidPreset& preset : vintoid_presets()) result.emplace_back(preset.name);
-  return result;
-}
-
-std::string list_of_presets() {
-  std::string text;
-  for (const VintoidPreset& preset : vintoid_presets())
-    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", preset.name, parameters_of(preset));
-  return text;
-}
-
-std::set<std::string> parameter_names() {
-  std::set<std::string> all;
-  for (const VintoidPreset& preset : vintoid_presets())
-    for (const VintoidParameter& p : preset.parameters) all.emplace(p.name);
-  return all;
-}
-
-const VintoidPreset* chosen(const Fields& f) {
-  if (!f.has("preset")) return nullptr;
-  for (const VintoidPreset& preset : vintoid_presets())
-    if (preset.name == f.text("preset")) return &preset;
-  return nullptr;
-}
-
-Constants constants_of(const Fields& f, const VintoidPreset* preset) {
-  Constants result;
-  for (const std::string& name : parameter_names()) {
-    const VintoidParameter* known = nullptr;
-    for (size_t i = 0; preset && i < preset->parameters.size(); ++i)
-      if (preset->parameters[i].name == name) known = &preset->parameters[i];
-    if (f.has(name) && !known)
-      throw FieldError(name,
-                       preset ? fmt::format("'{}' has no parameter '{}'", preset->name, name)
-                              : fmt::format("'{}' is a parameter of presets", name),
-                       preset ? fmt::format("it has {}", parameters_of(*preset)) : "write the number into the laws");
-    if (known) result.push_back({name, f.has(name) ? f.number(name) : known->value});
-  }
-  return result;
-}
-
-double value_of(std::string_view text, const Constants& constants) {
-  return formula_of(std::string(text), {}, constants)();
-}
-
 CurvePtr profile_of(const Fields& f, const VintoidPreset* preset, const Constants& constants) {
   if (f.has("of")) return f.curve("of");
   if (!preset) throw FieldError("of", "a vintoid turns a curve", "give 'of: CURVE', or a preset");
-  const Interval domain(value_of(preset->from, constants), value_of(preset->until, constants));
+  const Interval domain(preset_value(preset->from, constants), preset_value(preset->until, constants));
   if (!(domain.width() > 0)) throw FieldError("a", "the size of the surface is not positive");
   const auto of_t = [&](std::string_view text) { return formula_of(std::string(text), {"t"}, constants); };
   return std::make_shared<FormulaCurve>(
@@ -109,14 +54,14 @@ CurvePtr profile_of(const Fields& f, const VintoidPreset* preset, const Constant
 }
 
 Interval range_of(const Fields& f, const VintoidPreset* preset, const Constants& constants) {
-  const double to = preset ? value_of(preset->to, constants) : kTwoPi;
+  const double to = preset ? preset_value(preset->to, constants) : kTwoPi;
   if (!f.has("range") && !(to > 0)) throw FieldError("range", "the surface makes no turn", "give positive turns");
   return f.has("range") ? f.range("range") : Interval(0, to);
 }
 
 std::any vintoid(const Fields& f) {
-  const VintoidPreset* preset = chosen(f);
-  const Constants constants = constants_of(f, preset);
+  const VintoidPreset* preset = chosen_preset(f, vintoid_presets());
+  const Constants constants = preset_constants(f, preset, vintoid_presets());
   const Interval range = range_of(f, preset, constants);
   CurvePtr around;
   if (f.has("around")) {
@@ -165,9 +110,11 @@ TypeDeclaration vintoid_type() {
       Category::surface, "vintoid",
       fmt::format("Surface of a plane curve that turns about the axis z while it moves, turns and grows in its half "
                   "plane; u is the angle, v the curve's parameter. Presets, and their parameters when left out: {}.",
-                  list_of_presets()));
-  type.optional("preset", choice(names()), "gives curve, laws and range, as far as they are not given");
-  for (const std::string& name : parameter_names()) type.optional(name, number(), "of those presets that have it");
+                  list_of_presets(vintoid_presets())));
+  type.optional("preset", choice(preset_names(vintoid_presets())),
+                "gives curve, laws and range, as far as they are not given");
+  for (const std::string& name : parameter_names(vintoid_presets()))
+    type.optional(name, number(), "of those presets that have it");
   return type.optional("of", reference({Category::curve}), "the curve: x is the distance from the axis, y the height")
       .optional("distance", formula({"u"}), "by which it moves away from the axis, as a formula of u")
       .optional("height", formula({"u"}), "by which it rises, as a formula of u")

@@ -6,12 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace lekalo::geometry {
+#include "geometry/surfaces/named/preset_fields.h"
 
-struct VintoidParameter {
-  std::string_view name;
-  double value;  // when left out
-};
+namespace lekalo::geometry {
 
 // Formulas of the profile are of t, laws of u; both know the parameters. u runs from 0 to `to`.
 struct VintoidPreset {
@@ -20,7 +17,7 @@ struct VintoidPreset {
   bool is_profile_closed;
   std::string_view distance, height, turn, scale_x, scale_y;
   std::string_view to;
-  std::vector<VintoidParameter> parameters;
+  std::vector<PresetParameter> parameters;
 };
 
 std::span<const VintoidPreset> vintoid_presets();

@@ -1,8 +1,9 @@
 // Surfaces that a section sweeps along a path with a moving frame (Golovanov 2016, 3.3.7; Grezdov, Filippenko 2010, 3):
 //
-//   r(u, v) = g(v) + k(v) (X n + Y b + Z t),   (X, Y) = (x, y)(u, v) turned by theta(v)
+//   r(u, v) = g(v) + X n + Y b + Z t,   (X, Y, Z) = R_t(twist) R_n(pitch) R_b(yaw) (k_x x, k_y y, z)
 //
-// v in 0..1 is the fraction of the path's length, (x, y, z) a point of the section, n, b = t x n, t the frame. Sections
+// v in 0..1 is the fraction of the path's length, (x, y, z) a point of the section, n, b = t x n, t the frame, R_a the
+// turn about the axis a by a law of v (the paper's screw or torsion, somersault and pirouette). Sections
 // at several v are blended by Hermite's cubics. The path has its arc length for parameter, so that laws are of v alone.
 #include <fmt/format.h>
 
@@ -40,15 +41,28 @@ Triple<T> placed_on(const Curve& path, const Curve& across, const T& v, const Tr
 struct Sweep {
   CurvePtr path, across;  // g and n, over 0..1
   Family sections;        // of u, with functions of v
-  ScalarLaw twist, scale_x, scale_y;
+  ScalarLaw twist, scale_x, scale_y, pitch, yaw;
 
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const {
+    const Triple<T> p = blended(sections, u, v);
+    Triple<T> q{scale_x(v) * p.x, scale_y(v) * p.y, p.z};
+    turn(yaw, v, q.z, q.x);
+    turn(pitch, v, q.y, q.z);
+    turn(twist, v, q.x, q.y);
+    return placed_on(*path, *across, v, q);
+  }
+
+ private:
+  // From the direction of a towards that of b.
+  template <class T>
+  static void turn(const ScalarLaw& law, const T& v, T& a, T& b) {
     using std::cos;
     using std::sin;
-    const Triple<T> p = blended(sections, u, v);
-    const T x = scale_x(v) * p.x, y = scale_y(v) * p.y, angle = twist(v), c = cos(angle), s = sin(angle);
-    return placed_on(*path, *across, v, Triple<T>{c * x - s * y, s * x + c * y, p.z});
+    if (law.is_zero()) return;
+    const T angle = law(v), c = cos(angle), s = sin(angle), before = a;
+    a = c * before - s * b;
+    b = s * before + c * b;
   }
 };
 
@@ -186,7 +200,9 @@ std::any sweep(const Fields& f) {
                 {curves, functions_between(placed.at)},
                 ScalarLaw(f.get<Expression>("twist")),
                 ScalarLaw(scale.front()),
-                ScalarLaw(scale.back())};
+                ScalarLaw(scale.back()),
+                ScalarLaw(f.get<Expression>("pitch")),
+                ScalarLaw(f.get<Expression>("yaw"))};
   SurfaceProperties properties = properties_along_u(*curves.front(), {0, 1});
   for (const CurvePtr& curve : curves) {
     add_operand(properties, *curve, Along::u);
@@ -250,6 +266,8 @@ TypeDeclaration sweep_surface_type() {
              "rotation_minimizing")
       .optional("start", direction(), "of rotation_minimizing: the direction of the normal where the path begins")
       .field("twist", angle_formula({"s"}), "further turn about the path, as a formula of s", "0")
+      .field("pitch", angle_formula({"s"}), "turn of the section about the frame's normal, before the twist", "0")
+      .field("yaw", angle_formula({"s"}), "turn of the section about the frame's binormal, before the pitch", "0")
       .field("scale", formulas({"s"}, 1, 2),
              "of the section, as a formula of s, or one along its x and one along its y", "1")
       .field("match", choice({"parameter", "arc_length"}), "which points of several sections belong together",

@@ -172,6 +172,7 @@ inline std::vector<Entry> composed_entries() {
   return {
       torus("sweep_along_a_circle",
             "{ type: sweep_surface, path: { type: circle, radius: 2 }, section: { type: circle, radius: 0.7 } }"),
+      torus("toroid", "{ type: vintoid, preset: toroid, a: 2, b: 0.7, c: 0.7 }"),
       torus(
           "offset_of_a_formula",
           "{ type: offset_surface, distance: 0.2, of: { type: formula_surface, domain: { u: [0, 2*pi], v: [0, 2*pi] }, "
