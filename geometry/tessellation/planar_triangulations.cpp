@@ -1,6 +1,7 @@
 #include "geometry/tessellation/planar_triangulations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -49,16 +50,110 @@ bool encloses(std::span<const Vec2> p, const IndexTriangle& t, const std::vector
 // The empty triangles that edges make.
 std::vector<IndexTriangle> triangles_of(std::span<const Vec2> p, const std::set<Edge>& edges,
                                         const std::vector<int>& vertices) {
+  std::map<int, std::set<int>> beyond;  // the neighbours of a vertex that come after it
+  for (const auto& [a, b] : edges) beyond[a].insert(b);
   std::vector<IndexTriangle> result;
   for (const auto& [a, b] : edges)
-    for (const int c : vertices) {
-      if (c < b || !edges.count(edge(a, c)) || !edges.count(edge(b, c))) continue;
+    for (const int c : beyond[b]) {
+      if (!beyond[a].count(c)) continue;
       const double side = orient2d(p[a], p[b], p[c]);
       const IndexTriangle t = side > 0 ? IndexTriangle{a, b, c} : IndexTriangle{a, c, b};
       if (side != 0 && !encloses(p, t, vertices)) result.push_back(t);
     }
   return result;
 }
+
+// How many points lie on the border of the convex hull, between its corners too (Andrew 1979).
+size_t count_on_hull(std::span<const Vec2> p, std::vector<int> vertices) {
+  std::sort(vertices.begin(), vertices.end(),
+            [&](int a, int b) { return std::pair(p[a].x, p[a].y) < std::pair(p[b].x, p[b].y); });
+  std::set<int> on_hull;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<int> chain;
+    for (const int v : vertices) {
+      while (chain.size() > 1 && side * orient2d(p[chain[chain.size() - 2]], p[chain.back()], p[v]) < 0)
+        chain.pop_back();
+      chain.push_back(v);
+    }
+    on_hull.insert(chain.begin(), chain.end());
+  }
+  return on_hull.size();
+}
+
+// Edges that do not cross each other, and the vertices, by the cells of a grid that they may lie in.
+class KeptEdges {
+ public:
+  KeptEdges(std::span<const Vec2> points, const std::vector<int>& vertices) : points_(points) {
+    Vec2 hi(-kInfinity);
+    lo_ = Vec2(kInfinity);
+    for (const int v : vertices) lo_ = glm::min(lo_, points[v]), hi = glm::max(hi, points[v]);
+    side_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(vertices.size()))));
+    const Vec2 size = hi - lo_;
+    cell_ = Vec2(size.x > 0 ? size.x / side_ : 1, size.y > 0 ? size.y / side_ : 1);
+    cells_.resize(static_cast<size_t>(side_) * side_);
+    for (const int v : vertices) {
+      const Vec2 at = in_cells(v);
+      cells_[number(column(at.x), column(at.y))].vertices.push_back(v);
+    }
+  }
+
+  const std::set<Edge>& edges() const { return edges_; }
+
+  // Whether an edge crosses no other one and goes through no vertex.
+  bool allows(const Edge& e) const {
+    return each_cell(e, [&](size_t number) {
+      const Cell& cell = cells_[number];
+      return std::none_of(cell.edges.begin(), cell.edges.end(),
+                          [&](const Edge& other) { return cross(points_, e, other); }) &&
+             std::none_of(cell.vertices.begin(), cell.vertices.end(),
+                          [&](int v) { return is_between(points_[e.first], points_[e.second], points_[v]); });
+    });
+  }
+  void add(const Edge& e) {
+    edges_.insert(e);
+    each_cell(e, [&](size_t number) {
+      cells_[number].edges.push_back(e);
+      return true;
+    });
+  }
+
+ private:
+  struct Cell {
+    std::vector<Edge> edges;
+    std::vector<int> vertices;
+  };
+
+  // Coordinates in units of the cells, and the cell that holds one.
+  Vec2 in_cells(int v) const { return (points_[v] - lo_) / cell_; }
+  int column(double x) const { return std::clamp(static_cast<int>(std::floor(x)), 0, side_ - 1); }
+  size_t number(int i, int j) const { return static_cast<size_t>(i) * side_ + j; }
+
+  // Visits all cells that a segment may lie in, until one says no.
+  template <class Visit>
+  bool each_cell(const Edge& e, const Visit& visit) const {
+    constexpr double kRounding = 1e-6;
+    Vec2 a = in_cells(e.first), b = in_cells(e.second);
+    if (a.x > b.x) std::swap(a, b);
+    for (int i = column(a.x - kRounding); i <= column(b.x + kRounding); ++i) {
+      // What of the segment lies over this column.
+      const auto height = [&](double x) {
+        return b.x - a.x > kRounding ? a.y + (b.y - a.y) * std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0) : a.y;
+      };
+      double lo = std::min(height(i - kRounding), height(i + 1 + kRounding)),
+             hi = std::max(height(i - kRounding), height(i + 1 + kRounding));
+      if (!(b.x - a.x > kRounding)) lo = std::min(a.y, b.y), hi = std::max(a.y, b.y);
+      for (int j = column(lo - kRounding); j <= column(hi + kRounding); ++j)
+        if (!visit(number(i, j))) return false;
+    }
+    return true;
+  }
+
+  std::span<const Vec2> points_;
+  Vec2 lo_, cell_;
+  int side_ = 1;
+  std::vector<Cell> cells_;
+  std::set<Edge> edges_;
+};
 
 // Triangles by their sides in the direction in which they run.
 std::map<Edge, int> corner_over(const std::vector<IndexTriangle>& triangles) {
@@ -208,16 +303,14 @@ std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points) {
     for (const int b : vertices)
       if (a < b) pairs.push_back({glm::length(points[a] - points[b]), {a, b}});
   std::sort(pairs.begin(), pairs.end());
-  std::set<Edge> edges;
+  // All triangulations have so many edges, those of points on one line less.
+  const size_t all = 3 * vertices.size() - 3 - count_on_hull(points, vertices);
+  KeptEdges kept(points, vertices);
   for (const auto& [length, e] : pairs) {
-    const bool free =
-        std::none_of(edges.begin(), edges.end(), [&, &e = e](const Edge& o) { return cross(points, e, o); });
-    const bool passes = std::any_of(vertices.begin(), vertices.end(), [&, &e = e](int v) {
-      return is_between(points[e.first], points[e.second], points[v]);
-    });
-    if (free && !passes) edges.insert(e);
+    if (kept.edges().size() == all) break;
+    if (kept.allows(e)) kept.add(e);
   }
-  return triangles_of(points, edges, vertices);
+  return triangles_of(points, kept.edges(), vertices);
 }
 
 std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points) {

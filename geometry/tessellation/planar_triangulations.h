@@ -14,7 +14,8 @@ namespace lekalo::geometry {
 // left of ab (Golovanov 2016, 8.6.3). Infinite where the three are collinear.
 double circumcenter_parameter(const Vec2& a, const Vec2& b, const Vec2& v);
 
-// Edges by increasing length (ties by index), each kept that crosses none kept before: O(n^3).
+// Edges by increasing length (ties by index), each kept that crosses none kept before. O(n^2 log n): most of it sorts
+// the pairs.
 std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points);
 
 // The least sum of the edges' lengths, of all triangulations: flips lead from each to every other (Lawson 1972).

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <random>
+#include <set>
+#include <tuple>
 
 namespace lekalo::geometry::planar_triangulations_test {
 namespace {
@@ -77,6 +79,48 @@ TEST(PlanarTriangulations, FlipsAndGreedyCoverTheHull) {
     EXPECT_NEAR(area(points, greedy_triangulation(points)), hull, 1e-12) << n;
     EXPECT_NEAR(area(points, triangulation_by_flips(points)), hull, 1e-12) << n;
     EXPECT_EQ(triangulation_by_flips(points).size(), delaunay(points).size()) << n;
+  }
+}
+
+// By the rule itself: each pair by increasing length, kept if it crosses none kept before and goes through no point.
+std::set<std::pair<int, int>> greedy_edges(const std::vector<Vec2>& p) {
+  const auto side = [&](int a, int b, int c) {
+    const Vec2 u = p[b] - p[a], v = p[c] - p[a];
+    return u.x * v.y - u.y * v.x;
+  };
+  const auto between = [&](int a, int b, int c) {
+    return side(a, b, c) == 0 && glm::dot(p[c] - p[a], p[c] - p[b]) < 0;
+  };
+  std::vector<std::tuple<double, int, int>> pairs;
+  const int n = static_cast<int>(p.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) pairs.emplace_back(glm::length(p[a] - p[b]), a, b);
+  std::sort(pairs.begin(), pairs.end());
+  std::set<std::pair<int, int>> kept;
+  for (const auto& [length, a, b] : pairs) {
+    bool good = true;
+    for (int v = 0; v < n; ++v) good = good && !between(a, b, v);
+    for (const auto& [c, d] : kept)
+      good = good && !(side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) && !between(c, d, a) &&
+             !between(c, d, b);
+    if (good) kept.emplace(a, b);
+  }
+  return kept;
+}
+
+TEST(PlanarTriangulations, GreedyByTheRuleItself) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> coordinate(0, 30);
+  for (int n = 0; n < 12; ++n) {
+    std::set<std::pair<int, int>> places;
+    for (int k = 0; k < 40; ++k)
+      places.emplace(coordinate(random), n % 3 == 0 ? coordinate(random) / 8 : coordinate(random));
+    std::vector<Vec2> points;
+    for (const auto& [x, y] : places) points.emplace_back(x, y);
+    std::set<std::pair<int, int>> edges;
+    for (const IndexTriangle& t : greedy_triangulation(points))
+      for (size_t k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
+    EXPECT_EQ(edges, greedy_edges(points));
   }
 }
 
