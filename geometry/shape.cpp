@@ -29,6 +29,24 @@ ShapePoint TransformedShape::point(const SurfaceHit& hit, const Vec3& near) cons
   return at;
 }
 
+// The second form b(x, y) = x . S y of tangent vectors is that of second derivatives along the normal, r_ij . m. Those
+// map with A, the normal with A^-T / |A^-T m|: b'(A x, A y) = b(x, y) / |A^-T m|.
+Mat3 moved(const Mat3& shape_operator, const Vec3& normal, const Affine& map) {
+  const Mat3 back = glm::inverse(map.linear);
+  const Vec3 turned = glm::transpose(back) * normal;
+  const double length = glm::length(turned);
+  const Vec3 m = turned / length;
+  const Mat3 along = Mat3(1) - glm::outerProduct(m, m);
+  return (1 / length) * (along * (glm::transpose(back) * shape_operator * back) * along);
+}
+
+std::optional<Mat3> TransformedShape::shape_operator(const SurfaceHit& hit, const Vec3& near) const {
+  const Vec3 there = inverse_.point(near);
+  const std::optional<Mat3> own = original_->shape_operator(hit, there);
+  if (!own) return std::nullopt;
+  return moved(*own, original_->point(hit, there).normal, map_);
+}
+
 double operator_norm_bound(const Affine& map) {
   double square = 0;
   for (int k = 0; k < 3; ++k) square += glm::dot(map.linear[k], map.linear[k]);

@@ -68,6 +68,9 @@ class Shape {
   virtual bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const;
   // `near` is the hit's place on the line that found it.
   virtual ShapePoint point(const SurfaceHit& hit, const Vec3& near) const = 0;
+  // How the unit normal m of point() turns along the shape at a hit: the symmetric map S with dm = -S dr for all dr in
+  // the tangent plane, and S m = 0. Nothing where that is not known.
+  virtual std::optional<Mat3> shape_operator(const SurfaceHit&, const Vec3& /*near*/) const { return std::nullopt; }
   // True if it bounds a region of space: every line crosses it in and out by turns, the normals looking out of the
   // region.
   virtual bool is_closed() const = 0;
@@ -108,6 +111,7 @@ class TransformedShape final : public Shape {
     return original_->first_hit(moved_back(line), t, hit);
   }
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  std::optional<Mat3> shape_operator(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return original_->is_closed(); }
   std::string how_to_close() const override { return original_->how_to_close(); }
   LineMethod method() const override { return original_->method(); }
@@ -126,6 +130,9 @@ class TransformedShape final : public Shape {
   Affine map_;
   Affine inverse_;
 };
+
+// The shape operator of the image of a surface at a place with this unit normal.
+Mat3 moved(const Mat3& shape_operator, const Vec3& normal, const Affine& map);
 
 // A bound on how much longer the map makes a vector.
 double operator_norm_bound(const Affine& map);

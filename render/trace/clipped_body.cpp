@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/queries/differential/curvature.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 
@@ -81,6 +82,13 @@ geometry::ShapePoint ClippedBody::point(const SurfaceHit& hit, const geometry::V
   if (hit.face >= faces) return geometry::point_on(*caps_[hit.face - faces], 1, hit.u, hit.v, near);
   const geometry::Face& face = body_->faces[hit.face];
   return geometry::point_on(*face.surface, face.forward ? 1 : -1, hit.u, hit.v, near);
+}
+
+std::optional<geometry::Mat3> ClippedBody::shape_operator(const geometry::SurfaceHit& hit,
+                                                          const geometry::Vec3&) const {
+  if (hit.face >= static_cast<int>(body_->faces.size())) return geometry::Mat3(0);
+  const geometry::Face& face = body_->faces[hit.face];
+  return geometry::shape_operator(*face.surface, face.forward ? 1 : -1, hit.u, hit.v);
 }
 
 }  // namespace lekalo::render

@@ -27,6 +27,8 @@ class ClippedBody final : public geometry::Shape {
                 std::vector<geometry::SurfaceHit>& hits) const override;
   // Caps are numbered behind the body's faces.
   geometry::ShapePoint point(const geometry::SurfaceHit& hit, const geometry::Vec3& near) const override;
+  std::optional<geometry::Mat3> shape_operator(const geometry::SurfaceHit& hit,
+                                               const geometry::Vec3& near) const override;
   bool is_closed() const override;
 
  private:

@@ -27,12 +27,6 @@ SurfaceCurvature of_shape_operator(double s11, double s12, double s22, const Vec
   return c;
 }
 
-// The shape operator as a symmetric matrix of space, zero along the normal: it knows nothing of the parameters.
-Mat3 shape_operator(const SurfaceCurvature& c) {
-  return c.principal[0] * glm::outerProduct(c.directions[0], c.directions[0]) +
-         c.principal[1] * glm::outerProduct(c.directions[1], c.directions[1]);
-}
-
 double largest(const Mat3& m) {
   double result = 0;
   for (int i = 0; i < 3; ++i)
@@ -164,6 +158,27 @@ SurfaceCurvature curvature(const SurfaceJet& jet, const Vec3& m) {
   return of_shape_operator(s11, s12, s22, e1, e2);
 }
 
+SurfaceCurvature curvature(const Mat3& shape_operator, const Vec3& normal) {
+  const Frame tangents = frame_about(Vec3(0), normal);
+  const auto of = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, shape_operator * b); };
+  return of_shape_operator(of(tangents.x, tangents.x), of(tangents.x, tangents.y), of(tangents.y, tangents.y),
+                           tangents.x, tangents.y);
+}
+
+// It knows nothing of the parameters.
+Mat3 shape_operator(const SurfaceCurvature& c) {
+  return c.principal[0] * glm::outerProduct(c.directions[0], c.directions[0]) +
+         c.principal[1] * glm::outerProduct(c.directions[1], c.directions[1]);
+}
+
+std::optional<Mat3> shape_operator(const Surface& surface, double sign, double u, double v) {
+  if (surface.max_order() < 2) return std::nullopt;
+  const SurfaceJet jet = surface.evaluate(u, v, 2);
+  const SurfaceCurvature c = curvature(jet, sign * surface.normal(u, v, jet));
+  if (!c.regular || !std::isfinite(c.principal[0]) || !std::isfinite(c.principal[1])) return std::nullopt;
+  return shape_operator(c);
+}
+
 SurfaceCurvature curvature(const Surface& surface, double u, double v) {
   const SurfaceJet jet = surface.evaluate(u, v, 2);
   const Vec3 normal = surface.normal(u, v);
@@ -187,10 +202,7 @@ SurfaceCurvature curvature(const Surface& surface, double u, double v) {
       const std::optional<Mat3> other = limit_of_shape(surface, other_u, other_v, flat);
       if (!other || !(largest(*other - *limit) <= 2 * kLimitError * (largest(*limit) + flat))) return {};
     }
-  const Frame tangents = frame_about(Vec3(0), normal);
-  const auto of = [&](const Vec3& a, const Vec3& b) { return glm::dot(a, *limit * b); };
-  return of_shape_operator(of(tangents.x, tangents.x), of(tangents.x, tangents.y), of(tangents.y, tangents.y),
-                           tangents.x, tangents.y);
+  return curvature(*limit, normal);
 }
 
 }  // namespace lekalo::geometry

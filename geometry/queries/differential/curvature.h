@@ -1,6 +1,8 @@
 // Curvatures of curves and surfaces at a point, from their derivatives.
 #pragma once
 
+#include <optional>
+
 #include "geometry/curve.h"
 #include "geometry/surface.h"
 
@@ -34,6 +36,13 @@ struct SurfaceCurvature {
 };
 // At a regular place, r_u x r_v != 0. The jet is of order >= 2, the normal of length 1.
 SurfaceCurvature curvature(const SurfaceJet& jet, const Vec3& normal);
+
+// The same from the shape operator, the symmetric map S of space with dm = -S dr and S m = 0; and that of it.
+SurfaceCurvature curvature(const Mat3& shape_operator, const Vec3& normal);
+Mat3 shape_operator(const SurfaceCurvature& curvature);
+// Of a surface whose normal is turned by `sign`; nothing where r_u x r_v vanishes or the second derivatives are not
+// known.
+std::optional<Mat3> shape_operator(const Surface& surface, double sign, double u, double v);
 
 // The same everywhere in the domain: where r_u x r_v vanishes, and beside such a place, the limit from inside if there
 // is one, the same for all directions at a pole. There is none at the tip of a cone. To about 1e-7 of the curvature, or

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "geometry/queries/differential/curvature.h"
+
 namespace lekalo::geometry {
 
 BodyShape::BodyShape(BodyPtr body) : body_(std::move(body)), intersector_(*body_), box_(geometry::bounds(*body_)) {
@@ -15,6 +17,11 @@ void BodyShape::all_hits(const Line& line, const Interval& t, std::vector<Surfac
 ShapePoint BodyShape::point(const SurfaceHit& hit, const Vec3& near) const {
   const Face& face = body_->faces[hit.face];
   return point_on(*face.surface, face.forward ? 1 : -1, hit.u, hit.v, near);
+}
+
+std::optional<Mat3> BodyShape::shape_operator(const SurfaceHit& hit, const Vec3&) const {
+  const Face& face = body_->faces[hit.face];
+  return geometry::shape_operator(*face.surface, face.forward ? 1 : -1, hit.u, hit.v);
 }
 
 }  // namespace lekalo::geometry

@@ -16,6 +16,7 @@ class BodyShape final : public Shape {
   Box3 bounds() const override { return box_; }
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  std::optional<Mat3> shape_operator(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
   // Its faces.
   std::vector<SurfacePart> surface_parts() const override { return {body_->faces.size(), {box_}}; }

@@ -390,6 +390,18 @@ ShapePoint Csg::point_of(const SurfaceHit& hit, const Vec3& near, bool parameter
   return point;
 }
 
+std::optional<Mat3> Csg::shape_operator(const SurfaceHit& hit, const Vec3& near) const {
+  const Leaf& leaf = leaves_[hit.face % leaf_count()];
+  SurfaceHit own = of_leaf(hit);
+  if (leaf.convex) {
+    const ShapePoint point = leaf.convex->point(own.face, near, true);
+    own.u = point.u;
+    own.v = point.v;
+  }
+  const std::optional<Mat3> result = leaf.shape->shape_operator(own, near);
+  return result && leaf.turned ? std::optional<Mat3>(-*result) : result;
+}
+
 bool Csg::begins_inside(const Line& line) const {
   std::vector<int> inside = outside_;
   const LineOfSolids solids(line);

@@ -42,6 +42,7 @@ class Csg final : public Shape {
   bool first_hit(const Line& line, const Interval& t, SurfaceHit& hit) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override { return point_of(hit, near, true); }
   ShapePoint bare_point(const SurfaceHit& hit, const Vec3& near) const override { return point_of(hit, near, false); }
+  std::optional<Mat3> shape_operator(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return true; }
   LineMethod method() const override { return {"CSG of leaves", leaves_.size(), leaves_.size() * sizeof(Leaf)}; }
   bool begins_inside(const Line& line) const override;

@@ -18,6 +18,7 @@ class HalfSpaceShape final : public Shape {
   Box3 bounds() const override;
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  std::optional<Mat3> shape_operator(const SurfaceHit&, const Vec3&) const override { return Mat3(0); }
   bool is_closed() const override { return true; }
   bool begins_inside(const Line& line) const override;
 

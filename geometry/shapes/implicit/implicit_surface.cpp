@@ -256,6 +256,20 @@ ShapePoint ImplicitSurface::point(const SurfaceHit& hit, const Vec3& near) const
   return at;
 }
 
+std::optional<Mat3> ImplicitSurface::shape_operator(const SurfaceHit& hit, const Vec3& near) const {
+  const Vec3 m = point(hit, near).normal;
+  const Mat3 along = Mat3(1) - glm::outerProduct(m, m);
+  if (hit.face > 0) return region_.is_ball ? (-1 / region_.radius()) * along : Mat3(0);
+  const auto at = formula_.with_second(near.x, near.y, near.z);
+  const double length = glm::length(Vec3(at.c[1], at.c[2], at.c[3]));
+  // Coefficients of Jet3 are derivatives by the factorials: x^2, xy, xz, y^2, yz, z^2.
+  const Mat3 second(2 * at.c[4], at.c[5], at.c[6], at.c[5], 2 * at.c[7], at.c[8], at.c[6], at.c[8], 2 * at.c[9]);
+  const Mat3 result = (-1 / length) * (along * second * along);
+  for (int k = 0; k < 3; ++k)
+    if (!std::isfinite(result[k].x + result[k].y + result[k].z)) return std::nullopt;
+  return result;
+}
+
 TypeDeclaration implicit_type() {
   return declare(
              Category::shape, "implicit",

@@ -30,6 +30,8 @@ class ImplicitSurface final : public Shape {
   // The normal is grad F / |grad F| on face 0, or its limit where grad F is infinite. There are no parameters: u = v =
   // 0.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  // On face 0 from the second derivatives of F, S = -P H P / |grad F| with P the projection along the gradient.
+  std::optional<Mat3> shape_operator(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return closed_; }
   std::string how_to_close() const override { return "an implicit surface is closed with closed: true"; }
   LineMethod method() const override {

@@ -67,6 +67,12 @@ ShapePoint Balls::point(const SurfaceHit& hit, const Vec3& near) const {
   return at;
 }
 
+std::optional<Mat3> Balls::shape_operator(const SurfaceHit& hit, const Vec3& near) const {
+  const Ball& ball = balls_[hit.piece];
+  const Vec3 m = glm::normalize(near - ball.center);
+  return (-1 / ball.radius) * (Mat3(1) - glm::outerProduct(m, m));
+}
+
 TypeDeclaration balls_type() {
   return declare(Category::shape, "balls",
                  "Balls about points, in one shape: points as things to see. Where they overlap their union is seen.")

@@ -265,6 +265,19 @@ ShapePoint Tube::point(const SurfaceHit& hit, const Vec3& near) const {
   return at;
 }
 
+std::optional<Mat3> Tube::shape_operator(const SurfaceHit& hit, const Vec3& near) const {
+  if (hit.face != 0) return Mat3(0);
+  const ShapePoint at = point(hit, near);
+  const BallJet ball = sweep_.ball(hit.u);
+  const double R = ball.radius[0];
+  if (at.du == Vec3(0)) return (-1 / R) * (Mat3(1) - glm::outerProduct(at.normal, at.normal));
+  const Vec3 around = glm::normalize(at.dv), along = glm::cross(at.normal, around);
+  const Vec3 turn = (at.du - ball.center[1] - ball.radius[1] * at.normal) / R;  // of the normal along du
+  const double step = glm::dot(at.du, along);
+  if (!(std::abs(step) > 1e-9 * glm::length(at.du))) return std::nullopt;  // the wall has an edge here
+  return -(1 / R) * glm::outerProduct(around, around) - glm::dot(turn, along) / step * glm::outerProduct(along, along);
+}
+
 TypeDeclaration tube_type() {
   return declare(
              Category::shape, "tube",

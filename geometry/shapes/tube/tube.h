@@ -29,6 +29,8 @@ class Tube final : public Shape {
   void all_hits(const Line& line, const Interval& t, std::vector<SurfaceHit>& hits) const override;
   // du is zero on ends, and so is dv on flat ones.
   ShapePoint point(const SurfaceHit& hit, const Vec3& near) const override;
+  // A circle of the wall about the curve is a line of curvature, of the curvature -1/R.
+  std::optional<Mat3> shape_operator(const SurfaceHit& hit, const Vec3& near) const override;
   bool is_closed() const override { return caps_ != Caps::none; }
   std::string how_to_close() const override { return "a tube is closed with caps: round, or flat"; }
 
