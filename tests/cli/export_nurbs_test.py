@@ -1,4 +1,4 @@
-"""Curves as NURBS curves in JSON: read back they are the curves that `evaluate` tells (by the
+"""Curves and surfaces as NURBS in JSON: read back they are the curves that `evaluate` tells (by the
 recursion of Cox and de Boor, and by SciPy where it is installed)."""
 
 import json
@@ -16,10 +16,32 @@ geometry:
   kink: { type: formula_curve, point: [t, abs(t), 0], domain: [-1, 1] }
   rim: { type: circle, radius: 2 }
   wall: { type: plane, origin: [0, 0, 0] }
+  block: { type: box, size: [1, 1, 1] }
 objects:
   - { shape: rim, transform: { translate: [10, 0, 0] } }
   - { shape: open }
 """
+
+SURFACES = """
+lekalo: 1
+geometry:
+  net: { type: nurbs_surface, degree: { u: 1, v: 2 }, points: [[[0, 0, 0], [0, 1, 1], [0, 2, 0]], [[1, 0, 1], [1, 1, 0], [1, 2, 2]]], weights: [[1, 2, 1], [1, 1, 3]] }
+  ball: { type: sphere_surface, radius: 2 }
+  swept: { type: sweep_surface, path: { type: helix, radius: 3, pitch: 2, turns: 1 }, section: { type: circle, radius: 0.5 }, twist: 90 deg*s }
+  wave: { type: formula_surface, point: [u, v, sin(u)*cos(v)], domain: { u: [0, 2], v: [0, 1] } }
+"""
+
+
+def bezier_point(piece, s, t):
+    """By Bernstein polynomials."""
+    n, m = piece["degree"]
+    total = [0, 0, 0, 0]
+    for i in range(n + 1):
+        for j in range(m + 1):
+            weight = (piece["weights"][i][j] * math.comb(n, i) * s**i * (1 - s) ** (n - i)
+                      * math.comb(m, j) * t**j * (1 - t) ** (m - j))
+            total = [a + weight * x for a, x in zip(total, [*piece["points"][i][j], 1])]
+    return [x / total[3] for x in total[:3]]
 
 
 def basis(degree, knots, i, t):
@@ -81,10 +103,37 @@ class ExportNurbs(ProgramTest):
 
     def test_errors(self):
         self.write("scene.yaml", SCENE)
-        _, errors = self.run_program("export", "scene.yaml", "wall", "-o", "x.json", code=2)
-        self.assertIn("'wall' is no curve", errors)
+        _, errors = self.run_program("export", "scene.yaml", "block", "-o", "x.json", code=2)
+        self.assertIn("'block' is no curve or surface", errors)
         _, errors = self.run_program("measure", "scene.yaml", "wall", "--nurbs", code=2)
-        self.assertIn("'wall' is no curve", errors)
+        self.assertIn("'wall' has no bounds", errors)
+
+    def test_surfaces(self):
+        """Pieces in Bernstein form, and whole nets by their knots, are the surfaces that `evaluate` tells."""
+        self.write("scene.yaml", SURFACES)
+        self.run_program("export", "scene.yaml", "net", "ball", "swept", "wave", "-o", "s.json", "--quiet")
+        surfaces = {one["name"]: one for one in json.loads(self.bytes_of("s.json"))["surfaces"]}
+        self.assertEqual([one["exact"] for one in surfaces.values()], [True, True, False, False])
+        for name in ("net", "swept", "wave"):
+            surface = surfaces[name]
+            self.assertLess(surface["deviation"], 1e-11)
+            for piece in surface["pieces"][:: max(1, len(surface["pieces"]) // 5)]:
+                (u0, u1), (v0, v1) = piece["domain"]
+                found = bezier_point(piece, 0.3, 0.6)
+                there = self.json_of("evaluate", "scene.yaml", name, "--at", f"{u0 + 0.3 * (u1 - u0)!r},{v0 + 0.6 * (v1 - v0)!r}")
+                for a, b in zip(found, there["point"]):
+                    self.assertAlmostEqual(a, b, delta=1e-11, msg=name)
+        net = surfaces["net"]
+        total = [0, 0, 0, 0]
+        for i, row in enumerate(net["points"]):
+            for j, point in enumerate(row):
+                weight = (basis(net["degree"][0], net["knots_u"], i, 0.4) * basis(net["degree"][1], net["knots_v"], j, 0.7)
+                          * net["weights"][i][j])
+                total = [a + weight * x for a, x in zip(total, [*point, 1])]
+        for a, b in zip(total, self.json_of("evaluate", "scene.yaml", "net", "--at", "0.4,0.7")["point"]):
+            self.assertAlmostEqual(a / total[3], b, delta=1e-14)
+        for piece in surfaces["ball"]["pieces"]:
+            self.assertAlmostEqual(math.hypot(*bezier_point(piece, 0.2, 0.9)), 2, delta=1e-14)
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from measure' -l silhouette -x -d 
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l against -r -d 'table of samples, or a name'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l tolerance -x -d 'largest difference that passes'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l samples -x -d 'places in each direction'
-complete -c lekalo -n '__fish_seen_subcommand_from measure' -l nurbs -d 'the curve as a NURBS curve'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l nurbs -d 'the curve or surface as NURBS'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l features -d 'inflections, vertices, cusps, total curvature, area'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l arc -x -d 'length between two parameters'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l at-length -x -d 'parameter at a length'

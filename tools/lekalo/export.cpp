@@ -173,24 +173,41 @@ int export_pov(const Options& options, const std::string& output) {
   return kDone;
 }
 
-// The curves named, or all that the scene's objects show, as NURBS curves; those of objects where they are moved to.
+// The curves and surfaces named, or all that the scene's objects show, as NURBS; those of objects where they are moved
+// to, those of a set each by itself.
 int export_json(const Options& options, const std::string& output) {
   const render::LoadedScene scene = options.scene.load();
   check_inputs_stay(scene, {output});
-  ordered_json curves = ordered_json::array();
-  for (const std::string& name : options.names) curves.push_back(nurbs_form(name, find_geometry(scene, name)));
-  if (options.names.empty()) {
-    for (const render::Object& object : scene.model->objects) {
-      const auto* curve = std::get_if<geometry::CurvePtr>(&object.shape);
-      if (curve)
-        curves.push_back(nurbs_form(object.name, transformed(*curve, object.transform)));
-      else if (!options.quiet)
-        fmt::print(stderr, "note: '{}' is left out: JSON files hold curves\n", object.name);
-    }
+  ordered_json curves = ordered_json::array(), surfaces = ordered_json::array();
+  const auto add = [&](const std::string& name, const render::Entity& entity) {
+    ordered_json form = nurbs_form(name, entity);
+    (form["kind"] == "curve" ? curves : surfaces).push_back(std::move(form));
+  };
+  const auto add_set = [&](const std::string& name, const render::SurfaceSet& set, const Affine& to_world) {
+    for (size_t i = 0; i < set.size(); ++i) add(fmt::format("{}[{}]", name, i), transformed(set[i], to_world));
+  };
+  for (const std::string& name : options.names) {
+    const render::Entity& entity = find_geometry(scene, name);
+    if (const auto* set = std::get_if<render::SurfaceSet>(&entity))
+      add_set(name, *set, Affine());
+    else
+      add(name, entity);
   }
-  if (curves.empty()) throw UsageError("there is nothing to export: no curve is shown");
-  render::write_file_atomically(output, ordered_json{{"curves", curves}}.dump(2) + "\n");
-  if (!options.quiet) fmt::print(stderr, "{}: {} NURBS curves\n", output, curves.size());
+  if (options.names.empty())
+    for (const render::Object& object : scene.model->objects) {
+      if (const auto* curve = std::get_if<geometry::CurvePtr>(&object.shape))
+        add(object.name, transformed(*curve, object.transform));
+      else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&object.shape))
+        add(object.name, transformed(*surface, object.transform));
+      else if (const auto* set = std::get_if<render::SurfaceSet>(&object.shape))
+        add_set(object.name, *set, object.transform);
+      else if (!options.quiet)
+        fmt::print(stderr, "note: '{}' is left out: JSON files hold curves and surfaces\n", object.name);
+    }
+  if (curves.empty() && surfaces.empty())
+    throw UsageError("there is nothing to export: no curve and no surface is shown");
+  render::write_file_atomically(output, ordered_json{{"curves", curves}, {"surfaces", surfaces}}.dump(2) + "\n");
+  if (!options.quiet) fmt::print(stderr, "{}: {} curves, {} surfaces\n", output, curves.size(), surfaces.size());
   return kDone;
 }
 
@@ -235,9 +252,10 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("export",
-                                 "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves as "
-                                 "NURBS curves (JSON), or the scene for POV-Ray");
+  auto* sub =
+      app.add_subcommand("export",
+                         "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and "
+                         "surfaces as NURBS (JSON), or the scene for POV-Ray");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
@@ -249,7 +267,8 @@ void add_export(CLI::App& app, Action& action) {
       "chords of curves keep the sag of --sag in scene units, else of their object's mesh, else a thousandth of their\n"
       "shape's size. PLY has double\n"
       "precision; OBJ has shared points and a group for every face; STL has corners in single precision. JSON has\n"
-      "curves alone, as 'lekalo measure --nurbs --json' prints them: exactly, or fitted to a billionth of their size.");
+      "curves and surfaces as NURBS and Bezier pieces, as 'lekalo measure --nurbs --json' prints them: exactly, or\n"
+      "fitted to a billionth of a curve's size, to 1e-12 of a surface's.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");

@@ -431,7 +431,8 @@ void add_measure(CLI::App& app, Action& action) {
                          ->type_name("[NAME]")
                          ->expected(0, 1);
   auto* nurbs = sub->add_flag("--nurbs", options->nurbs,
-                              "the curve as a NURBS curve: degree, knots, points, weights; exact, else fitted");
+                              "the curve or surface as NURBS: degree, knots, points, weights, Bezier pieces; exact, "
+                              "else fitted");
   auto* features = sub->add_flag("--features", options->features,
                                  "inflections, vertices, cusps and corners of the curve, total curvature; of a closed "
                                  "plane one its turning number and area");

@@ -97,6 +97,8 @@ void print_continuity(const ordered_json& found);
 // UsageError for anything else.
 ordered_json nurbs_form(const std::string& name, const render::Entity& entity);
 void print_nurbs_form(const ordered_json& form);
+ordered_json nurbs_surface_form(const std::string& name, const geometry::Surface& surface);
+void print_nurbs_surface_form(const ordered_json& form);
 
 // Inflections, vertices, cusps, corners of a curve, total curvature, turning number, enclosed area; the length of the
 // part between two parameters; the parameter at a length from the beginning. All throw UsageError for anything else.

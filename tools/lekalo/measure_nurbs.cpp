@@ -1,4 +1,5 @@
-// lekalo measure --nurbs and export --format json: a curve as a NURBS curve, exactly or fitted, and its Bezier pieces.
+// lekalo measure --nurbs and export --format json: a curve as a NURBS curve, exactly or fitted, and its Bezier pieces
+// (of surfaces in measure_nurbs_surface.cpp).
 #include <fmt/format.h>
 
 #include "command.h"
@@ -72,8 +73,9 @@ void print_points(const ordered_json& of) {
 }  // namespace
 
 ordered_json nurbs_form(const std::string& name, const render::Entity& entity) {
+  if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) return nurbs_surface_form(name, **surface);
   const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
-  if (!curve) throw UsageError(fmt::format("'{}' is no curve: only curves have a NURBS form", name));
+  if (!curve) throw UsageError(fmt::format("'{}' is no curve or surface: only those have a NURBS form", name));
   geometry::NurbsOfCurve found;
   try {
     found = form_of(**curve);
@@ -91,6 +93,7 @@ ordered_json nurbs_form(const std::string& name, const render::Entity& entity) {
 }
 
 void print_nurbs_form(const ordered_json& form) {
+  if (form["kind"] == "surface") return print_nurbs_surface_form(form);
   fmt::print("curve '{}': NURBS curve of degree {}, {}\n", form["name"].get<std::string>(), form["degree"].get<int>(),
              form["exact"].get<bool>() ? "exact" : fmt::format("a fit, {:.2g} away", form["deviation"].get<double>()));
   fmt::print("knots {}\n", listed(form["knots"]));
