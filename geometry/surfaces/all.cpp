@@ -16,6 +16,8 @@
   X(revolution_surface_type)     \
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
+  X(composite_bezier_type)       \
+  X(control_polyhedron_type)     \
   X(t_spline_type)               \
   X(t_spline_functions_type)     \
   X(formula_surface_type)        \
@@ -32,6 +34,7 @@
   X(gordon_type)                 \
   X(hermite_surface_type)        \
   X(spline_surface_type)         \
+  X(grid_interpolant_type)       \
   X(bezier_triangle_type)        \
   X(triangle_surface_type)       \
   X(transfinite_triangle_type)   \

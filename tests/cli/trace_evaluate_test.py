@@ -52,6 +52,10 @@ SURFACES = {
                    "center: [0, 0, -1] }, { type: circle, radius: 1.4, center: [0, 0, 2] }], at_v: [0, 1]",
     "hermite_surface": f"points: [{NET}]",
     "spline_surface": f"points: [{NET}], degree: 2",
+    "grid_interpolant": "of: { type: sphere_surface, radius: 1.5 }, cells: { u: 6, v: 3 }, beta: circle, ends: poles",
+    "composite_bezier": "degree: { u: 2, v: 1 }, joints: { u: smooth, v: as_given }, points: [[[-1, -1], [-1, 2]], [[0, -1, 2], "
+                        "[0, 2]], [[2, -1], [2, 2, 2]], [[3, -1, 1], [3, 2]]]",
+    "control_polyhedron": f"of: {{ type: bezier_surface, points: [{NET}] }}",
     "bezier_triangle": "points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]]",
     "triangle_surface": "points: [[-1, -1, 0], [3, 0, 1], [0, 3, 0.5]]",
     "transfinite_triangle": "of: [{ type: segment, from: [-1, -1], to: [3, 0] }, { type: segment, from: [3, 0], to: [0, 3] }, "

@@ -68,11 +68,6 @@ std::vector<Vec3> sampled(const Curve& curve, int cells, bool closed) {
   return nodes;
 }
 
-LocalKernel kernel_of(const std::string& word) {
-  if (word == "cardinal") return LocalKernel::cardinal;
-  return word == "linear_core" ? LocalKernel::linear_core : LocalKernel::quadratic;
-}
-
 NurbsCurve build(const Fields& f) {
   if (f.has("points") == f.has("of"))
     throw FieldError(f.has("of") ? "of" : "points",
@@ -91,10 +86,15 @@ NurbsCurve build(const Fields& f) {
   const GhostNodes ghosts = f.text("ends") == "quadratic" ? GhostNodes::quadratic : GhostNodes::linear;
   const Nodes nodes{points, closed, ghosts};
   const Interval domain = f.has("of") ? f.curve("of")->domain() : Interval(0, nodes.cells());
-  return local_interpolant(points, closed, kernel_of(f.text("kernel")), read_beta(f, nodes), ghosts, domain);
+  return local_interpolant(points, closed, local_kernel(f.text("kernel")), read_beta(f, nodes), ghosts, domain);
 }
 
 }  // namespace
+
+LocalKernel local_kernel(const std::string& word) {
+  if (word == "cardinal") return LocalKernel::cardinal;
+  return word == "linear_core" ? LocalKernel::linear_core : LocalKernel::quadratic;
+}
 
 double circle_beta(int cells) {
   const double c = std::cos(kPi / cells);

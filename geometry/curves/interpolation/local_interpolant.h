@@ -14,12 +14,14 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "geometry/curves/splines/nurbs_curve.h"
 
 namespace lekalo::geometry {
 
 enum class LocalKernel { cardinal, linear_core, quadratic };
+LocalKernel local_kernel(const std::string& word);
 
 // The nodes beyond the ends of an open row.
 enum class GhostNodes {

@@ -22,6 +22,8 @@ namespace {
 
 // Curves of a net meet to this part of its size.
 constexpr double kMeeting = 1e-7;
+// The highest order of derivatives across edges; those along them are needed to the same order.
+constexpr size_t kMaxAcross = 4;
 
 CurvePtr as_unit(const CurvePtr& curve, const char* field) {
   if (!(curve->domain().width() < kInfinity)) throw FieldError(field, "a curve is unbounded", "give it a domain");
@@ -62,34 +64,43 @@ void orient(std::vector<CurvePtr>& c, std::vector<CurvePtr>& b, double size) {
 
 Vec3 derivative(const Curve& curve, double t, int k) { return curve.evaluate(t, k).d[k]; }
 
+// The derivatives of orders 1 to n across two opposite edges: those of order l at 2 (l - 1) and 2 (l - 1) + 1.
+std::vector<CurvePtr> read_across(const Fields& f, const char* field) {
+  if (!f.has(field)) return {};
+  const size_t count = f.references(field).size();
+  if (count == 0 || count % 2 == 1 || count > 2 * kMaxAcross)
+    throw FieldError(field, fmt::format("two curves for each order from 1 to {} at most are needed, not {} in all",
+                                        kMaxAcross, count));
+  return read_curves(f, field, count);
+}
+
+// With functions of end_functions(n) along u and (m) along v.
 std::any coons(const Fields& f) {
   std::vector<CurvePtr> c = read_curves(f, "u_lines", 2), b = read_curves(f, "v_lines", 2);
   std::vector<CurvePtr> all = c;
   all.insert(all.end(), b.begin(), b.end());
   orient(c, b, size_of(all));
-  const bool crossed = f.has("across_u_lines") || f.has("across_v_lines");
-  if (crossed && !(f.has("across_u_lines") && f.has("across_v_lines")))
-    throw FieldError(f.has("across_u_lines") ? "across_v_lines" : "across_u_lines",
-                     "derivatives are needed across all four edges", "give both, or none");
+  const std::vector<CurvePtr> s_v = read_across(f, "across_u_lines"), s_u = read_across(f, "across_v_lines");
+  if (s_v.empty() != s_u.empty())
+    throw FieldError(s_u.empty() ? "across_v_lines" : "across_u_lines", "derivatives are needed across all four edges",
+                     "give both, or none");
+  const size_t n = s_u.size() / 2, m = s_v.size() / 2;
   BooleanSum sum;
-  sum.along_u.curves = c, sum.along_v.curves = b;
-  const int n = crossed ? 1 : 0;
-  const std::vector<CurvePtr> functions = end_functions(n, {0, 1});
-  sum.along_u.functions = sum.along_v.functions = functions;
-  sum.points.assign(2 * (n + 1), std::vector<Vec3>(2 * (n + 1), Vec3(0)));
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) sum.points[j][i] = c[i]->point(j);
-  if (crossed) {
-    const std::vector<CurvePtr> s_v = read_curves(f, "across_u_lines", 2), s_u = read_curves(f, "across_v_lines", 2);
-    sum.along_u.curves.insert(sum.along_u.curves.end(), s_v.begin(), s_v.end());
-    sum.along_v.curves.insert(sum.along_v.curves.end(), s_u.begin(), s_u.end());
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) {
-        sum.points[j][2 + i] = s_v[i]->point(j);
-        sum.points[2 + j][i] = s_u[j]->point(i);
-        sum.points[2 + j][2 + i] = 0.5 * (derivative(*s_u[j], i, 1) + derivative(*s_v[i], j, 1));
-      }
-  }
+  sum.along_u = {c, end_functions(static_cast<int>(m), {0, 1})};
+  sum.along_v = {b, end_functions(static_cast<int>(n), {0, 1})};
+  sum.along_u.curves.insert(sum.along_u.curves.end(), s_v.begin(), s_v.end());
+  sum.along_v.curves.insert(sum.along_v.curves.end(), s_u.begin(), s_u.end());
+  // The derivative k times by u, l times by v in the corner u = j, v = i; mixed ones the mean of what both families
+  // say.
+  sum.points.assign(2 * (n + 1), std::vector<Vec3>(2 * (m + 1)));
+  for (size_t k = 0; k <= n; ++k)
+    for (size_t l = 0; l <= m; ++l)
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+          const Vec3 by_u = derivative(*sum.along_u.curves[2 * l + i], j, static_cast<int>(k)),
+                     by_v = derivative(*sum.along_v.curves[2 * k + j], i, static_cast<int>(l));
+          sum.points[2 * k + j][2 * l + i] = k == 0 ? by_u : l == 0 ? by_v : 0.5 * (by_u + by_v);
+        }
   return std::any(SurfacePtr(std::make_shared<BlendedSurface>(blended_surface(std::move(sum), {{0, 1}, {0, 1}}))));
 }
 
@@ -186,19 +197,20 @@ TypeDeclaration bilinear_surface_type() {
 TypeDeclaration coons_surface_type() {
   return declare(
              Category::surface, "coons_surface",
-             "Surface on four border curves: linear, or with derivatives across the edges. u and v run in 0..1; curves "
-             "that run the other way are turned.")
+             "Surface on four border curves: linear, or with derivatives across the edges, of the first order or up to "
+             "the fourth. u and v run in 0..1; curves that run the other way are turned.")
       .example(
           "u_lines: [{ type: segment, from: [0, 0], to: [2, 0] }, { type: bezier_curve, points: [[0, 2, 1], [1, 2, 2], "
           "[2, 2]] }], v_lines: [{ type: segment, from: [0, 0], to: [0, 2, 1] }, { type: segment, from: [2, 0], to: "
           "[2, 2] }]")
       .field("u_lines", references({Category::curve}), "the two curves along u, at v = 0 and v = 1")
       .field("v_lines", references({Category::curve}), "the two curves along v, at u = 0 and u = 1")
-      .optional(
-          "across_u_lines", references({Category::curve}),
-          "derivatives by v along the u_lines, as curves of u: with across_v_lines a bicubic Coons patch, whose twist "
-          "is the mean of those that both give")
-      .optional("across_v_lines", references({Category::curve}), "derivatives by u along the v_lines, as curves of v")
+      .optional("across_u_lines", references({Category::curve}),
+                "derivatives by v along the u_lines, as curves of u, then those of the second order, ..: with "
+                "across_v_lines a "
+                "bicubic Coons patch, a biquintic one, ..; twists are means of those that both give")
+      .optional("across_v_lines", references({Category::curve}),
+                "derivatives by u along the v_lines, as curves of v, in the same order")
       .built_by(coons);
 }
 
