@@ -25,6 +25,9 @@ namespace {
 constexpr size_t kMaxEnclosedCells = 1 << 13;
 // Cells that are smaller in both parameters are searched as they are: only about a singular place any get so small.
 constexpr double kMinShareOfDomain = 1.0 / 4096;
+// Cells at an edge that is a point are none the simpler for being made narrower: those that are smaller than this
+// towards the pole stay as they are, else all cells would be spent there.
+constexpr double kMinShareAtPole = 1.0 / 64;
 // Of a surface of many smooth parts each has so many at least.
 constexpr size_t kMinShare = 1 << 9;
 
@@ -120,6 +123,13 @@ class EnclosureTarget final : public LineTarget {
       if (cell.model.is_bounded()) return cell.model.reach_x() >= cell.model.reach_y();
       return cell.box.u.width() * domain.v.width() >= cell.box.v.width() * domain.u.width();
     };
+    const DegenerateEdges edges = surface_->degenerate_edges();
+    const auto is_small_at_pole = [&](const Rectangle& box) {
+      const bool at_pole_of_u = (edges.u_min && box.u.lo == domain.u.lo) || (edges.u_max && box.u.hi == domain.u.hi),
+                 at_pole_of_v = (edges.v_min && box.v.lo == domain.v.lo) || (edges.v_max && box.v.hi == domain.v.hi);
+      return (at_pole_of_u && box.u.width() < kMinShareAtPole * domain.u.width()) ||
+             (at_pole_of_v && box.v.width() < kMinShareAtPole * domain.v.width());
+    };
     const auto for_each = [](size_t count, const auto& make) {
       tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const tbb::blocked_range<size_t>& part) {
         for (size_t i = part.begin(); i < part.end(); ++i) make(i);
@@ -134,7 +144,8 @@ class EnclosureTarget final : public LineTarget {
         fresh[i].size = sampled.size(fresh[i].box, fresh[i].model);
       });
       for (const Cell& cell : fresh) {
-        const bool is_done = roughness(cell.model) <= kFlat || sampled.share(cell.box) < kMinShareOfDomain;
+        const bool is_done =
+            roughness(cell.model) <= kFlat || sampled.share(cell.box) < kMinShareOfDomain || is_small_at_pole(cell.box);
         (is_done ? cells_ : rough).push_back(cell);
       }
       const size_t count = cells_.size() + rough.size();
