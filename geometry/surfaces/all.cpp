@@ -37,6 +37,9 @@
   X(grid_interpolant_type)       \
   X(bezier_triangle_type)        \
   X(triangle_surface_type)       \
+  X(triangle_part_type)          \
+  X(bernstein_triangle_type)     \
+  X(control_polyhedron_type)     \
   X(transfinite_triangle_type)   \
   X(ribbon_type)                 \
   X(vintoid_type)                \

@@ -7,6 +7,7 @@
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/measures/arc_length.h"
+#include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "render/lines/curve_figures.h"
 
 namespace lekalo::render {
@@ -146,10 +147,14 @@ std::vector<Vec3> helper_points(const Object& object) {
         for (const Vec3& axis : {frame.x, frame.y, frame.z}) points.push_back(frame.origin + f.number("length") * axis);
     for (const SurfacePtr& surface : surfaces) {
       const auto* spline = dynamic_cast<const TSpline*>(surface.get());
-      if (spline && (helper.type == "control_net" || helper.type == "t_mesh"))
+      if (spline && (helper.type == "control_net" || helper.type == "t_mesh")) {
         for (const Vec3& point : mesh_points(*spline, helper)) points.push_back(point);
-      else if (helper.type == "control_net")
-        if (const auto form = surface->as_nurbs()) add(form->points);
+      } else if (helper.type == "control_net") {
+        if (const auto net = triangular_net(*surface))
+          add(net->points);
+        else if (const auto form = surface->as_nurbs())
+          add(form->points);
+      }
       if (helper.type == "normals" && surface->bounded()) {
         const Rectangle domain = surface->domain();
         for (const double u : {domain.u.lo, domain.u.middle(), domain.u.hi})

@@ -18,6 +18,7 @@
 #include "geometry/shapes/tube/ball_outlines.h"
 #include "geometry/shapes/tube/tube_lines.h"
 #include "geometry/surfaces/splines/t_spline.h"
+#include "geometry/surfaces/triangles/parameter_triangle.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -254,6 +255,9 @@ class StrokeCollector {
   void add_net(const geometry::NurbsSurfaceForm& form, const geometry::Periods& periods, const std::string& sign,
                const Helper& helper);
   void add_mesh(const geometry::TSpline& spline, const std::string& sign, const Helper& helper);
+  void add_net(const geometry::TriangularNet& net, const std::string& sign, const Helper& helper);
+  void add_triangle(geometry::TriangularNet net, const geometry::ParameterTriangle& triangle, const std::string& sign,
+                    const Helper& helper);
 
   void blossom(const Vec3& point, const geometry::NurbsCurveForm& form, size_t index, int level, double t,
                const Helper& helper);

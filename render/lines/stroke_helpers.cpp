@@ -6,6 +6,7 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/splines/nurbs_curve.h"
+#include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
 #include "render/lines/stroke_collector.h"
@@ -65,10 +66,15 @@ void StrokeCollector::add_helper(const Helper& helper) {
     add_frames(**curve, helper);
   }
   each_surface([&](const SurfacePtr& surface) {
+    if (const auto net = triangular_net(*surface)) {
+      if (helper.type == "control_net") add_net(*net, sign, helper);
+      if (helper.type == "de_casteljau")
+        add_triangle(*net, placed_triangle(*surface).surface->triangle(), sign, helper);
+    }
     const auto form = surface->as_nurbs();
     if (const auto* spline = dynamic_cast<const TSpline*>(surface.get())) {
       if (helper.type == "control_net" || helper.type == "t_mesh") add_mesh(*spline, sign, helper);
-    } else if (helper.type == "control_net" && form) {
+    } else if (helper.type == "control_net" && form && !triangular_net(*surface)) {
       add_net(*form, surface->periods(), sign, helper);
     }
     if (helper.type == "knots" && form) {
@@ -165,7 +171,7 @@ void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& perio
     for (size_t j = 0; j < all[i].size(); ++j) {
       mark(all[i][j], sign, helper.style, helper.hidden);
       const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
-      if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j)}, helper);
+      if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j), 0.0}, helper);
     }
 }
 
@@ -176,6 +182,52 @@ void StrokeCollector::add_mesh(const TSpline& spline, const std::string& sign, c
   for (size_t i = 0; i < points.size(); ++i) {
     mark(points[i], sign, helper.style, helper.hidden);
     label(points[i], {static_cast<double>(i), 0.0}, helper);
+  }
+}
+
+void StrokeCollector::add_net(const TriangularNet& net, const std::string& sign, const Helper& helper) {
+  const int n = net.degree;
+  const auto at = [&](int i, int j) { return Vec3(net.at(i, j)) / net.at(i, j).w; };
+  // Rows of equal i, then j, then k.
+  for (int row = 0; row < n; ++row) {
+    std::vector<Vec3> lines[3];
+    for (int m = 0; m <= n - row; ++m) {
+      lines[0].push_back(at(row, m));
+      lines[1].push_back(at(m, row));
+      lines[2].push_back(at(m, n - row - m));
+    }
+    for (const std::vector<Vec3>& line : lines) polygon(line, false, helper.style, helper.hidden);
+  }
+  const bool all = !helper.values.has("label_points") || helper.values.text("label_points") == "all";
+  each_index(n, [&](int i, int j, int k) {
+    mark(at(i, j), sign, helper.style, helper.hidden);
+    if (all || i == n || j == n || k == n)
+      label(at(i, j), {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}, helper);
+  });
+}
+
+// De Casteljau's points of each level at parameters of the triangle (Golovanov 2016, 3.11.7).
+void StrokeCollector::add_triangle(TriangularNet net, const ParameterTriangle& triangle, const std::string& sign,
+                                   const Helper& helper) {
+  if (!helper.values.has("u") || !helper.values.has("v")) return;
+  const Barycentric at = triangle.coordinates({helper.values.number("u"), helper.values.number("v")});
+  const int degree = net.degree;
+  for (int level = 1; level <= degree; ++level) {
+    net = de_casteljau_step(net, at);
+    if (helper.values.has("levels")) {
+      const std::vector<double>& levels = helper.values.numbers("levels");
+      if (std::find(levels.begin(), levels.end(), level) == levels.end()) continue;
+    }
+    std::vector<Vec3> shown;
+    for (const Vec4& p : net.points) shown.push_back(Vec3(p) / p.w);
+    each_index(net.degree - 1, [&](int i, int j, int) {
+      const auto point = [&](int i, int j) { return shown[static_cast<size_t>(net.index(i, j))]; };
+      polygon({point(i + 1, j), point(i, j + 1), point(i, j)}, true, helper.style, helper.hidden);
+    });
+    for (size_t k = 0; k < shown.size(); ++k) {
+      mark(shown[k], sign, helper.style, helper.hidden);
+      label(shown[k], {static_cast<double>(k), static_cast<double>(level)}, helper);
+    }
   }
 }
 

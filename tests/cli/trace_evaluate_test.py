@@ -57,6 +57,9 @@ SURFACES = {
                         "[0, 2]], [[2, -1], [2, 2, 2]], [[3, -1, 1], [3, 2]]]",
     "control_polyhedron": f"of: {{ type: bezier_surface, points: [{NET}] }}",
     "bezier_triangle": "points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]]",
+    "triangle_part": "of: { type: bezier_triangle, points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]] }, "
+                     "vertices: [[0.8, 0.1, 0.1], [0, 1, 0], [0, 0, 1]]",
+    "bernstein_triangle": "degree: 3, index: [1, 1, 1], corners: [[-1, -1], [3, 0], [0, 3]]",
     "triangle_surface": "points: [[-1, -1, 0], [3, 0, 1], [0, 3, 0.5]]",
     "transfinite_triangle": "of: [{ type: segment, from: [-1, -1], to: [3, 0] }, { type: segment, from: [3, 0], to: [0, 3] }, "
                             "{ type: segment, from: [0, 3], to: [-1, -1] }]",

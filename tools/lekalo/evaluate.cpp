@@ -110,6 +110,8 @@ void print(const ordered_json& out) {
       fmt::print("{:<21} {}\n", key, value.get<std::string>());
     } else if (value.is_array() && !value.empty() && value[0].is_array()) {
       for (const auto& row : value) fmt::print("{:<21} {}\n", &row == &value[0] ? key : "", numbers_of(row));
+    } else if (value.is_boolean()) {
+      fmt::print("{:<21} {}\n", key, value.get<bool>() ? "true" : "false");
     } else if (value.is_array()) {
       fmt::print("{:<21} {}\n", key, numbers_of(value));
     } else {
@@ -120,7 +122,7 @@ void print(const ordered_json& out) {
 
 struct Options {
   SceneOptions scene;
-  std::string name, at, table, face, divided_difference;
+  std::string name, at, uv, table, face, divided_difference;
   std::vector<std::string> on, along;
   double share = 0.5;
   int order = 2;
@@ -146,6 +148,16 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   if (options.face.empty())
     throw UsageError(fmt::format("'{}' has {} faces; say which one: {}", options.name, count, hint));
   throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
+}
+
+// All of them.
+std::vector<geometry::SurfacePtr> surfaces_of(const render::Entity& entity, const Options& options) {
+  if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) return *set;
+  const auto* body = std::get_if<geometry::BodyPtr>(&entity);
+  if (!body) return {surface_of(entity, options)};
+  std::vector<geometry::SurfacePtr> surfaces;
+  for (const geometry::Face& face : (*body)->faces) surfaces.push_back(face.surface);
+  return surfaces;
 }
 
 // By the frame of Frenet, or that of the curve on surfaces.
@@ -202,6 +214,12 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
   return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options));
 }
 
+ordered_json evaluate_uv(const render::Entity& entity, const Options& options) {
+  if (std::holds_alternative<geometry::CurvePtr>(entity)) throw UsageError("--uv belongs to surfaces");
+  const std::vector<double> uv = parse_numbers(options.uv, 2, "--uv");
+  return evaluate_over_triangles(surfaces_of(entity, options), {uv[0], uv[1]}, directions_of(options));
+}
+
 // At each row of a table.
 ordered_json evaluate_table(const render::LoadedScene& scene, const render::Entity& entity, const Options& options) {
   const render::Table table = load_table(options.table);
@@ -219,9 +237,9 @@ ordered_json evaluate_table(const render::LoadedScene& scene, const render::Enti
 }
 
 int run(const Options& options) {
-  if (!options.at.empty() + !options.divided_difference.empty() + !options.table.empty() != 1)
+  if (!options.at.empty() + !options.uv.empty() + !options.divided_difference.empty() + !options.table.empty() != 1)
     throw UsageError(
-        "evaluate takes --at T or --at U,V, --table FILE, or of a curve --divided-difference T,T,..\n"
+        "evaluate takes --at T or --at U,V, --uv U,V, --table FILE, or of a curve --divided-difference T,T,..\n"
         "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
   const render::Entity& entity = find_geometry(scene, options.name);
@@ -234,6 +252,8 @@ int run(const Options& options) {
     out = divided_differences_of(entity, options);
   else if (!options.table.empty())
     out = evaluate_table(scene, entity, options);
+  else if (!options.uv.empty())
+    out = evaluate_uv(entity, options);
   else
     out = evaluate_at(scene, entity, options,
                       parse_numbers(options.at, is_curve ? 1 : 2, is_curve ? "--at of a curve" : "--at of a surface"));
@@ -266,11 +286,16 @@ void add_evaluate(CLI::App& app, Action& action) {
       "Of a surface it prints the fundamental forms (E F G, L M N), Weingarten's map W (m_u = -W11 r_u - W12 r_v,\n"
       "m_v = -W21 r_u - W22 r_v), the derivatives of the normal, the principal curvatures with their directions, what\n"
       "kind of point it is, and the directions without normal curvature. Of a curve on a surface it prints the normal\n"
-      "curvature and the geodesic curvature, positive where it turns left seen from the normal.");
+      "curvature and the geodesic curvature, positive where it turns left seen from the normal.\n\n"
+      "--uv tells of a surface over triangles the barycentric coordinates of the place and, with --along, of the\n"
+      "direction, and the derivatives by the parameters of the triangle.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
   sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->type_name("T|U,V");
+  sub->add_option("--uv", options->uv,
+                  "of surfaces over triangles, one or many: the parameters of the triangles in place of the squares'")
+      ->type_name("U,V");
   sub->add_option("--table", options->table, "at each row of a table: t, or u and v")->type_name("FILE");
   sub->add_option("--divided-difference", options->divided_difference,
                   "of a curve its divided differences over these nodes instead")

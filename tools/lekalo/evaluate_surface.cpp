@@ -49,8 +49,8 @@ void put_along(ordered_json& out, const geometry::SurfaceJet& jet, const Vec3& n
 
 }  // namespace
 
-ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, const std::vector<Vec2>& along) {
-  const geometry::SurfaceJet jet = surface.evaluate(uv.x, uv.y, 2);
+ordered_json evaluate_place(const SurfacePlace& at, const std::vector<Vec2>& along) {
+  const auto& [uv, jet, normal, c, size] = at;
   ordered_json out;
   out["u"] = uv.x;
   out["v"] = uv.y;
@@ -60,12 +60,9 @@ ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, 
   out["duu"] = finite_or_null(jet.duu());
   out["duv"] = finite_or_null(jet.duv());
   out["dvv"] = finite_or_null(jet.dvv());
-  const Vec3 normal = surface.normal(uv.x, uv.y);
   out["normal"] = finite_or_null(normal);
   const auto forms = geometry::fundamental_forms(jet, normal);
   put_forms(out, forms);
-  const geometry::SurfaceCurvature c = geometry::curvature(surface, uv.x, uv.y);
-  const double size = surface.bounded() ? geometry::bounds(surface).diameter() : 0;
   out["gaussian_curvature"] = json_or_null(c.regular, c.gaussian);
   out["mean_curvature"] = json_or_null(c.regular, c.mean);
   out["principal_curvatures"] =
@@ -75,6 +72,14 @@ ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, 
   const std::vector<Vec3> asymptotic = c.regular ? geometry::asymptotic_directions(c, size) : std::vector<Vec3>();
   out["asymptotic_directions"] = asymptotic.empty() ? ordered_json(nullptr) : directions(asymptotic);
   if (forms && c.regular && !along.empty()) put_along(out, jet, normal, *forms, c, along);
+  return out;
+}
+
+ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, const std::vector<Vec2>& along) {
+  const double size = surface.bounded() ? geometry::bounds(surface).diameter() : 0;
+  ordered_json out = evaluate_place(
+      {uv, surface.evaluate(uv.x, uv.y, 2), surface.normal(uv.x, uv.y), geometry::curvature(surface, uv.x, uv.y), size},
+      along);
   out["parameters"] = parameters_of(surface);
   return out;
 }

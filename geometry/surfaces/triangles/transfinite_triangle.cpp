@@ -7,14 +7,16 @@
 //
 //   r - 4abc (c_1(1/2) + c_2(1/2) + c_3(1/2) - p_1 - p_2 - p_3)
 //
-// over the square a = u, b = (1 - u) v, c = (1 - u)(1 - v): the edge u = 1 is p_1.
+// Curves of polynomials give an exact Bezier triangle (3.17; see triangles/three_curves.h).
 #include <fmt/format.h>
 
 #include <array>
 
 #include "geometry/composition.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/describe.h"
+#include "geometry/surfaces/triangles/three_curves.h"
 
 namespace lekalo::geometry {
 
@@ -26,13 +28,62 @@ struct OnThreeCurves {
   Vec3 correction{0};  // times -4abc
 
   template <class T>
-  Triple<T> operator()(const T& u, const T& v) const {
-    const T a = u, b = (1.0 - u) * v, d = (1.0 - u) * (1.0 - v);
+  Triple<T> at(const std::array<T, 3>& t) const {
+    const auto& [a, b, d] = t;
     const auto at = [&](int k, const T& t) { return curve_at(*c[k], t); };
     return a * (at(2, 1.0 - b) + at(1, d) - triple(p[0])) + b * (at(0, 1.0 - d) + at(2, a) - triple(p[1])) +
            d * (at(1, 1.0 - a) + at(0, b) - triple(p[2])) - (a * b * d) * triple(4.0 * correction);
   }
 };
+
+struct OverSquare {
+  OnThreeCurves formula;
+  TrianglePole pole;
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    return formula.at(barycentric(pole, u, v));
+  }
+};
+
+struct OverTriangle {
+  OnThreeCurves formula;
+  ParameterTriangle triangle;
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    return formula.at(barycentric(triangle, u, v));
+  }
+};
+
+class TransfiniteTriangle final : public TriangularSurface {
+ public:
+  TransfiniteTriangle(const OnThreeCurves& formula, const SurfaceProperties& properties,
+                      const ParameterTriangle& triangle, TrianglePole pole)
+      : TriangularSurface(std::make_shared<ComposedSurface<OverSquare>>(OverSquare{formula, pole}, properties),
+                          triangle, pole),
+        over_triangle_{formula, triangle} {}
+  SurfaceJet evaluate_over_triangle(const Vec2& uv, int order) const override {
+    return evaluate_surface_formula(over_triangle_, uv.x, uv.y, order);
+  }
+
+ private:
+  OverTriangle over_triangle_;
+};
+
+// The net where all curves are polynomial Bezier curves.
+std::optional<TriangularNet> exact_net(const std::array<CurvePtr, 3>& curves, const Vec3& correction) {
+  std::array<std::vector<Vec3>, 3> points;
+  for (size_t q = 0; q < 3; ++q) {
+    const std::vector<CurvePiece> pieces = curves[q]->pieces();
+    if (pieces.size() != 1 || !pieces[0].is_rational() || pieces[0].map.kind != ParameterMap::Kind::affine)
+      return std::nullopt;
+    for (const Vec4& p : pieces[0].points) {
+      if (p.w != 1) return std::nullopt;
+      points[q].emplace_back(p);
+    }
+    if (points[q].size() > static_cast<size_t>(kMaxDegree)) return std::nullopt;
+  }
+  return net_on_three_curves(points, correction);
+}
 
 // Curves meet to this part of their size.
 constexpr double kMeeting = 1e-7;
@@ -71,6 +122,8 @@ std::any on_three_curves(const Fields& f) {
   for (int k = 0; k < 3; ++k) formula.p[k] = formula.c[(k + 1) % 3]->point(0);
   if (f.text("method") == "balanced")
     for (int k = 0; k < 3; ++k) formula.correction += formula.c[k]->point(0.5) - formula.p[k];
+  if (const auto net = exact_net(formula.c, formula.correction))
+    return std::any(SurfacePtr(std::make_shared<BezierTriangle>(*net, triangle_of(f), pole_of(f))));
   SurfaceProperties properties{{{0, 1}, {0, 1}}, {}, {0, 1}, {0, 1}};
   for (const CurvePtr& curve : formula.c) {
     properties.max_order = std::min(properties.max_order, curve->max_order());
@@ -79,21 +132,23 @@ std::any on_three_curves(const Fields& f) {
       throw FieldError("of", "a curve has several pieces, whose joints would be kinks across the surface",
                        "take curves of one piece: arcs, formulas, Bezier curves");
   }
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<OnThreeCurves>>(formula, properties)));
+  return std::any(SurfacePtr(std::make_shared<TransfiniteTriangle>(formula, properties, triangle_of(f), pole_of(f))));
 }
 
 }  // namespace
 
 TypeDeclaration transfinite_triangle_type() {
-  return declare(Category::surface, "transfinite_triangle",
-                 "Surface on three curves that meet in three corners. Over the square: u is the barycentric coordinate "
-                 "of the first corner, where the second and third curve meet and u = 1 is a pole; v is b/(b + c).")
-      .field("of", references({Category::curve}),
+  TypeDeclaration type = declare(Category::surface, "transfinite_triangle",
+                                 "Surface on three curves that meet in three corners (Golovanov 2016, 3.10.11). The "
+                                 "second and third curve meet in its first corner.");
+  type.field("of", references({Category::curve}),
              "three curves of one smooth piece each, in any direction; the first is opposite to the first corner")
       .field("method", choice({"plain", "balanced"}),
              "plain: the sum of three ruled surfaces, which bulges by a third too much on shallow arcs; balanced: with "
              "that taken off, exact for parabolas",
-             "plain")
+             "plain");
+  declare_triangle(type);
+  return type
       .example(
           "of: [{ type: segment, from: [0, 0, 1], to: [0, 1, 0] }, { type: bezier_curve, points: [[0, 0, 1], [1, 0, "
           "1], "

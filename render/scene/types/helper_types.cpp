@@ -46,10 +46,13 @@ TypeDeclaration control_polygon() {
 }
 
 TypeDeclaration control_net() {
-  TypeDeclaration type =
-      helper("control_net", "The control points of a surface, joined in rows and columns.", "construction");
+  TypeDeclaration type = helper("control_net",
+                                "The control points of a surface, joined in rows and columns; of a Bezier triangle in "
+                                "three directions.",
+                                "construction");
   type.field("marker", marker(), "sign at the points", "dot")
-      .optional("label", label({"i", "j"}), "text at each point; %i is its index along u, %j along v")
+      .optional("label", label({"i", "j", "k"}),
+                "text at each point; %i is its index along u, %j along v; of a triangle %i, %j, %k with the sum n")
       .field("label_points", choice({"all", "corners"}), "which points have the label", "all");
   return finish(type);
 }
@@ -67,8 +70,8 @@ TypeDeclaration triangle(const char* name, const char* description, bool of_surf
   if (of_surfaces_too)
     type.example("t: 0.4")
         .optional("t", number(), "where a curve is divided")
-        .optional("u", number(), "where a surface is divided")
-        .optional("v", number(), "where a surface is divided");
+        .optional("u", number(), "where a surface is divided; of a Bezier triangle a parameter of its triangle")
+        .optional("v", number(), "where a surface is divided; of a Bezier triangle a parameter of its triangle");
   else
     type.field("t", number(), "parameter of the point");
   type.optional("levels", numbers().at_least(1), "which levels: 1..2, [1, 3]; all without it")
