@@ -1,6 +1,8 @@
 #include "geometry/curves/splines/polynomial_approximation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "geometry/numerics/chebyshev.h"
 
@@ -18,7 +20,29 @@ class Fitting {
   Fitting(const std::function<Vec3(double)>& point, double tolerance, const OwnPace* pace)
       : point_(point), tolerance_(tolerance), pace_(pace) {}
 
+  // Stretches that one polynomial serves become one part: a contour's pieces are steps of its search, thousands of them
+  // beside a place where it crosses itself.
+  bool add(std::span<const Interval> pieces) {
+    if (pieces.empty()) return true;
+    if (pieces.size() == 1) return add(pieces.front(), 0);
+    if (add_one({pieces.front().lo, pieces.back().hi}, pieces.subspan(1))) return parts.size() <= kMaxParts;
+    const double middle = Interval{pieces.front().lo, pieces.back().hi}.middle();
+    const auto behind =
+        std::find_if(pieces.begin() + 1, pieces.end() - 1, [&](const Interval& piece) { return piece.lo >= middle; });
+    const auto count = static_cast<size_t>(behind - pieces.begin());
+    return add(pieces.first(count)) && add(pieces.subspan(count));
+  }
+
+  std::vector<PolynomialCurve::Part> parts;
+
+ private:
   bool add(const Interval& t, int depth) {
+    if (add_one(t)) return parts.size() <= kMaxParts;
+    return depth < kMaxHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
+  }
+
+  // Short pieces tell where to look besides.
+  bool add_one(const Interval& t, std::span<const Interval> pieces = {}) {
     PolynomialCurve::Part part;
     std::array<Vec3, kNodes> values;
     // At a break the curve's own point is that from the right.
@@ -34,21 +58,18 @@ class Fitting {
       left_out += glm::length(coefficients[--terms]), coefficients[terms] = Vec3(0);
     part = {t, 2 / t.width(), powers_of_chebyshev(coefficients), terms};
     bool good = true;
-    for (const double x : {-1.0, -0.97, -0.6, -0.1, 0.3, 0.85, 1.0}) {
+    const auto look_at = [&](double x) {
       const Vec3 value = part.value(x);
       const double off = good ? glm::length(value - point(x)) : 0;
       good = good && (off <= tolerance_ || (pace_ && off <= pace_->tolerance && pace_->is_on_line(place(x), value)));
-    }
-    if (good) {
-      parts.push_back(part);
-      return parts.size() <= kMaxParts;
-    }
-    return depth < kMaxHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
+    };
+    for (const double x : {-1.0, -0.97, -0.6, -0.1, 0.3, 0.85, 1.0}) look_at(x);
+    for (const Interval& piece : pieces)
+      if (good) look_at((piece.lo - t.middle()) * (2 / t.width()));
+    if (good) parts.push_back(part);
+    return good;
   }
 
-  std::vector<PolynomialCurve::Part> parts;
-
- private:
   const std::function<Vec3(double)>& point_;
   double tolerance_;
   const OwnPace* pace_;
@@ -60,8 +81,10 @@ std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::funct
                                                                 std::span<const Interval> pieces, double tolerance,
                                                                 const OwnPace* pace) {
   Fitting fitting(point, tolerance, pace);
+  std::vector<Interval> some;
   for (const Interval& t : pieces)
-    if (!t.empty() && t.width() > 0 && !fitting.add(t, 0)) return nullptr;
+    if (!t.empty() && t.width() > 0) some.push_back(t);
+  if (!fitting.add(some)) return nullptr;
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 

@@ -24,7 +24,7 @@ bool takes_long(const Curve& curve) {
 
 }  // namespace
 
-CurvePtr contour_approximation(const CurvePtr& curve) {
+CurvePtr contour_approximation(const CurvePtr& curve, double coarsest) {
   if (!dynamic_cast<const ParameterLine*>(curve.get()) && !takes_long(*curve)) return curve;
   // Its box from a few points: bounds of a searched curve take as long as all else.
   Box3 box;
@@ -33,8 +33,9 @@ CurvePtr contour_approximation(const CurvePtr& curve) {
     box.include(curve->point(curve->domain().lo + curve->domain().width() * k / kPlaces));
   const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
-  auto simple = polynomial_approximation(*curve, std::max(kAgree * box.diameter(), rounding));
-  return simple ? simple : curve;
+  for (const double agree : {kAgree, coarsest})
+    if (auto simple = polynomial_approximation(*curve, std::max(agree * box.diameter(), rounding))) return simple;
+  return curve;
 }
 
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {

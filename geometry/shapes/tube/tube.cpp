@@ -4,10 +4,14 @@
 #include <cmath>
 
 #include "geometry/describe.h"
+#include "geometry/queries/contours/contour_approximation.h"
 
 namespace lekalo::geometry {
 
 namespace {
+
+// Of the size of a contour: a tube about it may be that far from its place.
+constexpr double kNearContour = 1e-9;
 
 // Of a cell. However thin a tube: its coordinates have no more figures.
 constexpr double kMaxPieces = 1e16;
@@ -291,7 +295,7 @@ TypeDeclaration tube_type() {
       .field("caps", choice({"round", "flat", "none"}),
              "ends of the tube: half a ball, a disk, or open; that of a closed curve has none", "round")
       .built_by([](const Fields& f) -> ShapePtr {
-        const CurvePtr of = f.curve("of");
+        const CurvePtr of = contour_approximation(f.curve("of"), kNearContour);
         const std::string& caps = f.text("caps");
         return std::make_shared<Tube>(of, RadiusLaw(f.get<Expression>("radius"), *of),
                                       caps == "flat"   ? Caps::flat
