@@ -73,7 +73,8 @@
   X(elastica_type)                \
   X(fit_curve_type)               \
   X(rounded_corners_type)         \
-  X(implicit_curve_type)
+  X(implicit_curve_type)          \
+  X(blend_curve_type)
 
 namespace lekalo::geometry {
 

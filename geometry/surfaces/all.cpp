@@ -43,7 +43,11 @@
   X(transfinite_triangle_type)   \
   X(ribbon_type)                 \
   X(vintoid_type)                \
-  X(serpentine_type)
+  X(serpentine_type)             \
+  X(fillet_surface_type)         \
+  X(chamfer_surface_type)        \
+  X(extended_surface_type)       \
+  X(deformed_surface_type)
 
 namespace lekalo::geometry {
 

@@ -65,6 +65,13 @@ SURFACES = {
                             "{ type: segment, from: [0, 3], to: [-1, -1] }]",
     "vintoid": "preset: toroid",
     "serpentine": "preset: coil, n: 1",
+    "fillet_surface": "of: [{ type: plane, origin: [0, 0, -0.5], size: [6, 6] }, { type: cylinder_surface, radius: 1, height: 2, frame: "
+                      "{ origin: [0, 0, -1], z: [0.3, 0, 1] } }], radius: 0.6",
+    "extended_surface": f"of: {{ type: bezier_surface, points: [{NET}] }}, before: 0.2, after: 0.3",
+    "deformed_surface": "of: { type: cylinder_surface, radius: 1.2, height: 2, frame: { origin: [0, 0, -0.5] } }, count: { u: 8, v: 5 }, "
+                        "moves: [{ at: [0, 2], height: 0.5 }, { at: [4, 2], height: -0.4 }]",
+    "chamfer_surface": "of: [{ type: plane, origin: [0, 0, -0.5], size: [6, 6] }, { type: cylinder_surface, radius: 1, height: 2, frame: "
+                       "{ origin: [0, 0, -1], z: [0.3, 0, 1] } }], legs: [0.6, 1]",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
 }
 

@@ -10,6 +10,7 @@
 #include "geometry/queries/differential/fundamental_forms.h"
 #include "geometry/queries/differential/osculation.h"
 #include "geometry/queries/differential/trihedron.h"
+#include "geometry/queries/differential/turning_step.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -124,7 +125,7 @@ struct Options {
   SceneOptions scene;
   std::string name, at, uv, table, face, divided_difference;
   std::vector<std::string> on, along;
-  double share = 0.5;
+  double share = 0.5, turn = 0;  // turn: degrees
   int order = 2;
   bool placement = false, json = false;
 };
@@ -205,13 +206,16 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
   if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
     note_outside("t", at[0], (*curve)->domain(), (*curve)->period());
     ordered_json out = evaluate_curve(**curve, at[0], options.order);
+    if (options.turn > 0)
+      out["step"] =
+          finite_or_null(geometry::turning_step((*curve)->evaluate(at[0], 2), options.turn * geometry::kPi / 180));
     if (options.placement || !options.on.empty()) out["placement"] = placement_of(scene, **curve, at[0], options);
     return out;
   }
   const geometry::SurfacePtr surface = surface_of(entity, options);
   note_outside("u", at[0], surface->domain().u, surface->periods().u);
   note_outside("v", at[1], surface->domain().v, surface->periods().v);
-  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options));
+  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options), options.turn * geometry::kPi / 180);
 }
 
 ordered_json evaluate_uv(const render::Entity& entity, const Options& options) {
@@ -306,6 +310,10 @@ void add_evaluate(CLI::App& app, Action& action) {
                   "of a surface its normal curvature in this direction of its parameters; of two the angle between")
       ->type_name("DU,DV")
       ->expected(1, 2);
+  sub->add_option("--turn", options->turn,
+                  "the step of the parameter over which the tangent, or along u and v the normal, turns by this angle")
+      ->type_name("DEGREES")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--order", options->order, "derivatives of a curve up to this order")
       ->check(CLI::Range(1, geometry::kMaxCurveOrder));
   sub->add_flag("--placement", options->placement,

@@ -23,8 +23,10 @@ struct SurfacePlace {
 // `along`: none, or one or two directions in the parameter plane, in which the normal curvature and between which the
 // angle is told.
 ordered_json evaluate_place(const SurfacePlace& at, const std::vector<geometry::Vec2>& along);
+// The same of a surface. `turn`: an angle by which the normal turns along u and v over the steps that are told; none if
+// 0.
 ordered_json evaluate_surface(const geometry::Surface& surface, const geometry::Vec2& uv,
-                              const std::vector<geometry::Vec2>& along);
+                              const std::vector<geometry::Vec2>& along, double turn);
 
 // At parameters of triangles: of the one of these surfaces in whose half-open region the place lies, or on its border.
 // Throws UsageError where none has it.

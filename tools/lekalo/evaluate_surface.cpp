@@ -4,6 +4,7 @@
 #include "evaluate.h"
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/fundamental_forms.h"
+#include "geometry/queries/differential/turning_step.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -75,11 +76,18 @@ ordered_json evaluate_place(const SurfacePlace& at, const std::vector<Vec2>& alo
   return out;
 }
 
-ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, const std::vector<Vec2>& along) {
+ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, const std::vector<Vec2>& along,
+                              double turn) {
   const double size = surface.bounded() ? geometry::bounds(surface).diameter() : 0;
-  ordered_json out = evaluate_place(
-      {uv, surface.evaluate(uv.x, uv.y, 2), surface.normal(uv.x, uv.y), geometry::curvature(surface, uv.x, uv.y), size},
-      along);
+  const geometry::SurfaceJet jet = surface.evaluate(uv.x, uv.y, 2);
+  ordered_json out =
+      evaluate_place({uv, jet, surface.normal(uv.x, uv.y), geometry::curvature(surface, uv.x, uv.y), size}, along);
+  if (turn > 0) {
+    if (const auto forms = geometry::fundamental_forms(jet, surface.normal(uv.x, uv.y))) {
+      const Vec2 steps = geometry::turning_steps(*forms, turn);
+      out["step_u"] = finite_or_null(steps.x), out["step_v"] = finite_or_null(steps.y);
+    }
+  }
   out["parameters"] = parameters_of(surface);
   return out;
 }

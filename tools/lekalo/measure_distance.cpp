@@ -7,6 +7,7 @@
 #include "command.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/closest/distance.h"
+#include "geometry/queries/quadrics/plane_coordinates.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -60,15 +61,20 @@ ordered_json foot_points(const geometry::Curve& curve, const Vec3& point) {
   return out;
 }
 
-ordered_json foot_points(const geometry::Surface& surface, const Vec3& point) {
+ordered_json foot_points(const SurfacePtr& surface, const Vec3& point) {
   ordered_json out;
-  const geometry::SurfaceFootPoints found = project(point, surface);
+  const geometry::SurfaceFootPoints found = project(point, *surface);
   if (found.foot_points.empty()) throw std::invalid_argument(kNoFootPoints);
   out["distance"] = found.foot_points.front().distance;
   for (const geometry::SurfaceFootPoint& foot_point : found.foot_points)
     out["feet"].push_back(foot_point_row({{"u", foot_point.u}, {"v", foot_point.v}}, foot_point));
   for (const geometry::Rectangle& region : found.regions)
     out["regions"].push_back({{"u", range(region.u)}, {"v", range(region.v)}});
+  if (const auto in = geometry::plane_coordinates(point, surface)) {
+    ordered_json rows = ordered_json::array();
+    for (int i = 0; i < 3; ++i) rows.push_back(to_json(Vec3(in->inverse[0][i], in->inverse[1][i], in->inverse[2][i])));
+    out["in_plane"] = {{"u", in->u}, {"v", in->v}, {"distance", in->distance}, {"inverse", rows}};
+  }
   return out;
 }
 
@@ -138,6 +144,13 @@ void print_minima(const ordered_json& found) {
   }
 }
 
+void print_in_plane(const ordered_json& in) {
+  fmt::print("  in the plane's axes  u {}  v {}  signed distance {}\n", digits(in["u"].get<double>()),
+             digits(in["v"].get<double>()), digits(in["distance"].get<double>()));
+  for (int i = 0; i < 3; ++i)
+    fmt::print("  {:<19}  {}\n", i == 0 ? "inverse matrix" : "", digits(vector_of(in["inverse"][i])));
+}
+
 }  // namespace
 
 ordered_json range(const Interval& x) { return ordered_json::array({x.lo, x.hi}); }
@@ -187,7 +200,7 @@ ordered_json distance_to(const std::string& name, const render::Entity& entity, 
     if (foot_points_wanted && std::holds_alternative<CurvePtr>(entity))
       out.update(foot_points(*std::get<CurvePtr>(entity), *point));
     else if (foot_points_wanted)
-      out.update(foot_points(*std::get<SurfacePtr>(entity), *point));
+      out.update(foot_points(std::get<SurfacePtr>(entity), *point));
     else
       out.update(minima(*a, *b, nearest));
   } catch (const std::invalid_argument& error) {
@@ -204,6 +217,7 @@ void print_distance(const ordered_json& found) {
     fmt::print("  {:<11}{}  distance {:<20.17g}  point {}\n", foot_point["kind"].get<std::string>(),
                parameter_text(foot_point), foot_point["distance"].get<double>(),
                digits(vector_of(foot_point["point"])));
+  if (found.contains("in_plane")) print_in_plane(found["in_plane"]);
   if (found.contains("arcs"))
     for (const ordered_json& arc : found["arcs"])
       fmt::print("  all points from t {} to {} are as far\n", digits(arc[0].get<double>()),

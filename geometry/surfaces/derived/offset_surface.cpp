@@ -3,9 +3,11 @@
 //   r(u, v) = s(u, v) + d n(u, v),   n = s_u x s_v/|s_u x s_v|
 //
 // d a constant or a formula of u and v. The offsets of plane, sphere, cylinder and torus at a constant distance are
-// surfaces of their kind. n is not smooth at a pole of s, whose offset is built without it.
+// surfaces of their kind, the offset of an offset is one of its base. n is not smooth at a pole of s, whose offset is
+// built without it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/composition.h"
@@ -14,22 +16,46 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/derived/normals.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
+// A sum of distances along r_u x r_v: those of an offset of an offset add up.
+struct Distance {
+  struct Term {
+    double factor;
+    std::shared_ptr<const Expression> law;  // of u and v
+  };
+  std::vector<Term> terms;
+
+  bool is_constant() const {
+    return std::all_of(terms.begin(), terms.end(), [](const Term& term) { return term.law->is_constant(); });
+  }
+  template <class T>
+  T at(const T& u, const T& v) const {
+    const std::array<T, 2> place{u, v};
+    T sum(0);
+    for (const Term& term : terms) sum += term.factor * term.law->evaluate(std::span<const T>(place));
+    return sum;
+  }
+  Distance times(double factor) const {
+    Distance result = *this;
+    for (Term& term : result.terms) term.factor *= factor;
+    return result;
+  }
+};
+
 struct Offset {
   SurfacePtr of;
-  std::shared_ptr<const Expression> distance;
-  double sign;  // of the normal
+  Distance distance;
 
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const {
     const Triple<T> n = cross(surface_at(*of, u, v, 1, 0), surface_at(*of, u, v, 0, 1));
-    const std::array<T, 2> at{u, v};
-    const T d = sign * distance->evaluate(std::span<const T>(at));
-    return surface_at(*of, u, v) + (d / length(n)) * n;
+    return surface_at(*of, u, v) + (distance.at(u, v) / length(n)) * n;
   }
 };
 
@@ -43,26 +69,53 @@ std::shared_ptr<Surface> analytic_offset(const Surface& of, double d) {
   return nullptr;
 }
 
-void check_normals(const Surface& of) {
-  const DegenerateEdges poles = of.degenerate_edges();
-  if (poles.u_min || poles.u_max || poles.v_min || poles.v_max)
-    throw FieldError(
-        "of",
-        fmt::format("the surface has a pole at {}: an offset has no tangents there", poles.u_min   ? "the least u"
-                                                                                     : poles.u_max ? "the greatest u"
-                                                                                     : poles.v_min ? "the least v"
-                                                                                                   : "the greatest v"),
-        "give the surface a domain without it");
-  const Rectangle domain = of.domain();
+// +1 or -1 where the normals of an offset are those of its base everywhere, or all opposite to them, which they are
+// beyond one of the radii of curvature; else 0. Looked at in places of a grid.
+double side_of_normals(const Surface& offset, const Surface& base) {
+  const Rectangle domain = base.domain();
+  double side = 0;
   constexpr int kTried = 16;
   for (int i = 0; i <= kTried; ++i)
     for (int j = 0; j <= kTried; ++j) {
       const double u = domain.u.lo + domain.u.width() * i / kTried, v = domain.v.lo + domain.v.width() * j / kTried;
-      const SurfaceJet jet = of.evaluate(u, v, 1);
-      if (!(glm::length(glm::cross(jet.du(), jet.dv())) > 0))
-        throw FieldError("of", fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}", u, v),
-                         "take a part without that place");
+      const SurfaceJet a = offset.evaluate(u, v, 1), b = base.evaluate(u, v, 1);
+      const double here = glm::dot(glm::cross(a.du(), a.dv()), glm::cross(b.du(), b.dv()));
+      if (!(here * side >= 0) || here == 0) return 0;
+      side = here > 0 ? 1 : -1;
     }
+  return side;
+}
+
+// Of a map that keeps angles: the factor of lengths, negative for a mirror image; else 0.
+double similarity(const Affine& map) {
+  const Mat3& a = map.linear;
+  const double scale = std::cbrt(map.determinant());
+  const Mat3 square = glm::transpose(a) * a;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(square[i][j] - (i == j ? scale * scale : 0)) > 1e-14 * scale * scale) return 0;
+  return scale;
+}
+
+// Offsets of offsets and of moved surfaces are offsets of the base (Golovanov 2016, 3.15): with the base's parameters,
+// and of the closed form that it may have.
+std::shared_ptr<Surface> offset_of(const SurfacePtr& of, const Distance& distance) {
+  if (const auto* inner = dynamic_cast<const ComposedSurface<Offset>*>(of.get())) {
+    const Offset& offset = inner->formula();
+    if (const double side = side_of_normals(*inner, *offset.of); side != 0) {
+      Distance sum = distance.times(side);
+      sum.terms.insert(sum.terms.begin(), offset.distance.terms.begin(), offset.distance.terms.end());
+      return std::make_shared<ComposedSurface<Offset>>(Offset{offset.of, sum}, properties_of(*offset.of, 1));
+    }
+  }
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(of.get()))
+    if (const double scale = similarity(moved->map()); scale != 0)
+      return std::make_shared<TransformedSurface>(offset_of(moved->original(), distance.times(1 / scale)),
+                                                  moved->map());
+  if (distance.is_constant())
+    if (auto offset = analytic_offset(*of, distance.at(0.0, 0.0))) return offset;
+  check_normals(*of, "of");
+  return std::make_shared<ComposedSurface<Offset>>(Offset{of, distance}, properties_of(*of, 1));
 }
 
 }  // namespace
@@ -78,15 +131,9 @@ TypeDeclaration offset_surface_type() {
       .built_by([](const Fields& f) {
         const SurfacePtr of = f.surface("of");
         if (!of->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
-        const auto distance = std::make_shared<const Expression>(f.get<Expression>("distance"));
-        std::shared_ptr<Surface> offset;
-        if (distance->is_constant())
-          offset = analytic_offset(*of, of->normal_sign() * distance->evaluate(std::span<const double>()));
-        if (!offset) {
-          check_normals(*of);
-          offset =
-              std::make_shared<ComposedSurface<Offset>>(Offset{of, distance, of->normal_sign()}, properties_of(*of, 1));
-        }
+        const Distance distance{
+            {{of->normal_sign(), std::make_shared<const Expression>(f.get<Expression>("distance"))}}};
+        const std::shared_ptr<Surface> offset = offset_of(of, distance);
         offset->set_reversed(of->reversed());
         return std::any(SurfacePtr(offset));
       });

@@ -190,6 +190,26 @@ inline std::vector<Entry> composed_entries() {
                    const double l0 = (v - 1) * (v - 2) / 2, l1 = v * (2 - v), l2 = v * (v - 1) / 2;
                    return Vec3(2 * u, v, 3 * (l0 * (u - u * u) + l1 * (1.5 * u * u - 0.2) + l2 * (0.3 + u)));
                  }),
+      polynomial(
+          "extended_formula",
+          "{ type: extended_surface, mode: tangent, before: 0.5, after: 1, of: { type: formula_surface, point: [u, "
+          "v, 2*u*v], domain: { u: [0, 1], v: [0, 1] } } }",
+          1, 1, {{-0.5, 2}, {-0.5, 2}}, [](double u, double v) { return Vec3(u, v, 2 * u * v); }),
+      polynomial("deformed_formula",
+                 "{ type: deformed_surface, degree: 2, count: 3, moves: { at: [1, 1], height: 3 }, of: { type: "
+                 "formula_surface, point: [u, v, 0*u], domain: { u: [0, 1], v: [0, 1] } } }",
+                 2, 2, {{0, 1}, {0, 1}}, [](double u, double v) { return Vec3(u, v, 12 * u * (1 - u) * v * (1 - v)); }),
+      {"fillet_with_even_sections",
+       [](const Vec3& offset) {
+         const SurfacePtr part = composed_surface(
+             "{ type: torus_surface, major_radius: 1.4, minor_radius: 0.4, frame: { origin: [0, 0, 0.4] }, domain: { "
+             "u: "
+             "[0, 2*pi], v: [-pi, -pi/2] } }");
+         return moved_subject(
+             composed_surface("{ type: fillet_surface, even: true, radius: 0.4, of: [{ type: plane, size: [8, 8] }, { "
+                              "type: cylinder_surface, radius: 1, height: 2 }] }"),
+             offset, truth_of({part}, bounds(*part).diameter()));
+       }},
   };
 }
 
