@@ -74,7 +74,8 @@
   X(fit_curve_type)               \
   X(rounded_corners_type)         \
   X(implicit_curve_type)          \
-  X(blend_curve_type)
+  X(blend_curve_type)             \
+  X(frame_section_type)
 
 namespace lekalo::geometry {
 

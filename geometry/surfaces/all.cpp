@@ -47,7 +47,8 @@
   X(fillet_surface_type)         \
   X(chamfer_surface_type)        \
   X(extended_surface_type)       \
-  X(deformed_surface_type)
+  X(deformed_surface_type)       \
+  X(reparametrized_surface_type)
 
 namespace lekalo::geometry {
 

@@ -70,6 +70,7 @@ SURFACES = {
     "extended_surface": f"of: {{ type: bezier_surface, points: [{NET}] }}, before: 0.2, after: 0.3",
     "deformed_surface": "of: { type: cylinder_surface, radius: 1.2, height: 2, frame: { origin: [0, 0, -0.5] } }, count: { u: 8, v: 5 }, "
                         "moves: [{ at: [0, 2], height: 0.5 }, { at: [4, 2], height: -0.4 }]",
+    "reparametrized_surface": f"of: {{ type: bezier_surface, points: [{NET}] }}, swap: true, reverse: [u], domain: {{ u: [1, 3], v: [0, 5] }}",
     "chamfer_surface": "of: [{ type: plane, origin: [0, 0, -0.5], size: [6, 6] }, { type: cylinder_surface, radius: 1, height: 2, frame: "
                        "{ origin: [0, 0, -1], z: [0.3, 0, 1] } }], legs: [0.6, 1]",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",

@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "geometry/curves/analytic/ellipse.h"
+#include "geometry/curves/analytic/hyperbola.h"
+#include "geometry/curves/analytic/parabola.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/queries/intersections/curve_pair.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
 #include "geometry/queries/quadrics/conic.h"
+#include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -29,6 +32,16 @@ std::optional<Conic> conic_of(const Curve& curve) {
     return Conic{Conic::Kind::ellipse, frame.origin, ellipse->semi_axis_x() * frame.x,
                  ellipse->semi_axis_y() * frame.y};
   }
+  if (const auto* parabola = dynamic_cast<const Parabola*>(&curve)) {
+    const Frame& frame = parabola->frame();
+    const double f = parabola->focal_length();
+    return Conic{Conic::Kind::parabola, frame.origin, f * frame.x, 2 * f * frame.y};
+  }
+  if (const auto* hyperbola = dynamic_cast<const Hyperbola*>(&curve)) {
+    const Frame& frame = hyperbola->frame();
+    return Conic{Conic::Kind::hyperbola, frame.origin, hyperbola->semi_axis_x() * frame.x,
+                 hyperbola->semi_axis_y() * frame.y};
+  }
   return std::nullopt;
 }
 
@@ -46,8 +59,10 @@ class ConicAndPlane {
       find_parts();
     } else {
       std::vector<double> roots = in_domain(plane_roots(conic_, normal_, glm::dot(normal_, plane_.origin)));
-      // Two that no tolerance tells apart are one contact.
-      if (roots.size() == 2 && !are_apart(roots[0], roots[1]) && !turns.empty()) roots.clear();
+      // Two that no tolerance tells apart are one contact, as is a double one.
+      const bool is_double = roots.size() == 1 && std::any_of(turns.begin(), turns.end(),
+                                                              [&](double turn) { return !are_apart(roots[0], turn); });
+      if (is_double || (roots.size() == 2 && !are_apart(roots[0], roots[1]) && !turns.empty())) roots.clear();
       for (const double root : roots) add(root, false);
       if (roots.empty())
         for (const double at : places) add(at, true);
@@ -65,9 +80,18 @@ class ConicAndPlane {
 
   // Where the height along a direction is greatest and least.
   std::vector<double> stationary(const Vec3& along) const {
-    if (conic_.kind == Conic::Kind::line) return {};
-    const double at = std::atan2(glm::dot(along, conic_.y), glm::dot(along, conic_.x));
-    return {at, at + kPi};
+    const double x = glm::dot(along, conic_.x), y = glm::dot(along, conic_.y);
+    switch (conic_.kind) {
+      case Conic::Kind::line:
+        return {};
+      case Conic::Kind::parabola:
+        return x != 0 ? std::vector<double>{-0.5 * y / x} : std::vector<double>();
+      case Conic::Kind::hyperbola:
+        return std::abs(y) < std::abs(x) ? std::vector<double>{std::atanh(-y / x)} : std::vector<double>();
+      case Conic::Kind::ellipse:
+        return {std::atan2(y, x), std::atan2(y, x) + kPi};
+    }
+    return {};
   }
 
   // Of an ellipse's angles those on the arc; what rounding and the tolerance take beyond an end is that end.
@@ -148,6 +172,37 @@ std::optional<SurfaceIntersections> conic_intersections(const Curve& curve, cons
   const auto plane = canonical(SurfacePtr(SurfacePtr(), &surface));
   if (!plane || plane->kind != CanonicalSurface::Kind::plane) return std::nullopt;
   return ConicAndPlane(curve, *conic, *plane, tolerance).run();
+}
+
+std::optional<CurveIntersections> line_conic_intersections(const Curve& a, const Curve& b, double tolerance) {
+  const std::optional<Conic> of_a = conic_of(a), of_b = conic_of(b);
+  if (!of_a || !of_b || (of_a->kind == Conic::Kind::line) == (of_b->kind == Conic::Kind::line)) return std::nullopt;
+  const bool a_is_line = of_a->kind == Conic::Kind::line;
+  const Conic &line = a_is_line ? *of_a : *of_b, &conic = a_is_line ? *of_b : *of_a;
+  const Curve &straight = a_is_line ? a : b, &round = a_is_line ? b : a;
+  const Vec3 across = glm::cross(line.y, glm::cross(conic.x, conic.y));
+  if (!(glm::length(across) > kParallel * glm::length(line.y) * glm::length(conic.x) * glm::length(conic.y)))
+    return std::nullopt;
+  const Plane plane(frame_from(line.origin, across, line.y));
+  CurveIntersections result;
+  const double slack = slack_of(straight, straight.domain(), tolerance);
+  for (const SurfaceIntersection& found :
+       ConicAndPlane(round, conic, *canonical(SurfacePtr(SurfacePtr(), &plane)), tolerance).run().points) {
+    const double s = glm::dot(found.point - line.origin, line.y) / glm::dot(line.y, line.y);
+    const Interval domain = straight.domain();
+    if (s < domain.lo - slack || s > domain.hi + slack) continue;
+    const double at = domain.clamp(s);
+    const Vec3 on_line = straight.point(at), tangent = round.evaluate(found.t, 1).d[1];
+    const double distance = glm::length(on_line - found.point);
+    if (distance > tolerance) continue;
+    const bool contact =
+        glm::length(glm::cross(tangent, line.y)) < kParallel * glm::length(tangent) * glm::length(line.y);
+    result.points.push_back({a_is_line ? at : found.t, a_is_line ? found.t : at, 0.5 * (on_line + found.point),
+                             distance, found.contact && contact});
+  }
+  std::sort(result.points.begin(), result.points.end(),
+            [](const CurveIntersection& x, const CurveIntersection& y) { return x.s < y.s; });
+  return result;
 }
 
 }  // namespace lekalo::geometry

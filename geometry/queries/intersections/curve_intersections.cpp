@@ -90,6 +90,7 @@ class CurvePair {
 
   CurveIntersections run() {
     if (!are_near(box_a_, box_b_, tolerance_)) return {};
+    if (auto known = line_conic_intersections(a_, b_, tolerance_)) return *std::move(known);
     pieces_a_ = a_.pieces(), pieces_b_ = b_.pieces();
     find_common();
     for (const CurvePiece& of_b : pieces_b_) {

@@ -6,6 +6,7 @@
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/contours/contour_approximation.h"
 #include "geometry/queries/contours/surface_intersection.h"
+#include "geometry/surfaces/derived/offset.h"
 
 namespace lekalo::geometry {
 
@@ -37,25 +38,37 @@ Start along(const CurvePtr& guide, const std::array<SurfacePtr, 2>& of) {
   return start;
 }
 
-// Where the surfaces meet.
-Start along_intersection(const std::array<SurfacePtr, 2>& of, const Fields& f) {
-  Contours found;
+Contours meeting(const SurfacePtr& a, const SurfacePtr& b) {
   try {
-    found = intersect(of[0], of[1]);
+    return intersect(a, b);
   } catch (const std::invalid_argument& error) {
     throw FieldError("of", error.what());
   }
-  if (found.branches.empty())
-    throw FieldError("of", "the surfaces do not meet, so that there is nothing to go along",
-                     "give a `guide`, a curve beside which the blend runs");
+}
+
+Start along_branch(const Contours& found, const Fields& f) {
   const CurvePtr curve = chosen_branch(found.branches, f, "of");
+  Start start{contour_approximation(curve), start_of(*curve), {}};
   for (const Contour& branch : found.branches)
-    if (branch.curve == curve) {
-      Start start{contour_approximation(curve), start_of(*curve), {}};
+    if (branch.curve == curve)
       for (int k = 0; k < 2; ++k) start.places[k] = Vec2(branch.images[k]->point(start.t));
-      return start;
-    }
-  return along(curve, of);
+  return start;
+}
+
+// Where the surfaces meet; of a ball of constant radius between surfaces that do not, the way of its center, in which
+// their offsets meet.
+Start along_intersection(const BlendLaw& law, const Fields& f) {
+  const Contours found = meeting(law.of[0], law.of[1]);
+  if (!found.branches.empty()) return along_branch(found, f);
+  if (law.kind == BlendKind::ball && law.sizes[0].is_constant() && law.sizes[1].is_constant()) {
+    const auto moved = [&](int k) {
+      return offset_surface(law.of[k], law.sides[k] * law.of[k]->normal_sign() * law.sizes[k](0.0));
+    };
+    const Contours centers = meeting(moved(0), moved(1));
+    if (!centers.branches.empty()) return along_branch(centers, f);
+  }
+  throw FieldError("of", "the surfaces do not meet, so that there is nothing to go along",
+                   "give a `guide`, a curve beside which the blend runs");
 }
 
 }  // namespace
@@ -67,7 +80,7 @@ TypeDeclaration& blend_fields(TypeDeclaration& type) {
              "[front, front]")
       .optional("guide", reference({Category::curve}),
                 "the curve beside which the blend runs, each section in a plane across it; else where the surfaces "
-                "meet");
+                "meet (of a ball of constant radius also the way of its center)");
   return choose_branch(type);
 }
 
@@ -86,7 +99,7 @@ Contacts blend_contacts(BlendLaw law, const Fields& f) {
     throw FieldError("guide", "along an edge the edge itself is the guide", "leave it out");
   const Start start = law.guide        ? along(law.guide, law.of)
                       : f.has("guide") ? along(f.curve("guide"), law.of)
-                                       : along_intersection(law.of, f);
+                                       : along_intersection(law, f);
   law.guide = start.guide;
   return Contacts(std::move(law), start.t, start.places);
 }

@@ -2,9 +2,9 @@
 //
 //   r(u, v) = s(u, v) + d n(u, v),   n = s_u x s_v/|s_u x s_v|
 //
-// d a constant or a formula of u and v. The offsets of plane, sphere, cylinder and torus at a constant distance are
-// surfaces of their kind, the offset of an offset is one of its base. n is not smooth at a pole of s, whose offset is
-// built without it.
+// d a constant or a formula of u and v. The offsets of plane, sphere, cylinder, cone and torus at a constant distance
+// are surfaces of their kind, the offset of an offset is one of its base. n is not smooth at a pole of s, whose offset
+// is built without it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,10 +13,12 @@
 #include "geometry/composition.h"
 #include "geometry/describe.h"
 #include "geometry/expression/expression.h"
+#include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/derived/normals.h"
+#include "geometry/surfaces/derived/offset.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -27,18 +29,20 @@ namespace {
 struct Distance {
   struct Term {
     double factor;
-    std::shared_ptr<const Expression> law;  // of u and v
+    std::shared_ptr<const Expression> law;  // of u and v; null: 1
   };
   std::vector<Term> terms;
 
   bool is_constant() const {
-    return std::all_of(terms.begin(), terms.end(), [](const Term& term) { return term.law->is_constant(); });
+    return std::all_of(terms.begin(), terms.end(),
+                       [](const Term& term) { return !term.law || term.law->is_constant(); });
   }
   template <class T>
   T at(const T& u, const T& v) const {
     const std::array<T, 2> place{u, v};
     T sum(0);
-    for (const Term& term : terms) sum += term.factor * term.law->evaluate(std::span<const T>(place));
+    for (const Term& term : terms)
+      sum += term.law ? term.factor * term.law->evaluate(std::span<const T>(place)) : T(term.factor);
     return sum;
   }
   Distance times(double factor) const {
@@ -59,6 +63,21 @@ struct Offset {
   }
 };
 
+// Of a cone or cylinder on one side of its apex: radii and base move with the normal, (h, -w)/|(h, w)| in its meridian
+// plane, w the difference of the radii.
+std::shared_ptr<Surface> cone_offset(const ConeSurface& of, double d) {
+  const double w = of.top_radius() - of.radius(), h = of.height(), length = std::hypot(w, h);
+  const Rectangle domain = of.domain();
+  const auto radius_at = [&](double v, double by) { return of.radius() + (w != 0 ? w * v : 0) + by; };
+  const double by = d * h / length;
+  for (const double v : {domain.v.lo, domain.v.hi})
+    if (!(radius_at(v, 0) > 0 && radius_at(v, by) > 0)) return nullptr;
+  Frame frame = of.frame();
+  frame.origin -= (d * w / length) * frame.z;
+  if (w == 0) return std::make_shared<CylinderSurface>(frame, of.radius() + by, h, domain);
+  return std::make_shared<ConeSurface>(frame, of.radius() + by, of.top_radius() + by, h, domain);
+}
+
 // The surface of the same kind at a distance, with the same parameters; null where there is none.
 std::shared_ptr<Surface> analytic_offset(const Surface& of, double d) {
   if (const auto* sphere = dynamic_cast<const SphereSurface*>(&of); sphere && sphere->radius() + d > 0)
@@ -66,7 +85,13 @@ std::shared_ptr<Surface> analytic_offset(const Surface& of, double d) {
   if (const auto* torus = dynamic_cast<const TorusSurface*>(&of); torus && torus->minor_radius() + d > 0)
     return std::make_shared<TorusSurface>(torus->frame(), torus->major_radius(), torus->minor_radius() + d,
                                           torus->domain());
-  return nullptr;
+  if (const auto* plane = dynamic_cast<const Plane*>(&of)) {
+    Frame frame = plane->frame();
+    frame.origin += d * frame.z;
+    return std::make_shared<Plane>(frame, plane->domain());
+  }
+  const auto* cone = dynamic_cast<const ConeSurface*>(&of);
+  return cone ? cone_offset(*cone, d) : nullptr;
 }
 
 // +1 or -1 where the normals of an offset are those of its base everywhere, or all opposite to them, which they are
@@ -119,6 +144,12 @@ std::shared_ptr<Surface> offset_of(const SurfacePtr& of, const Distance& distanc
 }
 
 }  // namespace
+
+SurfacePtr offset_surface(const SurfacePtr& of, double distance) {
+  const auto offset = offset_of(of, {{{of->normal_sign() * distance, nullptr}}});
+  offset->set_reversed(of->reversed());
+  return offset;
+}
 
 TypeDeclaration offset_surface_type() {
   return declare(Category::surface, "offset_surface",

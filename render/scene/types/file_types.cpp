@@ -8,7 +8,8 @@
 #define LEKALO_FILE_TYPES(X) \
   X(patches_type)            \
   X(mesh_type)               \
-  X(triangulation_type)
+  X(triangulation_type)      \
+  X(frame_net_type)
 
 namespace lekalo::render {
 
@@ -31,6 +32,7 @@ TypeDeclaration patches_type() {
 
 TypeDeclaration mesh_type();
 TypeDeclaration triangulation_type();
+TypeDeclaration frame_net_type();
 
 #define CALL(type) type(),
 std::vector<TypeDeclaration> file_types() { return {LEKALO_FILE_TYPES(CALL)}; }
