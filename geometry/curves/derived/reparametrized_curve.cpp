@@ -174,31 +174,48 @@ CurvePtr trimmed_curve(const CurvePtr& of, double from, double to, bool backward
   return std::make_shared<CompositeCurve>(std::move(parts), length == width, 1e-9);
 }
 
-CurvePtr by_arc_length(const CurvePtr& of) {
+namespace {
+
+// The parameter at a share of the length: Newton's steps, halves where they leave the bracket.
+double parameter_at(const Curve& of, const ArcFraction& fraction, double share) {
+  Interval t = of.domain();
+  double at = t.lo + share * t.width();
+  for (int i = 0; i < 200 && t.lo < t.middle() && t.middle() < t.hi; ++i) {
+    const double off = fraction.at(at) - share;
+    (off < 0 ? t.lo : t.hi) = at;
+    const double next = at - off * fraction.length() / glm::length(of.evaluate(at, 1).d[1]);
+    if (next == at) return at;
+    at = t.lo < next && next < t.hi ? next : t.middle();
+  }
+  return at;
+}
+
+// By the arc length, scaled to 0..end; the length itself where that is 0.
+CurvePtr along_length(const CurvePtr& of, double end) {
   const Interval domain = of->domain();
   if (!(domain.width() < kInfinity)) throw FieldError("of", "the curve is unbounded", "give it a domain");
   const ArcFraction fraction(*of);
-  const double length = fraction.length();
-  const auto t_at = [&](double s) {
-    Interval t = domain;
-    for (int i = 0; i < 200 && t.lo < t.middle() && t.middle() < t.hi; ++i)
-      (fraction.at(t.middle()) * length < s ? t.lo : t.hi) = t.middle();
-    return t.middle();
-  };
+  if (end == 0) end = fraction.length();
   std::vector<Interval> stretches;
   CurveProperties properties = properties_of(*of);
-  for (double& t : properties.breaks) t = fraction.at(t) * length;
-  properties.breaks.front() = 0, properties.breaks.back() = length;
+  for (double& t : properties.breaks) t = fraction.at(t) * end;
+  properties.breaks.front() = 0, properties.breaks.back() = end;
   for (size_t i = 0; i + 1 < properties.breaks.size(); ++i)
     stretches.push_back({properties.breaks[i], properties.breaks[i + 1]});
-  const auto law =
-      polynomial_approximation([&](double s) { return Vec3(t_at(s), 0, 0); }, stretches, 1e-13 * domain.width());
+  const auto t_at = [&](double s) { return Vec3(parameter_at(*of, fraction, s / end), 0, 0); };
+  const auto law = polynomial_approximation(t_at, stretches, 1e-13 * domain.width());
   if (!law) throw FieldError("of", "the curve rests somewhere: its parameter is no smooth function of the length");
-  properties.domain = {0, length};
-  if (properties.period > 0) properties.period = length;
+  properties.domain = {0, end};
+  if (properties.period > 0) properties.period = end;
   add_operand(properties, *law);
   return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, properties);
 }
+
+}  // namespace
+
+CurvePtr by_arc_length(const CurvePtr& of) { return along_length(of, 0); }
+
+CurvePtr by_length_fraction(const CurvePtr& of) { return along_length(of, 1); }
 
 TypeDeclaration reversed_curve_type() {
   return declare(Category::curve, "reversed_curve", "A curve run through the other way, over the same parameters.")

@@ -20,4 +20,7 @@ CurvePtr with_domain(const CurvePtr& of, const Interval& domain);
 // curve that is unbounded or without length.
 CurvePtr by_arc_length(const CurvePtr& of);
 
+// The same with the fraction of the length, 0..1.
+CurvePtr by_length_fraction(const CurvePtr& of);
+
 }  // namespace lekalo::geometry

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/named/presets.h"
@@ -16,13 +15,6 @@ using Constants = std::vector<Expression::Constant>;
 
 constexpr int kMostTurns = 1000;
 constexpr double kWhole = 1e-9;
-
-std::string parameters_of(const Preset& preset) {
-  std::string text;
-  for (const PresetParameter& p : preset.parameters)
-    text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", p.name, p.value);
-  return text;
-}
 
 // Each name once, in the order of the collection.
 std::vector<const Preset*> kinds() {
@@ -45,15 +37,8 @@ std::string list_of_presets() {
   return text;
 }
 
-std::vector<std::string> parameter_names() {
-  std::set<std::string> all;
-  for (const Preset& preset : presets())
-    for (const PresetParameter& p : preset.parameters) all.emplace(p.name);
-  return {all.begin(), all.end()};
-}
-
 Constants constants_of(const Fields& f, const Preset& preset) {
-  for (const std::string& name : parameter_names())
+  for (const std::string& name : parameter_names(presets()))
     if (f.has(name) && std::none_of(preset.parameters.begin(), preset.parameters.end(),
                                     [&](const PresetParameter& p) { return p.name == name; }))
       throw FieldError(name, fmt::format("'{}' has no parameter '{}'", preset.name, name),
@@ -62,10 +47,6 @@ Constants constants_of(const Fields& f, const Preset& preset) {
   for (const PresetParameter& p : preset.parameters)
     result.push_back({std::string(p.name), f.has(p.name) ? f.number(p.name) : p.value});
   return result;
-}
-
-double value_of(std::string_view text, const Constants& constants) {
-  return formula_of(std::string(text), {}, constants)();
 }
 
 // 2 pi q with b/a = p/q.
@@ -81,7 +62,7 @@ const Preset& chosen(const std::string& name, const Fields& f, Constants& consta
     if (preset.name != name) continue;
     constants = constants_of(f, preset);
     last = &preset;
-    if (preset.condition.empty() || value_of(preset.condition, constants) != 0) return preset;
+    if (preset.condition.empty() || preset_value(preset.condition, constants) != 0) return preset;
   }
   throw FieldError("preset", fmt::format("the parameters make no '{}'", name), std::string(last->expectation));
 }
@@ -92,9 +73,9 @@ FormulaCurve named_curve(const Fields& f) {
   if (f.has("a") && f.number("a") == 0) throw FieldError("a", "the size of the curve is zero");
   const bool is_whole = !f.has("domain");
   if (is_whole && preset.rolls) constants.push_back({"period", period(constants[0].value, constants[1].value)});
-  if (!preset.exponent.empty()) constants.push_back({"exponent", value_of(preset.exponent, constants)});
+  if (!preset.exponent.empty()) constants.push_back({"exponent", preset_value(preset.exponent, constants)});
   const Interval domain =
-      is_whole ? Interval(value_of(preset.from, constants), value_of(preset.to, constants)) : f.range("domain");
+      is_whole ? Interval(preset_value(preset.from, constants), preset_value(preset.to, constants)) : f.range("domain");
   const auto of_t = [&](std::string_view text) { return formula_of(std::string(text), {"t"}, constants); };
   return FormulaCurve(PointFormulas({of_t(preset.first), of_t(preset.second), of_t("0")}, preset.coordinates, {"t"}),
                       domain, is_whole && preset.is_closed);
@@ -109,7 +90,8 @@ TypeDeclaration named_curve_type() {
                   "out: {}.",
                   list_of_presets()));
   type.field("preset", choice(names()), "which curve");
-  for (const std::string& name : parameter_names()) type.optional(name, number(), "of those presets that have it");
+  for (const std::string& name : parameter_names(presets()))
+    type.optional(name, number(), "of those presets that have it");
   return type
       .optional("domain", range(),
                 "of the parameter t; when left out the whole curve, or a part short of its asymptotes")

@@ -5,14 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/point_formulas.h"
+#include "geometry/curves/named/preset_fields.h"
 
 namespace lekalo::geometry {
-
-struct PresetParameter {
-  std::string_view name;
-  double value;  // when left out
-};
 
 // Formulas are of t and the parameters. Rows of one name are tried in order: the first whose condition holds is taken.
 struct Preset {

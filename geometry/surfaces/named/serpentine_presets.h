@@ -2,7 +2,7 @@
 // surfaces, garlands and knots, and gives no formulas).
 #pragma once
 
-#include "geometry/surfaces/named/preset_fields.h"
+#include "geometry/curves/named/preset_fields.h"
 
 namespace lekalo::geometry {
 

@@ -11,12 +11,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/composition.h"
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/describe.h"
 #include "geometry/expression/scalar_law.h"
 #include "geometry/surfaces/named/vintoid_presets.h"
+#include "geometry/surfaces/swept/moved_sections.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -24,23 +25,46 @@ namespace {
 
 using Constants = std::vector<Expression::Constant>;
 
-struct Vintoid {
-  CurvePtr profile;
+struct Laws {
   CurvePtr around;  // null: the unit circle
   ScalarLaw distance, height, turn, scale_x, scale_y;
+};
+
+// Of the sum of three products that a vintoid is: what x(v) (k = 0), y(v) (1) and 1 (2) are multiplied by.
+struct VintoidAxis {
+  Laws laws;
+  int k;
 
   template <class T>
-  Triple<T> operator()(const T& u, const T& v) const {
+  Triple<T> operator()(const T& u) const {
     using std::cos;
     using std::sin;
-    const Triple<T> p = curve_at(*profile, v);
-    const T x = scale_x(u) * p.x, y = scale_y(u) * p.y, a = turn(u), c = cos(a), s = sin(a);
-    const T far = distance(u) + c * x + s * y, high = height(u) - s * x + c * y;
-    if (!around) return {far * cos(u), far * sin(u), high};
-    const Triple<T> q = curve_at(*around, u);
+    if (k == 2) return placed(u, laws.distance(u), laws.height(u));
+    const T a = laws.turn(u), c = cos(a), s = sin(a), scale = k == 0 ? laws.scale_x(u) : laws.scale_y(u);
+    return k == 0 ? placed(u, scale * c, -(scale * s)) : placed(u, scale * s, scale * c);
+  }
+
+ private:
+  template <class T>
+  Triple<T> placed(const T& u, const T& far, const T& high) const {
+    using std::cos;
+    using std::sin;
+    if (!laws.around) return {far * cos(u), far * sin(u), high};
+    const Triple<T> q = curve_at(*laws.around, u);
     return {far * q.x, far * q.y, high};
   }
 };
+
+CurvePtr axis_of(const Laws& laws, const Interval& range, int k) {
+  CurveProperties properties;
+  properties.domain = range;
+  properties.breaks = {range.lo, range.hi};
+  if (laws.around) add_operand(properties, *laws.around);
+  return std::make_shared<ComposedCurve<VintoidAxis>>(VintoidAxis{laws, k}, properties);
+}
+
+// Without a z.
+CurvePtr flat(const CurvePtr& curve) { return transformed(curve, Affine::scaling({1, 1, 0})); }
 
 CurvePtr profile_of(const Fields& f, const VintoidPreset* preset, const Constants& constants) {
   if (f.has("of")) return f.curve("of");
@@ -81,25 +105,20 @@ std::any vintoid(const Fields& f) {
     return ScalarLaw(along_y ? given.back() : given.front());
   };
   const CurvePtr profile = profile_of(f, preset, constants);
-  Vintoid formula{profile,
-                  around,
+  const Laws laws{around,
                   law("distance", preset ? preset->distance : "", "0"),
                   law("height", preset ? preset->height : "", "0"),
                   law("turn", preset ? preset->turn : "", "0"),
                   scale(false),
                   scale(true)};
-  SurfaceProperties properties;
-  properties.domain = {range, profile->domain()};
-  properties.periods.v = profile->period();
-  properties.breaks_u = {range.lo, range.hi};
-  properties.breaks_v = {properties.domain.v.lo, properties.domain.v.hi};
-  add_operand(properties, *profile, Along::v);
-  if (around) add_operand(properties, *around, Along::u);
-  auto surface = std::make_shared<ComposedSurface<Vintoid>>(formula, properties);
-  if (is_closed_along(*surface, Along::u)) {
-    properties.periods.u = range.width();
-    surface = std::make_shared<ComposedSurface<Vintoid>>(std::move(formula), std::move(properties));
-  }
+  const CurvePtr base = axis_of(laws, range, 2);
+  BooleanSum sum;
+  sum.along_u = moved_sections(base, {axis_of(laws, range, 0), axis_of(laws, range, 1), base}, {{flat(profile)}, {}});
+  const Rectangle domain{range, profile->domain()};
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain, {0, profile->period()}));
+  if (is_closed_along(*surface, Along::u))
+    surface =
+        std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {range.width(), profile->period()}));
   return std::any(SurfacePtr(surface));
 }
 

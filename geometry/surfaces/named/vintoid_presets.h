@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/surfaces/named/preset_fields.h"
+#include "geometry/curves/named/preset_fields.h"
 
 namespace lekalo::geometry {
 

@@ -20,7 +20,7 @@ std::vector<CurvePtr> read_family(const Fields& fields, const char* field) {
 
 std::vector<CurvePtr> one_domain(std::vector<CurvePtr> curves, const Fields& fields) {
   if (fields.has("match") && fields.text("match") == "arc_length")
-    for (CurvePtr& curve : curves) curve = with_domain(by_arc_length(curve), {0, 1});
+    for (CurvePtr& curve : curves) curve = by_length_fraction(curve);
   const Interval domain = curves.front()->domain();
   const bool same = std::all_of(curves.begin(), curves.end(), [&](const CurvePtr& c) { return c->domain() == domain; });
   if (!same)
@@ -67,6 +67,13 @@ std::vector<double> read_nodes(const Fields& fields, const char* field, const st
   for (double& v : nodes) v /= nodes.back();
   nodes.back() = 1;
   return nodes;
+}
+
+double common_period(const std::vector<CurvePtr>& curves) {
+  const double period = curves.front()->period();
+  for (const CurvePtr& curve : curves)
+    if (curve->period() != period) return 0;
+  return period;
 }
 
 }  // namespace lekalo::geometry

@@ -14,6 +14,9 @@ std::vector<CurvePtr> read_family(const Fields& fields, const char* field);
 // Curves over one domain, as above.
 std::vector<CurvePtr> one_domain(std::vector<CurvePtr> curves, const Fields& fields);
 
+// The period that all have; 0 where they do not have the same.
+double common_period(const std::vector<CurvePtr>& curves);
+
 // The mean distance of each curve from the next, over 17 samples; the closing one included when closed.
 std::vector<double> steps_between(const std::vector<CurvePtr>& curves, bool closed);
 

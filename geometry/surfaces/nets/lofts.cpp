@@ -27,13 +27,6 @@ CurvePtr constant(const Vec3& point, const Interval& range) {
 
 Interval common_domain(const std::vector<CurvePtr>& curves) { return curves.front()->domain(); }
 
-double common_period(const std::vector<CurvePtr>& curves) {
-  const double period = curves.front()->period();
-  for (const CurvePtr& curve : curves)
-    if (curve->period() != period) return 0;
-  return period;
-}
-
 std::any loft(const Fields& f) {
   const std::vector<CurvePtr> curves = read_family(f, "of");
   const std::string& method = f.text("method");

@@ -7,50 +7,44 @@
 // at several v are blended by Hermite's cubics. The path has its arc length for parameter, so that laws are of v alone.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/moving_frame.h"
+#include "geometry/curves/splines/polynomial_approximation.h"
 #include "geometry/describe.h"
 #include "geometry/expression/scalar_law.h"
-#include "geometry/surfaces/nets/boolean_sum.h"
 #include "geometry/surfaces/nets/curve_family.h"
+#include "geometry/surfaces/swept/moved_sections.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-// The curves blended at (u, v).
-template <class T>
-Triple<T> blended(const Family& family, const T& u, const T& v) {
-  Triple<T> p{T(0), T(0), T(0)};
-  for (size_t i = 0; i < family.curves.size(); ++i)
-    p += curve_at(*family.functions[i], v).x * curve_at(*family.curves[i], u);
-  return p;
-}
+// How a section turns and grows in its frame, by formulas of v.
+struct SectionLaws {
+  ScalarLaw twist{0}, scale_x{1}, scale_y{1}, pitch{0}, yaw{0};
+};
 
-// g + X n + Y b + Z t at v, from coordinates in the frame that moves along g.
-template <class T>
-Triple<T> placed_on(const Curve& path, const Curve& across, const T& v, const Triple<T>& local) {
-  const Triple<T> along = curve_at(path, v, 1), n = curve_at(across, v);
-  const Triple<T> t = (1.0 / length(along)) * along, b = cross(t, n);
-  return curve_at(path, v) + (local.x * n + local.y * b + local.z * t);
-}
-
-struct Sweep {
-  CurvePtr path, across;  // g and n, over 0..1
-  Family sections;        // of u, with functions of v
-  ScalarLaw twist, scale_x, scale_y, pitch, yaw;
+// Where the frame and the laws carry the k-th unit vector of a section's coordinates.
+struct SectionAxis {
+  CurvePtr path, across;  // g and n
+  SectionLaws laws;
+  int k;
 
   template <class T>
-  Triple<T> operator()(const T& u, const T& v) const {
-    const Triple<T> p = blended(sections, u, v);
-    Triple<T> q{scale_x(v) * p.x, scale_y(v) * p.y, p.z};
-    turn(yaw, v, q.z, q.x);
-    turn(pitch, v, q.y, q.z);
-    turn(twist, v, q.x, q.y);
-    return placed_on(*path, *across, v, q);
+  Triple<T> operator()(const T& v) const {
+    Triple<T> q{T(k == 0 ? 1 : 0), T(k == 1 ? 1 : 0), T(k == 2 ? 1 : 0)};
+    q.x = laws.scale_x(v) * q.x;
+    q.y = laws.scale_y(v) * q.y;
+    turn(laws.yaw, v, q.z, q.x);
+    turn(laws.pitch, v, q.y, q.z);
+    turn(laws.twist, v, q.x, q.y);
+    const Triple<T> along = curve_at(*path, v, 1), n = curve_at(*across, v);
+    const Triple<T> t = (1.0 / length(along)) * along;
+    return q.x * n + q.y * cross(t, n) + q.z * t;
   }
 
  private:
@@ -66,16 +60,34 @@ struct Sweep {
   }
 };
 
-// The section in the frame of the path's beginning: of one that stands where it is.
-struct InFrame {
-  CurvePtr of;
-  Frame frame;
-  template <class T>
-  Triple<T> operator()(const T& t) const {
-    const Triple<T> p = curve_at(*of, t) - triple(frame.origin);
-    return {dot(p, triple(frame.x)), dot(p, triple(frame.y)), dot(p, triple(frame.z))};
+// Polynomials where those agree with the axes to rounding, as the direction across does: they are asked for often.
+constexpr double kSameAxis = 1e-13;
+
+std::array<CurvePtr, 3> section_axes(const CurvePtr& path, const CurvePtr& across, const SectionLaws& laws,
+                                     const Interval& range) {
+  CurveProperties properties = properties_of(*path, 1);
+  add_operand(properties, *across);
+  cut_to(properties, range);
+  properties.period = 0;
+  std::array<CurvePtr, 3> axes;
+  for (int k = 0; k < 3; ++k) {
+    axes[k] = std::make_shared<ComposedCurve<SectionAxis>>(SectionAxis{path, across, laws, k}, properties);
+    if (auto polynomials = polynomial_approximation(*axes[k], kSameAxis)) axes[k] = std::move(polynomials);
   }
-};
+  return axes;
+}
+
+// A section in the coordinates of the frame where it stands.
+CurvePtr in_frame(const CurvePtr& curve, const Frame& frame) {
+  const Mat3 linear = glm::transpose(Mat3(frame.x, frame.y, frame.z));
+  return transformed(curve, {linear, -(linear * frame.origin)});
+}
+
+Frame frame_at(const Curve& path, const Curve& across, double v) {
+  const CurveJet at = path.evaluate(v, 1);
+  const Vec3 t = glm::normalize(at.d[1]), n = across.point(v);
+  return {at.d[0], n, glm::cross(t, n), t};
+}
 
 struct Placed {
   std::vector<CurvePtr> curves;
@@ -126,23 +138,6 @@ FrameLaw read_frame(const Fields& f) {
   return law;
 }
 
-// Through curves that stand in space along a guide (Golovanov 2016, 3.4.9): each is carried along the guide by its
-// frame,
-//
-//   r_i(u, v) = g(v) + A(v) A^T(v_i) (c_i(u) - g(v_i)),   r = a_0(w) r_i + a_1(w) r_(i+1)
-//
-// with a_0 = 1 - 3 w^2 + 2 w^3, a_1 = 1 - a_0 between v_i and v_(i+1). (The printed g(v) in place of g(v_i) would miss
-// the curves.) Sections in the frame's own coordinates do not ask where they come from: the blend is of these.
-struct GuidedLoft {
-  CurvePtr guide, across;
-  Family sections;
-
-  template <class T>
-  Triple<T> operator()(const T& u, const T& v) const {
-    return placed_on(*guide, *across, v, blended(sections, u, v));
-  }
-};
-
 std::vector<double> read_places(const Fields& f, size_t count, const Curve& guide) {
   const std::vector<double>& at = f.numbers("at_v");
   if (at.size() != count) throw FieldError("at_v", fmt::format("{} values for {} curves", at.size(), count));
@@ -156,67 +151,51 @@ std::vector<double> read_places(const Fields& f, size_t count, const Curve& guid
   return at;
 }
 
+// Over the range of v, closed with the period if it goes on where it ends as it begins.
+SurfacePtr swept(const CurvePtr& path, const std::array<CurvePtr, 3>& axes, const Family& sections,
+                 const Interval& range, double period) {
+  BooleanSum sum;
+  sum.along_v = moved_sections(path, axes, sections);
+  const Rectangle domain{sections.curves.front()->domain(), range};
+  const double period_u = common_period(sections.curves);
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain, {period_u, 0}));
+  if (period > 0 && is_closed_along(*surface, Along::v))
+    surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {period_u, period}));
+  return surface;
+}
+
+// Through curves that stand in space along a guide (Golovanov 2016, 3.4.9): each is carried along the guide by its
+// frame,
+//
+//   r_i(u, v) = g(v) + A(v) A^T(v_i) (c_i(u) - g(v_i)),   r = a_0(w) r_i + a_1(w) r_(i+1)
+//
+// with a_0 = 1 - 3 w^2 + 2 w^3, a_1 = 1 - a_0 between v_i and v_(i+1). (The printed g(v) in place of g(v_i) would miss
+// the curves.) Sections in the frame's own coordinates do not ask where they come from: the blend is of these.
 std::any guided_loft(const Fields& f) {
   const std::vector<CurvePtr> curves = read_family(f, "of");
   const CurvePtr guide = f.curve("along");
   const std::vector<double> at = read_places(f, curves.size(), *guide);
-  GuidedLoft formula{guide, direction_across(*guide, read_frame(f)), {{}, step_functions(at)}};
-  SurfaceProperties properties = properties_along_u(*curves.front(), {at.front(), at.back()});
-  for (size_t i = 0; i < curves.size(); ++i) {
-    const CurveJet here = guide->evaluate(at[i], 1);
-    const Vec3 t = glm::normalize(here.d[1]), n = formula.across->point(at[i]);
-    const Frame frame{here.d[0], n, glm::cross(t, n), t};
-    formula.sections.curves.push_back(
-        std::make_shared<ComposedCurve<InFrame>>(InFrame{curves[i], frame}, properties_of(*curves[i])));
-    add_operand(properties, *curves[i], Along::u);
-    if (curves[i]->period() != curves.front()->period()) properties.periods.u = 0;
-  }
-  CurveProperties along = properties_of(*guide, 1);
-  add_operand(along, *formula.across);
-  cut_to(along, {at.front(), at.back()});
-  add_operand(along, *formula.sections.functions.front());
-  properties.breaks_v = along.breaks;
-  properties.max_order = std::min(properties.max_order, along.max_order);
-  properties.enclosure_order = std::min(properties.enclosure_order, along.enclosure_order);
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<GuidedLoft>>(std::move(formula), std::move(properties))));
+  const CurvePtr across = direction_across(*guide, read_frame(f));
+  Family sections{{}, step_functions(at)};
+  for (size_t i = 0; i < curves.size(); ++i)
+    sections.curves.push_back(in_frame(curves[i], frame_at(*guide, *across, at[i])));
+  const Interval range(at.front(), at.back());
+  return std::any(swept(guide, section_axes(guide, across, {}, range), sections, range, 0));
 }
 
 std::any sweep(const Fields& f) {
-  const CurvePtr path = with_domain(by_arc_length(f.curve("path")), {0, 1});
+  const CurvePtr path = by_length_fraction(f.curve("path"));
   Placed placed = read_sections(f);
-  const FrameLaw law = read_frame(f);
-  const CurvePtr across = direction_across(*path, law);
-  if (f.boolean("placed")) {
-    const CurveJet at = path->evaluate(0, 1);
-    const Vec3 t = glm::normalize(at.d[1]), n = across->point(0);
-    for (CurvePtr& curve : placed.curves)
-      curve = std::make_shared<ComposedCurve<InFrame>>(InFrame{curve, {at.d[0], n, glm::cross(t, n), t}},
-                                                       properties_of(*curve));
-  }
+  const CurvePtr across = direction_across(*path, read_frame(f));
+  if (f.boolean("placed"))
+    for (CurvePtr& curve : placed.curves) curve = in_frame(curve, frame_at(*path, *across, 0));
   const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
+  const auto law = [&](const char* field) { return ScalarLaw(f.get<Expression>(field)); };
   const auto& scale = f.get<std::vector<Expression>>("scale");
-  Sweep formula{path,
-                across,
-                {curves, functions_between(placed.at)},
-                ScalarLaw(f.get<Expression>("twist")),
-                ScalarLaw(scale.front()),
-                ScalarLaw(scale.back()),
-                ScalarLaw(f.get<Expression>("pitch")),
-                ScalarLaw(f.get<Expression>("yaw"))};
-  SurfaceProperties properties = properties_along_u(*curves.front(), {0, 1});
-  for (const CurvePtr& curve : curves) {
-    add_operand(properties, *curve, Along::u);
-    if (curve->period() != curves.front()->period()) properties.periods.u = 0;
-  }
-  for (const CurvePtr& one : formula.sections.functions) add_operand(properties, *one, Along::v);
-  add_operand(properties, *path, Along::v, 1);
-  add_operand(properties, *across, Along::v);
-  ComposedSurface<Sweep> surface(formula, properties);
-  if (path->is_closed() && is_closed_along(surface, Along::v)) {
-    properties.periods.v = 1;
-    surface = ComposedSurface<Sweep>(std::move(formula), std::move(properties));
-  }
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<Sweep>>(std::move(surface))));
+  const SectionLaws laws{law("twist"), ScalarLaw(scale.front()), ScalarLaw(scale.back()), law("pitch"), law("yaw")};
+  const auto axes = section_axes(path, across, laws, {0, 1});
+  const Family sections{curves, functions_between(placed.at)};
+  return std::any(swept(path, axes, sections, {0, 1}, path->is_closed() ? 1 : 0));
 }
 
 FieldType frame_kind() {
