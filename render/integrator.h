@@ -4,6 +4,8 @@
 #include <any>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "render/ray.h"
 #include "render/samplers/sampler.h"
@@ -24,10 +26,20 @@ struct RaySample {
   double depth = 0;                   // distance along the ray to it
   Spectrum direct;     // light of sources (ambient ones too) on the first hit, without reflections and refractions
   bool noisy = false;  // another sample of the same place might have shown another colour: a penumbra
+  float quantity = 0;  // the number that the colour tells (Integrator::quantity); 0 where there is none
   int line = 0;        // tells the lines of the picture apart that the sample shows, however faint; 0: none
   uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample
   uint32_t shadow_rays = 0;  // one that goes on behind a clear surface is another, as for POV-Ray
   uint32_t other_rays = 0;   // reflected and refracted
+};
+
+// What the colours of a picture tell, where they tell a number.
+struct PictureScale {
+  geometry::Interval range;    // of the first and last colour
+  std::string colors;          // name of the scale of colours
+  std::vector<double> levels;  // rising; within the range
+  bool bands = false;          // one colour between two levels
+  std::string title;           // plain words
 };
 
 class Integrator {
@@ -39,6 +51,17 @@ class Integrator {
   virtual RaySample trace_color(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const {
     return trace(world, ray, first, random);
   }
+  // One that has looked at what the camera sees before the picture is begun; null: nothing is to be known.
+  virtual std::shared_ptr<const Integrator> prepared(const World&) const { return nullptr; }
+  // True if it asks for the parameters of hits, whatever the materials do.
+  virtual bool uses_parameters() const { return false; }
+  // Name of the number that samples bring beside their colour: a layer of the picture. Empty: there is none.
+  virtual std::string quantity() const { return {}; }
+  // Whether its colours tell a number; and how, of a prepared one.
+  virtual bool has_scale() const { return false; }
+  virtual std::optional<PictureScale> scale() const { return std::nullopt; }
+  // What the user should know of the picture, a sentence each; of a prepared one.
+  virtual std::vector<std::string> notes() const { return {}; }
   // The plain options that it was made from (ClassicOptions), for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }
 };

@@ -82,6 +82,7 @@ class ViewDrawing {
     figure_.statistics.seconds_of_lines += seconds_since(begin);
     const std::vector<LegendEntry> legend = std::move(work.legend);
     PageWork page;
+    view_.scale = scale_of_ground();
     add_annotations(view_, work, page);
     note_left_out(std::move(work.left_out));
     const OneFaces one_faces = std::move(work.one_faces);
@@ -109,6 +110,14 @@ class ViewDrawing {
   }
 
  private:
+  // For those who ask: the integrator looks at the scene once more.
+  std::optional<PictureScale> scale_of_ground() const {
+    const std::vector<Annotation>& all = model_->drawing.annotations;
+    if (!model_->integrator || !std::any_of(all.begin(), all.end(), tells_scale_of_ground)) return std::nullopt;
+    const IntegratorPtr prepared = model_->integrator->prepared(world_);
+    return prepared ? prepared->scale() : std::nullopt;
+  }
+
   void append(std::vector<SheetItem> items) {
     for (SheetItem& item : items) figure_.sheet.items.push_back(std::move(item));
   }
@@ -348,7 +357,7 @@ class ViewDrawing {
   }
 
   std::shared_ptr<const Model> model_;
-  const View& view_;
+  View view_;
   bool clipped_;
   const FigureOptions& options_;
   Figure& figure_;

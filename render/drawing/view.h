@@ -15,6 +15,7 @@ struct View {
   Vec2 page_at{0};         // lower left corner from which places on the page count
   SheetBox room{};         // between the page's margins, or the panel's; the picture has it but for axes and legend
   bool is_panel = false;
+  std::optional<PictureScale> scale;  // of the ground, where its colours tell a number
 
   Vec2 place(const Vec2& pixels) const { return at + millimetres * pixels; }
   Vec2 place(const Vec3& point) const {

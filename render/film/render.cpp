@@ -69,10 +69,10 @@ bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.i
 class TileTracer {
  public:
   // `stop`: set when tiles in work are to be given up; null: never.
-  TileTracer(const World& world, TiledFilm& film, const std::atomic<bool>* stop)
+  TileTracer(const World& world, const Integrator& integrator, TiledFilm& film, const std::atomic<bool>* stop)
       : world_(world),
         camera_(*world.model().camera),
-        integrator_(*world.model().integrator),
+        integrator_(integrator),
         film_(film),
         lines_(world, stop),
         sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
@@ -349,6 +349,7 @@ class TileTracer {
     set3(kNgX, point.geometric_normal);
     set(kU, point.u);
     set(kV, point.v);
+    set(kQuantity, sample.quantity);
     if (const auto color = lines_.color(point)) {
       set3(kAlbedoR, *color);
       if (Channel* object = film_.channel(kObject)) {
@@ -466,12 +467,14 @@ RenderResult render(const World& world, const RenderOptions& options) {
   if (model.camera->width() != model.film.width || model.camera->height() != model.film.height)
     throw std::invalid_argument("the camera was made for a picture of another size");
   const Clock::time_point begin = Clock::now();
-  TiledFilm film(model.film, options.key_layer);
+  const IntegratorPtr prepared = model.integrator->prepared(world);
+  const Integrator& integrator = prepared ? *prepared : *model.integrator;
+  TiledFilm film(model.film, options.key_layer, integrator.quantity());
   Ledger ledger(film, options);
   std::vector<char> is_done(film.tile_count(), 0);
   for (const int tile : ledger.done()) is_done[tile] = 1;
 
-  const TileTracer tracer(world, film, options.stop);
+  const TileTracer tracer(world, integrator, film, options.stop);
   const int threads = options.threads > 0 ? options.threads : tbb::task_arena::automatic;
   std::unique_ptr<tbb::global_control> more_threads;  // than there are cores, if asked for
   if (options.threads > 0)
@@ -498,6 +501,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
   result.camera_rays = ledger.tally().camera_rays;
   result.shadow_rays = ledger.tally().shadow_rays;
   result.other_rays = ledger.tally().other_rays;
+  result.notes = integrator.notes();
   result.not_finite = ledger.tally().not_finite;
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   ledger.report();

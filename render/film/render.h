@@ -14,7 +14,8 @@ namespace lekalo::render {
 inline constexpr std::string_view kPartialMagic = "lekalo partial ";
 
 // Names of the layers that a film can keep: color (R G B A), direct, depth (Z), position (P), normal (N),
-// geometric_normal (Ng), uv, id (id.object id.material), albedo, samples.
+// geometric_normal (Ng), uv, id (id.object id.material), albedo, quantity (a channel called as the integrator's
+// quantity, where it has one), samples.
 const std::vector<std::string>& film_layers();
 bool keeps_layer(const Film& film, std::string_view layer);
 
@@ -39,8 +40,9 @@ struct RenderResult {
   uint64_t camera_rays = 0;
   uint64_t shadow_rays = 0;
   uint64_t other_rays = 0;
-  double seconds = 0;       // of the trace stage
-  uint64_t not_finite = 0;  // samples that were NaN or infinite and were left out
+  double seconds = 0;              // of the trace stage
+  std::vector<std::string> notes;  // of the integrator
+  uint64_t not_finite = 0;         // samples that were NaN or infinite and were left out
 };
 
 // Renders the model's film as its camera sees the world.
@@ -56,8 +58,8 @@ struct RenderResult {
 // direct.R .G .B. Layers of the sample nearest the pixel's centre, 0 where it hits nothing: Z (distance from the eye,
 // or from the picture plane of a parallel view), P.X .Y .Z, N.* (shading normal), Ng.* (geometric normal), uv.U uv.V,
 // id.object (number of the object in the order of the model, groups before their members, from 1), id.material (in the
-// order of first use, from 1), albedo.R .G .B. `samples` counts the samples of the pixel. Pixels of an unfinished
-// picture are 0 where no tile is done.
+// order of first use, from 1), albedo.R .G .B, the integrator's quantity. `samples` counts the samples of the pixel.
+// Pixels of an unfinished picture are 0 where no tile is done.
 //
 // A picture is the same bits for any number of threads and after any number of stops and resumes. A crop gives the same
 // pixels as the full picture. Throws ImageError for an unreadable or foreign partial file and

@@ -45,6 +45,7 @@ constexpr ChannelName kChannels[kFilmChannels] = {{"R", "color"},
                                                   {"albedo.R", "albedo"},
                                                   {"albedo.G", "albedo"},
                                                   {"albedo.B", "albedo"},
+                                                  {"quantity", "quantity"},
                                                   {"samples", "samples"},
                                                   {"id.key", "key"}};
 
@@ -65,7 +66,7 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
-TiledFilm::TiledFilm(const Film& film, bool key_layer)
+TiledFilm::TiledFilm(const Film& film, bool key_layer, const std::string& quantity)
     : filter_(make_filter(film.filter, film.filter_radius)),
       reach_(static_cast<int>(std::ceil(filter_->radius() - 0.5))) {
   if (film.width < 1 || film.height < 1 || film.samples < 1)
@@ -86,11 +87,13 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer)
   for (const std::string& layer : film.layers)
     if (std::find(film_layers().begin(), film_layers().end(), layer) == film_layers().end())
       throw std::invalid_argument("a film has no layer '" + layer + "'");
+    else if (layer == kChannels[kQuantity].layer && quantity.empty())
+      throw std::invalid_argument("the layer 'quantity' is that of an integrator that measures: analysis");
   channel_.fill(-1);
   for (int c = 0; c < kFilmChannels; ++c) {
-    const std::string_view name = kChannels[c].channel;
+    const std::string_view name = c == kQuantity ? std::string_view(quantity) : kChannels[c].channel;
     const bool kept = c == kKey ? key_layer : keeps_layer(film, kChannels[c].layer);
-    if (!kept) continue;
+    if (!kept || name.empty()) continue;
     channel_[c] = static_cast<int>(image_.channels.size());
     const PixelType type = name.starts_with("id.")      ? PixelType::uint32
                            : c <= kA && film.half_color ? PixelType::half

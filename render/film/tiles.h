@@ -68,6 +68,7 @@ enum FilmChannel : int {
   kAlbedoR,
   kAlbedoG,
   kAlbedoB,
+  kQuantity,
   kSamples,
   kKey,
   kFilmChannels
@@ -75,8 +76,9 @@ enum FilmChannel : int {
 
 class TiledFilm {
  public:
-  // Throws std::invalid_argument for an unknown filter or an empty crop.
-  explicit TiledFilm(const Film& film, bool key_layer);
+  // `quantity`: name of the channel for RaySample::quantity; empty: there is none. Throws std::invalid_argument for an
+  // unknown filter or layer or an empty crop.
+  TiledFilm(const Film& film, bool key_layer, const std::string& quantity);
 
   int tile_count() const { return static_cast<int>(tiles_.size()); }
   const Window& tile(int i) const { return tiles_[i]; }  // pixels whose samples the tile takes

@@ -9,6 +9,8 @@
 #include "geometry/queries/measures/arc_length.h"
 #include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "render/lines/curve_figures.h"
+#include "render/lines/mesh_figures.h"
+#include "render/lines/surface_figures.h"
 
 namespace lekalo::render {
 
@@ -124,6 +126,11 @@ std::vector<Vec3> helper_points(const Object& object) {
     for (const Vec4& p : form)
       if (p.w != 0) points.push_back(Vec3(p) / p.w);
   };
+  const auto add_places = [&](const Curve& line) {
+    const Interval domain = line.domain();
+    for (int k = 0; k <= kFramedPlaces; ++k)
+      points.push_back(line.point(domain.clamp(domain.lo + domain.width() * k / kFramedPlaces)));
+  };
   for (const Helper& helper : object.look->helpers) {
     const Fields& f = helper.values;
     if (helper.type == "control_polygon" && curve)
@@ -131,12 +138,10 @@ std::vector<Vec3> helper_points(const Object& object) {
     if (curve && is_curve_figure(helper.type)) {
       const CurveFigure figure = curve_figure(*curve, helper);
       points.insert(points.end(), figure.points.begin(), figure.points.end());
-      for (const CurvePtr& line : figure.lines) {
-        const Interval domain = line->domain();
-        for (int k = 0; k <= kFramedPlaces; ++k)
-          points.push_back(line->point(domain.clamp(domain.lo + domain.width() * k / kFramedPlaces)));
-      }
+      for (const CurvePtr& line : figure.lines) add_places(*line);
     }
+    if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && is_mesh_figure(helper.type))
+      for (const CurvePtr& line : mesh_figure(**mesh, helper).lines) add_places(*line);
     if (helper.type == "comb" && curve) {
       const CurvatureComb comb =
           curvature_comb(**curve, f.integer("count"), f.number("scale"), f.text("by") == "torsion");
@@ -155,6 +160,8 @@ std::vector<Vec3> helper_points(const Object& object) {
         else if (const auto form = surface->as_nurbs())
           add(form->points);
       }
+      if (leaves_surface(helper) && surface->bounded())
+        for (const SurfaceFigure::Line& line : surface_figure(surface, helper).lines) add_places(*line.curve);
       if (helper.type == "normals" && surface->bounded()) {
         const Rectangle domain = surface->domain();
         for (const double u : {domain.u.lo, domain.u.middle(), domain.u.hi})

@@ -264,6 +264,8 @@ class StrokeCollector {
 
   void add_figure(const geometry::CurvePtr& curve, const std::string& sign, const Helper& helper);
 
+  void add_figure(const geometry::SurfacePtr& surface, const std::string& sign, const Helper& helper);
+
   void add_colored(const geometry::CurvePtr& curve, const Helper& helper);
 
   void add_comb(const geometry::Curve& curve, const Helper& helper);

@@ -9,7 +9,9 @@
 #include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
+#include "render/lines/mesh_figures.h"
 #include "render/lines/stroke_collector.h"
+#include "render/lines/surface_figures.h"
 #include "render/model/color_scale.h"
 #include "render/model/look.h"
 #include "render/model/objects.h"
@@ -65,6 +67,11 @@ void StrokeCollector::add_helper(const Helper& helper) {
   } else if (helper.type == "frames" && curve && drawing_) {
     add_frames(**curve, helper);
   }
+  if (const auto* mesh = std::get_if<MeshPtr>(&object_->shape); mesh && is_mesh_figure(helper.type)) {
+    const MeshFigure figure = mesh_figure(**mesh, helper);
+    for (const CurvePtr& line : figure.lines) stroke(line, helper.style, helper.hidden);
+    marks(figure.points);
+  }
   each_surface([&](const SurfacePtr& surface) {
     if (const auto net = triangular_net(*surface)) {
       if (helper.type == "control_net") add_net(*net, sign, helper);
@@ -91,6 +98,7 @@ void StrokeCollector::add_helper(const Helper& helper) {
         add(line, helper.style, helper.hidden);
     }
     if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
+    if (is_surface_figure(helper.type)) add_figure(surface, sign, helper);
   });
 }
 
@@ -236,6 +244,18 @@ void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign,
   Style style = helper.style;
   if (figure.arrows) style.arrows = "end";
   for (const CurvePtr& line : figure.lines) stroke(line, style, helper.hidden);
+  for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
+}
+
+void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {
+  const SurfaceFigure figure = surface_figure(surface, helper);
+  if (!figure.complete) is_incomplete();
+  for (const SurfaceFigure::Line& line : figure.lines) {
+    Style style = helper.style;
+    if (line.arrow) style.arrows = "end";
+    if (line.image && (drawing_ || !cutters_.empty())) supporting_surfaces_.push_back({surface, line.image});
+    stroke(line.curve, style, helper.hidden);
+  }
   for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
 }
 

@@ -11,7 +11,9 @@
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
+#include "render/lines/mesh_figures.h"
 #include "render/lines/stroke_collector.h"
+#include "render/lines/surface_figures.h"
 #include "render/model/look.h"
 #include "render/model/mesh_tolerance.h"
 #include "render/model/objects.h"
@@ -50,7 +52,8 @@ bool shows(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 bool is_helper_shown(const Helper& helper, const Object& object) {
-  return shows(kHelpersShown, helper.type) || (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
+  return shows(kHelpersShown, helper.type) || is_surface_figure(helper.type) || is_mesh_figure(helper.type) ||
+         (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
 }
 
 // Whether pictures may show lines or marks of an object.

@@ -14,12 +14,15 @@ using namespace geometry;
 
 namespace {
 
-// sRGB at even steps. Viridis: Smith, van der Walt 2015; blue to red: Moreland 2009, through white.
+// sRGB at even steps. Viridis, magma: Smith, van der Walt 2015; blue to red: Moreland 2009, through white.
 const std::map<std::string, std::vector<const char*>>& scales() {
   static const std::map<std::string, std::vector<const char*>> all = {
       {"viridis",
        {"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70", "#7ad151", "#bddf26",
         "#fde725"}},
+      {"magma",
+       {"#000004", "#140e36", "#3b0f70", "#641a80", "#8c2981", "#b73779", "#de4968", "#f7705c", "#fe9f6d", "#fecf92",
+        "#fcfdbf"}},
       {"blue_red", {"#3b4cc0", "#6788ee", "#9abbff", "#c9d7f0", "#f2f2f2", "#f7bfa6", "#f49a7b", "#de604d", "#b40426"}},
       {"grey", {"#202020", "#e0e0e0"}}};
   return all;
@@ -29,7 +32,7 @@ constexpr int kPlaces = 400;
 
 }  // namespace
 
-std::vector<std::string> color_scales() { return {"viridis", "blue_red", "grey"}; }
+std::vector<std::string> color_scales() { return {"viridis", "magma", "blue_red", "grey"}; }
 
 Vec3 color_at(const std::string& scale, double x) {
   const std::vector<const char*>& colors = scales().at(scale);
@@ -37,6 +40,27 @@ Vec3 color_at(const std::string& scale, double x) {
   const size_t k = std::min(static_cast<size_t>(place), colors.size() - 2);
   const double w = place - static_cast<double>(k);
   return (1 - w) * *hex_color(colors[k]) + w * *hex_color(colors[k + 1]);
+}
+
+double place_on_scale(const PictureScale& scale, double value) {
+  if (scale.bands) {
+    const auto above = std::upper_bound(scale.levels.begin(), scale.levels.end(), value);
+    const double lo = above == scale.levels.begin() ? scale.range.lo : std::max(scale.range.lo, *std::prev(above));
+    const double hi = above == scale.levels.end() ? scale.range.hi : std::min(scale.range.hi, *above);
+    value = 0.5 * (lo + hi);
+  }
+  return std::clamp((value - scale.range.lo) / scale.range.width(), 0.0, 1.0);
+}
+
+std::vector<double> round_numbers(const Interval& range, int count) {
+  const double wanted = range.width() / std::max(1, count), power = std::pow(10, std::floor(std::log10(wanted)));
+  const double part = wanted / power, step = power * (part > std::sqrt(50.0)   ? 10
+                                                      : part > std::sqrt(10.0) ? 5
+                                                      : part > std::sqrt(2.0)  ? 2
+                                                                               : 1);
+  std::vector<double> numbers;
+  for (double k = std::ceil(range.lo / step - 1e-9); k <= range.hi / step + 1e-9; ++k) numbers.push_back(k * step);
+  return numbers;
 }
 
 std::vector<std::string> curve_quantities() {

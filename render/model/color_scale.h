@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/curve.h"
+#include "render/integrator.h"
 
 namespace lekalo::render {
 
@@ -12,8 +13,15 @@ namespace lekalo::render {
 std::vector<std::string> color_scales();
 
 // The colour at x in [0, 1], linear Rec.709: viridis grows from dark blue to yellow in even steps of lightness;
-// blue_red goes through white, for numbers that have a middle; grey from dark to light.
+// magma from black over purple to pale yellow; blue_red goes through white, for numbers that have a middle; grey from
+// dark to light.
 geometry::Vec3 color_at(const std::string& scale, double x);
+
+// Where on a scale, in [0, 1], the colour of a number stands; of bands the middle of its band.
+double place_on_scale(const PictureScale& scale, double value);
+
+// The multiples of 1, 2 or 5 times a power of ten in the range, about `count` of them.
+std::vector<double> round_numbers(const geometry::Interval& range, int count);
 
 // What a line may be coloured by: curvature, signed_curvature (of a plane curve, positive to the left in its plane z =
 // const), torsion, speed (|dr/dt|), parameter.

@@ -67,6 +67,9 @@ struct Paper {
   Place size_place, margin_place;                // as in Layout
 };
 
+// Whether it is a colour bar that neither has numbers of its own nor those of a curve.
+bool tells_scale_of_ground(const Annotation& annotation);
+
 // Why nothing of an annotation can be seen: the field, what is wrong, and a hint; nothing where it has a size.
 std::optional<geometry::FieldError> lack_of_size(const std::string& type, const geometry::Fields& values);
 

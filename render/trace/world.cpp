@@ -347,7 +347,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   const auto begin = std::chrono::steady_clock::now();
   const size_t embree_before = device_memory();
   Compiled& c = *compiled_;
-  c.parameters = parameters;
+  c.parameters = parameters || (model_->integrator && model_->integrator->uses_parameters());
   c.camera = model_->camera;
   for (const LightPtr& light : model_->lights) {
     ambient_ += light->ambient();
@@ -441,6 +441,21 @@ SurfacePoint World::surface_point(const Ray& ray, const Hit& hit) const {
   const Hierarchy::Place place = c.top.place(hit.instance);
   return place.to_world ? c.point_of_instance(place, ray, hit)
                         : c.point_in_world(*place.leaf, ray, hit, place.object, place.error);
+}
+
+HitTarget World::target(const Hit& hit) const {
+  const Hierarchy::Place place = compiled_->top.place(hit.instance);
+  const Leaf& leaf = *place.leaf;
+  HitTarget target;
+  if (place.to_world) target.to_world = *place.to_world;
+  const auto face = static_cast<size_t>(hit.face);
+  if (leaf.mesh)
+    target.surface = leaf.mesh_surfaces.empty() ? nullptr : leaf.mesh_surfaces[face].get();
+  else if (leaf.shape)
+    target.shape = leaf.shape.get();
+  else
+    target.surface = &leaf.targets[face]->surface();
+  return target;
 }
 
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {

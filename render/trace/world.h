@@ -35,10 +35,19 @@ struct WorldStatistics {
   double build_seconds = 0;
 };
 
+// What a hit is on: the surface (of a mesh that stands for surfaces the one behind its facet), or else the shape; in
+// their own space. Neither of a mesh of mere triangles.
+struct HitTarget {
+  const geometry::Surface* surface = nullptr;
+  const geometry::Shape* shape = nullptr;
+  geometry::Affine to_world;
+};
+
 class World {
  public:
   // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera. Without `parameters` the
-  // points of nearest hits may have none (u, v, du and dv zero) where no material asks for them.
+  // points of nearest hits may have none (u, v, du and dv zero) where neither a material nor the integrator asks for
+  // them.
   explicit World(std::shared_ptr<const Model> model, bool parameters = true);
   ~World();
   World(const World&) = delete;
@@ -67,6 +76,7 @@ class World {
 
   // Position, normals and derivatives at a hit; `ray` is the one that found it.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+  HitTarget target(const Hit& hit) const;
   // Lets the ray begin at the point, on the given side of it, clear of the point's error bound: at `clearance`.
   void leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const;
   static double clearance(const SurfacePoint& point) { return 4 * point.error; }

@@ -247,6 +247,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     write_picture(file, result.image);
     if (!options.quiet) fmt::print(stderr, "{}\n", file.path);
   }
+  if (!options.quiet)
+    for (const std::string& note : result.notes) fmt::print(stderr, "note: {}\n", note);
   if (is_empty(result.image) && result.complete && !options.quiet)
     fmt::print(stderr, "note: nothing is seen in the picture\n");
   if (result.not_finite > 0)

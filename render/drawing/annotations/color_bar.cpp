@@ -15,23 +15,48 @@ namespace {
 constexpr int kStops = 33;     // of the gradient
 constexpr double kTick = 0.8;  // millimetres
 
-// The multiples of 1, 2 or 5 times a power of ten in the range, about `count` of them.
-std::vector<double> round_numbers(const Interval& range, int count) {
-  const double wanted = range.width() / std::max(1, count), power = std::pow(10, std::floor(std::log10(wanted)));
-  const double part = wanted / power, step = power * (part > std::sqrt(50.0)   ? 10
-                                                      : part > std::sqrt(10.0) ? 5
-                                                      : part > std::sqrt(2.0)  ? 2
-                                                                               : 1);
-  std::vector<double> numbers;
-  for (double k = std::ceil(range.lo / step - 1e-9); k <= range.hi / step + 1e-9; ++k) numbers.push_back(k * step);
-  return numbers;
+// Its own numbers, those of a curve, or those of the ground, which a trial of the page does not know yet.
+PictureScale scale_of(const AnnotationWork& work) {
+  const Fields& f = work.fields();
+  if (!f.has("range") && !f.has("of"))
+    return work.view().scale.value_or(PictureScale{{0, 1}, "viridis", {}, false, {}});
+  return {
+      f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by")), f.text("colors"), {}, false, {}};
+}
+
+// Even steps; of bands a pair about each level.
+std::vector<Gradient::Stop> stops_of(const PictureScale& scale) {
+  std::vector<Gradient::Stop> stops;
+  const auto add = [&](double part, double at) {
+    stops.push_back(
+        {part, rgb(color_at(scale.colors, place_on_scale(scale, scale.range.lo + at * scale.range.width())))});
+  };
+  if (!scale.bands) {
+    for (int k = 0; k < kStops; ++k) add(k / (kStops - 1.0), k / (kStops - 1.0));
+    return stops;
+  }
+  std::vector<double> ends{0};
+  for (const double level : scale.levels)
+    if (const double part = (level - scale.range.lo) / scale.range.width(); part > 1e-9 && part < 1 - 1e-9)
+      ends.push_back(part);
+  ends.push_back(1);
+  for (size_t k = 0; k + 1 < ends.size(); ++k)
+    for (const double end : {ends[k], ends[k + 1]}) add(end, 0.5 * (ends[k] + ends[k + 1]));
+  return stops;
+}
+
+std::vector<double> ticks_of(const PictureScale& scale, const Fields& f) {
+  const ParameterValues& asked = f.get<ParameterValues>("ticks");
+  if (asked.count == 0) return asked.values;
+  return round_numbers(scale.range, asked.count);
 }
 
 }  // namespace
 
 void add_color_bar(AnnotationWork& work) {
   const Fields& f = work.fields();
-  const Interval range = f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"));
+  const PictureScale scale = scale_of(work);
+  const Interval& range = scale.range;
   const Vec2 corner = work.place(f.get<Anchor>("at")), size(f.number("width"), f.number("height"));
   const bool lies = size.x > size.y;
   // A place beside the bar: from its beginning, and off its right or lower side.
@@ -43,13 +68,10 @@ void add_color_bar(AnnotationWork& work) {
       {corner, corner + Vec2(size.x, 0), corner + Vec2(size.x, -size.y), corner + Vec2(0, -size.y)}, true));
   bar.pen = work.look();
   bar.gradient = Gradient{false, corner, corner + (lies ? Vec2(size.x, 0) : Vec2(0, -size.y)), {}};
-  for (int k = 0; k < kStops; ++k) {
-    const double part = k / (kStops - 1.0);
-    bar.gradient->stops.push_back({part, rgb(color_at(f.text("colors"), part))});
-  }
+  bar.gradient->stops = stops_of(scale);
   std::vector<SheetItem> items{bar};
-  const ParameterValues& asked = f.get<ParameterValues>("ticks");
-  for (const double tick : asked.count > 0 ? round_numbers(range, asked.count) : asked.values) {
+  for (const double tick : ticks_of(scale, f)) {
+    if (!range.contains(tick)) continue;
     const double part = (tick - range.lo) / range.width();
     items.emplace_back(drawn(straight_path({at(part, 0), at(part, kTick)}), work.look()));
     Label number = work.page_label(dimension_number(tick), at(part, kTick));
@@ -59,9 +81,10 @@ void add_color_bar(AnnotationWork& work) {
     work.add(std::move(number));
   }
   work.shape(std::move(items));
-  if (!f.has("label")) return;
-  Label label = work.page_label(work.words("label"),
-                                lies ? corner + Vec2(size.x, -0.5 * size.y) : corner + Vec2(0.5 * size.x, -size.y));
+  const std::string words = f.has("label") ? work.words("label") : scale.title;
+  if (words.empty()) return;
+  Label label =
+      work.page_label(words, lies ? corner + Vec2(size.x, -0.5 * size.y) : corner + Vec2(0.5 * size.x, -size.y));
   label.on_page = true;
   label.side = lies ? "right" : "above";
   label.distance = 1;

@@ -180,7 +180,7 @@ class Builder {
                        const geometry::Interval& domain, double period);
   bool check_line_values(const Value& given, const char* name, const geometry::ParameterValues& asked,
                          const std::vector<std::any>& shapes);
-  bool check_figure(const geometry::CurvePtr& curve, const Helper& helper, const Value& map);
+  bool check_figure(const Value& map, const std::function<void()>& make);
   bool check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes);
   bool check_size(const TypeDeclaration& type, const Fields& fields, const Value& map);
 
@@ -232,6 +232,8 @@ class Builder {
   void merge_styles();
   void build_drawing(Model& model);
   void check_axes(const Value* drawing, bool graph);
+  // Colour bars without numbers of their own belong to an integrator that has some.
+  void check_color_bars(const Model& model);
   void build_panels(const std::optional<Fields>& drawing, Model& model);
   void build_layout(Model& model);
   // Reports a name that no panel has.

@@ -67,6 +67,23 @@ void Builder::build_drawing(Model& model) {
     check_axes(given, std::any_of(model.panels.begin(), model.panels.end(),
                                   [](const Panel& one) { return one.camera->is_graph(); }));
   build_layout(model);
+  check_color_bars(model);
+}
+
+void Builder::check_color_bars(const Model& model) {
+  if (!model.integrator || model.integrator->has_scale()) return;
+  const auto check = [&](const DrawingChoices& drawing) {
+    for (const Annotation& annotation : drawing.annotations)
+      if (tells_scale_of_ground(annotation))
+        diagnostics_.error(
+            annotation.place,
+            "a colour bar needs the 'range' of its numbers, a curve 'of', or an integrator whose colours "
+            "tell numbers",
+            "of: the curve that is coloured; or integrator: { type: analysis, quantity: mean_curvature }");
+  };
+  check(model.drawing);
+  for (const Panel& panel : model.panels)
+    if (panel.drawing.annotations.size() != model.drawing.annotations.size()) check(panel.drawing);
 }
 
 // Axes that a drawing asks for, of a view or views none of which is a graph.

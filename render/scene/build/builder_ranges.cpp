@@ -8,6 +8,7 @@
 
 #include "geometry/queries/contours/parameter_lines.h"
 #include "render/lines/curve_figures.h"
+#include "render/lines/surface_figures.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
 
@@ -106,10 +107,10 @@ bool Builder::check_line_values(const Value& given, const char* name, const Para
   return true;
 }
 
-// What is drawn of a curve can be.
-bool Builder::check_figure(const geometry::CurvePtr& curve, const Helper& helper, const Value& map) {
+// What is drawn of a curve or surface can be.
+bool Builder::check_figure(const Value& map, const std::function<void()>& make) {
   try {
-    curve_figure(curve, helper);
+    make();
     return true;
   } catch (const geometry::FieldError& error) {
     diagnostics_.error(error.field.empty() ? map.place : place_of_field(map, error.field), error.what(), error.hint);
@@ -123,13 +124,21 @@ bool Builder::check_figure(const geometry::CurvePtr& curve, const Helper& helper
 bool Builder::check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes) {
   const Fields& f = helper.values;
   bool good = true;
-  if (helper.type == "normals")
+  const bool has_lines = helper.type == "normals" || is_surface_figure(helper.type);
+  if (has_lines && f.has("at_u"))
     for (const char* name : {"at_u", "at_v"})
       if (const Value* given = map.find(name))
         good = check_line_values(*given, name, f.get<ParameterValues>(name), shapes) && good;
   int degree = 0;
   for (const std::any& shape : shapes) {
     const Entity entity = entity_of(shape);
+    if (const auto* surface = std::get_if<SurfacePtr>(&entity); surface && is_surface_figure(helper.type)) {
+      // Lines are not searched for here: that may take long.
+      const bool is_quick = f.has("u");
+      good = check_figure(
+                 map, [&] { is_quick ? void(surface_figure(*surface, helper)) : check_surface_figure(**surface); }) &&
+             good;
+    }
     const auto* curve = std::get_if<CurvePtr>(&entity);
     if (!curve) continue;
     const Interval domain = (*curve)->domain();
@@ -143,7 +152,7 @@ bool Builder::check_helper_values(const Helper& helper, const Value& map, const 
       for (size_t k = 0; k < values.size(); ++k)
         good = check_parameter(listed ? at->items[k] : *at, "t", values[k], "curve", domain, period) && good;
     }
-    if (good && is_curve_figure(helper.type)) good = check_figure(*curve, helper, map);
+    if (good && is_curve_figure(helper.type)) good = check_figure(map, [&] { curve_figure(*curve, helper); });
   }
   const Value* levels = map.find("levels");
   if (!levels || !f.has("levels") || degree == 0) return good;

@@ -1,5 +1,7 @@
 // Annotations of drawings: labels, marks, arrows, dimensions. Lengths and sides are those of the page; points may be
 // given on it too ({ page: [5 mm, 8 mm] }).
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -226,23 +228,32 @@ TypeDeclaration light_path() {
 }
 
 TypeDeclaration color_bar() {
-  TypeDeclaration type =
-      annotation("color_bar", "The scale of colours of lines that are `colored`, with numbers beside it.", "thin");
+  TypeDeclaration type = annotation(
+      "color_bar",
+      "A scale of colours with numbers beside it: of lines that are `colored`, or of the integrator `analysis`.",
+      "thin");
   type.example("at: { page: [5 mm, 5 mm] }, range: [0, 1]")
       .field("at", anchor(), "its lower left corner")
       .optional("of", reference({Category::curve}), "the curve whose least and largest numbers are its ends")
       .field("by", choice(curve_quantities()), "what is told of the curve", "curvature")
-      .optional("range", range(), "the numbers at its ends, instead of those of a curve")
+      .optional("range", range(), "the numbers at its ends; without these or a curve it is that of the integrator")
       .field("colors", choice(color_scales()), "scale of colours", "viridis")
       .field("width", page_length().positive(), "on the page", "3 mm")
       .field("height", page_length().positive(), "on the page; a bar that is wider than high lies", "30 mm")
       .field("ticks", counts(), "about how many round numbers, or which", "5")
       .optional("label", label(), "text at its end");
   return finish(type, [](const Fields& f) {
-    if (f.has("range") == f.has("of"))
-      throw FieldError(f.has("range") ? "range" : "",
-                       "a colour bar has either the 'range' of its numbers or a curve 'of'",
+    if (f.has("range") && f.has("of"))
+      throw FieldError("range", "a colour bar has either the 'range' of its numbers or a curve 'of'",
                        "of: the curve that is coloured; range: as its helper 'colored' has it");
+    if (!f.has("range") && !f.has("of")) {
+      for (const char* field : {"by", "colors"})
+        if (f.given(field))
+          throw FieldError(
+              field, fmt::format("a colour bar with '{}' has either the 'range' of its numbers or a curve 'of'", field),
+              "without all of these it is that of the integrator 'analysis'");
+      return;
+    }
     const Interval ends = f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"));
     for (const double tick : f.get<ParameterValues>("ticks").values)
       if (!ends.contains(tick))
@@ -254,6 +265,10 @@ constexpr double kNothing = 1e-12;  // of the lengths from which a size is compu
 constexpr double kNoAngle = 1e-9;   // radians
 
 }  // namespace
+
+bool tells_scale_of_ground(const Annotation& annotation) {
+  return annotation.type == "color_bar" && !annotation.values.has("range") && !annotation.values.has("of");
+}
 
 std::optional<FieldError> lack_of_size(const std::string& type, const Fields& f) {
   const auto meets = [&](const char* one, const char* other) {

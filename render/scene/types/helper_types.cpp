@@ -5,15 +5,16 @@
 #include "geometry/curves/splines/bspline_basis.h"
 #include "render/model/color_scale.h"
 #include "render/model/look.h"
+#include "render/scene/types/helper_types.h"
 #include "render/scene/values/types.h"
 
 namespace lekalo::render {
 
 using namespace geometry;
 
-namespace {
+namespace helpers {
 
-const char* kMarkers[] = {"none", "dot", "circle", "ball", "cross", "plus", "square", "triangle", "diamond"};
+constexpr const char* kMarkers[] = {"none", "dot", "circle", "ball", "cross", "plus", "square", "triangle", "diamond"};
 
 FieldType marker() { return choice({std::begin(kMarkers), std::end(kMarkers)}); }
 
@@ -33,6 +34,12 @@ TypeDeclaration& finish(TypeDeclaration& type) {
     return result;
   });
 }
+
+}  // namespace helpers
+
+using namespace helpers;
+
+namespace {
 
 const char* kBlossom = "text at each point of a curve: the arguments of the polar form whose value it is";
 
@@ -250,28 +257,32 @@ TypeDeclaration jumps() {
 
 std::vector<TypeDeclaration> helper_types() {
   TypeDeclaration hull_type = hulls();
-  return {control_polygon(),
-          control_net(),
-          t_mesh_helper(),
-          triangle("de_casteljau", "De Casteljau's construction of a point (Golovanov 2016, 2.4).", true),
-          triangle("de_boor", "De Boor's construction of a point (Golovanov 2016, 2.9).", false),
-          comb(),
-          frames(),
-          normals(),
-          knots_helper(),
-          osculating_circle(),
-          evolute_helper(),
-          rays("tangents", "Unit tangents of a curve, or tangent lines."),
-          rays("normal_lines", "Principal normals of a curve, towards the center of curvature, or normal lines."),
-          features_helper(),
-          hodograph_helper(),
-          direction_helper(),
-          colored_helper(),
-          insertion(),
-          elevation(),
-          finish(hull_type),
-          moved_point(),
-          jumps()};
+  std::vector<TypeDeclaration> all = surface_helper_types();
+  const std::vector<TypeDeclaration> others = {
+      control_polygon(),
+      control_net(),
+      t_mesh_helper(),
+      triangle("de_casteljau", "De Casteljau's construction of a point (Golovanov 2016, 2.4).", true),
+      triangle("de_boor", "De Boor's construction of a point (Golovanov 2016, 2.9).", false),
+      comb(),
+      frames(),
+      normals(),
+      knots_helper(),
+      osculating_circle(),
+      evolute_helper(),
+      rays("tangents", "Unit tangents of a curve, or tangent lines."),
+      rays("normal_lines", "Principal normals of a curve, towards the center of curvature, or normal lines."),
+      features_helper(),
+      hodograph_helper(),
+      direction_helper(),
+      colored_helper(),
+      insertion(),
+      elevation(),
+      finish(hull_type),
+      moved_point(),
+      jumps()};
+  all.insert(all.begin(), others.begin(), others.end());
+  return all;
 }
 
 }  // namespace lekalo::render

@@ -80,6 +80,7 @@ TypeDeclaration triangulation_type() {
                 "left, outer ones counterclockwise, holes clockwise; all other points are inner ones")
       .optional("steps", integer().at_least(0),
                 "only so many: flips, triangles of the front, or points taken up by delaunay")
+      .shows({"circumcircles", "voronoi"})
       .built_by([](const Fields& f) -> std::any {
         Mesh mesh;
         mesh.points = f.points("points");

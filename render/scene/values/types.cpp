@@ -176,7 +176,10 @@ std::vector<std::string> helpers_of(Category category) {
   if (category == Category::curve)
     return {"comb",     "frames",    "osculating_circle", "evolute", "tangents", "normal_lines",
             "features", "hodograph", "direction",         "colored", "jumps"};
-  if (category == Category::surface) return {"normals"};
+  if (category == Category::surface)
+    return {"normals",  "curvature_lines",      "asymptotic_lines",  "contour_lines",    "isophotes",
+            "umbilics", "principal_directions", "principal_circles", "dupin_indicatrix", "tangent_plane",
+            "hedgehog"};
   return {};
 }
 
