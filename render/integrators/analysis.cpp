@@ -5,7 +5,8 @@
 //   radiance = colour(value) (1 - s + s |m . d|),   m normal, d line of sight, s the shading
 //
 // A line of equal value runs where the value differs from a level by less than half the line's width in pixels times
-// its change from one pixel to the next; that is found from rays half a pixel beside.
+// its change from one pixel to the next; that is found from rays half a pixel beside. Stripes show the mean over that
+// change, so that those narrower than a pixel become grey.
 #include "render/integrators/analysis.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,17 @@ const Spectrum kLine(0.01f, 0.01f, 0.01f);
 // The picture is first looked at in so many places a side.
 constexpr int kPlaces = 64;
 
+// The part of light stripes, the even ones, in so wide a range about a value.
+double light_share(double value, double width, double stripe) {
+  const auto light_below = [&](double x) {
+    const double pairs = std::floor(x / (2 * stripe));
+    return pairs * stripe + std::min(x - 2 * stripe * pairs, stripe);
+  };
+  if (width > 1e-9 * stripe)
+    return std::clamp((light_below(value + 0.5 * width) - light_below(value - 0.5 * width)) / width, 0.0, 1.0);
+  return std::fmod(std::floor(value / stripe), 2) == 0 ? 1 : 0;
+}
+
 class AnalysisIntegrator final : public Integrator {
  public:
   explicit AnalysisIntegrator(const AnalysisOptions& options) : options_(options) {}
@@ -52,12 +64,14 @@ class AnalysisIntegrator final : public Integrator {
     if (value) sample.quantity = static_cast<float>(*value);
     const double cosine = std::abs(glm::dot(point.normal, ray.direction));
     const auto shade = static_cast<float>(1 - options_.shading + options_.shading * cosine);
+    const std::optional<double> change =
+        value && (line_pixels_ > 0 || is_striped()) ? change_per_pixel(world, ray, first, point, *value) : std::nullopt;
     Spectrum color = options_.quantity.is_direction ? rgb(0.5 * (point.normal + Vec3(1)))
-                     : value                        ? color_of(*value)
+                     : value                        ? color_of(*value, change.value_or(0))
                                                     : kUnknown;
     color *= shade;
-    if (value && line_pixels_ > 0) {
-      const float cover = line_cover(world, ray, first, point, *value);
+    if (change && line_pixels_ > 0) {
+      const float cover = line_cover(*value, *change);
       color = (1 - cover) * color + cover * kLine;
     }
     sample.radiance = sample.direct = color;
@@ -92,33 +106,40 @@ class AnalysisIntegrator final : public Integrator {
     return q.value(place);
   }
 
-  Spectrum color_of(double value) const {
+  // Stripes of a number that grows along the surface; the squares of parameters are not.
+  bool is_striped() const { return options_.quantity.stripe > 0 && !options_.quantity.needs_parameters; }
+
+  Spectrum color_of(double value, double change) const {
     if (options_.quantity.stripe > 0) {
-      const double number = std::floor(value / options_.quantity.stripe);
-      return std::fmod(number, 2) == 0 ? kLightStripe : kDarkStripe;
+      const auto light = static_cast<float>(light_share(value, change, options_.quantity.stripe));
+      return light * kLightStripe + (1 - light) * kDarkStripe;
     }
     if (!scale_) return kUnknown;
     return rgb(color_at(scale_->colors, place_on_scale(*scale_, value)));
   }
 
   // How much of a line of equal value covers the sample's place.
-  float line_cover(const World& world, const Ray& ray, const Hit& hit, const SurfacePoint& point, double value) const {
+  float line_cover(double value, double per_pixel) const {
     const std::vector<double>& levels = scale_->levels;
     const auto above = std::lower_bound(levels.begin(), levels.end(), value);
     double off = kInfinity;
     if (above != levels.end()) off = *above - value;
     if (above != levels.begin()) off = std::min(off, value - *std::prev(above));
-    if (!(off < kInfinity)) return 0;
+    if (!(off < kInfinity) || !(per_pixel > 0)) return 0;  // where the value is the same all around there is no line
+    return static_cast<float>(std::clamp(0.5 * line_pixels_ + 0.5 - off / per_pixel, 0.0, std::min(1.0, line_pixels_)));
+  }
+
+  // How fast the value changes across the picture.
+  std::optional<double> change_per_pixel(const World& world, const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                                         double value) const {
     const Frame across = frame_about(Vec3(0), ray.direction);
     double square = 0;
     for (const Vec3& side : {across.x, across.y}) {
       const auto change = change_along(world, ray, hit, value, 0.5 * point.pixel_size * side);
-      if (!change) return 0;
+      if (!change) return std::nullopt;
       square += 4 * *change * *change;
     }
-    const double per_pixel = std::sqrt(square);
-    if (!(per_pixel > 0)) return 0;  // as wide as it may be: no line but an area
-    return static_cast<float>(std::clamp(0.5 * line_pixels_ + 0.5 - off / per_pixel, 0.0, std::min(1.0, line_pixels_)));
+    return std::sqrt(square);
   }
 
   // Of the value from this ray to one beside, or on the other side.
