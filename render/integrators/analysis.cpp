@@ -142,12 +142,16 @@ class AnalysisIntegrator final : public Integrator {
     return std::sqrt(square);
   }
 
-  // Of the value from this ray to one beside, or on the other side.
+  // Of the value from this ray to one beside, or on the other side: through the same eye, or parallel to it.
   std::optional<double> change_along(const World& world, const Ray& ray, const Hit& hit, double value,
                                      const Vec3& beside) const {
+    const bool parallel = !world.model().camera || world.model().camera->is_parallel();
     for (const double sign : {1.0, -1.0}) {
       Ray other = ray;
-      other.origin += sign * beside;
+      if (parallel)
+        other.origin += sign * beside;
+      else
+        other.direction = glm::normalize(hit.t * ray.direction + sign * beside);
       Hit there;
       if (!world.nearest(other, there) || there.instance != hit.instance || there.face != hit.face) continue;
       if (const auto found = value_at(world, there, world.surface_point(other, there))) return *found - value;
