@@ -435,7 +435,7 @@ void add_measure(CLI::App& app, Action& action) {
                               "else fitted");
   auto* features = sub->add_flag("--features", options->features,
                                  "inflections, vertices, cusps and corners of the curve, total curvature; of a closed "
-                                 "plane one its turning number and area");
+                                 "plane one its turning number and area; of a surface its umbilics");
   auto* arc =
       sub->add_option("--arc", options->arc, "the length of the curve's part between two parameters")->type_name("T,T");
   auto* at_length =

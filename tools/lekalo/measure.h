@@ -101,7 +101,8 @@ ordered_json nurbs_surface_form(const std::string& name, const geometry::Surface
 void print_nurbs_surface_form(const ordered_json& form);
 
 // Inflections, vertices, cusps, corners of a curve, total curvature, turning number, enclosed area; the length of the
-// part between two parameters; the parameter at a length from the beginning. All throw UsageError for anything else.
+// part between two parameters; the parameter at a length from the beginning. curve_shape also takes surfaces: their
+// umbilics. All throw UsageError for anything else.
 ordered_json curve_shape(const std::string& name, const render::Entity& entity);
 void print_curve_shape(const ordered_json& found);
 ordered_json arc_of(const std::string& name, const render::Entity& entity, double from, double to);

@@ -1,10 +1,12 @@
-// Shape of a curve: features, arc length of parts; how near two curves are as a whole.
+// Shape of a curve or surface: features, arc length of parts; how near two curves are as a whole.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "command.h"
 #include "geometry/queries/closest/curve_nearness.h"
+#include "geometry/queries/differential/curvature.h"
+#include "geometry/queries/differential/umbilics.h"
 #include "geometry/queries/measures/arc_length.h"
 #include "geometry/queries/measures/curve_features.h"
 #include "measure.h"
@@ -46,9 +48,23 @@ ordered_json asked(const std::string& name, const Query& query) {
   }
 }
 
+ordered_json surface_shape(const std::string& name, const geometry::Surface& surface) {
+  return asked(name, [&] {
+    ordered_json points = ordered_json::array();
+    for (const geometry::Vec2& at : geometry::umbilics(surface))
+      points.push_back({{"kind", "umbilic"},
+                        {"u", at.x},
+                        {"v", at.y},
+                        {"point", to_json(surface.point(at.x, at.y))},
+                        {"curvature", geometry::curvature(surface, at.x, at.y).mean}});
+    return ordered_json{{"name", name}, {"kind", "surface"}, {"features", points}};
+  });
+}
+
 }  // namespace
 
 ordered_json curve_shape(const std::string& name, const render::Entity& entity) {
+  if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) return surface_shape(name, **surface);
   const CurvePtr& curve = curve_of(name, entity, "--features");
   return asked(name, [&] {
     const geometry::CurveFeatures found = geometry::curve_features(*curve);
@@ -67,6 +83,14 @@ ordered_json curve_shape(const std::string& name, const render::Entity& entity) 
 }
 
 void print_curve_shape(const ordered_json& found) {
+  if (found["kind"] == "surface") {
+    fmt::print("surface '{}'\n", found["name"].get<std::string>());
+    for (const ordered_json& row : found["features"])
+      fmt::print("{:<16} u {}  v {}  point {}  curvature {}\n", row["kind"].get<std::string>(),
+                 digits(row["u"].get<double>()), digits(row["v"].get<double>()), digits(vector_of(row["point"])),
+                 digits(row["curvature"].get<double>()));
+    return;
+  }
   fmt::print("curve '{}', {}, {}\n", found["name"].get<std::string>(),
              found["plane"].get<bool>() ? "plane" : "in space", found["closed"].get<bool>() ? "closed" : "open");
   for (const char* key : {"total_curvature", "total_torsion", "turning_number", "area"})

@@ -1,10 +1,12 @@
 // Where curves and surfaces meet, a curve itself, and three surfaces in points.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "command.h"
 #include "geometry/queries/contours/common_points.h"
+#include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "measure.h"
 
@@ -14,6 +16,7 @@ namespace {
 
 using geometry::CurvePtr;
 using geometry::Interval;
+using geometry::kPi;
 using geometry::SurfacePtr;
 using geometry::Vec3;
 
@@ -25,11 +28,23 @@ ordered_json intersection_row(ordered_json row, const Intersection& one) {
   return row;
 }
 
+// Between the directions of two vectors, 0 to pi; null where a curve has no tangent.
+ordered_json angle_between(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
+  if (!a || !b) return nullptr;
+  return std::atan2(glm::length(glm::cross(*a, *b)), glm::dot(*a, *b));
+}
+std::optional<Vec3> tangent(const geometry::Curve& curve, double t) {
+  const geometry::CurveCurvature at = geometry::curvature(curve, t);
+  return at.has_tangent ? std::optional(at.tangent) : std::nullopt;
+}
+
 ordered_json intersections(const geometry::Curve& a, const geometry::Curve& b, double tolerance) {
   const geometry::CurveIntersections found = intersect(a, b, tolerance);
   ordered_json points = ordered_json::array(), common = ordered_json::array();
-  for (const geometry::CurveIntersection& one : found.points)
+  for (const geometry::CurveIntersection& one : found.points) {
     points.push_back(intersection_row({{"t", one.s}, {"t_other", one.t}}, one));
+    points.back()["angle"] = angle_between(tangent(a, one.s), tangent(b, one.t));
+  }
   for (const geometry::CommonPart& part : found.common)
     common.push_back({{"t", range(part.s)}, {"t_other", {part.begin, part.end}}});
   return {{"points", points}, {"common", common}};
@@ -38,8 +53,12 @@ ordered_json intersections(const geometry::Curve& a, const geometry::Curve& b, d
 ordered_json intersections(const geometry::Curve& curve, const geometry::Surface& surface, double tolerance) {
   const geometry::SurfaceIntersections found = intersect(curve, surface, tolerance);
   ordered_json points = ordered_json::array(), common = ordered_json::array();
-  for (const geometry::SurfaceIntersection& one : found.points)
+  for (const geometry::SurfaceIntersection& one : found.points) {
     points.push_back(intersection_row({{"t", one.t}, {"u", one.u}, {"v", one.v}}, one));
+    // With the tangent plane: what lacks of a right angle to the normal, positive where the curve comes out.
+    const ordered_json to_normal = angle_between(tangent(curve, one.t), surface.normal(one.u, one.v));
+    points.back()["angle"] = to_normal.is_null() ? to_normal : ordered_json(0.5 * kPi - to_normal.get<double>());
+  }
   for (const Interval& part : found.on_surface) common.push_back({{"t", range(part)}});
   return {{"points", points}, {"common", common}};
 }
@@ -183,8 +202,9 @@ void print_intersections(const ordered_json& found) {
              points, points == 1 ? "" : "s",
              parts == 0 ? "" : fmt::format(", {} part{} in common", parts, parts == 1 ? "" : "s"));
   for (const ordered_json& one : found["points"])
-    fmt::print("  {:<9}{}  point {}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameter_text(one),
-               digits(vector_of(one["point"])));
+    fmt::print("  {:<9}{}  point {}{}\n", one["contact"].get<bool>() ? "contact" : "crossing", parameter_text(one),
+               digits(vector_of(one["point"])),
+               one["angle"].is_null() ? "" : "  angle " + digits(one["angle"].get<double>()));
   for (const ordered_json& part : found["common"]) print_common(part);
 }
 
