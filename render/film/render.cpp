@@ -502,6 +502,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
   result.shadow_rays = ledger.tally().shadow_rays;
   result.other_rays = ledger.tally().other_rays;
   result.notes = integrator.notes();
+  result.scale = integrator.scale();
   result.not_finite = ledger.tally().not_finite;
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   ledger.report();

@@ -40,9 +40,10 @@ struct RenderResult {
   uint64_t camera_rays = 0;
   uint64_t shadow_rays = 0;
   uint64_t other_rays = 0;
-  double seconds = 0;              // of the trace stage
-  std::vector<std::string> notes;  // of the integrator
-  uint64_t not_finite = 0;         // samples that were NaN or infinite and were left out
+  double seconds = 0;                 // of the trace stage
+  std::vector<std::string> notes;     // of the integrator
+  std::optional<PictureScale> scale;  // of its colours, where they tell a number
+  uint64_t not_finite = 0;            // samples that were NaN or infinite and were left out
 };
 
 // Renders the model's film as its camera sees the world.

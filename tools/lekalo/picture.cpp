@@ -15,6 +15,7 @@
 #include <set>
 
 #include "command.h"
+#include "render/drawing/picture_scale.h"
 #include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/image/exr.h"
@@ -167,24 +168,28 @@ std::string without_shadow(const render::Model& model) {
 
 std::string left_to_drawings(const render::Model& model) {
   std::vector<std::string> left = render::left_to_drawings(model.objects);
-  if (!model.drawing.annotations.empty()) left.push_back("annotations");
+  const bool has_bars = render::has_color_bars(model);
+  if (std::any_of(model.drawing.annotations.begin(), model.drawing.annotations.end(),
+                  [&](const render::Annotation& one) { return !has_bars || !render::tells_scale_of_ground(one); }))
+    left.push_back("annotations");
   if (!model.panels.empty()) left.push_back("panels");
   std::string names;
   for (const std::string& name : left) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
-void write_picture(const render::OutputFile& file, const render::Image& image) {
+void write_picture(const render::OutputFile& file, const render::RenderResult& result, const render::Model& model) {
   if (file.path.ends_with(".exr")) {
-    render::write_exr(file.path, image);
+    render::write_exr(file.path, result.image);
     return;
   }
   render::DisplayTransform transform;
   transform.exposure = file.exposure;
   transform.curve = file.filmic ? render::ToneCurve::filmic : render::ToneCurve::none;
-  const render::DisplayResult shown = render::to_display(image, transform);
+  const render::DisplayResult shown = render::to_display(result.image, transform);
   if (shown.non_finite > 0) fmt::print(stderr, "{}: {} pixels are not finite\n", file.path, shown.non_finite);
-  render::write_png(file.path, shown.image);
+  const bool has_bars = result.scale && result.complete && render::has_color_bars(model);
+  render::write_png(file.path, has_bars ? render::with_color_bars(shown.image, model, *result.scale) : shown.image);
 }
 
 std::string date_text(bool with_time) {

@@ -49,8 +49,9 @@ std::string without_shadow(const render::Model& model);
 // What the scene shows that only drawings have: "lines (silhouette), annotations"; empty if there is nothing.
 std::string left_to_drawings(const render::Model& model);
 
-// EXR, or PNG by the output's display transform. Atomic. Throws ImageError.
-void write_picture(const render::OutputFile& file, const render::Image& image);
+// EXR, or PNG by the output's display transform, with the colour bars of the model's drawing that tell its scale.
+// Atomic. Throws ImageError.
+void write_picture(const render::OutputFile& file, const render::RenderResult& result, const render::Model& model);
 
 // The moment of the run in UTC, or that of SOURCE_DATE_EPOCH: "2026-11-21", "2026-11-21T20:05:17Z".
 std::string date_text(bool with_time);

@@ -244,7 +244,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
       fmt::print(stderr, "interrupted: {} stays as it was\n", file.path);
       continue;
     }
-    write_picture(file, result.image);
+    write_picture(file, result, *model);
     if (!options.quiet) fmt::print(stderr, "{}\n", file.path);
   }
   if (!options.quiet)
