@@ -22,6 +22,9 @@ struct LightSample {
   double distance = geometry::kInfinity;  // to the sampled place on the light
   Spectrum irradiance;  // E on a surface facing the sample if nothing is in the way, as if all the light came from it
   double weight = 1;    // of this sample among those of the light; sums to 1 over all samples
+  // Per unit of solid angle, of sample_all(): the radiance that comes from there is irradiance times density. 0 for
+  // light from a single direction.
+  double density = 0;
 };
 
 // The light of a source that fills a round cone of directions evenly, as a matt surface receives it. If nothing is in
@@ -58,6 +61,12 @@ class Light {
   // Sample `index` of sample_count() at the point; (r1, r2) in [0, 1)^2 jitters it within its stratum and is not used
   // where `sampling: grid` asks for fixed places.
   virtual LightSample sample(const Vec3& point, int index, double r1, double r2) const = 0;
+  // One place of the whole light, with `square` uniform in the unit square; whatever `sampling` says.
+  virtual LightSample sample_all(const Vec3& point, const Vec2&) const { return sample(point, 0, 0.5, 0.5); }
+  // What sample_all() says of the place of the light that lies in the direction from the point; nothing if none does.
+  virtual std::optional<LightSample> towards(const Vec3&, const Vec3& /*direction*/) const { return std::nullopt; }
+  // True for surroundings that show themselves in place of the background.
+  virtual bool is_backdrop() const { return false; }
   // True if r1 and r2 matter.
   virtual bool is_jittered() const { return false; }
   // What the source is from the point, for jittered sources that are a cone of directions.

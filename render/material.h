@@ -1,5 +1,5 @@
-// What a surface does to light. The `classic` integrator reads every material as the coefficients of Golovanov
-// 2016, 8.4.
+// What a surface does to light: lobes (lobes/scattering.h), which each integrator reads in its own way. A material
+// knows none of these.
 #pragma once
 
 #include <any>
@@ -12,29 +12,7 @@
 
 namespace lekalo::render {
 
-// How Fresnel's reflectance F of the boundary enters mirror and transmission.
-enum class Fresnel {
-  none,
-  boundary,  // of the media on both sides: mirror + transmission F and transmission (1 - F)
-  coat,      // of a clear coat of the given index over an opaque body: mirror F
-  conductor  // of the complex index (index, extinction): mirror F
-};
-
-// Coefficients of the classic light model at a point (Golovanov 2016, 8.4.2-8.4.5). Reflectances are in [0, 1].
-struct ClassicCoefficients {
-  Spectrum emission;      // radiance added whatever the light
-  Spectrum ambient;       // k_a, multiplies the ambient light
-  Spectrum diffuse;       // k_d (Lambert)
-  Spectrum specular;      // k_s of the Phong lobe
-  float exponent = 1;     // n of the Phong lobe
-  Spectrum mirror;        // share of the traced mirror reflection
-  Spectrum transmission;  // k_t, share of the traced refracted ray
-  Fresnel fresnel = Fresnel::none;
-  Spectrum index{1.0f};          // of coats and conductors, at the wavelengths asked for
-  Spectrum extinction;           // of conductors: imaginary part of the index
-  bool two_sided = true;         // false: the back shows only emission and ambient light
-  bool catches_shadows = false;  // shows the background, darkened where lights do not reach; not seen from behind
-};
+struct Scattering;
 
 // Substance behind a surface, for refraction and absorption.
 struct Medium {
@@ -46,7 +24,7 @@ struct Medium {
 class Material {
  public:
   virtual ~Material() = default;
-  virtual ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths& wavelengths) const = 0;
+  virtual Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const = 0;
   // The medium behind the surface; opaque materials have none.
   virtual std::optional<Medium> interior(const Wavelengths&) const { return std::nullopt; }
   // True when light passes, so that shadow rays may be tinted instead of stopped.
@@ -56,9 +34,7 @@ class Material {
   // Unit shading normal after bumps (random normal deviation of rough surfaces); the given one by default.
   virtual Vec3 shading_normal(const SurfacePoint& point) const { return point.normal; }
   // Diffuse reflectance for the albedo layer.
-  virtual Spectrum albedo(const SurfacePoint& point, const Wavelengths& wavelengths) const {
-    return classic(point, wavelengths).diffuse;
-  }
+  virtual Spectrum albedo(const SurfacePoint& point, const Wavelengths& wavelengths) const;
   // Number of the texture cell (square of a checker, line or ground of a grid) at the point, so that comparisons can
   // leave out pixels on cell borders; 0 without textures.
   virtual uint64_t cell(const SurfacePoint&) const { return 0; }

@@ -1,7 +1,12 @@
 // The list of integrator types that scene files can name: one line each; the declaration stands in the type's own file.
 #include "geometry/describe.h"
 
-#define LEKALO_INTEGRATOR_TYPES(X) X(classic_integrator_type) X(analysis_integrator_type)
+#define LEKALO_INTEGRATOR_TYPES(X) \
+  X(classic_integrator_type)       \
+  X(analysis_integrator_type)      \
+  X(path_integrator_type)          \
+  X(direct_lighting_type)          \
+  X(ambient_occlusion_type)
 
 namespace lekalo::render {
 

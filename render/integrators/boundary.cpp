@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/tolerances.h"
+#include "render/lobes/scattering.h"
 
 namespace lekalo::render {
 
@@ -56,7 +57,7 @@ bool Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
       c.medium = world.material(c.point, true).interior(wavelengths);
       c.material = &world.material(c.point, c.front);
       // Not seen from behind.
-      if (!c.front && c.material->classic(c.point, wavelengths).catches_shadows) continue;
+      if (!c.front && c.material->scattering(c.point, wavelengths).catches_shadows) continue;
       end = std::max(end, h.t + lost_length(ray, c.t, c.point));
       crossings.push_back(c);
     }
@@ -118,6 +119,15 @@ bool Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
   front = shown->front;
   show(world);
   return true;
+}
+
+Spectrum backdrop(const World& world, const Ray& ray) {
+  for (const LightPtr& lamp : world.lamps()) {
+    if (!lamp->is_backdrop()) continue;
+    if (const std::optional<LightSample> seen = lamp->towards(ray.origin, ray.direction))
+      return static_cast<float>(seen->density) * seen->irradiance;
+  }
+  return world.model().background;
 }
 
 Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths) {

@@ -56,6 +56,9 @@ class Boundary {
   std::optional<std::pair<SurfacePoint, SurfacePoint>> others_;  // where there are several: the first and the last
 };
 
+// What shows behind everything in a direction: a panorama, or the background.
+Spectrum backdrop(const World& world, const Ray& ray);
+
 // The media that a ray begins in: of the bodies that it leaves before it enters them, the one left last entered first.
 // What it crosses both ways at an edge is neither left nor entered there.
 Media media_at_origin(const World& world, const Ray& ray, const Wavelengths& wavelengths);

@@ -13,8 +13,9 @@
 
 #include "geometry/describe.h"
 #include "render/integrators/boundary.h"
+#include "render/integrators/classic_reading.h"
 #include "render/integrators/phong_model.h"
-#include "render/materials/fresnel.h"
+#include "render/lobes/fresnel.h"
 #include "render/materials/optical_constants.h"
 #include "render/materials/textured_color.h"
 #include "render/trace/world.h"
@@ -147,11 +148,11 @@ Spectrum Tracer::radiance(const Ray& first_ray, const Hit& first_hit, const Medi
     if (hit.instance < 0) {
       mix(0);
       if (!media.is_air()) through *= transmittance(media.current().absorption, kInfinity);
-      return through * world_.model().background;
+      return through * backdrop(world_, ray);
     }
     Interaction seen(world_, ray, hit, length, media);
     if (!media.is_air()) through *= transmittance(media.current().absorption, hit.t);
-    ClassicCoefficients c = seen.material->classic(seen.point, kPrimaries);
+    ClassicCoefficients c = classic_reading(*seen.material, seen.point, kPrimaries);
     // Pieces of the same substance that touch or overlap are one.
     const bool is_joint = c.fresnel == Fresnel::boundary && !media.is_air() && !seen.behind.is_air() &&
                           media.current().index == seen.behind.current().index;
@@ -399,7 +400,7 @@ Spectrum Tracer::passing(const Ray& shadow_ray, const Hit& first, const Media& a
     const Boundary boundary(world_, ray, hit, kYellow, media);
     if (!boundary.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);
-    if (boundary.changes_filling) share *= boundary.material->classic(boundary.point, kPrimaries).transmission;
+    if (boundary.changes_filling) share *= classic_reading(*boundary.material, boundary.point, kPrimaries).transmission;
     if (share.is_zero()) return {};
     media = boundary.behind;
     mix_place(boundary.point);

@@ -8,6 +8,8 @@
   X(rectangle_light_type)     \
   X(disc_light_type)          \
   X(sphere_light_type)        \
+  X(environment_light_type)   \
+  X(profile_light_type)       \
   X(ambient_light_type)
 
 namespace lekalo::render {

@@ -16,22 +16,24 @@ class DistantLamp final : public Light {
         frame_(frame_about(Vec3(0), -light.direction)),
         sine_(std::sin(0.5 * light.angular_diameter)),
         one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)),
-        irradiance_(RoundIrradiance(light.lamp, light.sampling).at(1, one_minus_cosine_)) {}
+        irradiance_(RoundIrradiance(light.lamp, light.sampling).at(1, one_minus_cosine_)),
+        whole_(RoundIrradiance(light.lamp, {}).at(1, one_minus_cosine_)) {}
 
   int sample_count() const override { return light_.angular_diameter > 0 ? light_.sampling.n * light_.sampling.n : 1; }
 
   LightSample sample(const Vec3&, int index, double r1, double r2) const override {
     const int count = sample_count();
     LightSample sample{frame_.z, kInfinity, irradiance_, 1.0 / count};
-    if (light_.angular_diameter > 0) {
-      // Equal areas of the disc are equal solid angles when 1 - cos grows with the square of the disc's radius.
-      const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
-      const double square = glm::dot(disc, disc);
-      const double height = square * one_minus_cosine_;  // 1 - cos of the angle from the axis
-      const double scale = std::sqrt(one_minus_cosine_ * (2 - height));
-      sample.direction = frame_.direction(Vec3(disc * scale, 1 - height));
-    }
+    if (light_.angular_diameter > 0) sample.direction = direction(area_sample(light_.sampling, index, r1, r2));
     return sample;
+  }
+  LightSample sample_all(const Vec3&, const Vec2& square) const override {
+    if (light_.angular_diameter == 0) return {frame_.z, kInfinity, whole_};
+    return {direction(square), kInfinity, whole_, 1, 1 / (kTwoPi * one_minus_cosine_)};
+  }
+  std::optional<LightSample> towards(const Vec3&, const Vec3& direction) const override {
+    if (light_.angular_diameter == 0 || 1 - glm::dot(direction, frame_.z) > one_minus_cosine_) return std::nullopt;
+    return LightSample{direction, kInfinity, whole_, 1, 1 / (kTwoPi * one_minus_cosine_)};
   }
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3&) const override {
@@ -42,10 +44,20 @@ class DistantLamp final : public Light {
   std::any made_from() const override { return light_; }
 
  private:
+  // Equal areas of the disc are equal solid angles when 1 - cos grows with the square of the disc's radius.
+  Vec3 direction(const Vec2& place) const {
+    const Vec2 disc = concentric_disc(place);
+    const double square = glm::dot(disc, disc);
+    const double height = square * one_minus_cosine_;  // 1 - cos of the angle from the axis
+    const double scale = std::sqrt(one_minus_cosine_ * (2 - height));
+    return frame_.direction(Vec3(disc * scale, 1 - height));
+  }
+
   DistantLight light_;
   Frame frame_;
   double sine_, one_minus_cosine_;  // of half the angular diameter
   Spectrum irradiance_;             // of each sample
+  Spectrum whole_;                  // of a random place on all of it
 };
 
 }  // namespace

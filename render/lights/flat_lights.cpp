@@ -27,12 +27,20 @@ class FlatLamp : public Light {
   int sample_count() const override { return sampling_.n * sampling_.n; }
 
   LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
-    const Vec3 to_light = (sampling_.grid ? grid_[index] : place(index, r1, r2)) - point;
-    const double distance = glm::length(to_light);
-    const Vec3 direction = (1 / distance) * to_light;
-    LightSample sample{direction, distance, irradiance_.at(distance), weight_};
-    if (one_sided_) sample.irradiance *= static_cast<float>(std::max(0.0, -glm::dot(direction, frame_.z)));
+    LightSample sample = sample_at(point, sampling_.grid ? grid_[index] : place(index, r1, r2));
+    sample.weight = weight_;
     return sample;
+  }
+  LightSample sample_all(const Vec3& point, const Vec2& square) const override {
+    return sample_at(point, frame_.point(Vec3(on_area(square), 0)));
+  }
+  std::optional<LightSample> towards(const Vec3& point, const Vec3& direction) const override {
+    const double t = glm::dot(frame_.origin - point, frame_.z) / glm::dot(direction, frame_.z);
+    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+    const Vec3 place = point + t * direction;
+    const Vec3 local = frame_.to_local_point(place);
+    if (!is_on_area({local.x, local.y})) return std::nullopt;
+    return sample_at(point, place);
   }
   bool is_jittered() const override { return !sampling_.grid; }
   Box3 places() const override { return places_; }
@@ -49,8 +57,20 @@ class FlatLamp : public Light {
   }
   // Place in the frame's xy plane of a place in the unit square, area preserving up to a factor.
   virtual Vec2 on_area(const Vec2& square) const = 0;
+  virtual bool is_on_area(const Vec2& place) const = 0;
+  virtual double area() const = 0;
 
  private:
+  LightSample sample_at(const Vec3& point, const Vec3& place) const {
+    const Vec3 to_light = place - point;
+    const double distance = glm::length(to_light);
+    const Vec3 direction = (1 / distance) * to_light;
+    const double cosine = -glm::dot(direction, frame_.z);
+    LightSample sample{direction, distance, irradiance_.at(distance)};
+    if (one_sided_) sample.irradiance *= static_cast<float>(std::max(0.0, cosine));
+    sample.density = distance * distance / (area() * std::max(std::fabs(cosine), 1e-12));
+    return sample;
+  }
   Vec3 place(int index, double r1, double r2) const {
     return frame_.point(Vec3(on_area(area_sample(sampling_, index, r1, r2)), 0));
   }
@@ -72,6 +92,10 @@ class RectangleLamp final : public FlatLamp {
     lay_out(0.5 * light.size);
   }
   Vec2 on_area(const Vec2& square) const override { return (square - 0.5) * light_.size; }
+  bool is_on_area(const Vec2& place) const override {
+    return std::fabs(place.x) <= 0.5 * light_.size.x && std::fabs(place.y) <= 0.5 * light_.size.y;
+  }
+  double area() const override { return light_.size.x * light_.size.y; }
   std::any made_from() const override { return light_; }
 
  private:
@@ -85,6 +109,8 @@ class DiscLamp final : public FlatLamp {
     lay_out(Vec2(light.radius));
   }
   Vec2 on_area(const Vec2& square) const override { return light_.radius * concentric_disc(square); }
+  bool is_on_area(const Vec2& place) const override { return glm::dot(place, place) <= light_.radius * light_.radius; }
+  double area() const override { return kPi * light_.radius * light_.radius; }
   std::any made_from() const override { return light_; }
 
  private:

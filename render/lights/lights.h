@@ -3,7 +3,9 @@
 #pragma once
 
 #include "geometry/describe.h"
+#include "render/image/image.h"
 #include "render/light.h"
+#include "render/lights/ies_profile.h"
 
 namespace lekalo::render {
 
@@ -70,6 +72,24 @@ struct SphereLight {
   Lamp lamp;
 };
 
+// A panorama all around, see environment_light.cpp.
+struct EnvironmentLight {
+  Image image;          // equirectangular, with colour
+  double rotation = 0;  // radians
+  Vec3 color{1};
+  double intensity = 1;
+  bool visible = true;  // stands in place of the background
+  bool shadows = true;
+  AreaSampling sampling;
+};
+
+// A luminaire: z of the frame is its axis.
+struct ProfileLight {
+  geometry::Frame frame;
+  IesProfile profile;
+  Lamp lamp;  // of the direction of the largest intensity
+};
+
 struct AmbientLight {
   Vec3 color{1};
   double intensity = 1;
@@ -81,6 +101,9 @@ LightPtr make_light(const DistantLight& light);
 LightPtr make_light(const RectangleLight& light);
 LightPtr make_light(const DiscLight& light);
 LightPtr make_light(const SphereLight& light);
+// Throws std::invalid_argument for a picture without colour.
+LightPtr make_light(const EnvironmentLight& light);
+LightPtr make_light(const ProfileLight& light);
 LightPtr make_light(const AmbientLight& light);
 
 // For the lights' own files.

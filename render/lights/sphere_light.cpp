@@ -11,26 +11,26 @@ namespace {
 
 class SphereLamp final : public Light {
  public:
-  explicit SphereLamp(const SphereLight& light) : light_(light), irradiance_(light.lamp, light.sampling) {}
+  explicit SphereLamp(const SphereLight& light)
+      : light_(light), irradiance_(light.lamp, light.sampling), whole_(light.lamp, {}) {}
 
   int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
 
   // The directions fill the cone around the ball evenly in solid angle; the place is the near side of the ball.
   LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
+    return sample_at(point, area_sample(light_.sampling, index, r1, r2), irradiance_, 1.0 / sample_count());
+  }
+  LightSample sample_all(const Vec3& point, const Vec2& square) const override {
+    return sample_at(point, square, whole_, 1);
+  }
+  std::optional<LightSample> towards(const Vec3& point, const Vec3& direction) const override {
     const Vec3 to_center = light_.center - point;
-    const double distance = glm::length(to_center);
-    LightSample sample{{0, 0, 1}, 0, {}, 1.0 / sample_count()};
-    if (distance <= light_.radius) return sample;  // inside the lamp: no light
-    const double one_minus_cosine = this->one_minus_cosine(distance);
-    const Vec2 disc = concentric_disc(area_sample(light_.sampling, index, r1, r2));
-    const double height = glm::dot(disc, disc) * one_minus_cosine;
-    const Vec3 local(disc * std::sqrt(one_minus_cosine * (2 - height)), 1 - height);
-    sample.direction = frame_about(Vec3(0), to_center / distance).direction(local);
-    const double along = distance * local.z;
-    const double square = light_.radius * light_.radius - (distance * distance - along * along);
-    sample.distance = along - std::sqrt(std::fmax(0.0, square));
-    sample.irradiance = irradiance_.at(distance, one_minus_cosine);
-    return sample;
+    const double distance = glm::length(to_center), along = glm::dot(to_center, direction);
+    const Vec3 off = to_center - along * direction;
+    const double square = light_.radius * light_.radius - glm::dot(off, off);
+    if (distance <= light_.radius || along <= 0 || square < 0) return std::nullopt;
+    const double height = one_minus_cosine(distance);
+    return LightSample{direction, along - std::sqrt(square), whole_.at(distance, height), 1, 1 / (kTwoPi * height)};
   }
   bool is_jittered() const override { return !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3& point) const override {
@@ -47,6 +47,24 @@ class SphereLamp final : public Light {
   std::any made_from() const override { return light_; }
 
  private:
+  LightSample sample_at(const Vec3& point, const Vec2& square_place, const RoundIrradiance& irradiance,
+                        double weight) const {
+    const Vec3 to_center = light_.center - point;
+    const double distance = glm::length(to_center);
+    LightSample sample{{0, 0, 1}, 0, {}, weight};
+    if (distance <= light_.radius) return sample;  // inside the lamp: no light
+    const double one_minus_cosine = this->one_minus_cosine(distance);
+    const Vec2 disc = concentric_disc(square_place);
+    const double height = glm::dot(disc, disc) * one_minus_cosine;
+    const Vec3 local(disc * std::sqrt(one_minus_cosine * (2 - height)), 1 - height);
+    sample.direction = frame_about(Vec3(0), to_center / distance).direction(local);
+    const double along = distance * local.z;
+    const double square = light_.radius * light_.radius - (distance * distance - along * along);
+    sample.distance = along - std::sqrt(std::fmax(0.0, square));
+    sample.irradiance = irradiance.at(distance, one_minus_cosine);
+    sample.density = 1 / (kTwoPi * one_minus_cosine);
+    return sample;
+  }
   // Of half the angle under which the ball is seen.
   double one_minus_cosine(double distance) const {
     const double sine = light_.radius / distance;
@@ -54,7 +72,7 @@ class SphereLamp final : public Light {
   }
 
   SphereLight light_;
-  RoundIrradiance irradiance_;
+  RoundIrradiance irradiance_, whole_;  // of its samples; of random places on all of it
 };
 
 }  // namespace

@@ -8,6 +8,10 @@
   X(plastic_type)                \
   X(conductor_type)              \
   X(dielectric_type)             \
+  X(principled_type)             \
+  X(cloth_type)                  \
+  X(translucent_sheet_type)      \
+  X(mix_type)                    \
   X(emission_type)               \
   X(shadow_catcher_type)
 

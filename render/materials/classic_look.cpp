@@ -2,6 +2,7 @@
 // absorption and emission, each coefficient a number, a colour or a texture.
 #include <vector>
 
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -16,23 +17,14 @@ class ClassicMaterial final : public Material {
     for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
                                        &look_.transmission, &look_.emission})
       if (color->texture()) textures_.push_back(color->texture());
-    const auto same = [](const TexturedColor& color) { return color.texture() ? Spectrum() : color.at({}); };
-    same_everywhere_.emission = same(look_.emission);
-    same_everywhere_.ambient = same(look_.color) * same(look_.ambient);
-    same_everywhere_.diffuse = same(look_.color) * same(look_.diffuse);
-    same_everywhere_.specular = same(look_.specular);
-    same_everywhere_.exponent = static_cast<float>(look_.exponent);
-    same_everywhere_.mirror = same(look_.mirror);
-    same_everywhere_.transmission = same(look_.transmission);
-    same_everywhere_.fresnel = look_.fresnel ? Fresnel::boundary : Fresnel::none;
-    same_everywhere_.two_sided = look_.two_sided;
+    if (textures_.empty()) same_everywhere_ = at({});
     if (!look_.transmission.is_black())
       interior_ = Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
     is_even_ = textures_.empty() && look_.normal_deviation.amplitude == 0;
   }
 
-  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    return textures_.empty() ? same_everywhere_ : coefficients(point);
+  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+    return textures_.empty() ? same_everywhere_ : at(point);
   }
 
   std::optional<Medium> interior(const Wavelengths&) const override { return interior_; }
@@ -52,28 +44,26 @@ class ClassicMaterial final : public Material {
   std::any made_from() const override { return look_; }
 
  private:
-  ClassicCoefficients coefficients(const SurfacePoint& point) const {
-    ClassicCoefficients c = same_everywhere_;
-    const auto vary = [&](const TexturedColor& color, Spectrum& coefficient) {
-      if (color.texture()) coefficient = color.at(point);
-    };
-    vary(look_.emission, c.emission);
-    vary(look_.specular, c.specular);
-    vary(look_.mirror, c.mirror);
-    vary(look_.transmission, c.transmission);
-    if (look_.color.texture() || look_.ambient.texture() || look_.diffuse.texture()) {
-      const Spectrum color = look_.color.at(point);
-      c.ambient = color * look_.ambient.at(point);
-      c.diffuse = color * look_.diffuse.at(point);
-    }
-    return c;
+  Scattering at(const SurfacePoint& point) const {
+    Scattering s;
+    const Spectrum color = look_.color.at(point);
+    s.emission = look_.emission.at(point);
+    s.ambient = color * look_.ambient.at(point);
+    const Spectrum diffuse = color * look_.diffuse.at(point), specular = look_.specular.at(point);
+    if (!diffuse.is_zero()) s.lobes.add(LambertLobe{diffuse});
+    if (!specular.is_zero()) s.lobes.add(PhongLobe{specular, look_.exponent});
+    const BoundaryLobe boundary{look_.mirror.at(point), look_.transmission.at(point), look_.fresnel};
+    if (!boundary.mirror.is_zero() || !boundary.transmission.is_zero()) s.lobes.add(boundary);
+    s.two_sided = look_.two_sided;
+    s.unbalanced = true;
+    return s;
   }
 
   ClassicLook look_;
-  std::vector<TexturePtr> textures_;     // of all coefficients
-  ClassicCoefficients same_everywhere_;  // those without textures
-  std::optional<Medium> interior_;       // where light passes
-  bool is_even_ = true;                  // neither textures nor deviations of the normal
+  std::vector<TexturePtr> textures_;  // of all coefficients
+  Scattering same_everywhere_;        // where there are none
+  std::optional<Medium> interior_;    // where light passes
+  bool is_even_ = true;               // neither textures nor deviations of the normal
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Metal with its own measured reflectance: Fresnel's formulas with the complex index n - i k at the light's
 // wavelengths.
-#include "render/materials/fresnel.h"
-#include "render/materials/gloss.h"
+#include "render/lobes/fresnel.h"
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
 
@@ -14,29 +14,30 @@ namespace {
 class ConductorMaterial final : public Material {
  public:
   explicit ConductorMaterial(const Conductor& conductor)
-      : conductor_(conductor), rgb_index_(metal_index(conductor.metal, Wavelengths{})) {}
+      : conductor_(conductor),
+        rgb_index_(conductor.metal.empty() ? ComplexIndex{} : metal_index(conductor.metal, Wavelengths{})),
+        roughness_(conductor.roughness,
+                   [stretch = conductor.anisotropy](double roughness) { return mirror_albedo(roughness, stretch); }) {}
 
-  ClassicCoefficients classic(const SurfacePoint&, const Wavelengths& wavelengths) const override {
-    const ComplexIndex index =
-        wavelengths.nanometres == Wavelengths{}.nanometres ? rgb_index_ : metal_index(conductor_.metal, wavelengths);
-    const double share = mirror_share(conductor_.roughness);
-    const Spectrum reflectance = fresnel_conductor(1, index.n, index.k);
-    ClassicCoefficients c;
-    c.exponent = phong_exponent(conductor_.roughness);
-    c.ambient = static_cast<float>(1 - share) * reflectance;
-    c.diffuse = static_cast<float>(conductor_.roughness) * c.ambient;
-    c.specular = static_cast<float>(phong_height(c.exponent, 1 - share)) * reflectance;
-    c.mirror = Spectrum(static_cast<float>(share));
-    c.fresnel = Fresnel::conductor;
-    c.index = index.n;
-    c.extinction = index.k;
-    return c;
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
+    MetalLobe lobe;
+    lobe.reflectance = reflectance(point, wavelengths);
+    lobe.anisotropy = conductor_.anisotropy;
+    lobe.rotation = conductor_.rotation;
+    const TabledRoughness::Value rough = roughness_.at(point);
+    lobe.roughness = rough.roughness;
+    lobe.albedo = rough.albedo;
+    Scattering s;
+    s.lobes.add(lobe);
+    return s;
   }
   Spectrum albedo(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
-    const ClassicCoefficients c = classic(point, wavelengths);
-    return fresnel_conductor(1, c.index, c.extinction);
+    return reflectance(point, wavelengths).at(1);
   }
-  bool uses_parameters() const override { return conductor_.normal_deviation.amplitude != 0; }
+  bool uses_parameters() const override {
+    return conductor_.color.texture() || conductor_.edge_tint.texture() || conductor_.roughness.texture ||
+           conductor_.anisotropy > 0 || conductor_.normal_deviation.amplitude != 0;
+  }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, conductor_.normal_deviation);
   }
@@ -44,8 +45,23 @@ class ConductorMaterial final : public Material {
   std::any made_from() const override { return conductor_; }
 
  private:
+  MetalReflectance reflectance(const SurfacePoint& point, const Wavelengths& wavelengths) const {
+    MetalReflectance f;
+    if (conductor_.metal.empty()) {
+      f.color = conductor_.color.at(point);
+      f.edge_tint = conductor_.edge_tint.at(point);
+      return f;
+    }
+    const ComplexIndex index =
+        wavelengths.nanometres == Wavelengths{}.nanometres ? rgb_index_ : metal_index(conductor_.metal, wavelengths);
+    f.n = index.n;
+    f.k = index.k;
+    return f;
+  }
+
   Conductor conductor_;
   ComplexIndex rgb_index_;  // looked up once for the usual wavelengths
+  TabledRoughness roughness_;
 };
 
 }  // namespace
@@ -60,11 +76,28 @@ TypeDeclaration conductor_type() {
               "k_a = (1 - s) F0; k_d = r k_a; Phong's exponent n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 times (1 - "
               "s)(n + 2)/2, "
               "at most F0.");
-  type.field("metal", choice(metal_names()), "chemical symbol; CuZn is brass, CuZn_90_10 tombac")
-      .field("roughness", number().between(0, 1), "0: mirror; 0.5 and more: no mirror images, only highlights", "0.2");
+  type.optional("metal", choice(metal_names()), "chemical symbol; CuZn is brass, CuZn_90_10 tombac; or give `color`")
+      .optional("color", textured_share(), "reflectance at right angles, in place of a measured metal")
+      .field("edge_tint", textured_share(), "of `color`: factor of the reflectance at 82 degrees", "1")
+      .field("anisotropy", number().non_negative().below(1),
+             "0: round highlights; towards 1: stretched across the grain", "0")
+      .field("rotation", angle(), "of the grain from the direction in which u grows", "0");
+  type.example_fields = "metal: Cu";
+  declare_roughness(type, "roughness", "0: mirror; 0.5 and more: no mirror images, only highlights", "0.2");
   declare_normal_deviation(type);
   return type.built_by([](const Fields& f) {
-    return make_material(Conductor{f.text("metal"), f.number("roughness"), normal_deviation(f)});
+    if (f.has("metal") == f.has("color"))
+      throw FieldError(f.has("metal") ? "color" : "metal", "a conductor needs one of 'metal' and 'color'",
+                       "metal: Cu takes measured copper; color: [0.9, 0.6, 0.4] any reflectance");
+    Conductor conductor;
+    conductor.metal = f.has("metal") ? f.text("metal") : std::string();
+    conductor.roughness = roughness(f, "roughness");
+    conductor.anisotropy = f.number("anisotropy");
+    conductor.rotation = f.number("rotation");
+    if (f.has("color")) conductor.color = color_texture(f, "color");
+    conductor.edge_tint = color_texture(f, "edge_tint");
+    conductor.normal_deviation = normal_deviation(f);
+    return make_material(conductor);
   });
 }
 

@@ -1,7 +1,6 @@
 // Clear body: glass, crystal, liquid. Snell's refraction, Fresnel's reflectance, Bouguer's absorption (Golovanov 2016,
 // 8.4), the refractive index from the substance's dispersion formula.
-#include "render/materials/fresnel.h"
-#include "render/materials/gloss.h"
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
 
@@ -14,21 +13,28 @@ namespace {
 class DielectricMaterial final : public Material {
  public:
   explicit DielectricMaterial(const Dielectric& dielectric) : dielectric_(dielectric), index_d_(index(kLineD)) {
-    coefficients_.exponent = phong_exponent(dielectric.roughness);
-    coefficients_.specular = rgb(Vec3(phong_height(coefficients_.exponent, fresnel_dielectric(1, 1, index_d_))));
-    coefficients_.transmission = rgb(Vec3(1));
-    coefficients_.fresnel = Fresnel::boundary;
+    lobe_.index = index_d_;
+    lobe_.thin = dielectric.thin;
   }
 
-  ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
+  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+    Scattering s;
+    ClearLobe lobe = lobe_;
+    lobe.roughness = dielectric_.roughness.at(point);
+    s.lobes.add(lobe);
+    return s;
+  }
 
   std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
+    if (dielectric_.thin) return std::nullopt;
     const float nanometres = wavelengths.nanometres[0];
     return Medium{static_cast<float>(nanometres == kLineD ? index_d_ : index(nanometres)), rgb(dielectric_.absorption),
                   dielectric_.priority};
   }
   bool transmits() const override { return true; }
-  bool uses_parameters() const override { return dielectric_.normal_deviation.amplitude != 0; }
+  bool uses_parameters() const override {
+    return dielectric_.roughness.texture || dielectric_.normal_deviation.amplitude != 0;
+  }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, dielectric_.normal_deviation);
   }
@@ -44,7 +50,7 @@ class DielectricMaterial final : public Material {
 
   Dielectric dielectric_;
   double index_d_;  // computed once for the usual wavelength
-  ClassicCoefficients coefficients_;
+  ClearLobe lobe_;  // without its roughness
 };
 
 }  // namespace
@@ -62,8 +68,9 @@ TypeDeclaration dielectric_type() {
   type.optional("glass", choice(dielectric_names()), "substance; gives the index for every wavelength")
       .optional("index", number().positive(), "refractive index, the same for all wavelengths; 1.5 without `glass`")
       .field("absorption", color().non_negative(), "mu per unit of length: light falls by e^(-mu l)", "0")
-      .field("roughness", number().between(0, 1), "width of highlights", "0.1")
+      .field("thin", boolean(), "true: a pane, both its faces in one surface; light goes straight through", "false")
       .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0");
+  declare_roughness(type, "roughness", "0: clear; more: frosted, and wider highlights", "0");
   declare_normal_deviation(type);
   return type.built_by([](const Fields& f) {
     if (f.has("glass") && f.has("index"))
@@ -72,7 +79,8 @@ TypeDeclaration dielectric_type() {
     if (f.has("glass")) dielectric.glass = f.text("glass");
     if (f.has("index")) dielectric.index = f.number("index");
     dielectric.absorption = f.vec3("absorption");
-    dielectric.roughness = f.number("roughness");
+    dielectric.roughness = roughness(f, "roughness");
+    dielectric.thin = f.boolean("thin");
     dielectric.priority = f.integer("priority");
     dielectric.normal_deviation = normal_deviation(f);
     return make_material(dielectric);

@@ -1,4 +1,5 @@
 // Matt surface: Lambert's law, the same brightness from everywhere (Golovanov 2016, 8.4).
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -11,12 +12,18 @@ class DiffuseMaterial final : public Material {
  public:
   explicit DiffuseMaterial(const Diffuse& diffuse) : diffuse_(diffuse) {}
 
-  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    ClassicCoefficients c;
-    c.ambient = c.diffuse = diffuse_.color.at(point);
-    return c;
+  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+    Scattering s;
+    const double rough = diffuse_.roughness.at(point);
+    if (rough > 0)
+      s.lobes.add(RoughMattLobe{diffuse_.color.at(point), rough});
+    else
+      s.lobes.add(LambertLobe{diffuse_.color.at(point)});
+    return s;
   }
-  bool uses_parameters() const override { return diffuse_.color.texture() || diffuse_.normal_deviation.amplitude != 0; }
+  bool uses_parameters() const override {
+    return diffuse_.color.texture() || diffuse_.roughness.texture || diffuse_.normal_deviation.amplitude != 0;
+  }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, diffuse_.normal_deviation);
   }
@@ -38,9 +45,10 @@ TypeDeclaration diffuse_type() {
                                  "Matt surface: reflects light evenly in all directions. Classic reading: "
                                  "k_a = k_d = color.");
   type.field("color", textured_share(), "share of the light that is reflected", "0.8");
+  declare_roughness(type, "roughness", "0: Lambert's; up to 1: brighter towards the light, as clay and the moon", "0");
   declare_normal_deviation(type);
   return type.built_by([](const Fields& f) {
-    return make_material(Diffuse{color_texture(f, "color"), normal_deviation(f)});
+    return make_material(Diffuse{color_texture(f, "color"), roughness(f, "roughness"), normal_deviation(f)});
   });
 }
 

@@ -1,4 +1,5 @@
 // Surface that glows evenly in all directions: it shows its outline and its brightness (Golovanov 2016, 8.4).
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -11,10 +12,10 @@ class EmissionMaterial final : public Material {
  public:
   explicit EmissionMaterial(const Emission& emission) : emission_(emission) {}
 
-  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    ClassicCoefficients c;
-    c.emission = static_cast<float>(emission_.strength) * emission_.color.at(point);
-    return c;
+  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+    Scattering s;
+    s.emission = static_cast<float>(emission_.strength) * emission_.color.at(point);
+    return s;
   }
   bool uses_parameters() const override { return emission_.color.texture() != nullptr; }
   uint64_t cell(const SurfacePoint& point) const override { return emission_.color.cell(point); }

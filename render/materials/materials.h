@@ -1,10 +1,11 @@
 // Materials as plain values for C++ programs: fill in a struct, make_material() it. Scene files build the same structs.
-// What the `classic` integrator makes of each is stated at its declaration, in the file of its name.
+// What the `classic` integrator makes of each: integrators/classic_reading.h.
 #pragma once
 
 #include <string>
 
 #include "render/materials/normal_deviation.h"
+#include "render/materials/roughness.h"
 #include "render/materials/textured_color.h"
 
 namespace lekalo::render {
@@ -29,20 +30,25 @@ struct ClassicLook {
 
 struct Diffuse {
   TexturedColor color = 0.8;
+  Roughness roughness = 0;  // in [0, 1]; 0: Lambert's
   NormalDeviation normal_deviation;
 };
 
 // A coloured body under a clear coat.
 struct Plastic {
   TexturedColor color = 0.8;
-  double roughness = 0.4;  // in [0, 1]
-  double index = 1.5;      // of the coat
+  Roughness roughness = 0.4;  // in [0, 1]
+  double index = 1.5;         // of the coat
   NormalDeviation normal_deviation;
 };
 
 struct Conductor {
-  std::string metal = "Al";  // one of metal_names()
-  double roughness = 0.2;    // in [0, 1]
+  std::string metal = "Al";       // one of metal_names(); empty: `color`
+  Roughness roughness = 0.2;      // in [0, 1]
+  double anisotropy = 0;          // in [0, 1): 0 round highlights, towards 1 stretched ones
+  double rotation = 0;            // radians, of the grain, along which the surface is rougher, from r_u towards r_v
+  TexturedColor color = 0.9;      // reflectance at right angles
+  TexturedColor edge_tint = 1.0;  // its factor at 82 degrees
   NormalDeviation normal_deviation;
 };
 
@@ -50,9 +56,58 @@ struct Conductor {
 struct Dielectric {
   std::string glass;  // one of dielectric_names(); empty: `index`
   double index = 1.5;
-  Vec3 absorption{0};      // 1/length
-  double roughness = 0.1;  // of highlights
+  Vec3 absorption{0};       // 1/length
+  Roughness roughness = 0;  // in [0, 1]
   int priority = 0;
+  bool thin = false;  // a pane: both its faces in one, no substance behind
+  NormalDeviation normal_deviation;
+};
+
+// A matt body under a nap of fibres: velvet, felt.
+struct Cloth {
+  TexturedColor color = 0.5;
+  double roughness = 0.5;  // of the body, in [0, 1]
+  double sheen = 1;        // in [0, 1]
+  TexturedColor sheen_color = 1.0;
+  double sheen_roughness = 0.4;  // in [0, 1]
+  NormalDeviation normal_deviation;
+};
+
+// A thin matt sheet that light comes through: paper, a lamp shade, a leaf.
+struct TranslucentSheet {
+  TexturedColor color = 0.5;         // share of the light that is reflected
+  TexturedColor transmission = 0.3;  // share that comes through
+  NormalDeviation normal_deviation;
+};
+
+// Two materials side by side in grains too small to be seen.
+struct Mix {
+  MaterialPtr first, second;
+  TexturedColor share = 0.5;  // of the second
+};
+
+// A surface of layers by the parameters of OpenPBR 1.1 (Academy Software Foundation 2024), those of them that are here.
+struct Principled {
+  double base_weight = 1;
+  TexturedColor base_color = 0.8;
+  double base_metalness = 0;
+  double specular_weight = 1;
+  TexturedColor specular_color = 1.0;  // of metals: the tint at the edge
+  Roughness specular_roughness = 0.3;
+  double specular_roughness_anisotropy = 0;
+  double specular_ior = 1.5;
+  double transmission_weight = 0;
+  Vec3 transmission_color{1};
+  double transmission_depth = 0;  // where transmission_color is reached; 0: at the surface
+  double coat_weight = 0;
+  TexturedColor coat_color = 1.0;
+  double coat_roughness = 0;
+  double coat_ior = 1.6;
+  double fuzz_weight = 0;
+  TexturedColor fuzz_color = 1.0;
+  double fuzz_roughness = 0.5;
+  double emission_luminance = 0;  // radiance, multiplies the colour
+  TexturedColor emission_color = 1.0;
   NormalDeviation normal_deviation;
 };
 
@@ -72,6 +127,11 @@ MaterialPtr make_material(const Diffuse& diffuse);
 MaterialPtr make_material(const Plastic& plastic);
 MaterialPtr make_material(const Conductor& conductor);
 MaterialPtr make_material(const Dielectric& dielectric);
+MaterialPtr make_material(const Cloth& cloth);
+MaterialPtr make_material(const TranslucentSheet& sheet);
+// Throws std::invalid_argument if both have a substance behind them.
+MaterialPtr make_material(const Mix& mix);
+MaterialPtr make_material(const Principled& principled);
 MaterialPtr make_material(const Emission& emission);
 MaterialPtr make_material(const ShadowCatcher& catcher);
 

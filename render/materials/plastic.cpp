@@ -1,6 +1,5 @@
 // Coloured body under a clear coat of refractive index n: paint, porcelain, plastic.
-#include "render/materials/fresnel.h"
-#include "render/materials/gloss.h"
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -11,22 +10,20 @@ namespace {
 
 class PlasticMaterial final : public Material {
  public:
-  explicit PlasticMaterial(const Plastic& plastic) : plastic_(plastic) {
-    const double share = mirror_share(plastic.roughness);
-    const double reflectance = fresnel_dielectric(1, 1, plastic.index);
-    gloss_.exponent = phong_exponent(plastic.roughness);
-    gloss_.specular = rgb(Vec3(phong_height(gloss_.exponent, reflectance)));
-    gloss_.mirror = rgb(Vec3(share));
-    gloss_.fresnel = Fresnel::coat;
-    gloss_.index = Spectrum(static_cast<float>(plastic.index));
-  }
+  explicit PlasticMaterial(const Plastic& plastic)
+      : plastic_(plastic), roughness_(plastic.roughness, [index = plastic.index](double roughness) {
+          return coat_albedo(roughness, index);
+        }) {}
 
-  ClassicCoefficients classic(const SurfacePoint& point, const Wavelengths&) const override {
-    ClassicCoefficients c = gloss_;
-    c.ambient = c.diffuse = plastic_.color.at(point);
-    return c;
+  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+    Scattering s;
+    const auto [roughness, albedo] = roughness_.at(point);
+    s.lobes.add(CoatedMattLobe{plastic_.color.at(point), {roughness, plastic_.index, albedo}});
+    return s;
   }
-  bool uses_parameters() const override { return plastic_.color.texture() || plastic_.normal_deviation.amplitude != 0; }
+  bool uses_parameters() const override {
+    return plastic_.color.texture() || plastic_.roughness.texture || plastic_.normal_deviation.amplitude != 0;
+  }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, plastic_.normal_deviation);
   }
@@ -37,7 +34,7 @@ class PlasticMaterial final : public Material {
 
  private:
   Plastic plastic_;
-  ClassicCoefficients gloss_;
+  TabledRoughness roughness_;
 };
 
 }  // namespace
@@ -51,12 +48,12 @@ TypeDeclaration plastic_type() {
       "the coat's reflectance at right and at the actual angle: k_a = k_d = color; Phong's exponent "
       "n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 (n + 2)/2, at most 1; mirror = F (1 - 4 r^2)^2 up to r = 0.5.");
   type.field("color", textured_share(), "share of the light that the body reflects", "0.8")
-      .field("roughness", number().between(0, 1), "0: glossy; 1: a wide, faint highlight", "0.4")
       .field("index", number().at_least(1), "refractive index of the coat", "1.5");
+  declare_roughness(type, "roughness", "0: glossy; 1: a wide, faint highlight", "0.4");
   declare_normal_deviation(type);
   return type.built_by([](const Fields& f) {
     return make_material(
-        Plastic{color_texture(f, "color"), f.number("roughness"), f.number("index"), normal_deviation(f)});
+        Plastic{color_texture(f, "color"), roughness(f, "roughness"), f.number("index"), normal_deviation(f)});
   });
 }
 

@@ -1,4 +1,5 @@
 // Ground that looks like the background except where lights do not reach it.
+#include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 
 namespace lekalo::render {
@@ -10,17 +11,17 @@ namespace {
 class ShadowCatcherMaterial final : public Material {
  public:
   explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) : catcher_(catcher) {
-    coefficients_.ambient = coefficients_.diffuse = rgb(Vec3(catcher.strength));
-    coefficients_.catches_shadows = true;
+    scattering_.lobes.add(LambertLobe{rgb(Vec3(catcher.strength))});
+    scattering_.catches_shadows = true;
   }
-  ClassicCoefficients classic(const SurfacePoint&, const Wavelengths&) const override { return coefficients_; }
+  Scattering scattering(const SurfacePoint&, const Wavelengths&) const override { return scattering_; }
   bool uses_parameters() const override { return false; }
   Spectrum albedo(const SurfacePoint&, const Wavelengths&) const override { return {}; }
   std::any made_from() const override { return catcher_; }
 
  private:
   ShadowCatcher catcher_;
-  ClassicCoefficients coefficients_;
+  Scattering scattering_;
 };
 
 }  // namespace

@@ -12,7 +12,8 @@
 
 #include <cmath>
 
-#include "render/materials/fresnel.h"
+#include "render/integrators/classic_reading.h"
+#include "render/lobes/fresnel.h"
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
 #include "render/materials/textures.h"
@@ -170,19 +171,19 @@ std::string pov_material(const Material& material, const std::string& name, cons
     const Checker& k = *p.checker;
     point.u = k.offset.x + 0.5 * k.spacing.x;
     point.v = k.offset.y + 0.5 * k.spacing.y;
-    const std::string even = texture(material.classic(point, Wavelengths{}), name, notes);
+    const std::string even = texture(classic_reading(material, point, Wavelengths{}), name, notes);
     point.u += k.spacing.x;
-    const std::string odd = texture(material.classic(point, Wavelengths{}), name, notes);
+    const std::string odd = texture(classic_reading(material, point, Wavelengths{}), name, notes);
     const Affine cells{Mat3(k.spacing.x, 0, 0, 0, k.spacing.y, 0, 0, 0, 1), Vec3(k.offset, -0.5)};
     text = fmt::format("\n    checker\n    texture {{ {} }}\n    texture {{ {} }}\n   {}", even, odd,
                        pov(pov_frame(*parameters) * cells));
   } else {
     if (p.checker || p.other)
       notes.add(name + ": of textures only one checker on planes is written; elsewhere the colour at u = v = 0");
-    text = texture(material.classic(point, Wavelengths{}), name, notes);
+    text = texture(classic_reading(material, point, Wavelengths{}), name, notes);
   }
   return fmt::format("\n  material {{ texture {{ {} }}{} }}", text,
-                     interior(material, material.classic(point, Wavelengths{}), name, notes));
+                     interior(material, classic_reading(material, point, Wavelengths{}), name, notes));
 }
 
 }  // namespace lekalo::render

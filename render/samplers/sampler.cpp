@@ -59,6 +59,34 @@ Vec2 multi_jittered(uint32_t i, uint32_t count, uint64_t key) {
           std::fmin((s + jitter_y) / count, kBelowOne)};
 }
 
+uint32_t reversed(uint32_t x) {
+  x = (x >> 16) | (x << 16);
+  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+// Owen's scrambling in base 2: each bit is flipped or not by a hash of those above it (Laine and Karras 2011, with the
+// constants of Burley 2020).
+uint32_t scrambled(uint32_t x, uint32_t seed) {
+  x = reversed(x);
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return reversed(x);
+}
+
+// Second dimension of Sobol's sequence; the first is the reversed index.
+uint32_t second_sobol(uint32_t index) {
+  uint32_t result = 0;
+  for (uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
+    if (index & 1) result ^= v;
+  return result;
+}
+
 class StratifiedSampler final : public Sampler {
  public:
   StratifiedSampler(int samples, uint32_t seed) : samples_(samples), seed_(seed) {}
@@ -89,6 +117,14 @@ Vec2 SampleStream::next_pair() {
   if (count_ > 1 && sample_ < count_) return multi_jittered(sample_, count_, key);
   return {unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 1) * kGolden)),
           unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 2) * kGolden))};
+}
+
+Vec2 SampleStream::next_sobol_pair() {
+  const uint64_t key = mix(mix(pixel_key(x_, y_, seed_) + kGolden) + ++dimension_ * kGolden);
+  const uint32_t index = scrambled(sample_, static_cast<uint32_t>(mix(key + 1)));
+  const uint32_t x = scrambled(reversed(index), static_cast<uint32_t>(mix(key + 2)));
+  const uint32_t y = scrambled(second_sobol(index), static_cast<uint32_t>(mix(key + 3)));
+  return {x * 0x1p-32, y * 0x1p-32};
 }
 
 SamplerPtr make_stratified_sampler(int samples, uint32_t seed) {

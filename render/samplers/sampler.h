@@ -15,6 +15,9 @@ class SampleStream {
  public:
   SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed);
   Vec2 next_pair();  // uniform in [0, 1)^2
+  // The same from Sobol's first two dimensions, shuffled and scrambled as Owen's (Burley, "Practical hash-based Owen
+  // scrambling", 2020): evenest for counts that are powers of two.
+  Vec2 next_sobol_pair();
 
  private:
   uint32_t x_, y_, seed_, sample_, count_;

@@ -1,6 +1,7 @@
 #include "render/drawing/annotations/light_path.h"
 
 #include "render/integrators/boundary.h"
+#include "render/integrators/classic_reading.h"
 #include "render/integrators/phong_model.h"
 
 namespace lekalo::render {
@@ -30,7 +31,7 @@ std::vector<Vec3> light_path(const World& world, const LightPath& path) {
         next = *inward;
         media = at.behind;
       }
-    } else if (!at.material->classic(at.point, wavelengths).mirror.is_zero()) {
+    } else if (!classic_reading(*at.material, at.point, wavelengths).mirror.is_zero()) {
       reflects = true;
     } else {
       return corners;

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "render/cameras/cameras.h"
-#include "render/integrator.h"
+#include "render/integrators/classic_reading.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/materials/textures.h"
@@ -51,13 +51,14 @@ TEST(Declarations, FamiliesAreWhole) {
     EXPECT_EQ(found, names);
   };
   check(material_types(), Category::material,
-        {"classic", "diffuse", "plastic", "conductor", "dielectric", "emission", "shadow_catcher"});
+        {"classic", "diffuse", "plastic", "conductor", "dielectric", "principled", "cloth", "translucent_sheet", "mix",
+         "emission", "shadow_catcher"});
   check(texture_types(), Category::texture, {"checker", "grid", "parameter_lines", "image"});
-  check(
-      light_types(), Category::light,
-      {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light", "ambient_light"});
+  check(light_types(), Category::light,
+        {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light",
+         "environment_light", "profile_light", "ambient_light"});
   check(camera_types(), Category::camera, {"graph", "perspective", "parallel"});
-  check(integrator_types(), Category::integrator, {"classic"});
+  check(integrator_types(), Category::integrator, {"classic", "path", "direct_lighting", "ambient_occlusion"});
 }
 
 TEST(Declarations, ColourFieldsTakeColoursAndTextures) {
@@ -67,11 +68,13 @@ TEST(Declarations, ColourFieldsTakeColoursAndTextures) {
   point.v = 0.5;
   Fields plain;
   plain.set("color", Vec3(0.1, 0.2, 0.3));
+  plain.set("roughness", 0.0);
   const auto material = std::any_cast<MaterialPtr>(diffuse.build(plain));
-  EXPECT_EQ(material->classic(point, {}).diffuse, Spectrum(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(classic_reading(*material, point, {}).diffuse, Spectrum(0.1f, 0.2f, 0.3f));
   Fields textured;
+  textured.set("roughness", 0.0);
   textured.set("color", make_texture(Checker{.color = 0.25}));
-  EXPECT_EQ(std::any_cast<MaterialPtr>(diffuse.build(textured))->classic(point, {}).diffuse[1], 0.25f);
+  EXPECT_EQ(classic_reading(*std::any_cast<MaterialPtr>(diffuse.build(textured)), point, {}).diffuse[1], 0.25f);
 }
 
 TEST(Declarations, GlassKnowsItsIndexForEveryWavelength) {
@@ -80,6 +83,7 @@ TEST(Declarations, GlassKnowsItsIndexForEveryWavelength) {
   fields.set("absorption", Vec3(0));
   fields.set("roughness", 0.1);
   fields.set("priority", 0);
+  fields.set("thin", false);
   const auto glass = std::any_cast<MaterialPtr>(type(material_types(), "dielectric").build(fields));
   EXPECT_NEAR(glass->interior({{587.5618f, 0, 0, 0}})->index, 1.5168, 1e-6);
   EXPECT_NEAR(glass->interior({{435.8343f, 0, 0, 0}})->index, 1.52668, 1e-5);  // Schott's data sheet, line g

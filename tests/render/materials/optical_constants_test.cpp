@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "render/materials/fresnel.h"
+#include "render/lobes/fresnel.h"
 
 namespace lekalo::render::optical_constants_test {
 namespace {

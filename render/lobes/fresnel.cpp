@@ -1,4 +1,4 @@
-#include "render/materials/fresnel.h"
+#include "render/lobes/fresnel.h"
 
 #include <algorithm>
 #include <cmath>

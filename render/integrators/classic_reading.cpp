@@ -1,0 +1,89 @@
+#include "render/integrators/classic_reading.h"
+
+#include "render/integrators/gloss.h"
+#include "render/lobes/fresnel.h"
+
+namespace lekalo::render {
+
+namespace {
+
+// Adds a lobe of the given weight to the coefficients.
+class Reader {
+ public:
+  Reader(ClassicCoefficients& c, const Spectrum& weight) : c_(c), weight_(weight) {}
+
+  void operator()(const LambertLobe& lobe) { matt(lobe.albedo); }
+  void operator()(const RoughMattLobe& lobe) { matt(lobe.albedo); }
+  void operator()(const SheetLobe& lobe) { matt(lobe.reflectance); }
+  void operator()(const SheenLobe&) {}
+  void operator()(const PhongLobe& lobe) {
+    c_.specular += weight_ * lobe.height;
+    c_.exponent = static_cast<float>(lobe.exponent);
+  }
+  void operator()(const BoundaryLobe& lobe) {
+    c_.mirror += weight_ * lobe.mirror;
+    c_.transmission += weight_ * lobe.transmission;
+    c_.fresnel = lobe.fresnel ? Fresnel::boundary : Fresnel::none;
+  }
+  void operator()(const CoatLobe& lobe) {
+    gloss(lobe.roughness, fresnel_dielectric(1, 1, lobe.index));
+    c_.mirror += weight_ * rgb(Vec3(mirror_share(lobe.roughness)));
+    c_.fresnel = Fresnel::coat;
+    c_.index = Spectrum(static_cast<float>(lobe.index));
+  }
+  void operator()(const CoatedMattLobe& lobe) {
+    matt(lobe.albedo);
+    (*this)(lobe.coat);
+  }
+  void operator()(const MetalLobe& lobe) {
+    const double share = mirror_share(lobe.roughness);
+    const Spectrum reflectance = lobe.reflectance.at(1);
+    c_.exponent = phong_exponent(lobe.roughness);
+    const Spectrum ambient = static_cast<float>(1 - share) * reflectance;
+    c_.ambient += weight_ * ambient;
+    c_.diffuse += weight_ * (static_cast<float>(lobe.roughness) * ambient);
+    c_.specular += weight_ * (static_cast<float>(phong_height(c_.exponent, 1 - share)) * reflectance);
+    const Spectrum mirror(static_cast<float>(share));
+    if (lobe.reflectance.measured()) {
+      c_.mirror += weight_ * mirror;
+      c_.fresnel = Fresnel::conductor;
+      c_.index = lobe.reflectance.n;
+      c_.extinction = lobe.reflectance.k;
+    } else {
+      c_.mirror += weight_ * (mirror * reflectance);
+      c_.fresnel = Fresnel::none;
+    }
+  }
+  void operator()(const ClearLobe& lobe) {
+    gloss(lobe.roughness, fresnel_dielectric(1, 1, lobe.index));
+    c_.transmission += weight_ * lobe.tint * Spectrum(1, 1, 1, 0);
+    c_.fresnel = lobe.thin ? Fresnel::none : Fresnel::boundary;
+  }
+
+ private:
+  void matt(const Spectrum& albedo) {
+    c_.ambient += weight_ * albedo;
+    c_.diffuse += weight_ * albedo;
+  }
+  void gloss(double roughness, double reflectance) {
+    c_.exponent = phong_exponent(roughness);
+    c_.specular += weight_ * rgb(Vec3(phong_height(c_.exponent, reflectance)));
+  }
+
+  ClassicCoefficients& c_;
+  Spectrum weight_;
+};
+
+}  // namespace
+
+ClassicCoefficients classic_reading(const Scattering& scattering) {
+  ClassicCoefficients c;
+  c.emission = scattering.emission;
+  c.two_sided = scattering.two_sided;
+  c.catches_shadows = scattering.catches_shadows;
+  for (const WeightedLobe& part : scattering.lobes) std::visit(Reader(c, part.weight), part.lobe);
+  if (scattering.ambient) c.ambient = *scattering.ambient;
+  return c;
+}
+
+}  // namespace lekalo::render

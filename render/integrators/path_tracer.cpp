@@ -1,0 +1,310 @@
+#include "render/integrators/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/integrators/phong_model.h"
+#include "render/lobes/bsdf.h"
+#include "render/materials/optical_constants.h"
+#include "render/materials/textured_color.h"
+
+namespace lekalo::render {
+
+using geometry::kInfinity;
+using geometry::kPi;
+
+namespace {
+
+// Boundaries in a row that are no boundaries for light; more can only be a broken scene.
+constexpr int kMaxPasses = 1000;
+// Paths live at least so many bounces, and then by chance (Russian roulette).
+constexpr int kSafeBounces = 4;
+constexpr double kLongestLife = 0.95;
+// Share of the choice of lamps that does not look at how bright they seem.
+constexpr double kBlindChoice = 0.1;
+const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
+const Wavelengths kPrimaries;
+const Spectrum kWhite{1, 1, 1, 0};
+
+double power_heuristic(double own, double other) {
+  const double ratio = other / own;
+  return 1 / (1 + ratio * ratio);
+}
+
+// What a ray sees, normals on the viewer's side.
+struct SurfacePlace : Boundary {
+  SurfacePlace(const World& world, const Ray& ray, const Hit& hit, Media& media)
+      : Boundary(world, ray, hit, kYellow, media),
+        geometric_normal(front ? point.geometric_normal : -point.geometric_normal) {}
+
+  Vec3 shading_normal(const Vec3& direction) const {
+    Vec3 normal = material->shading_normal(point);
+    if (!front) normal = -normal;
+    // Near the outline of a mesh it may look away from the viewer; then the facet's own is taken.
+    return glm::dot(direction, normal) < 0 ? normal : geometric_normal;
+  }
+  Vec3 geometric_normal;
+};
+
+class PathTracer {
+ public:
+  PathTracer(const World& world, SampleStream& random, const PathOptions& options, RaySample& sample)
+      : world_(world), random_(random), options_(options), sample_(sample) {
+    for (const LightPtr& lamp : world.lamps()) has_backdrop_ = has_backdrop_ || lamp->is_backdrop();
+  }
+
+  void trace(Ray ray, Hit hit, Media media);
+
+ private:
+  // Where the ray was drawn: what lamps would have been asked there.
+  struct Origin {
+    bool eye = true;
+    bool sharp = true;  // by a mirror or a smooth boundary: no lamp could have been
+    Vec3 point{0};
+    double density = 0;           // of the direction
+    double gone = 0;              // way to the present ray's origin
+    std::vector<double> choices;  // of each lamp
+  };
+
+  void add(const Spectrum& light);
+  Spectrum surroundings() const;
+  void add_lamps_along(const Ray& ray, double end, const Medium& medium);
+  void add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
+  void choose_lamps(const Vec3& point);
+  void add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media);
+  void record(const SurfacePlace& seen);
+
+  const World& world_;
+  SampleStream& random_;
+  const PathOptions& options_;
+  RaySample& sample_;
+  bool has_backdrop_ = false;
+  Origin origin_;
+  std::vector<double> choices_;  // of lamps at the present place
+  Spectrum share_ = kWhite;      // of the light at the end of the path that reaches the eye
+  bool shown_ = true;            // the path is an image in mirrors and smooth boundaries
+  int bounces_ = 0, scatterings_ = 0;
+  double way_ = 0;
+};
+
+void PathTracer::add(const Spectrum& light) {
+  Spectrum arriving = share_ * light;
+  if (options_.clamp > 0 && bounces_ > 1 && arriving.largest() > options_.clamp)
+    arriving *= static_cast<float>(options_.clamp / arriving.largest());
+  sample_.radiance += arriving;
+}
+
+Spectrum PathTracer::surroundings() const {
+  if (shown_) return has_backdrop_ ? Spectrum() : world_.model().background;  // else a lamp has brought it
+  return options_.background_shines ? world_.ambient() + world_.model().background : world_.ambient();
+}
+
+void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& medium) {
+  const std::vector<LightPtr>& lamps = world_.lamps();
+  for (size_t i = 0; i < lamps.size(); ++i) {
+    if (origin_.eye && !lamps[i]->is_backdrop()) continue;
+    const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
+    if (!lamp || lamp->irradiance.is_zero()) continue;
+    const bool here = lamps[i]->casts_shadows() ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
+                                                : origin_.gone == 0;
+    if (!here) continue;
+    const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
+    const Spectrum light = static_cast<float>(weight * lamp->density) * lamp->irradiance *
+                           transmittance(medium.absorption, lamp->distance - origin_.gone);
+    if (bounces_ == 1 && !origin_.sharp) sample_.direct += share_ * light;
+    add(light);
+  }
+}
+
+void PathTracer::choose_lamps(const Vec3& point) {
+  const std::vector<LightPtr>& lamps = world_.lamps();
+  choices_.assign(lamps.size(), 1);
+  if (lamps.size() < 2) return;
+  double sum = 0;
+  for (size_t i = 0; i < lamps.size(); ++i) {
+    choices_[i] = lamps[i]->sample_all(point, Vec2(0.5)).irradiance.largest();
+    if (!std::isfinite(choices_[i])) choices_[i] = 0;
+    sum += choices_[i];
+  }
+  const double n = static_cast<double>(lamps.size());
+  for (double& choice : choices_) choice = sum > 0 ? (1 - kBlindChoice) * choice / sum + kBlindChoice / n : 1 / n;
+}
+
+void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
+                          const Vec2& square) {
+  if (world_.lamps().empty()) return;
+  double place = choice.x;
+  size_t i = 0;
+  while (i + 1 < choices_.size() && place >= choices_[i]) place -= choices_[i++];
+  const Light& lamp = *world_.lamps()[i];
+  const LightSample sample = lamp.sample_all(seen.point.position, square);
+  if (sample.irradiance.is_zero()) return;
+  const Spectrum reflected = bsdf.evaluate(sample.direction);
+  if (reflected.is_zero()) return;
+  Spectrum visible = kWhite;
+  if (lamp.casts_shadows()) {
+    const bool behind = glm::dot(sample.direction, seen.geometric_normal) < 0;
+    Ray ray;
+    ray.kind = RayKind::shadow;
+    world_.leave(behind ? seen.far_side() : seen.near_side(), behind ? -seen.geometric_normal : seen.geometric_normal,
+                 ray);
+    ray.direction = sample.direction;
+    ray.t_max = sample.distance;
+    visible = unobstructed(world_, ray, behind ? seen.behind : media, sample_);
+    if (visible.is_zero()) return;
+  }
+  const double chosen = choices_[i];
+  const double weight =
+      sample.density > 0 ? power_heuristic(chosen * sample.density, bsdf.density(sample.direction)) : 1;
+  const Spectrum light = static_cast<float>(weight / chosen) * (visible * reflected * sample.irradiance);
+  if (bounces_ == 0) sample_.direct += share_ * light;
+  ++bounces_;
+  add(light);
+  --bounces_;
+}
+
+void PathTracer::add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media) {
+  Spectrum open, lit;
+  for (const LightPtr& lamp : world_.lamps()) {
+    const LightSample sample = lamp->sample_all(seen.point.position, random_.next_sobol_pair());
+    const double cosine = glm::dot(sample.direction, seen.geometric_normal);
+    if (cosine <= 0) continue;
+    const Spectrum light = static_cast<float>(cosine / kPi) * sample.irradiance;
+    open += light;
+    Spectrum visible = kWhite;
+    if (lamp->casts_shadows()) {
+      Ray ray;
+      ray.kind = RayKind::shadow;
+      world_.leave(seen.near_side(), seen.geometric_normal, ray);
+      ray.direction = sample.direction;
+      ray.t_max = sample.distance;
+      visible = unobstructed(world_, ray, media, sample_);
+    }
+    lit += visible * light;
+  }
+  Spectrum missing;
+  for (int i = 0; i < 3; ++i) {
+    const float all = world_.ambient()[i] + open[i];
+    if (all > 0) missing.set(i, strength[i] * (open[i] - lit[i]) / all);
+  }
+  if (bounces_ == 0) sample_.alpha = missing.largest();
+  add((kWhite - missing) * world_.model().background);
+}
+
+void PathTracer::record(const SurfacePlace& seen) {
+  sample_.alpha = 1;
+  sample_.noisy = true;
+  sample_.point = seen.point;
+  sample_.depth = way_;
+  sample_.key = hash_combine(hash_combine(static_cast<uint64_t>(seen.point.instance + 1), seen.point.face),
+                             seen.material->cell(seen.point));
+}
+
+void PathTracer::trace(Ray ray, Hit hit, Media media) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    if (pass > 0 && !world_.nearest(ray, hit)) hit.instance = -1;
+    const Medium medium = media.current();
+    const double end = hit.instance < 0 ? kInfinity : hit.t;
+    add_lamps_along(ray, end, medium);
+    if (hit.instance < 0) {
+      share_ *= transmittance(medium.absorption, kInfinity);
+      add(surroundings());
+      return;
+    }
+    const SurfacePlace seen(world_, ray, hit, media);
+    share_ *= transmittance(media.current().absorption, hit.t);
+    way_ += hit.t;
+    const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
+    if (seen.changes_filling && scattering.catches_shadows && seen.front && shown_) {
+      if (bounces_ == 0) record(seen);
+      add_caught_shadow(seen, matt_reflectance(scattering), media);
+      return;
+    }
+    if (!seen.changes_filling || scattering.catches_shadows) {
+      media = seen.behind;
+      origin_.gone += hit.t;
+      world_.leave(seen.far_side(), ray.direction, ray);
+      continue;
+    }
+    if (bounces_ == 0 && !sample_.point) record(seen);
+    add(scattering.emission);
+    if (!seen.front && !scattering.two_sided) return;
+    if (bounces_ > options_.max_depth || scatterings_ > options_.max_scatterings) return;
+
+    const Vec3 normal = seen.shading_normal(ray.direction);
+    const Sides sides{media.current().index, seen.behind.current().index};
+    const Bsdf bsdf(scattering, normal, seen.geometric_normal, seen.point.du, -ray.direction, sides);
+    if (bsdf.is_black()) return;
+    const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
+    const Vec2 lobe_choice = random_.next_sobol_pair(), lobe_square = random_.next_sobol_pair();
+    choose_lamps(seen.point.position);
+    add_lamp(seen, bsdf, media, lamp_choice, lamp_square);
+    const std::optional<BsdfSample> next = bsdf.sample(lobe_choice, lobe_square);
+    if (!next) return;
+    share_ *= next->share;
+    ++sample_.other_rays;
+    const bool straight = next->sharp && glm::dot(next->in, ray.direction) > 1 - 1e-14;
+    if (straight) {  // for lamps as if nothing had been there
+      origin_.gone += hit.t;
+    } else {
+      ++bounces_;
+      scatterings_ += !next->sharp;
+      shown_ = shown_ && next->sharp;
+      origin_.eye = false;
+      origin_.sharp = next->sharp;
+      origin_.point = seen.point.position;
+      origin_.density = next->density;
+      origin_.gone = 0;
+      origin_.choices.swap(choices_);
+      if (bounces_ > kSafeBounces) {
+        const double life = std::min(kLongestLife, static_cast<double>(share_.largest()));
+        if (lobe_choice.y >= life) return;
+        share_ *= static_cast<float>(1 / life);
+      }
+    }
+    const bool passes = glm::dot(next->in, seen.geometric_normal) < 0;
+    if (passes) media = seen.behind;
+    world_.leave(passes ? seen.far_side() : seen.near_side(), next->in, ray);
+    ray.direction = next->in;
+    ray.t_max = kInfinity;
+    if (!origin_.eye) ray.kind = RayKind::reflection;
+  }
+}
+
+}  // namespace
+
+Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& around, RaySample& sample) {
+  ++sample.shadow_rays;
+  if (!world.has_transmitting_materials()) return world.occluded(shadow_ray) ? Spectrum() : kWhite;
+  Ray ray = shadow_ray;
+  Media media = around;
+  Spectrum share = kWhite;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    Hit hit;
+    if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
+    const SurfacePlace met(world, ray, hit, media);
+    if (!met.material->transmits()) return {};
+    share *= transmittance(media.current().absorption, hit.t);
+    if (met.changes_filling) {
+      const Sides sides{media.current().index, met.behind.current().index};
+      const double cosine = std::fabs(glm::dot(ray.direction, met.shading_normal(ray.direction)));
+      share *= straight_share(met.material->scattering(met.point, kPrimaries), cosine, sides);
+    }
+    if (share.is_zero()) return {};
+    media = met.behind;
+    const Vec3 before = ray.origin;
+    world.leave(met.far_side(), ray.direction, ray);
+    ray.t_max -= glm::dot(ray.origin - before, ray.direction);
+  }
+  return {};
+}
+
+RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
+                     const PathOptions& options) {
+  RaySample sample;
+  PathTracer tracer(world, random, options, sample);
+  tracer.trace(ray, first, media_at_origin(world, ray, kYellow));
+  return sample;
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,39 @@
+// Light along one path that is followed from the eye (Kajiya 1986): what the integrators `path` and `direct_lighting`
+// share.
+//
+// At each surface one lamp is asked for its light (next-event estimation), and one direction is drawn from the lobes;
+// light that both would bring counts by the power heuristic (Veach 1997). Which estimator brings which light, D a
+// surface or lobe that spreads light, S a mirror or smooth boundary, L a lamp that has a size, P one that has none, A
+// ambient light, E an object that glows, from the eye:
+//
+//   any path that ends D L      both, weighted
+//   any path that ends D P      the lamp
+//   any path that ends S L      the drawn direction
+//   any path that ends E or A   the drawn direction
+//   any path that ends S P      nothing: mirrors and lenses would have to find a point; the light is left out
+//
+// Radiance is that over the square of the refractive index of the place.
+#pragma once
+
+#include "render/integrator.h"
+#include "render/integrators/boundary.h"
+
+namespace lekalo::render {
+
+class Bsdf;
+
+struct PathOptions {
+  int max_depth = 64;          // reflections and refractions of a path, in [0, 1000]
+  int max_scatterings = 1000;  // those of them that are no mirrors and smooth boundaries
+  double clamp = 0;  // light that reached the eye over two and more surfaces is at most so bright; 0: as it is
+  bool background_shines = false;  // the background lights the scene from everywhere
+};
+
+RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
+                     const PathOptions& options);
+
+// Share of light that arrives along a shadow ray: nothing through what refracts, straight through the rest of what is
+// clear, by Bouguer's law in substances.
+Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& media, RaySample& sample);
+
+}  // namespace lekalo::render

@@ -1,0 +1,104 @@
+#include "render/lobes/clear_lobe.h"
+
+#include <cmath>
+
+#include "render/lobes/classic_lobes.h"
+#include "render/lobes/fresnel.h"
+#include "render/lobes/microfacet.h"
+
+namespace lekalo::render {
+
+namespace {
+
+// The facet that reflects or refracts one direction into the other, on the viewer's side; none for a facet whose other
+// side is met.
+std::optional<Vec3> facet(const Vec3& out, const Vec3& in, double eta) {
+  Vec3 h = in.z > 0 ? out + in : out + eta * in;
+  const double length = glm::length(h);
+  if (length < 1e-12) return std::nullopt;
+  h = h / length;
+  if (h.z < 0) h = -h;
+  if (glm::dot(out, h) <= 0 || glm::dot(in, h) * in.z <= 0) return std::nullopt;
+  return h;
+}
+
+Vec3 flipped(const Vec3& w) { return {w.x, w.y, -w.z}; }
+
+}  // namespace
+
+bool ClearLobe::smooth(const Sides& sides) const {
+  return microfacets(roughness, 0).smooth() || (!thin && sides.near == sides.behind);
+}
+
+double ClearLobe::pane_reflectance(double cosine, const Sides& sides) const {
+  const double f = fresnel_dielectric(cosine, sides.near, index);
+  return f < 1 ? 2 * f / (1 + f) : 1;
+}
+
+Spectrum ClearLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const {
+  if (smooth(sides) || in.z == 0) return {};
+  const Microfacets facets = microfacets(roughness, 0);
+  const double eta = thin ? 1 : sides.behind / sides.near;
+  // What passes through a rough pane is spread as its mirror image is.
+  const bool passes = in.z < 0;
+  const Vec3 to = thin && passes ? flipped(in) : in;
+  const std::optional<Vec3> h = facet(out, to, eta);
+  if (!h) return {};
+  const double along = glm::dot(out, *h);
+  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  const double share = facets.facets(*h) * facets.seen_and_lit(out, to) / out.z;
+  if (!passes) return Spectrum(static_cast<float>(f * share / 4));
+  if (thin) return static_cast<float>((1 - f) * share / 4) * tint;
+  const double across = glm::dot(in, *h), width = across + along / eta;
+  return static_cast<float>((1 - f) * share * std::fabs(across * along) / (width * width)) * tint;
+}
+
+double ClearLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) const {
+  if (smooth(sides) || in.z == 0) return 0;
+  const Microfacets facets = microfacets(roughness, 0);
+  const double eta = thin ? 1 : sides.behind / sides.near;
+  const bool passes = in.z < 0;
+  const std::optional<Vec3> h = facet(out, thin && passes ? flipped(in) : in, eta);
+  if (!h) return 0;
+  const double along = glm::dot(out, *h), visible = facets.visible_facets(out, *h);
+  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  if (!passes || thin) return (passes ? 1 - f : f) * visible / (4 * along);
+  const double across = glm::dot(in, *h), width = across + along / eta;
+  return (1 - f) * visible * std::fabs(across) / (width * width);
+}
+
+Spectrum ClearLobe::straight_share(const Vec3& out, const Sides& sides) const {
+  if (!smooth(sides)) return {};
+  if (thin) return static_cast<float>(1 - pane_reflectance(out.z, sides)) * tint;
+  return sides.near == sides.behind ? tint : Spectrum();
+}
+
+LobeSample ClearLobe::smooth_sample(const Vec3& out, double choice, const Sides& sides) const {
+  const double f = thin ? pane_reflectance(out.z, sides) : fresnel_dielectric(out.z, sides.near, sides.behind);
+  if (choice < f) return {mirrored(out), true, f, Spectrum(static_cast<float>(f))};
+  const std::optional<Vec3> behind = thin ? -out : refracted_behind(out, sides);
+  if (!behind) return {};
+  return {*behind, true, 1 - f, static_cast<float>(1 - f) * tint};
+}
+
+LobeSample ClearLobe::sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const {
+  if (smooth(sides)) return smooth_sample(out, choice.x, sides);
+  const Vec3 h = microfacets(roughness, 0).visible_facet(out, square);
+  const double along = glm::dot(out, h);
+  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  Vec3 in = 2 * along * h - out;
+  if (choice.x < f) {
+    if (in.z <= 0) return {};
+  } else if (thin) {
+    if (in.z <= 0) return {};
+    in = flipped(in);
+  } else {
+    const double eta = sides.near / sides.behind, square_cosine = 1 - eta * eta * (1 - along * along);
+    if (square_cosine <= 0) return {};
+    in = -eta * out + (eta * along - std::sqrt(square_cosine)) * h;
+    if (in.z >= 0) return {};
+  }
+  return {in, false, density(out, in, sides), evaluate(out, in, sides)};
+}
+
+}  // namespace lekalo::render

@@ -1,0 +1,39 @@
+// Lobes of clear coats: over a matt body (plastic, porcelain), and alone, to lie over other lobes.
+#pragma once
+
+#include "render/lobes/lobe.h"
+#include "render/lobes/lobe_albedo.h"
+
+namespace lekalo::render {
+
+// The reflection of a coat of an index in air, smooth or of GGX facets.
+struct CoatLobe {
+  double roughness = 0;
+  double index = 1.5;
+  const LobeAlbedo* albedo = nullptr;  // coat_albedo of both
+
+  Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
+  double density(const Vec3& out, const Vec3& in, const Sides& sides) const;
+  LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
+  double importance(const Vec3& out, const Sides&) const;
+};
+
+// A coat over a matt body. With E the reflectance of the coat by angle and E_mean its mean, the body adds
+//   f = a (1 - E(out)) (1 - E(in)) / (pi (1 - E_mean)),  a = albedo (1 - R) / (1 - albedo R),
+// R = 1 - (1 - E_mean) / index^2 the share of the body's light that the coat sends back inside: what a white body under
+// a lossless coat does not mirror it all returns.
+struct CoatedMattLobe {
+  Spectrum albedo;
+  CoatLobe coat;
+
+  Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
+  double density(const Vec3& out, const Vec3& in, const Sides& sides) const;
+  LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
+  double importance(const Vec3& out, const Sides& sides) const;
+  Spectrum body_share() const;  // a
+
+ private:
+  double coat_probability(const Vec3& out) const;
+};
+
+}  // namespace lekalo::render

@@ -1,0 +1,185 @@
+// Path tracing against closed forms, within three standard errors of the mean.
+#include "render/integrators/path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/lobes/fresnel.h"
+#include "tests/render/small_scene.h"
+
+namespace lekalo::render::path_test {
+
+namespace {
+
+using geometry::kPi;
+
+struct Estimate {
+  double mean, error;
+};
+
+// Of the first lane, seen along a ray by `count` samples.
+Estimate estimate(const World& world, const Vec3& origin, const Vec3& direction, int count) {
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = glm::normalize(direction);
+  Hit first;
+  if (!world.nearest(ray, first)) first.instance = -1;
+  // Blocks of samples that are even in themselves, so that the error of their mean can be told.
+  constexpr int kBlocks = 32;
+  double sum = 0, squares = 0;
+  for (int block = 0; block < kBlocks; ++block) {
+    double of_block = 0;
+    for (int i = 0; i < count / kBlocks; ++i) {
+      SampleStream random(block, 0, i, count / kBlocks, 1);
+      of_block += world.model().integrator->trace(world, ray, first, random).radiance[0];
+    }
+    of_block /= count / kBlocks;
+    sum += of_block;
+    squares += of_block * of_block;
+  }
+  const double mean = sum / kBlocks;
+  return {mean, std::sqrt(std::max(0.0, squares / kBlocks - mean * mean) / (kBlocks - 1))};
+}
+
+std::shared_ptr<const World> world(const SmallScene& scene, const PathOptions& options = {}) {
+  auto finished = std::make_shared<Model>(scene.model);
+  finished->integrator = make_path_integrator(options);
+  return std::make_shared<World>(finished);
+}
+
+void expect_mean(const Estimate& found, double truth, const char* what, double most_error) {
+  EXPECT_NEAR(found.mean, truth, 3 * found.error + 1e-6 * truth) << what;
+  EXPECT_LT(found.error, most_error * truth) << what;
+}
+
+TEST(Path, SphereLightOverAPlane) {
+  // A ball of radiance L = I / sin(a)^2 (light.h: E = pi I on a surface that faces its middle) whose middle stands at
+  // the angle b from the normal and that is all above the horizon gives E = pi L sin(a)^2 cos(b).
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 0.5}));
+  scene.light(SphereLight{.center = {0.6, 0, 0.8}, .radius = 0.3, .lamp = {.intensity = 2}});
+  const auto w = world(scene);
+  const double facing = 2 * 0.8 * 0.5;
+  expect_mean(estimate(*w, {0, -3, 3}, {0, 3, -3}, 4096), facing, "sphere", 1e-3);
+}
+
+TEST(Path, GlossySphereLightIsTheSameByBothEstimators) {
+  // A mirror finds the lamp by the drawn direction alone; a very rough metal mostly by the lamp.
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Conductor{.metal = "", .roughness = 0, .color = 0.5}));
+  scene.light(SphereLight{.center = {0, 3, 3}, .radius = 0.5, .lamp = {.intensity = 2}});
+  const double sine = 0.5 / std::sqrt(18.0), height = 1 - std::sqrt(1 - sine * sine);
+  // Radiance of the ball seen from the plane: irradiance over the solid angle, weighted to the mean cosine.
+  const double radiance = 2 * kPi / (1 - 0.5 * height) / (2 * kPi * height);
+  const double f = 0.5 + 0.5 * std::pow(1 - std::sqrt(0.5), 5);
+  expect_mean(estimate(*world(scene), {0, -3, 3}, {0, 3, -3}, 64), f * radiance, "mirror", 1e-6);
+}
+
+TEST(Path, RectangleLightFormFactor) {
+  // A matt emitter of radiance pi I / A, one-sided, parallel over the place: form factor of a corner (Howell's B-3),
+  // four times, F = (2 / pi) (a / sqrt(1 + a^2)) atan(a / sqrt(1 + a^2)) for a square of half side a at distance 1.
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
+  RectangleLight light;
+  light.frame = geometry::frame_about({0, 0, 1}, {0, 0, -1});
+  light.size = {2, 2};
+  light.one_sided = true;
+  light.lamp.inverse_square = true;
+  light.lamp.intensity = 1;
+  scene.light(light);
+  const double root = std::sqrt(2.0);
+  const double form = 4 / (kPi * 1.0) * (1 / root) * std::atan(1 / root);
+  expect_mean(estimate(*world(scene), {0, -3, 0.5}, {0, 3, -0.5}, 8192), form * kPi / 4, "rectangle", 2e-3);
+}
+
+TEST(Path, MattBallInsideAGlowingOne) {
+  // In a closed hall of emission e and albedo r the radiance is e / (1 - r) everywhere.
+  SmallScene scene;
+  ClassicLook look;
+  look.color = 1.0;
+  look.diffuse = 0.6;
+  look.emission = 0.4;
+  scene.add(sphere({0, 0, 0}, 2), make_material(look));
+  const Estimate found = estimate(*world(scene), {0, 0, 0}, {1, 0.3, 0.2}, 2048);
+  expect_mean(found, 1, "enclosure", 5e-3);
+}
+
+TEST(Path, WhiteFurnace) {
+  // Whatever stands in light that is the same from everywhere and takes nothing looks like that light.
+  for (const bool clear : {false, true}) {
+    SmallScene scene;
+    scene.light(AmbientLight{.intensity = 1});
+    scene.model.background = Spectrum(1, 1, 1);
+    scene.add(sphere({0, 0, 0}, 1),
+              clear ? make_material(Dielectric{.index = 1.5}) : make_material(Diffuse{.color = 1.0}));
+    for (const double x : {0.0, 0.5, 0.9})
+      expect_mean(estimate(*world(scene), {x, 0, 4}, {0, 0, -1}, 2048), 1, clear ? "glass" : "white", 2e-3);
+  }
+}
+
+TEST(Path, SlabReflectsAndAbsorbs) {
+  // Incoherent plane slab, R of one face, T = exp(-mu d): reflectance R (1 + (1 - R)^2 T^2 / (1 - R^2 T^2)),
+  // transmittance (1 - R)^2 T / (1 - R^2 T^2), at right angles.
+  SmallScene scene;
+  scene.light(AmbientLight{.intensity = 0});
+  scene.model.background = Spectrum(1, 1, 1);
+  Dielectric glass{.index = 1.5};
+  glass.absorption = Vec3(0.7);
+  scene.add(slab(0, 1), make_material(glass));
+  const double r = 0.04, t = std::exp(-0.7);
+  const double truth = r + (1 - r) * (1 - r) * t / (1 - r * t);  // of both together, for light from both sides
+  const double reflected = r * (1 + (1 - r) * (1 - r) * t * t / (1 - r * r * t * t));
+  const double passed = (1 - r) * (1 - r) * t / (1 - r * r * t * t);
+  EXPECT_NEAR(truth, reflected + passed, 1e-12);
+  expect_mean(estimate(*world(scene), {0.2, 0.1, 3}, {0, 0, -1}, 4096), reflected + passed, "slab", 1e-2);
+}
+
+TEST(Path, ThinPaneOverMattLetsItsLightThrough) {
+  // A parallel light at right angles through a pane: 2 F / (1 + F) of it does not arrive. What the plane sends back is
+  // seen through the pane again, and some of it comes back from the pane, which only makes the plane brighter.
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 0.5}));
+  Dielectric pane{.index = 1.5};
+  pane.thin = true;
+  geometry::Frame frame;
+  frame.origin = {0, 0, 1};
+  scene.add(plane_part(frame, {-0.01, 0.01}, {-0.01, 0.01}), make_material(pane));
+  scene.light(DistantLight{.direction = {0, 0, -1}, .lamp = {.intensity = 1}});
+  const double pass = 1 - 2 * 0.04 / 1.04;
+  EXPECT_NEAR(estimate(*world(scene, {.max_depth = 0}), {3, 0, 0.5}, {-3, 0, -0.5}, 32).mean, 0.5 * pass, 1e-4);
+}
+
+TEST(Path, MirrorsInARow) {
+  // Two parallel mirrors of reflectance 1/2 and a lamp's ambient light at the end of paths: a path that leaves after k
+  // reflections brings 2^-k.
+  SmallScene scene;
+  ClassicLook mirror;
+  mirror.diffuse = 0.0;
+  mirror.ambient = 0.0;
+  mirror.mirror = 0.5;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(mirror));
+  scene.model.background = Spectrum(1, 1, 1);
+  expect_mean(estimate(*world(scene), {0, 0, 3}, {0.1, 0, -1}, 32), 0.5, "mirror", 1e-6);
+}
+
+TEST(Path, ShadowsOfAmbientLight) {
+  // A place on a plane under half of the sky: a wall hides a quarter of a sphere, half of the light.
+  SmallScene scene;
+  scene.light(AmbientLight{.intensity = 1});
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
+  scene.add(plane({0, 1e-6, 0}, {0, -1, 0}), make_material(Diffuse{.color = 0.0}));
+  expect_mean(estimate(*world(scene), {0, -1, 1}, {0, 1, -1}, 2048), 0.5, "wall", 5e-3);
+}
+
+TEST(Path, ClampIsRecordedInTheOptions) {
+  const IntegratorPtr path = make_path_integrator({.clamp = 4});
+  const std::any made = path->made_from();
+  const auto* options = std::any_cast<PathOptions>(&made);
+  ASSERT_NE(options, nullptr);
+  EXPECT_EQ(options->clamp, 4);
+}
+
+}  // namespace
+
+}  // namespace lekalo::render::path_test
