@@ -18,6 +18,7 @@
   X(nurbs_surface_type)          \
   X(composite_bezier_type)       \
   X(control_polyhedron_type)     \
+  X(spline_volume_face_type)     \
   X(t_spline_type)               \
   X(t_spline_functions_type)     \
   X(formula_surface_type)        \
@@ -35,6 +36,9 @@
   X(hermite_surface_type)        \
   X(spline_surface_type)         \
   X(grid_interpolant_type)       \
+  X(fit_surface_type)            \
+  X(section_surface_type)        \
+  X(spline_of_surface_type)      \
   X(bezier_triangle_type)        \
   X(triangle_surface_type)       \
   X(triangle_part_type)          \

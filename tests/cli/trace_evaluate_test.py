@@ -56,6 +56,13 @@ SURFACES = {
     "composite_bezier": "degree: { u: 2, v: 1 }, joints: { u: smooth, v: as_given }, points: [[[-1, -1], [-1, 2]], [[0, -1, 2], "
                         "[0, 2]], [[2, -1], [2, 2, 2]], [[3, -1, 1], [3, 2]]]",
     "control_polyhedron": f"of: {{ type: bezier_surface, points: [{NET}] }}",
+    "fit_surface": f"grid: [{NET}], degree: 2, spans: 1",
+    "section_surface": "sections: [{ points: [[-1, -1, 0], [0.5, -1, 1.5], [2, -1, 0]] }, { points: [[-1, 2, 0.5], [0, 2, 1], [1, 2, "
+                       "1.5], [2, 2, 0]] }]",
+    "spline_of_surface": "of: { type: torus_surface, major_radius: 1.5, minor_radius: 0.5 }, tolerance: 0.01",
+    "spline_volume_face": f"at: 0.4, degree_u: 2, degree_v: 2, layers: [{{ points: [{NET}] }}, {{ points: [[[-1, -1, 1], [-1, 0, 2], "
+                          "[-1, 1, 1], [-1, 2, 1]], [[0, -1, 1], [0, 0, 2], [0, 1, 1], [0, 2, 1]], [[2, -1, 1], [2, 0, 2], [2, 1, 1], "
+                          "[2, 2, 1]]] }]",
     "bezier_triangle": "points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]]",
     "triangle_part": "of: { type: bezier_triangle, points: [[-1, -1], [-1, 2], [2, -1, 1], [0, 3], [1, 1, 2], [3, 0]] }, "
                      "vertices: [[0.8, 0.1, 0.1], [0, 1, 0], [0, 0, 1]]",

@@ -10,18 +10,16 @@
 //   central  (p_(i+1,j+1) - p_(i+1,j-1) - p_(i-1,j+1) + p_(i-1,j-1))/((u_(i+1) - u_(i-1)) (v_(j+1) - v_(j-1))),
 //            indices beyond an open border moved to it
 //   zero     flat spots at the nodes
+// Where directions or normals are given instead of derivatives (Zavyalov et al. 1985, II.6), a direction that is not is
+// that of the circle through three neighbours; with a normal n it is turned into the plane across, t - (t n) n; lengths
+// are those of local_speeds.
 #include <fmt/format.h>
 
-#include "geometry/surfaces/interpolation/point_grid.h"
+#include "geometry/surfaces/interpolation/hermite_surface.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// Derivatives at the nodes.
-struct NodeDerivatives {
-  Grid<Vec3> u, v, uv;
-};
 
 Grid<Vec3> same_shape(const Grid<Vec3>& grid) { return {grid.rows, grid.columns, grid.values}; }
 
@@ -70,11 +68,59 @@ const Grid<Vec3>& given(const Fields& f, const char* field, const Grid<Vec3>& po
   return net;
 }
 
+// Derivatives along one line of points, of given directions and normals; a zero vector is none.
+std::vector<Vec3> directed(const PointSequence& line, const std::vector<Vec3>& directions,
+                           const std::vector<Vec3>& normals) {
+  const std::vector<Vec3> estimated = estimated_tangents("circle", line);
+  const std::vector<double> speeds = local_speeds(line);
+  std::vector<Vec3> result;
+  for (int i = 0; i < line.size(); ++i) {
+    const bool has_own = !directions.empty() && directions[i] != Vec3(0);
+    Vec3 along = has_own ? directions[i] : estimated[i];
+    if (!normals.empty() && normals[i] != Vec3(0)) {
+      const Vec3 n = glm::normalize(normals[i]);
+      along -= glm::dot(along, n) * n;
+    }
+    if (!(glm::length(along) > 0))
+      throw FieldError("normals", fmt::format("normal ({:.6g}, {:.6g}, {:.6g}) points along the surface", normals[i].x,
+                                              normals[i].y, normals[i].z));
+    result.push_back(std::abs(speeds[i]) * glm::normalize(along));
+  }
+  return result;
+}
+
+// By u or v: given in full, by directions and normals, or estimated.
+Grid<Vec3> derivatives_along(const Fields& f, const PointGrid& grid, bool along_u) {
+  const char* tangents = along_u ? "u_tangents" : "v_tangents";
+  const char* directions = along_u ? "u_directions" : "v_directions";
+  if (f.has(tangents)) {
+    if (f.has(directions)) throw FieldError(directions, fmt::format("{} has them already", tangents), "leave one out");
+    return given(f, tangents, grid.points);
+  }
+  if (!f.has(directions) && !f.has("normals"))
+    return along_u ? derivatives_by_u(f.text("estimate"), grid, grid.points)
+                   : derivatives_by_v(f.text("estimate"), grid, grid.points);
+  const auto line_of = [&](const char* field, int k) -> std::vector<Vec3> {
+    if (!f.has(field)) return {};
+    const Grid<Vec3>& of = given(f, field, grid.points);
+    return along_u ? line_along_u(of, k) : line_along_v(of, k);
+  };
+  Grid<Vec3> result = same_shape(grid.points);
+  for (int k = 0; k < (along_u ? result.columns : result.rows); ++k) {
+    const std::vector<Vec3> points = along_u ? line_along_u(grid.points, k) : line_along_v(grid.points, k);
+    const PointSequence line{points, along_u ? grid.at_u : grid.at_v, along_u ? grid.closed_u : grid.closed_v};
+    const std::vector<Vec3> own = directed(line, line_of(directions, k), line_of("normals", k));
+    for (size_t i = 0; i < own.size(); ++i)
+      (along_u ? result.at(static_cast<int>(i), k) : result.at(k, static_cast<int>(i))) = own[i];
+  }
+  return result;
+}
+
 NodeDerivatives derivatives_of(const Fields& f, const PointGrid& grid) {
   const std::string &rule = f.text("estimate"), &twist = f.text("twist");
   NodeDerivatives d;
-  d.u = f.has("u_tangents") ? given(f, "u_tangents", grid.points) : derivatives_by_u(rule, grid, grid.points);
-  d.v = f.has("v_tangents") ? given(f, "v_tangents", grid.points) : derivatives_by_v(rule, grid, grid.points);
+  d.u = derivatives_along(f, grid, true);
+  d.v = derivatives_along(f, grid, false);
   if (f.has("twists")) {
     d.uv = given(f, "twists", grid.points);
   } else if (twist == "tensor") {
@@ -111,6 +157,8 @@ Controls controls(int count, const std::vector<double>& at, bool closed) {
   return {std::move(of), SplineAxis(3, std::move(knots), closed ? Extension::periodic : Extension::tangent)};
 }
 
+}  // namespace
+
 NurbsSurface hermite_surface(const PointGrid& grid, const NodeDerivatives& d) {
   const Controls u = controls(grid.points.rows, grid.at_u, grid.closed_u);
   const Controls v = controls(grid.points.columns, grid.at_v, grid.closed_v);
@@ -120,8 +168,6 @@ NurbsSurface hermite_surface(const PointGrid& grid, const NodeDerivatives& d) {
       points.push_back(grid.points.at(i, j) + a * d.u.at(i, j) + b * d.v.at(i, j) + a * b * d.uv.at(i, j));
   return NurbsSurface(u.axis, v.axis, points);
 }
-
-}  // namespace
 
 TypeDeclaration hermite_surface_type() {
   TypeDeclaration type = declare(
@@ -137,6 +183,10 @@ TypeDeclaration hermite_surface_type() {
       .optional("u_tangents", net(), "derivatives by u, in the order of the points")
       .optional("v_tangents", net(), "derivatives by v")
       .optional("twists", net(), "derivatives by u and v")
+      .optional("u_directions", net(), "directions along u alone, of any length; [0, 0, 0] where one is not known")
+      .optional("v_directions", net(), "directions along v")
+      .optional("normals", net(),
+                "normals at the points, to which directions are turned; [0, 0, 0] where one is not known")
       .shows({"control_net"})
       .example(
           "points: [[[0, 0, 0], [0, 1, 1], [0, 2, 0]], [[1, 0, 1], [1, 1, 0], [1, 2, 1]], [[2, 0, 0], [2, 1, 1], "

@@ -68,16 +68,25 @@ std::vector<Vec3> line_along_v(const Grid<Vec3>& grid, int i) {
   return {begin, begin + grid.columns};
 }
 
-PointGrid read_point_grid(const Fields& fields) {
-  PointGrid grid;
-  grid.points = fields.net("points");
-  grid.closed_u = fields.u<bool>("closed"), grid.closed_v = fields.v<bool>("closed");
+namespace {
+
+PointGrid with_parameters(const Fields& fields, PointGrid grid) {
   std::vector<std::vector<Vec3>> columns, rows;
   for (int j = 0; j < grid.points.columns; ++j) columns.push_back(line_along_u(grid.points, j));
   for (int i = 0; i < grid.points.rows; ++i) rows.push_back(line_along_v(grid.points, i));
   grid.at_u = parameters_of(fields.u<Knots>("knots"), columns, grid.closed_u, "u", "rows");
   grid.at_v = parameters_of(fields.v<Knots>("knots"), rows, grid.closed_v, "v", "columns");
   return grid;
+}
+
+}  // namespace
+
+PointGrid read_point_grid(const Fields& fields) {
+  return with_parameters(fields, {fields.net("points"), {}, {}, fields.u<bool>("closed"), fields.v<bool>("closed")});
+}
+
+PointGrid read_open_grid(const Fields& fields, const char* field) {
+  return with_parameters(fields, {fields.net(field), {}, {}, false, false});
 }
 
 void declare_point_grid(TypeDeclaration& type) {

@@ -20,6 +20,8 @@ struct PointGrid {
 // The fields points, knots and closed. Steps of a rule are means over all lines of the direction (Golovanov 2016, 3.6).
 // Throws FieldError (fields points, knots).
 PointGrid read_point_grid(const Fields& fields);
+// The same of another field of points, open in both directions.
+PointGrid read_open_grid(const Fields& fields, const char* field);
 // The fields that it reads.
 void declare_point_grid(TypeDeclaration& type);
 

@@ -4,6 +4,8 @@
 //   ruled    (1 - v) c_0(u) + v c_1(u);   sector: c_1 is a point
 //   lofts    sum B_i(v) c_i(u), B_i those of Lagrange, Hermite's cubic, C2 cubic splines, Bernstein or B-splines
 //   shifted  c(u) + g(v) - g(v_min)
+//
+// and, with weights that are functions of u, the quotient sum B_i(v) w_i(u) c_i(u) / sum B_i(v) w_i(u) (3.4.5, 3.4.7).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/curves/splines/spline_axis.h"
 #include "geometry/describe.h"
+#include "geometry/expression/expression.h"
 #include "geometry/surfaces/nets/boolean_sum.h"
 #include "geometry/surfaces/nets/curve_family.h"
 
@@ -27,6 +30,55 @@ CurvePtr constant(const Vec3& point, const Interval& range) {
 
 Interval common_domain(const std::vector<CurvePtr>& curves) { return curves.front()->domain(); }
 
+// Control curves with weights that are functions of u.
+struct WeightedFamily {
+  Family family;
+  std::shared_ptr<const std::vector<Expression>> weights;
+
+  template <class T>
+  Triple<T> operator()(const T& u, const T& v) const {
+    Triple<T> sum{T(0), T(0), T(0)};
+    T whole(0);
+    for (size_t i = 0; i < family.curves.size(); ++i) {
+      const T weight = curve_at(*family.functions[i], v).x * (*weights)[i].evaluate(std::span<const T>(&u, 1));
+      sum += weight * curve_at(*family.curves[i], u);
+      whole += weight;
+    }
+    return (T(1) / whole) * sum;
+  }
+};
+
+std::vector<Expression> read_weights(const Fields& f, const std::vector<CurvePtr>& curves) {
+  const auto& weights = f.get<std::vector<Expression>>("weight_functions");
+  if (weights.size() != curves.size())
+    throw FieldError("weight_functions", fmt::format("{} weights for {} curves", weights.size(), curves.size()));
+  constexpr int kTried = 256;
+  const Interval range = common_domain(curves);
+  for (size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i].smoothness() != Expression::Smoothness::smooth)
+      throw FieldError("weight_functions", fmt::format("weight {} has kinks or jumps", i), "smooth functions");
+    for (int k = 0; k <= kTried; ++k) {
+      const double u = range.clamp(range.lo + range.width() * k / kTried), w = weights[i](u);
+      if (!(w > 0 && w < kInfinity))
+        throw FieldError("weight_functions", fmt::format("weight {} is {:.6g} at u = {:.6g}, not positive", i, w, u));
+    }
+  }
+  return weights;
+}
+
+std::any weighted_loft(Family family, std::vector<Expression> weights, const Interval& range_v, Periods periods) {
+  const Interval range = common_domain(family.curves);
+  for (const Expression& weight : weights)
+    if (std::abs(weight(range.lo) - weight(range.hi)) > 1e-12 * weight(range.lo)) periods.u = 0;
+  SurfaceProperties properties = properties_along_u(*family.curves.front(), range_v);
+  for (const CurvePtr& curve : family.curves) add_operand(properties, *curve, Along::u);
+  for (const CurvePtr& function : family.functions) add_operand(properties, *function, Along::v);
+  properties.periods = periods;
+  return std::any(SurfacePtr(std::make_shared<ComposedSurface<WeightedFamily>>(
+      WeightedFamily{std::move(family), std::make_shared<const std::vector<Expression>>(std::move(weights))},
+      std::move(properties))));
+}
+
 std::any loft(const Fields& f) {
   const std::vector<CurvePtr> curves = read_family(f, "of");
   const std::string& method = f.text("method");
@@ -39,7 +91,11 @@ std::any loft(const Fields& f) {
   if (f.has("at_v") && !through)
     throw FieldError("at_v", fmt::format("the surface does not go through its curves with method: {}", method),
                      "give 'knots', or method: hermite, spline or lagrange");
-  if (f.has("weights") && through) throw FieldError("weights", "weights are of methods bezier and b_spline");
+  for (const char* field : {"weights", "weight_functions"})
+    if (f.has(field) && through) throw FieldError(field, "weights are of methods bezier and b_spline");
+  if (f.has("weights") && f.has("weight_functions"))
+    throw FieldError("weight_functions", "the weights are given twice",
+                     "numbers are functions too: leave 'weights' out");
   BooleanSum sum;
   sum.along_u.curves = curves;
   Periods periods{common_period(curves), 0};
@@ -65,6 +121,8 @@ std::any loft(const Fields& f) {
                                     steps_between(curves, closed));
   sum.along_u.functions = b_spline_functions(degree, axis.knots(), weights, count);
   periods.v = axis.period();
+  if (f.has("weight_functions"))
+    return weighted_loft(std::move(sum.along_u), read_weights(f, curves), axis.domain(), periods);
   return std::any(SurfacePtr(std::make_shared<BlendedSurface>(
       blended_surface(std::move(sum), {common_domain(curves), axis.domain()}, periods))));
 }
@@ -152,6 +210,8 @@ TypeDeclaration loft_surface_type() {
       .field("degree", integer().between(1, 9), "in v, of method b_spline", "3")
       .field("knots", knots(), "of method b_spline: as of nurbs_curve", "clamped")
       .optional("weights", numbers(), "of methods bezier and b_spline: one for each curve")
+      .optional("weight_functions", formulas({"u"}, 2, 1000),
+                "of methods bezier and b_spline: for each curve a positive, smooth function of u")
       .built_by(loft);
 }
 
