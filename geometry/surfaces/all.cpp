@@ -43,7 +43,7 @@
   X(triangle_surface_type)       \
   X(triangle_part_type)          \
   X(bernstein_triangle_type)     \
-  X(control_polyhedron_type)     \
+  X(control_triangles_type)      \
   X(transfinite_triangle_type)   \
   X(ribbon_type)                 \
   X(vintoid_type)                \

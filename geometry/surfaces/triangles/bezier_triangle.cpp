@@ -254,8 +254,8 @@ TypeDeclaration bernstein_triangle_type() {
       });
 }
 
-TypeDeclaration control_polyhedron_type() {
-  return declare(Category::mesh, "control_polyhedron",
+TypeDeclaration control_triangles_type() {
+  return declare(Category::mesh, "control_triangles",
                  "The control points of a Bezier triangle joined to triangles (Golovanov 2016, 3.11). Its smooth and "
                  "sharp lines are the edges.")
       .field("of", reference({Category::surface}), "the Bezier triangle")

@@ -12,7 +12,7 @@
 
 namespace lekalo::geometry {
 
-TypeDeclaration control_polyhedron_type();
+TypeDeclaration control_triangles_type();
 
 }  // namespace lekalo::geometry
 
@@ -160,14 +160,14 @@ TEST(ControlPolyhedron, HasAllFacetsAndEdges) {
     Fields fields;
     fields.set("of", surface);
     fields.set("facets", std::string("all"));
-    const auto all = std::any_cast<MeshPtr>(control_polyhedron_type().build(fields));
+    const auto all = std::any_cast<MeshPtr>(control_triangles_type().build(fields));
     EXPECT_EQ(all->triangles.size(), static_cast<size_t>(n * n));
     const MeshSides edges = sides(*all);
     EXPECT_EQ(edges.count, static_cast<size_t>(3 * n * (n + 1) / 2));
     EXPECT_EQ(edges.free, static_cast<size_t>(3 * n));
     EXPECT_EQ(edges.turned + edges.crowded, 0u);
     fields.set("facets", std::string("upright"));
-    const auto upright = std::any_cast<MeshPtr>(control_polyhedron_type().build(fields));
+    const auto upright = std::any_cast<MeshPtr>(control_triangles_type().build(fields));
     EXPECT_EQ(upright->triangles.size(), static_cast<size_t>(n * (n + 1) / 2));
   }
 }
