@@ -15,7 +15,7 @@ namespace {
 // A guide, and parameters on both surfaces near to its point at t.
 struct Start {
   CurvePtr guide;
-  double t = 0;
+  double period = 0, t = 0;
   std::array<Vec2, 2> places{Vec2(0), Vec2(0)};
 };
 
@@ -32,7 +32,7 @@ double start_of(const Curve& guide) {
 }
 
 Start along(const CurvePtr& guide, const std::array<SurfacePtr, 2>& of) {
-  Start start{guide, start_of(*guide), {}};
+  Start start{guide, guide->period(), start_of(*guide), {}};
   const Vec3 p = guide->point(start.t);
   for (int k = 0; k < 2; ++k) start.places[k] = foot_point(p, of[k]);
   return start;
@@ -48,7 +48,7 @@ Contours meeting(const SurfacePtr& a, const SurfacePtr& b) {
 
 Start along_branch(const Contours& found, const Fields& f) {
   const CurvePtr curve = chosen_branch(found.branches, f, "of");
-  Start start{contour_approximation(curve), start_of(*curve), {}};
+  Start start{contour_approximation(curve), curve->period(), start_of(*curve), {}};
   for (const Contour& branch : found.branches)
     if (branch.curve == curve)
       for (int k = 0; k < 2; ++k) start.places[k] = Vec2(branch.images[k]->point(start.t));
@@ -100,7 +100,7 @@ Contacts blend_contacts(BlendLaw law, const Fields& f) {
   const Start start = law.guide        ? along(law.guide, law.of)
                       : f.has("guide") ? along(f.curve("guide"), law.of)
                                        : along_intersection(law, f);
-  law.guide = start.guide;
+  law.guide = start.guide, law.period = start.period;
   return Contacts(std::move(law), start.t, start.places);
 }
 

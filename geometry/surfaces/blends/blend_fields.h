@@ -18,7 +18,7 @@ template <class Sections>
 SurfacePtr blend_surface(Sections sections, const Contacts& contacts) {
   SurfaceProperties properties = blend_properties(contacts, sections.curves);
   auto surface = std::make_shared<ComposedSurface<Sections>>(sections, properties);
-  const double period = contacts.law().guide->period();
+  const double period = contacts.law().period;
   if (!(period > 0) || contacts.domain().width() < period * (1 - 1e-12) || !is_closed_along(*surface, Along::u))
     return surface;
   properties.periods.u = period;

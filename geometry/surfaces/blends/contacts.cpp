@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/composition.h"
 #include "geometry/describe.h"
-#include "geometry/formula.h"
 #include "geometry/queries/differential/curvature.h"
 
 namespace lekalo::geometry {
@@ -16,8 +16,10 @@ namespace {
 
 constexpr int kMaxIterations = 20;
 constexpr double kSolved = 1e-11;  // of the size: the step after which there is none, as convergence is quadratic
-constexpr double kLongest = 0.5;   // of the size: no step is longer
-constexpr int kSteps = 64;         // of a march, at least
+constexpr double kRounding = 1e-15;
+constexpr int kPolished = 4;      // steps below that
+constexpr double kLongest = 0.5;  // of the size: no step is longer
+constexpr int kSteps = 64;        // of a march, at least
 constexpr double kShortestStep = 1e-7;
 constexpr double kInsideSlack = 1e-9;
 constexpr double kTurn = 0.8;  // cosine of what normals turn by from step to step
@@ -78,6 +80,7 @@ Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& star
   for (const Node& one : nodes_)
     if (domain_.contains(one.t)) check_fit(one);
   if (domain_.width() >= all.width() * (1 - 1e-12)) domain_ = all;
+  find_breaks();
 }
 
 int Contacts::count() const { return law_.kind == BlendKind::edge ? 2 : law_.kind == BlendKind::chord ? 5 : 4; }
@@ -121,6 +124,7 @@ Contacts::Solution Contacts::solve(const Place& place, Unknowns x) const {
   };
   Eigen::Matrix<double, kMost, kMost> matrix = Eigen::Matrix<double, kMost, kMost>::Zero();
   Eigen::Matrix<double, kMost, 1> values = Eigen::Matrix<double, kMost, 1>::Zero();
+  int polished = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Local p = local_at(*law_.of[0], law_.sides[0], x[0], x[1]);
     const Local q = n > 2 ? local_at(*law_.of[1], law_.sides[1], x[2], x[3]) : p;
@@ -138,7 +142,8 @@ Contacts::Solution Contacts::solve(const Place& place, Unknowns x) const {
     if (n > 4) length = std::max(length, std::abs(step(4)));
     const double share = std::min(1.0, kLongest * size_ / length);
     for (int k = 0; k < n; ++k) x[k] -= share * step(k);
-    if (length <= kSolved * size_) return {x, true};
+    // On a surface of class C1 Newton's matrix may be that of the other side of a knot: once more, or twice.
+    if (length <= kRounding * size_ || (length <= kSolved * size_ && ++polished == kPolished)) return {x, true};
   }
   return {};
 }
@@ -221,7 +226,7 @@ bool Contacts::march(const Node& from, double direction, std::vector<Node>& node
     if (!is_smooth) {
       step = 0.5 * taken;
       if (step > kShortestStep * all.width()) continue;
-      if (!is_inside(at.x)) return false;
+      if (!is_inside(at.x, kInsideSlack)) return false;
       const Vec3 p = law_.guide->point(at.t);
       throw FieldError(law_.size_field,
                        fmt::format("the contacts end near the guide's [{:.4g}, {:.4g}, {:.4g}] (its t = {:.6g})", p.x,
@@ -236,13 +241,13 @@ bool Contacts::march(const Node& from, double direction, std::vector<Node>& node
   return true;
 }
 
-bool Contacts::is_inside(const Unknowns& x) const {
+bool Contacts::is_inside(const Unknowns& x, double slack_share) const {
   for (int k = 0; k < count() / 2; ++k) {
     const Surface& of = *law_.of[k];
     const Rectangle domain = of.domain();
     const Periods periods = of.periods();
-    const auto lies = [](const Interval& range, double period, double at) {
-      const double slack = kInsideSlack * std::min(range.width(), 1e9);
+    const auto lies = [&](const Interval& range, double period, double at) {
+      const double slack = slack_share * std::min(range.width(), 1e9);
       if (period > 0) {
         if (range.width() >= period * (1 - 1e-12)) return true;
         at -= period * std::floor((at - range.lo + slack) / period);
@@ -260,7 +265,7 @@ double Contacts::border_between(Node inside, const Node& outside) const {
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (inside.t + t);
     const Solution at = solve(place_at(middle), inside.x);
-    if (at.found && is_inside(at.x))
+    if (at.found && is_inside(at.x, 0))
       inside = {middle, at.x};
     else
       t = middle;
@@ -271,9 +276,9 @@ double Contacts::border_between(Node inside, const Node& outside) const {
 void Contacts::cut(const std::vector<Node>& nodes) {
   Interval best(0, 0);
   for (size_t i = 0; i < nodes.size(); ++i) {
-    if (!is_inside(nodes[i].x)) continue;
+    if (!is_inside(nodes[i].x, kInsideSlack)) continue;
     size_t j = i;
-    while (j + 1 < nodes.size() && is_inside(nodes[j + 1].x)) ++j;
+    while (j + 1 < nodes.size() && is_inside(nodes[j + 1].x, kInsideSlack)) ++j;
     if (nodes[j].t - nodes[i].t > best.width() && j > i) {
       best.lo = i > 0 ? border_between(nodes[i], nodes[i - 1]) : nodes[i].t;
       best.hi = j + 1 < nodes.size() ? border_between(nodes[j], nodes[j + 1]) : nodes[j].t;
@@ -326,6 +331,58 @@ Contact Contacts::contact(const Place& place, const Unknowns& x) const {
     result.center = p.point[0] + (a / sine) * (cosine * p.normal[0] - q.normal[0]);
   }
   return result;
+}
+
+namespace {
+
+// The cells between the lines of a surface, and over its seam, counted.
+class Cells {
+ public:
+  Cells(std::vector<double> lines, double period) : lines_(std::move(lines)), period_(period) {}
+  long at(double x) const {
+    long turns = 0;
+    if (period_ > 0) {
+      turns = static_cast<long>(std::floor((x - lines_.front()) / period_));
+      x -= static_cast<double>(turns) * period_;
+    }
+    const auto above = std::upper_bound(lines_.begin() + 1, lines_.end() - 1, x);
+    return turns * static_cast<long>(lines_.size() - 1) + (above - lines_.begin() - 1);
+  }
+
+ private:
+  std::vector<double> lines_;
+  double period_;
+};
+
+}  // namespace
+
+void Contacts::find_breaks() {
+  constexpr double kAlong = 1e-9;  // of the width: a contact that keeps as near to a line runs along it
+  for (int axis = 0; axis < count() / 2 * 2; ++axis) {
+    const Surface& of = *law_.of[axis / 2];
+    const SurfaceProperties properties = properties_of(of);
+    const bool is_u = axis % 2 == 0;
+    const double period = is_u ? of.periods().u : of.periods().v;
+    const Interval range = is_u ? of.domain().u : of.domain().v;
+    const bool closes = period > 0 && range.width() >= period * (1 - 1e-12);
+    const Cells cells(is_u ? properties.breaks_u : properties.breaks_v, closes ? period : 0);
+    const auto value = [&](double t) { return at(t).places[axis / 2][is_u ? 0 : 1]; };
+    for (size_t i = 0; i + 1 < nodes_.size(); ++i) {
+      double from = std::max(nodes_[i].t, domain_.lo);
+      const double to = std::min(nodes_[i + 1].t, domain_.hi);
+      if (!(from < to)) continue;
+      const double last = value(to);
+      for (double first = value(from); cells.at(first) != cells.at(last); first = value(from)) {
+        if (std::abs(last - first) <= kAlong * range.width()) break;
+        Interval t(from, to);  // the last of the first cell, the first of another
+        for (int k = 0; k < 60 && t.lo < t.middle() && t.middle() < t.hi; ++k)
+          (cells.at(value(t.middle())) == cells.at(first) ? t.lo : t.hi) = t.middle();
+        breaks_.push_back(t.hi);
+        from = t.hi;
+      }
+    }
+  }
+  std::sort(breaks_.begin(), breaks_.end());
 }
 
 Contact Contacts::at(double t) const {

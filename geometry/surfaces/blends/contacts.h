@@ -26,6 +26,7 @@ struct BlendLaw {
   std::array<SurfacePtr, 2> of;
   std::array<double, 2> sides{1, 1};  // towards r_u x r_v, or against it
   CurvePtr guide;
+  double period = 0;  // of the guide, 0 where it is not closed
   // Radii, legs, or the chord (the first), as formulas of the fraction s of the guide's length.
   std::array<ScalarLaw, 2> sizes{ScalarLaw(1.0), ScalarLaw(1.0)};
   const char* size_field = "radius";  // which errors name
@@ -49,6 +50,8 @@ class Contacts {
   const BlendLaw& law() const { return law_; }
   // The part of the guide's domain in which both contacts lie in the domains of their surfaces, the longest of several.
   const Interval& domain() const { return domain_; }
+  // Where a contact passes over a line of its surface at which derivatives jump, or its seam, inside the domain.
+  const std::vector<double>& breaks() const { return breaks_; }
   // By which distances are judged.
   double size() const { return size_; }
   Contact at(double t) const;
@@ -73,10 +76,11 @@ class Contacts {
   Solution first_solution(double t, const std::array<Vec2, 2>& starts) const;
   Unknowns edge_start(const Place& place, const std::array<Vec2, 2>& starts) const;
   bool march(const Node& from, double direction, std::vector<Node>& nodes) const;
-  bool is_inside(const Unknowns& x) const;
+  bool is_inside(const Unknowns& x, double slack_share) const;
   void check_fit(const Node& node) const;
   void cut(const std::vector<Node>& nodes);
   double border_between(Node inside, const Node& outside) const;
+  void find_breaks();
   Contact contact(const Place& place, const Unknowns& x) const;
 
   BlendLaw law_;
@@ -84,6 +88,7 @@ class Contacts {
   double size_ = 1;
   std::vector<Node> nodes_;
   Interval domain_;
+  std::vector<double> breaks_;
 };
 
 }  // namespace lekalo::geometry

@@ -102,11 +102,19 @@ PolynomialPtr fitted(const std::function<Vec3(double)>& point, const std::vector
 }
 
 std::vector<Interval> stretches_of(const Contacts& contacts) {
+  const Interval domain = contacts.domain();
+  std::vector<double> ends = contacts.breaks();
+  for (const CurvePiece& piece : contacts.law().guide->pieces()) ends.push_back(piece.domain.lo);
+  ends.push_back(domain.hi);
+  std::sort(ends.begin(), ends.end());
   std::vector<Interval> result;
-  for (const CurvePiece& piece : contacts.law().guide->pieces()) {
-    const Interval t = intersect(piece.domain, contacts.domain());
-    if (!t.empty() && t.width() > 1e-12 * contacts.domain().width()) result.push_back(t);
-  }
+  double from = domain.lo;
+  const double least = 1e-12 * domain.width();
+  for (const double end : ends)
+    if (end - from > least && (end == domain.hi || domain.hi - end > least)) {
+      result.push_back({from, end});
+      from = end;
+    }
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/blends/blend_fields.h"
 #include "geometry/surfaces/blends/exact_fillet.h"
+#include "geometry/surfaces/splines/nurbs_surface.h"
 #include "geometry/surfaces/surface_checks.h"
 
 namespace lekalo::geometry {
@@ -32,7 +33,7 @@ SurfacePtr tilted_pipe() {
 Contacts contacts_of(BlendLaw law) {
   const Contours found = intersect(law.of[0], law.of[1]);
   const Contour& branch = found.branches.front();
-  law.guide = branch.curve;
+  law.guide = branch.curve, law.period = branch.curve->period();
   const double t = branch.curve->domain().middle();
   return Contacts(law, t, {Vec2(branch.images[0]->point(t)), Vec2(branch.images[1]->point(t))});
 }
@@ -163,6 +164,21 @@ TEST(Fillet, WithOtherSectionsTouchesBothSurfacesToo) {
   check_contacts(*fillet_of(law_of(of[0], of[1], BlendKind::ball, 1, 0.5)).surface, of, 9);
   for (const double weight : {0.4, 1.0, 2.5})
     check_contacts(*fillet_of(law_of(of[0], of[1], BlendKind::ball, 0.6, 0.6), {weight, false}).surface, of, 9);
+}
+
+// The contacts have corners where they pass over knots of a surface of class C1.
+TEST(Fillet, OfASplineOfTheSecondDegree) {
+  std::vector<Vec3> net;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) net.emplace_back(2 * i - 4, 2 * j - 4, 0.5 * std::sin(3.0 * i + 2.0 * j * j));
+  const Knots clamped{"clamped", {}};
+  const auto axis = [&] { return make_axis(2, clamped, false, 5, std::vector<double>(4, 1.0)); };
+  const SurfacePtr hills = std::make_shared<NurbsSurface>(axis(), axis(), net, std::vector<double>());
+  const Frame tilted = frame_from({0.2, 0, 0}, {1, 0.2, 0}, {0, 1, 0});
+  const std::array<SurfacePtr, 2> of{hills, std::make_shared<Plane>(tilted, Rectangle{{-20, 20}, {-20, 20}})};
+  const Contacts contacts = contacts_of(law_of(of[0], of[1], BlendKind::ball, 0.3, 0.3));
+  EXPECT_GE(contacts.breaks().size(), 2u);
+  check_contacts(*fillet_of(law_of(of[0], of[1], BlendKind::ball, 0.3, 0.3)).surface, of, 15);
 }
 
 TEST(Fillet, TellsWhereTheBallDoesNotFit) {
