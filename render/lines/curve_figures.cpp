@@ -11,6 +11,7 @@
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
+#include "geometry/curves/operations/curve_sign_changes.h"
 #include "geometry/curves/operations/spline_curves.h"
 #include "geometry/queries/differential/osculation.h"
 #include "geometry/queries/measures/arc_length.h"
@@ -240,6 +241,44 @@ CurveFigure moved_point(const CurvePtr& curve, const Fields& f) {
   return figure;
 }
 
+// Where a plane across the drawing, its line, meets the curve; or its control polygon.
+std::vector<Vec3> crossings_with(const Curve& curve, const Axis& line, const Vec3& across) {
+  const double distance = glm::dot(across, line.through);
+  const auto value = [&](const Vec3& p) { return glm::dot(across, p) - distance; };
+  const auto range = [&](const Box3& box) {
+    const auto along = [&](int k) { return Interval(across[k]) * Interval(box.lo[k], box.hi[k]); };
+    return along(0) + along(1) + along(2) - Interval(distance);
+  };
+  std::vector<Vec3> points;
+  for (const double t : sign_changes(curve, curve.is_closed(), range, value)) points.push_back(curve.point(t));
+  return points;
+}
+
+// A line through a plane curve: no line crosses it more often than its polygon (variation diminishing).
+CurveFigure crossings(const CurvePtr& curve, const Fields& f) {
+  const NurbsCurveForm form = form_of(*curve);
+  const Axis& line = f.axis("line");
+  const Vec3 across = glm::cross(line.along, f.vec3("plane"));
+  if (!(glm::length(across) > 0))
+    throw FieldError("line", "the line is perpendicular to the plane of the curve", "say 'plane': its normal");
+  const bool closed = curve->period() > 0;
+  const std::vector<Vec3> corners = control_points(form, 0, form.points.size() - (closed ? form.degree : 0));
+  const NurbsCurve polygon = polyline(corners, closed);
+  const std::vector<Vec3> of_curve = crossings_with(*curve, line, across),
+                          of_polygon = crossings_with(polygon, line, across);
+  CurveFigure figure;
+  figure.points = f.text("of") == "curve" ? of_curve : of_polygon;
+  // The line as far as it meets the polygon, and somewhat beyond.
+  Interval reach(kInfinity, -kInfinity);
+  for (const Vec3& p : corners) reach = hull(reach, Interval(glm::dot(p - line.through, line.along)));
+  const auto at = [&](double s) { return line.through + s * line.along; };
+  const double more = 0.04 * reach.width();
+  figure.lines.push_back(std::make_shared<Segment>(at(reach.lo - more), at(reach.hi + more)));
+  figure.counts = {of_curve.size(), of_polygon.size()};
+  figure.label_at = at(reach.hi + more);
+  return figure;
+}
+
 using Draw = std::function<CurveFigure(const CurvePtr&, const Fields&)>;
 
 const std::map<std::string, Draw, std::less<>>& figures() {
@@ -262,6 +301,7 @@ const std::map<std::string, Draw, std::less<>>& figures() {
          return polygon_of(with_degree(c, f.has("degree") ? std::optional(f.integer("degree")) : std::nullopt));
        }},
       {"hulls", hulls},
+      {"crossings", crossings},
       {"moved_point", moved_point}};
   return all;
 }

@@ -2,6 +2,7 @@
 //
 //   osculating_circle, evolute, tangents, normal_lines, features, hodograph, direction      (Golovanov 2016, 2.1)
 //   insertion, elevation, hulls, moved_point                                      (2.4, 2.6, 2.11, 2.8: local support)
+//   crossings                                                                     (2.9: variation diminishing)
 #pragma once
 
 #include <string>
@@ -16,6 +17,8 @@ struct CurveFigure {
   std::vector<geometry::CurvePtr> lines;
   std::vector<geometry::Vec3> points;  // that get the helper's marker
   bool arrows = false;                 // heads at the ends of the lines
+  std::vector<size_t> counts;          // counters of the helper's label, which stands at `label_at`
+  geometry::Vec3 label_at{0};
 };
 
 // Whether a helper is one of these.

@@ -245,6 +245,8 @@ void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign,
   if (figure.arrows) style.arrows = "end";
   for (const CurvePtr& line : figure.lines) stroke(line, style, helper.hidden);
   for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
+  if (!figure.counts.empty())
+    label(figure.label_at, {static_cast<double>(figure.counts[0]), static_cast<double>(figure.counts[1])}, helper);
 }
 
 void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {

@@ -14,6 +14,7 @@
 #include "command.h"
 #include "geometry/curves/operations/arc_blend_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/queries/differential/plane_lines.h"
 #include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/queries/measures/enclosed_area.h"
 #include "geometry/queries/measures/mass_properties.h"
@@ -68,6 +69,15 @@ void put(ordered_json& out, const MassProperties& mass) {
 void put(ordered_json& out, const geometry::SurfaceMeasures& measures) {
   put(out, "area", measures.area);
   put_centroid(out, measures.centroid, measures.centroid_error);
+}
+
+// Normals of the planes that the surface, or its lines of parameter, lie in.
+void put_planes(ordered_json& out, const geometry::Surface& surface) {
+  if (!surface.bounded()) return;
+  const geometry::PlaneLines planes = geometry::plane_lines(surface);
+  if (planes.surface) out["plane"] = to_json(*planes.surface);
+  if (planes.along_u) out["plane_of_u_lines"] = to_json(*planes.along_u);
+  if (planes.along_v) out["plane_of_v_lines"] = to_json(*planes.along_v);
 }
 
 geometry::SurfaceMeasures sum_of(const std::vector<geometry::SurfaceMeasures>& parts) {
@@ -299,6 +309,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));
+      put_planes(out, **surface);
       out["parameters"] = parameters_of(**surface);
     } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
       out["kind"] = "patches";

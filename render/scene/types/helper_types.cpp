@@ -247,6 +247,19 @@ TypeDeclaration moved_point() {
   return finish(type);
 }
 
+TypeDeclaration crossings() {
+  TypeDeclaration type =
+      helper("crossings", "A line across a curve, and where it meets the curve or its control polygon.", "thin");
+  type.example("line: { through: [0.5, 0], along: y }")
+      .field("line", axis(), "the line, in the plane of the curve")
+      .field("plane", direction(), "normal of the plane of the curve", "z")
+      .field("of", choice({"curve", "polygon"}), "whose crossings have the sign", "curve")
+      .field("marker", marker(), "sign at the crossings", "dot")
+      .optional("label", label({"i", "j"}),
+                "text at the line's end; %i is how often it meets the curve, %j how often the polygon");
+  return finish(type);
+}
+
 TypeDeclaration jumps() {
   TypeDeclaration type = helper(
       "jumps", "Where a graph or curve jumps: a full dot at its value, open ones at the limits beside it.", "thin");
@@ -280,6 +293,7 @@ std::vector<TypeDeclaration> helper_types() {
       elevation(),
       finish(hull_type),
       moved_point(),
+      crossings(),
       jumps()};
   all.insert(all.begin(), others.begin(), others.end());
   return all;

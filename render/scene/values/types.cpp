@@ -188,7 +188,7 @@ std::vector<std::string> helpers_of(const TypeDeclaration& type) {
   all.insert(all.end(), common.begin(), common.end());
   // What can be done with control points.
   if (type.category == Category::curve && std::find(all.begin(), all.end(), "control_polygon") != all.end())
-    all.insert(all.end(), {"insertion", "elevation", "hulls", "moved_point"});
+    all.insert(all.end(), {"insertion", "elevation", "hulls", "moved_point", "crossings"});
   return all;
 }
 

@@ -86,6 +86,19 @@ TEST(CurveFigures, MovedPoint) {
   EXPECT_EQ(first[0]->point(0), Vec3(0, 1, 0));
 }
 
+// The line y = 0.5 meets sides 0 and 2 of the cubic's polygon, sides 0, 2 and 4 of the spline's.
+TEST(CurveFigures, CrossingsAreCounted) {
+  const LineWork of_cubic = drawn(
+      "  - { shape: cubic, show: { crossings: { line: { through: [0, 0.5], along: x }, label: '%i of %j' } } }\n");
+  ASSERT_EQ(of_cubic.marks.size(), 2u);
+  for (const auto& mark : of_cubic.marks) EXPECT_NEAR(mark.point.y, 0.5, 1e-12);
+  ASSERT_EQ(of_cubic.texts.size(), 1u);
+  EXPECT_EQ(of_cubic.texts[0].text, "2 of 2");
+  const LineWork of_polygon =
+      drawn("  - { shape: spline, show: { crossings: { line: { through: [0, 0.5], along: x }, of: polygon } } }\n");
+  EXPECT_EQ(of_polygon.marks.size(), 3u);
+}
+
 TEST(CurveFigures, FeaturesAreMarked) {
   EXPECT_EQ(drawn("  - { shape: oval, show: features }\n").marks.size(), 4u);
   EXPECT_EQ(drawn("  - { shape: oval, show: { features: { kinds: [inflection] } } }\n").marks.size(), 0u);

@@ -170,7 +170,7 @@ TEST(Helpers, Errors) {
   EXPECT_EQ(hints(show("{ control_net: {} }")),
             "it has control_polygon, de_casteljau, comb, frames, osculating_circle, evolute, tangents, normal_lines, "
             "features, "
-            "hodograph, direction, colored, jumps, insertion, elevation, hulls, moved_point\n");
+            "hodograph, direction, colored, jumps, insertion, elevation, hulls, moved_point, crossings\n");
   EXPECT_EQ(said(show("[comb, knots]")), "6:18 'bezier_curve' has no helper 'knots'\n");
   EXPECT_EQ(said(show("{ comb: { cuont: 3 } }")), "6:21 unknown field 'cuont' of 'comb' (did you mean 'count'?)\n");
   EXPECT_EQ(said(show("{ comb: thin }")), "6:19 expected a map of fields for 'comb', found a single value\n");
