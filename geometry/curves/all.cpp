@@ -48,6 +48,7 @@
   X(parameter_line_type)          \
   X(surface_curve_type)           \
   X(projected_curve_type)         \
+  X(carried_curve_type)           \
   X(geodesic_curve_type)          \
   X(curvature_line_type)          \
   X(asymptotic_line_type)         \

@@ -52,7 +52,10 @@
   X(chamfer_surface_type)        \
   X(extended_surface_type)       \
   X(deformed_surface_type)       \
-  X(reparametrized_surface_type)
+  X(reparametrized_surface_type) \
+  X(line_surface_type)           \
+  X(developable_surface_type)    \
+  X(development_type)
 
 namespace lekalo::geometry {
 

@@ -121,13 +121,14 @@ constexpr double kSmooth = 1e-6;
 
 struct Options {
   SceneOptions scene;
-  std::string name, against, to, section, silhouette, position, cells, line, hausdorff, frechet, arc, at_length;
+  std::string name, against, to, section, silhouette, position, cells, line, hausdorff, frechet, arc, at_length, chord,
+      stretch;
   std::vector<std::string> intersect;     // one, or two: common points of three
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
   bool topology = false, regularity = false, self_intersection = false, nearest = false, nurbs = false,
-       features = false, json = false;
+       features = false, rim = false, json = false;
 };
 
 // Whether what --against names is a thing of the scene; else it is a file.
@@ -264,6 +265,14 @@ int run(const Options& options) {
   } else if (options.topology) {
     out = topology(options.name, entity);
     print = print_topology;
+  } else if (options.rim) {
+    out = rim_of(options.name, entity,
+                 options.chord.empty() ? std::vector<double>() : parse_numbers(options.chord, 2, "--chord"));
+    print = print_rim;
+  } else if (!options.stretch.empty()) {
+    out = stretch_of(options.name, entity, options.stretch, find_geometry(scene, options.stretch),
+                     options.samples.value_or(kSamples));
+    print = print_stretch;
   } else if (options.regularity) {
     out = regularity(options.name, entity);
     print = print_regularity;
@@ -391,6 +400,8 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure curves.yaml rim --arc 0,pi/2\n"
       "  lekalo measure curves.yaml rim --hausdorff chord\n"
       "  lekalo measure curves.yaml rim --nurbs --json\n"
+      "  lekalo measure curves.yaml rim --rim --chord 0.3,2\n"
+      "  lekalo measure pipe.yaml flat --stretch pipe\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
       "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
       "moments.\n"
@@ -445,8 +456,9 @@ void add_measure(CLI::App& app, Action& action) {
                               "the curve or surface as NURBS: degree, knots, points, weights, Bezier pieces; exact, "
                               "else fitted");
   auto* features = sub->add_flag("--features", options->features,
-                                 "inflections, vertices, cusps and corners of the curve, total curvature; of a closed "
-                                 "plane one its turning number and area; of a surface its umbilics");
+                                 "inflections, vertices, cusps and corners of the curve, total curvature, the widest "
+                                 "angle between tangents (monotone: less than a right one); of a closed plane one its "
+                                 "turning number and area; of a surface its umbilics");
   auto* arc =
       sub->add_option("--arc", options->arc, "the length of the curve's part between two parameters")->type_name("T,T");
   auto* at_length =
@@ -465,10 +477,20 @@ void add_measure(CLI::App& app, Action& action) {
              "table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose "
              "domain is mapped linearly")
           ->type_name("FILE|NAME");
+  auto* rim = sub->add_flag("--rim", options->rim,
+                            "whether the closed plane curve is the rim of a sheet that may overlap itself");
+  sub->add_option("--chord", options->chord,
+                  "of --rim, two parameters: whether the straight line between the points is one line on the sheet")
+      ->type_name("T,T")
+      ->needs(rim);
+  auto* stretch = sub->add_option("--stretch", options->stretch,
+                                  "by how much the surface stretches when it is laid on another one of the same "
+                                  "parameters, as a development on its surface")
+                      ->type_name("NAME");
   // One question at a time.
-  const std::array modes{topology, regular,    cells,     to,         intersect, self_intersection,
-                         section,  silhouette, position,  continuity, nurbs,     features,
-                         arc,      at_length,  hausdorff, frechet,    against};
+  const std::array modes{topology, regular,    cells,  to,       intersect, self_intersection, section,   silhouette,
+                         position, continuity, nurbs,  features, arc,       at_length,         hausdorff, frechet,
+                         against,  rim,        stretch};
   for (size_t i = 0; i < modes.size(); ++i)
     for (size_t j = 0; j < i; ++j) modes[i]->excludes(modes[j]);
   sub->add_option("--tolerance", options->tolerance,
@@ -479,10 +501,12 @@ void add_measure(CLI::App& app, Action& action) {
       ->type_name("X")
       ->check(CLI::NonNegativeNumber)
       ->check(not_finite);
-  sub->add_option("--samples", options->samples,
-                  fmt::format("of --against, places in each direction [{}]; of curves that surfaces make, points along "
-                              "each branch",
-                              kSamples))
+  sub->add_option(
+         "--samples", options->samples,
+         fmt::format(
+             "of --against and --stretch, places in each direction [{}]; of curves that surfaces make, points along "
+             "each branch",
+             kSamples))
       ->check(CLI::Range(2, 10000));
   sub->add_option("--order", options->order, "compare derivatives up to this order [2]")->check(CLI::Range(0, 2));
   sub->add_flag("--json", options->json, "print JSON");

@@ -116,6 +116,17 @@ ordered_json frechet_between(const std::string& name, const render::Entity& enti
                              const render::Entity& other);
 void print_nearness(const ordered_json& found);
 
+// Whether a closed plane curve is the rim of a sheet that may overlap itself, and with the parameters of the ends of a
+// chord whether that is one line on it. Throws UsageError for anything else.
+ordered_json rim_of(const std::string& name, const render::Entity& entity, const std::vector<double>& chord);
+void print_rim(const ordered_json& found);
+
+// The least and the greatest stretch of a surface that is laid on another of the same parameters, looked for among
+// `samples` places each way. Throws UsageError for anything else.
+ordered_json stretch_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
+                        const render::Entity& other, int samples);
+void print_stretch(const ordered_json& found);
+
 // Parts of these outputs: what keeps a mesh from being closed, as convex_sides, turned_sides, crowded_sides; a range of
 // a parameter; a point back from JSON; the row's parameters as text.
 void put_open_sides(ordered_json& out, const geometry::MeshSides& sides);

@@ -9,6 +9,7 @@
 #include "geometry/queries/differential/umbilics.h"
 #include "geometry/queries/measures/arc_length.h"
 #include "geometry/queries/measures/curve_features.h"
+#include "geometry/queries/measures/tangent_spread.h"
 #include "measure.h"
 #include "parameters.h"
 
@@ -74,6 +75,10 @@ ordered_json curve_shape(const std::string& name, const render::Entity& entity) 
     if (found.total_torsion) put_value(out, "total_torsion", *found.total_torsion);
     if (found.turning_number) out["turning_number"] = *found.turning_number;
     if (found.area) put_value(out, "area", *found.area);
+    const geometry::TangentSpread spread = geometry::tangent_spread(*curve);
+    out["widest_angle"] = spread.angle;
+    out["widest_at"] = {spread.s, spread.t};
+    out["monotone"] = spread.is_monotone();
     ordered_json points = ordered_json::array();
     for (const CurveFeature& feature : found.points) points.push_back(row_of(feature));
     out["features"] = points;
@@ -95,6 +100,9 @@ void print_curve_shape(const ordered_json& found) {
              found["plane"].get<bool>() ? "plane" : "in space", found["closed"].get<bool>() ? "closed" : "open");
   for (const char* key : {"total_curvature", "total_torsion", "turning_number", "area"})
     if (found.contains(key) && !found[key].is_null()) fmt::print("{:<16} {}\n", key, digits(found[key].get<double>()));
+  fmt::print("{:<16} {}  between t {} and {}{}\n", "widest angle", digits(found["widest_angle"].get<double>()),
+             digits(found["widest_at"][0].get<double>()), digits(found["widest_at"][1].get<double>()),
+             found["monotone"].get<bool>() ? ": monotone" : "");
   for (const ordered_json& row : found["features"]) {
     fmt::print("{:<16} t {}  point {}", row["kind"].get<std::string>(), digits(row["t"].get<double>()),
                digits(vector_of(row["point"])));

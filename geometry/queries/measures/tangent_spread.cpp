@@ -1,0 +1,63 @@
+#include "geometry/queries/measures/tangent_spread.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr int kPlaces = 256;
+// Halvings of the step by which the best pair is searched further.
+constexpr int kHalvings = 45;
+
+struct Place {
+  double t;
+  Interval piece;
+  Vec3 tangent;
+};
+
+// Zero where the curve rests.
+Vec3 tangent_at(const Curve& curve, double t, const Interval& piece) {
+  const Vec3 d = curve.evaluate(std::min(t, next_down(piece.hi)), 1).d[1];
+  return glm::length(d) > 0 ? glm::normalize(d) : Vec3(0);
+}
+
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+}  // namespace
+
+TangentSpread tangent_spread(const Curve& curve) {
+  if (!(curve.domain().width() < kInfinity)) throw std::invalid_argument("the curve is unbounded");
+  std::vector<Place> places;
+  for (const CurvePiece& piece : curve.pieces())
+    for (int i = 0; i <= kPlaces; ++i) {
+      const Interval range = intersect(piece.domain, curve.domain());
+      const double t = range.lo + range.width() * i / kPlaces;
+      places.push_back({t, range, tangent_at(curve, t, range)});
+      if (places.back().tangent == Vec3(0)) places.pop_back();
+    }
+  TangentSpread best;
+  const Place *first = nullptr, *second = nullptr;
+  for (const Place& a : places)
+    for (const Place& b : places)
+      if (a.t < b.t && glm::dot(a.tangent, b.tangent) < std::cos(best.angle)) {
+        best = {angle_between(a.tangent, b.tangent), a.t, b.t};
+        first = &a, second = &b;
+      }
+  if (!first) return best;
+  const auto angle = [&](double s, double t) {
+    return angle_between(tangent_at(curve, s, first->piece), tangent_at(curve, t, second->piece));
+  };
+  const double step_s = first->piece.width() / kPlaces, step_t = second->piece.width() / kPlaces;
+  double step = 0.5;
+  for (int halving = 0; halving < kHalvings; ++halving, step /= 2)
+    for (const Vec2 by : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {
+      const double s = first->piece.clamp(best.s + step * by.x * step_s);
+      const double t = second->piece.clamp(best.t + step * by.y * step_t);
+      if (const double wider = angle(s, t); wider > best.angle) best = {wider, s, t};
+    }
+  return best;
+}
+
+}  // namespace lekalo::geometry
