@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/curves/derived/composite_curve.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/describe.h"
 #include "geometry/transformed.h"
@@ -45,6 +47,60 @@ Curve2Ptr image_on(const CurvePtr& curve, const SurfacePtr& surface) {
   return dynamic_cast<const SurfaceCurve&>(*foot).image();
 }
 
+// Of points of the image: bounds that are certain would reach beyond a seam at which it begins.
+Box3 reach_of(const Curve& image) {
+  constexpr int kPlaces = 512;
+  Box3 box;
+  for (int i = 0; i <= kPlaces; ++i) box.include(image.point(image.domain().lo + image.domain().width() * i / kPlaces));
+  return box;
+}
+
+// Where the image leaves the domain, 0 u, 1 v.
+std::optional<int> side_left(const Curve& image, const Rectangle& domain) {
+  const Box3 box = reach_of(image);
+  for (const int k : {0, 1}) {
+    const Interval& range = k == 0 ? domain.u : domain.v;
+    const double room = 1e-9 * range.width();
+    if (box.lo[k] < range.lo - room || box.hi[k] > range.hi + room) return k;
+  }
+  return std::nullopt;
+}
+
+// Moved by whole periods of the surface so that its middle lies in the domain.
+Curve2Ptr moved_inside(const Curve2Ptr& image, const Surface& surface) {
+  const Box3 box = reach_of(*image);
+  const Periods periods = closed_periods(surface);
+  const Rectangle domain = surface.domain();
+  Vec3 by(0);
+  if (periods.u > 0) by.x = -periods.u * std::floor((0.5 * (box.lo.x + box.hi.x) - domain.u.lo) / periods.u);
+  if (periods.v > 0) by.y = -periods.v * std::floor((0.5 * (box.lo.y + box.hi.y) - domain.v.lo) / periods.v);
+  return by == Vec3(0) ? image : transformed(image, Affine::translation(by));
+}
+
+// A parameter at which the image passes over the border of the domain, or whole periods beside it.
+std::optional<double> seam_passage(const Curve& image, const Interval& range, int axis) {
+  const auto turn = [&](double t) { return std::floor((image.point(t)[axis] - range.lo) / range.width()); };
+  constexpr int kSteps = 1024;
+  const Interval domain = image.domain();
+  for (int i = 0; i < kSteps; ++i) {
+    double lo = domain.lo + domain.width() * i / kSteps, hi = domain.lo + domain.width() * (i + 1) / kSteps;
+    if (turn(lo) == turn(hi)) continue;
+    for (int k = 0; k < 60; ++k) (turn(0.5 * (lo + hi)) == turn(lo) ? lo : hi) = 0.5 * (lo + hi);
+    return hi;
+  }
+  return std::nullopt;
+}
+
+// The image of a closed curve that goes round a closed surface, begun at another parameter.
+Curve2Ptr begun_at(const Curve2Ptr& image, double t) {
+  const Interval domain = image->domain();
+  const Vec3 round = image->point(domain.hi) - image->point(domain.lo);
+  return std::make_shared<CompositeCurve>(
+      std::vector<CurvePtr>{trimmed_curve(image, t, domain.hi, false),
+                            transformed(trimmed_curve(image, domain.lo, t, false), Affine::translation(round))},
+      false, 1e-9);
+}
+
 std::any carried_curve(const Fields& f) {
   const SurfacePtr from = f.surface("from"), to = f.surface("to");
   for (const auto& [surface, field] : {std::pair(from, "from"), std::pair(to, "to")})
@@ -56,18 +112,16 @@ std::any carried_curve(const Fields& f) {
                                  "{:.6g} to {:.6g}, v {:.6g} to {:.6g}",
                                  a.u.lo, a.u.hi, a.v.lo, a.v.hi, b.u.lo, b.u.hi, b.v.lo, b.v.hi),
                      "as a surface and its development have the same");
-  const Curve2Ptr image = image_on(f.curve("of"), from);
-  const Periods periods = closed_periods(*to);
-  const Box3 box = bounds(*image);
-  for (const int k : {0, 1}) {
-    const Interval& domain = k == 0 ? b.u : b.v;
-    const double room = 1e-9 * domain.width();
-    if ((k == 0 ? periods.u : periods.v) == 0 && !(box.lo[k] >= domain.lo - room && box.hi[k] <= domain.hi + room))
-      throw FieldError("of",
-                       fmt::format("the curve runs over the seam of the surface, {} = {:.6g}", k == 0 ? "u" : "v",
-                                   box.lo[k] < domain.lo - room ? domain.lo : domain.hi),
-                       "turn the surface's frame so that its seam is elsewhere, or begin the curve there");
-  }
+  const CurvePtr curve = f.curve("of");
+  Curve2Ptr image = moved_inside(image_on(curve, from), *from);
+  if (const auto side = side_left(*image, b); side && curve->is_closed() && !image->is_closed())
+    if (const auto t = seam_passage(*image, *side == 0 ? b.u : b.v, *side))
+      image = moved_inside(begun_at(image, *t), *from);
+  if (const auto side = side_left(*image, b))
+    throw FieldError(
+        "of",
+        fmt::format("the curve runs over the seam of the surface, where {} begins and ends", *side == 0 ? "u" : "v"),
+        "turn the surface's frame so that its seam is elsewhere, or take a part of the curve");
   return std::any(CurvePtr(std::make_shared<SurfaceCurve>(to, image)));
 }
 
@@ -76,7 +130,8 @@ std::any carried_curve(const Fields& f) {
 TypeDeclaration carried_curve_type() {
   return declare(Category::curve, "carried_curve",
                  "A curve on a surface carried to another surface by equal parameters u, v: to the surface's "
-                 "development, or from there back.")
+                 "development, or from there back. Its parameter is the curve's; a closed curve that runs over a seam "
+                 "begins there, at 0.")
       .example(
           "of: { type: geodesic_curve, of: pipe, from: [0, 0], direction: 30, length: 2 }, from: pipe, to: { type: "
           "development, of: pipe }")
