@@ -76,6 +76,12 @@ drawing:
         text = self.bytes_of("bar.svg").decode()
         for number in ("0.5", "1", "mean"):
             self.assertTrue(f">{number}<" in text, number)
+        # Over a rendered picture too: its lower left corner is no longer blank.
+        _, notes = self.run_program("render", "bar.yaml", "-o", "bar.png")
+        self.assertNotIn("annotations", notes)
+        self.write("bare.yaml", scene.split("drawing:")[0].replace("[48, 32]", "[60 mm, 50 mm]"))
+        self.run_program("render", "bare.yaml", "-o", "bare.png", "--quiet")
+        self.assertNotEqual(self.bytes_of("bar.png"), self.bytes_of("bare.png"))
         self.write("bar.yaml", scene.replace("type: analysis, quantity: mean_curvature, range: [-1, 1], title: mean", "type: classic"))
         _, errors = self.run_program("draw", "bar.yaml", "-o", "bar.svg", code=3)
         self.assertIn("a colour bar needs the 'range' of its numbers", errors)
