@@ -11,6 +11,7 @@
 #include "render/lines/curve_figures.h"
 #include "render/lines/mesh_figures.h"
 #include "render/lines/surface_figures.h"
+#include "render/model/color_scale.h"
 
 namespace lekalo::render {
 
@@ -45,16 +46,21 @@ std::vector<Frame> frames_on_surfaces(const Curve& curve, const std::vector<doub
 
 }  // namespace
 
-CurvatureComb curvature_comb(const Curve& curve, int count, double scale, bool torsion) {
+CurvatureComb curvature_comb(const Curve& curve, int count, double scale, const std::string& by) {
   const Interval domain = curve.domain();
   CurvatureComb comb;
   for (int k = 0; k < count; ++k) {
-    const CurveJet at = curve.evaluate(domain.clamp(domain.lo + domain.width() * k / (count - 1)), torsion ? 3 : 2);
+    const double t = domain.clamp(domain.lo + domain.width() * k / (count - 1));
+    const CurveJet at = curve.evaluate(t, by == "torsion" ? 3 : 2);
     if (!(glm::length(at.d[1]) > 0)) continue;
     comb.foot_points.push_back(at.d[0]);
-    if (torsion) {
+    if (by == "torsion") {
       const CurveCurvature frame = curvature(at);
       comb.tips.push_back(at.d[0] + scale * frame.torsion * frame.binormal);
+    } else if (by == "geodesic_curvature" || by == "normal_curvature") {
+      const SurfaceBend bend = surface_bend(curve, t);
+      comb.tips.push_back(at.d[0] -
+                          scale * (by == "normal_curvature" ? bend.normal * bend.up : bend.geodesic * bend.across));
     } else {
       comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
     }
@@ -143,8 +149,7 @@ std::vector<Vec3> helper_points(const Object& object) {
     if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && is_mesh_figure(helper.type))
       for (const CurvePtr& line : mesh_figure(**mesh, helper).lines) add_places(*line);
     if (helper.type == "comb" && curve) {
-      const CurvatureComb comb =
-          curvature_comb(**curve, f.integer("count"), f.number("scale"), f.text("by") == "torsion");
+      const CurvatureComb comb = curvature_comb(**curve, f.integer("count"), f.number("scale"), f.text("by"));
       points.insert(points.end(), comb.tips.begin(), comb.tips.end());
     }
     if (helper.type == "frames" && curve && (*curve)->domain().width() < kInfinity)

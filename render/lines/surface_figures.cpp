@@ -146,6 +146,22 @@ SurfaceFigure isophotes(const SurfacePtr& surface, const Fields& f) {
   return figure;
 }
 
+// Where lamps in a plane, side by side, are seen mirrored from an eye or along a direction.
+SurfaceFigure reflections(const SurfacePtr& surface, const Fields& f) {
+  const ViewOf view{f.has("eye"), f.vec3(f.has("eye") ? "eye" : "along")};
+  const Axis lamp = f.axis("lamp");
+  const Vec3 across = glm::cross(f.vec3("ceiling"), lamp.along);
+  const int count = f.integer("count");
+  SurfaceFigure figure;
+  for (int k = 0; k < count; ++k) {
+    const Vec3 off = (k - 0.5 * (count - 1)) * f.number("spacing") * glm::normalize(across);
+    const Contours found = reflection_line(surface, view, {lamp.through + off, lamp.along});
+    figure.complete = figure.complete && found.complete;
+    for (const Contour& branch : found.branches) figure.lines.push_back({branch.curve, branch.images.front()});
+  }
+  return figure;
+}
+
 SurfaceFigure principal_directions(const SurfacePtr& surface, const Fields& f) {
   SurfaceFigure figure;
   const double half = 0.5 * f.number("length");
@@ -301,6 +317,7 @@ const std::map<std::string, Draw, std::less<>>& figures() {
                                                                {"asymptotic_lines", asymptotic_lines},
                                                                {"contour_lines", contour_lines},
                                                                {"isophotes", isophotes},
+                                                               {"reflections", reflections},
                                                                {"principal_directions", principal_directions},
                                                                {"umbilics", umbilic_points},
                                                                {"hedgehog", hedgehog},

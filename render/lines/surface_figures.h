@@ -1,7 +1,7 @@
 // What helpers draw of a surface: lines, arrows and points on and beside it, in the surface's own coordinates
 // (Golovanov 2016, 3.1).
 //
-//   curvature_lines, asymptotic_lines, contour_lines, isophotes          lines on the surface
+//   curvature_lines, asymptotic_lines, contour_lines, isophotes, reflections   lines on the surface
 //   principal_directions, umbilics, hedgehog                             crosses, points, needles
 //   principal_circles, dupin_indicatrix, tangent_plane                   at one place
 #pragma once

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/queries/differential/curvature.h"
+#include "geometry/curves/operations/surface_curve.h"
+#include "geometry/describe.h"
+#include "geometry/queries/differential/fundamental_forms.h"
 #include "render/scene/values/color_names.h"
 
 namespace lekalo::render {
@@ -64,11 +66,33 @@ std::vector<double> round_numbers(const Interval& range, int count) {
 }
 
 std::vector<std::string> curve_quantities() {
-  return {"curvature", "signed_curvature", "torsion", "speed", "parameter"};
+  return {"curvature", "signed_curvature", "torsion", "speed", "parameter", "geodesic_curvature", "normal_curvature"};
+}
+
+SurfaceBend surface_bend(const Curve& curve, double t) {
+  const auto* on_surface = dynamic_cast<const SurfaceCurve*>(&curve);
+  if (!on_surface)
+    throw FieldError("by", "the curve lies on no surface",
+                     "surface_curve, geodesic_curve, curvature_line and asymptotic_line do");
+  const Vec3 image = on_surface->image()->point(t);
+  const CurveJet jet = curve.evaluate(t, 2);
+  SurfaceBend bend;
+  bend.up = on_surface->surface()->normal(image.x, image.y);
+  if (!(glm::length(jet.d[1]) > 0)) return bend;
+  const CurveOnSurfaceCurvature c = curvature_on_surface(jet, bend.up);
+  bend.geodesic = c.geodesic;
+  bend.normal = c.normal;
+  bend.across = glm::cross(bend.up, glm::normalize(jet.d[1]));
+  return bend;
 }
 
 double curve_quantity(const Curve& curve, const std::string& quantity, double t) {
   if (quantity == "parameter") return t;
+  if (quantity == "geodesic_curvature" || quantity == "normal_curvature") {
+    const SurfaceBend bend = surface_bend(curve, t);
+    const double found = quantity == "normal_curvature" ? bend.normal : bend.geodesic;
+    return std::isfinite(found) ? found : 0;
+  }
   const CurveJet jet = curve.evaluate(t, 3);
   double value = 0;
   if (quantity == "speed") {

@@ -24,11 +24,20 @@ double place_on_scale(const PictureScale& scale, double value);
 std::vector<double> round_numbers(const geometry::Interval& range, int count);
 
 // What a line may be coloured by: curvature, signed_curvature (of a plane curve, positive to the left in its plane z =
-// const), torsion, speed (|dr/dt|), parameter.
+// const), torsion, speed (|dr/dt|), parameter; of a curve on a surface geodesic_curvature, normal_curvature.
 std::vector<std::string> curve_quantities();
 
-// At a place; where there is none (a torsion of a straight point) 0.
+// At a place; where there is none (a torsion of a straight point) 0. Throws FieldError (by) for a curve that lies on no
+// surface, where it is asked for one that does.
 double curve_quantity(const geometry::Curve& curve, const std::string& quantity, double t);
+
+// How a curve on a surface bends at a place: the parts of its vector of curvature along m x t and along m, the
+// surface's normal (Golovanov 2016, 3.1). Throws FieldError (by) for a curve that lies on no surface.
+struct SurfaceBend {
+  double geodesic = 0, normal = 0;
+  geometry::Vec3 across{0}, up{0};  // m x t and m
+};
+SurfaceBend surface_bend(const geometry::Curve& curve, double t);
 
 // Least and largest of it, as seen at places of the curve; of a constant quantity a range about it.
 geometry::Interval curve_range(const geometry::Curve& curve, const std::string& quantity);

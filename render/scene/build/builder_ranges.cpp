@@ -9,6 +9,7 @@
 #include "geometry/queries/contours/parameter_lines.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/surface_figures.h"
+#include "render/model/color_scale.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
 
@@ -152,6 +153,8 @@ bool Builder::check_helper_values(const Helper& helper, const Value& map, const 
       for (size_t k = 0; k < values.size(); ++k)
         good = check_parameter(listed ? at->items[k] : *at, "t", values[k], "curve", domain, period) && good;
     }
+    if (good && (helper.type == "comb" || helper.type == "colored") && domain.width() < geometry::kInfinity)
+      good = check_figure(map, [&] { curve_quantity(**curve, f.text("by"), domain.middle()); });
     if (good && is_curve_figure(helper.type)) good = check_figure(map, [&] { curve_figure(*curve, helper); });
   }
   const Value* levels = map.find("levels");

@@ -95,10 +95,15 @@ TypeDeclaration triangle(const char* name, const char* description, bool of_surf
 }
 
 TypeDeclaration comb() {
-  TypeDeclaration type = helper("comb", "The curvature or torsion of a curve as teeth across it.", "hairline");
+  TypeDeclaration type =
+      helper("comb", "The curvature or torsion of a curve as teeth across it, or what of it lies along a surface.",
+             "hairline");
   type.field("count", integer().between(2, 10000), "number of teeth", "60")
-      .field("by", choice({"curvature", "torsion"}), "torsion: along the binormal, backwards where it is negative",
-             "curvature")
+      .field(
+          "by", choice({"curvature", "torsion", "geodesic_curvature", "normal_curvature"}),
+          "torsion: along the binormal, backwards where it is negative; of a curve on a surface, what of its bending "
+          "lies in the surface and what across it",
+          "curvature")
       .field("scale", number(), "length of a tooth for curvature or torsion 1, in scene units", "1")
       .field("envelope", boolean(), "join the ends of the teeth", "true");
   return finish(type);
@@ -208,7 +213,10 @@ TypeDeclaration direction_helper() {
 TypeDeclaration colored_helper() {
   TypeDeclaration type = helper("colored", "A curve in colours that tell its curvature or another number.", "thick");
   type.field("by", choice(curve_quantities()),
-             "signed_curvature: of a plane curve, positive to the left; speed: |dr/dt|", "curvature")
+             "signed_curvature: of a plane curve, positive to the left; speed: |dr/dt|; geodesic_curvature, "
+             "normal_curvature: "
+             "of a curve on a surface",
+             "curvature")
       .optional("range", range(), "the numbers of the first and last colour; least and largest by default")
       .field("colors", choice(color_scales()), "scale of colours", "viridis")
       .field("count", integer().between(2, 2000), "parts of one colour each", "120");

@@ -59,6 +59,27 @@ TypeDeclaration isophotes() {
   });
 }
 
+TypeDeclaration reflections() {
+  TypeDeclaration type =
+      helper("reflections", "Where parallel lamps are seen mirrored in a surface: how stylists judge it.", "thin");
+  type.example("eye: [0, -9, 4]")
+      .field("lamp", axis(), "the lamp in the middle", "{ through: [0, 0, 10], along: x }")
+      .field("ceiling", direction(), "normal of the plane in which the lamps lie", "z")
+      .field("spacing", length().positive(), "from one lamp to the next", "1")
+      .field("count", integer().between(1, 200), "of lamps", "9")
+      .optional("along", direction(), "direction of sight of a parallel view")
+      .optional("eye", point(), "where a central view looks from, instead");
+  finish(type);
+  return type.built_by([build = type.build](const Fields& f) -> std::any {
+    if (f.has("along") == f.has("eye"))
+      throw FieldError(f.has("eye") ? "eye" : "along", "give either `along` (parallel view) or `eye` (central view)");
+    if (!(glm::length(glm::cross(f.vec3("ceiling"), f.axis("lamp").along)) > 1e-9))
+      throw FieldError("ceiling", "the lamps would stand upright on their plane",
+                       "the normal of the plane of the lamps is across them");
+    return build(f);
+  });
+}
+
 TypeDeclaration principal_directions() {
   TypeDeclaration type = helper("principal_directions", "Crosses along the principal directions of a surface.", "thin");
   type.field("at_u", counts(), "parameters u: how many, or where", "7")
@@ -141,9 +162,19 @@ TypeDeclaration voronoi() {
 }  // namespace
 
 std::vector<TypeDeclaration> surface_helper_types() {
-  return {
-      curvature_lines(),   asymptotic_lines(), contour_lines(), isophotes(), umbilics_helper(), principal_directions(),
-      principal_circles(), dupin_indicatrix(), tangent_plane(), hedgehog(),  circumcircles(),   voronoi()};
+  return {curvature_lines(),
+          asymptotic_lines(),
+          contour_lines(),
+          isophotes(),
+          reflections(),
+          umbilics_helper(),
+          principal_directions(),
+          principal_circles(),
+          dupin_indicatrix(),
+          tangent_plane(),
+          hedgehog(),
+          circumcircles(),
+          voronoi()};
 }
 
 }  // namespace lekalo::render

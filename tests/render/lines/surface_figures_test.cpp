@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/lines/strokes.h"
@@ -90,6 +91,33 @@ TEST(SurfaceFigures, Isophotes) {
     each_place(line, [](const Vec3& p) { EXPECT_NEAR(p.z, 0.5, 1e-9); });
 }
 
+// Mirrored in the plane z = 0 the eye is at z = -5: lamps at the height 10 are seen at a third of their distance.
+TEST(SurfaceFigures, Reflections) {
+  std::vector<double> at;
+  for (const CurvePtr& line : curves_of("{ type: plane, size: [6, 6] }", "reflections",
+                                        "eye: [0, 0, 5], lamp: { through: [0, 0, 10], along: x }, count: 3")) {
+    at.push_back(line->point(line->domain().lo).y);
+    each_place(line, [&](const Vec3& p) { EXPECT_NEAR(p.y, at.back(), 1e-9); });
+  }
+  std::sort(at.begin(), at.end());
+  ASSERT_EQ(at.size(), 3u);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(at[k], (k - 1) / 3.0, 1e-9);
+}
+
+// A parallel of a ball of radius 2 at the latitude 0.6: k_g = tan(0.6)/2 to the north, k_n = -1/2.
+TEST(SurfaceFigures, CombsOfACurveOnASurface) {
+  const std::string parallel =
+      "{ type: surface_curve, of: { type: sphere_surface, radius: 2 }, image: { type: segment, from: [0, 0.6], to: [2, "
+      "0.6] } }";
+  for (const CurvePtr& tooth : curves_of(parallel, "comb", "by: geodesic_curvature, count: 5, envelope: false")) {
+    const Vec3 way = tooth->point(1) - tooth->point(0);
+    EXPECT_NEAR(glm::length(way), std::tan(0.6) / 2, 1e-12);
+    EXPECT_NEAR(way.z, -std::cos(0.6) * std::tan(0.6) / 2, 1e-12);
+  }
+  for (const CurvePtr& tooth : curves_of(parallel, "comb", "by: normal_curvature, count: 5, envelope: false"))
+    EXPECT_NEAR(glm::length(tooth->point(1)), 2.5, 1e-12);
+}
+
 TEST(SurfaceFigures, UmbilicsAreMarked) {
   const LineWork work = drawn("  - { shape: egg, show: { umbilics: {} } }\n");
   ASSERT_EQ(work.marks.size(), 4u);
@@ -172,6 +200,10 @@ TEST(SurfaceFigures, WrongPlaces) {
   EXPECT_NE(said("{ shape: bowl, show: { principal_circles: { u: 3, v: 0 } } }").find("has no u = 3"),
             std::string::npos);
   EXPECT_NE(said("{ shape: flat, show: { isophotes: {} } }").find("unbounded"), std::string::npos);
+  EXPECT_NE(
+      said("{ shape: { type: circle, radius: 1 }, show: { comb: { by: geodesic_curvature } } }").find("on no surface"),
+      std::string::npos);
+  EXPECT_NE(said("{ shape: bowl, show: { reflections: {} } }").find("give either `along`"), std::string::npos);
   EXPECT_NE(said("{ shape: bowl, show: { isophotes: { angles: [200] } } }").find("not between 0 and 180"),
             std::string::npos);
 }
