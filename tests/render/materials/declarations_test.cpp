@@ -58,7 +58,8 @@ TEST(Declarations, FamiliesAreWhole) {
         {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light",
          "environment_light", "profile_light", "ambient_light"});
   check(camera_types(), Category::camera, {"graph", "perspective", "parallel"});
-  check(integrator_types(), Category::integrator, {"classic", "path", "direct_lighting", "ambient_occlusion"});
+  check(integrator_types(), Category::integrator,
+        {"analysis", "classic", "path", "direct_lighting", "ambient_occlusion"});
 }
 
 TEST(Declarations, ColourFieldsTakeColoursAndTextures) {

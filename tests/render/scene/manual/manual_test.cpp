@@ -50,13 +50,13 @@ std::string scene_of(const TypeDeclaration& type, const std::string& example) {
       return kNamed + "drawing: { annotations: [" + example + "] }\n";
     case Category::helper:
       return std::string("geometry:\n  c: ") +
-             (curve                              ? "{ type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }"
-              : offers("nurbs_curve", type.name) ? "{ type: nurbs_curve, points: [[0, 0], [1, 1], [2, 0], [3, 1]] }"
+             (curve                                ? "{ type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }"
+              : offers("nurbs_curve", type.name)   ? "{ type: nurbs_curve, points: [[0, 0], [1, 1], [2, 0], [3, 1]] }"
+              : offers("triangulation", type.name) ? "{ type: triangulation, points: [[0, 0], [1, 0], [0, 1]] }"
               : offers("nurbs_surface", type.name)
-                  ? "{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }"
+                  ? "{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1, 1]]] }"
                   : "{ type: t_spline, degree: 1, at: [[0, 0], [1, 0], [0, 1], [1, 1]], lines: [[0, 1], [2, 3], [0, "
-                    "2], [1, "
-                    "3]] }") +
+                    "2], [1, 3]] }") +
              "\nobjects: { shape: c, show: { " + example + " } }\n";
     default:
       return kNamed + "  a: " + example + "\n";
