@@ -1,7 +1,6 @@
 #include "render/integrators/classic_reading.h"
 
 #include "render/integrators/gloss.h"
-#include "render/lobes/fresnel.h"
 
 namespace lekalo::render {
 
@@ -26,7 +25,7 @@ class Reader {
     c_.fresnel = lobe.fresnel ? Fresnel::boundary : Fresnel::none;
   }
   void operator()(const CoatLobe& lobe) {
-    gloss(lobe.roughness, fresnel_dielectric(1, 1, lobe.index));
+    gloss(lobe.roughness, lobe.facing);
     c_.mirror += weight_ * rgb(Vec3(mirror_share(lobe.roughness)));
     c_.fresnel = Fresnel::coat;
     c_.index = Spectrum(static_cast<float>(lobe.index));
@@ -55,7 +54,7 @@ class Reader {
     }
   }
   void operator()(const ClearLobe& lobe) {
-    gloss(lobe.roughness, fresnel_dielectric(1, 1, lobe.index));
+    gloss(lobe.roughness, lobe.facing);
     c_.transmission += weight_ * lobe.tint * Spectrum(1, 1, 1, 0);
     c_.fresnel = lobe.thin ? Fresnel::none : Fresnel::boundary;
   }

@@ -13,7 +13,8 @@ namespace lekalo::render {
 // goes straight on, reflectance of all bounces within 2 F / (1 + F).
 struct ClearLobe {
   double roughness = 0;
-  double index = 1.5;  // at the yellow line d, for highlights of the classic model and thin panes
+  double index = 1.5;    // of thin panes
+  double facing = 0.04;  // reflectance at right angles against air, at the yellow line d
   bool thin = false;
   Spectrum tint{1.0f};  // of what passes
 

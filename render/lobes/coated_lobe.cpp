@@ -11,6 +11,13 @@ namespace lekalo::render {
 
 using geometry::kPi;
 
+CoatLobe coat_lobe(double index) {
+  CoatLobe coat;
+  coat.index = index;
+  coat.facing = fresnel_dielectric(1, 1, index);
+  return coat;
+}
+
 Spectrum CoatLobe::evaluate(const Vec3& out, const Vec3& in, const Sides&) const {
   const Microfacets facets = microfacets(roughness, 0);
   if (in.z <= 0 || facets.smooth()) return {};

@@ -10,6 +10,7 @@ namespace lekalo::render {
 struct CoatLobe {
   double roughness = 0;
   double index = 1.5;
+  double facing = 0.04;                // reflectance of that index at right angles
   const LobeAlbedo* albedo = nullptr;  // coat_albedo of both
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
@@ -17,6 +18,9 @@ struct CoatLobe {
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
   double importance(const Vec3& out, const Sides&) const;
 };
+
+// A smooth one, without its table.
+CoatLobe coat_lobe(double index);
 
 // A coat over a matt body. With E the reflectance of the coat by angle and E_mean its mean, the body adds
 //   f = a (1 - E(out)) (1 - E(in)) / (pi (1 - E_mean)),  a = albedo (1 - R) / (1 - albedo R),

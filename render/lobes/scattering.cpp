@@ -1,7 +1,7 @@
 #include "render/lobes/scattering.h"
 
 #include <algorithm>
-#include <new>
+#include <cmath>
 
 namespace lekalo::render {
 
@@ -16,20 +16,13 @@ float WeightedLobe::passes(const Vec3& out, const Vec3& in) const {
   return share;
 }
 
-void LobeList::add(const Lobe& lobe, const Spectrum& weight) {
-  if (count_ == kMost || weight.is_zero()) return;
-  ::new (&lobes_[count_]) WeightedLobe{lobe, weight};
-  ++count_;
-}
-
-void LobeList::cover(const Lobe& lobe, const Spectrum& weight, const LobeAlbedo& albedo) {
-  if (weight.is_zero()) return;
+void LobeList::lay_over(const LobeAlbedo& albedo, float weight) {
+  if (weight == 0) return;
   for (int i = 0; i < count_; ++i) {
     WeightedLobe& below = lobes_[i];
     if (below.cover_count < static_cast<int>(below.covers.size()))
-      below.covers[below.cover_count++] = {&albedo, weight.largest()};
+      below.covers[below.cover_count++] = {&albedo, weight};
   }
-  add(lobe, weight);
 }
 
 void LobeList::append(const LobeList& others, const Spectrum& weight) {

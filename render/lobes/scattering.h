@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <new>
 #include <variant>
 
 #include "render/lobes/classic_lobes.h"
@@ -49,9 +50,20 @@ class LobeList {
   }
 
   // Nothing if the weight is zero, or the list full.
-  void add(const Lobe& lobe, const Spectrum& weight = Spectrum(1.0f));
+  template <class AnyLobe>
+  void add(const AnyLobe& lobe, const Spectrum& weight = Spectrum(1.0f)) {
+    if (count_ == kMost || weight.is_zero()) return;
+    WeightedLobe* const place = ::new (&lobes_[count_]) WeightedLobe;
+    place->lobe.template emplace<AnyLobe>(lobe);
+    place->weight = weight;
+    ++count_;
+  }
   // Lays a lobe over all those of the list.
-  void cover(const Lobe& lobe, const Spectrum& weight, const LobeAlbedo& albedo);
+  template <class AnyLobe>
+  void cover(const AnyLobe& lobe, const Spectrum& weight, const LobeAlbedo& albedo) {
+    lay_over(albedo, weight.largest());
+    add(lobe, weight);
+  }
   void append(const LobeList& others, const Spectrum& weight);
 
   const WeightedLobe* begin() const { return lobes_.data(); }
@@ -60,6 +72,8 @@ class LobeList {
   const WeightedLobe& operator[](int i) const { return lobes_[i]; }
 
  private:
+  void lay_over(const LobeAlbedo& albedo, float weight);
+
   union {
     std::array<WeightedLobe, kMost> lobes_;  // not initialised: most of it is never used
   };

@@ -6,18 +6,18 @@
 namespace lekalo::render {
 
 // f of a white sheen: D(h) = (2 + 1/r) sin(h)^(1/r) / (2 pi) (Estevez and Kulla 2017), visibility 1 / (4 (out.z + in.z
-// - out.z in.z)) (Neubelt and Pettineo 2013). r is the roughness within [0.07, 1].
+// - out.z in.z)) (Neubelt and Pettineo 2013). r is the roughness within [0.25, 1], where it sends back no more light
+// than falls on it.
 double sheen(double roughness, const Vec3& out, const Vec3& in);
 
 struct SheenLobe {
   Spectrum color;
   double roughness = 0.3;
-  double scale = 1;  // at most 1 / the largest of its reflectances, which may be above 1 at grazing angles
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides&) const;
   double density(const Vec3&, const Vec3& in, const Sides&) const { return in.z > 0 ? 1 / geometry::kTwoPi : 0; }
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
-  double importance(const Vec3&, const Sides&) const { return scale * color.largest() * 0.5; }
+  double importance(const Vec3&, const Sides&) const { return color.largest() * 0.5; }
 };
 
 }  // namespace lekalo::render

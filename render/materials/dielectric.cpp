@@ -1,5 +1,6 @@
 // Clear body: glass, crystal, liquid. Snell's refraction, Fresnel's reflectance, Bouguer's absorption (Golovanov 2016,
 // 8.4), the refractive index from the substance's dispersion formula.
+#include "render/lobes/fresnel.h"
 #include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
@@ -14,6 +15,7 @@ class DielectricMaterial final : public Material {
  public:
   explicit DielectricMaterial(const Dielectric& dielectric) : dielectric_(dielectric), index_d_(index(kLineD)) {
     lobe_.index = index_d_;
+    lobe_.facing = fresnel_dielectric(1, 1, index_d_);
     lobe_.thin = dielectric.thin;
   }
 

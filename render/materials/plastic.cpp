@@ -11,14 +11,18 @@ namespace {
 class PlasticMaterial final : public Material {
  public:
   explicit PlasticMaterial(const Plastic& plastic)
-      : plastic_(plastic), roughness_(plastic.roughness, [index = plastic.index](double roughness) {
-          return coat_albedo(roughness, index);
-        }) {}
+      : plastic_(plastic),
+        coat_(coat_lobe(plastic.index)),
+        roughness_(plastic.roughness,
+                   [index = plastic.index](double roughness) { return coat_albedo(roughness, index); }) {}
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
     Scattering s;
-    const auto [roughness, albedo] = roughness_.at(point);
-    s.lobes.add(CoatedMattLobe{plastic_.color.at(point), {roughness, plastic_.index, albedo}});
+    CoatedMattLobe lobe{plastic_.color.at(point), coat_};
+    const TabledRoughness::Value rough = roughness_.at(point);
+    lobe.coat.roughness = rough.roughness;
+    lobe.coat.albedo = rough.albedo;
+    s.lobes.add(lobe);
     return s;
   }
   bool uses_parameters() const override {
@@ -34,6 +38,7 @@ class PlasticMaterial final : public Material {
 
  private:
   Plastic plastic_;
+  CoatLobe coat_;  // without its roughness
   TabledRoughness roughness_;
 };
 

@@ -44,7 +44,10 @@ class PrincipledMaterial final : public Material {
     s.lobes.add(metal(point, base), part(p_.base_metalness) * tint);
     s.lobes.add(matt(point, base), part(opaque * (1 - p_.transmission_weight)) * tint);
     s.lobes.add(clear(point), part(opaque * p_.transmission_weight) * tint);
-    s.lobes.cover(CoatLobe{p_.coat_roughness, p_.coat_ior, coat_.get()}, Spectrum(coated), *coat_);
+    CoatLobe coat = coat_lobe(p_.coat_ior);
+    coat.roughness = p_.coat_roughness;
+    coat.albedo = coat_.get();
+    s.lobes.cover(coat, Spectrum(coated), *coat_);
     SheenLobe nap;
     nap.color = p_.fuzz_color.at(point);
     nap.roughness = p_.fuzz_roughness;
@@ -83,12 +86,16 @@ class PrincipledMaterial final : public Material {
   }
   CoatedMattLobe matt(const SurfacePoint& point, const Spectrum& color) const {
     const TabledRoughness::Value rough = skin_.at(point);
-    return {color, {rough.roughness, index_, rough.albedo}};
+    CoatLobe skin = coat_lobe(index_);
+    skin.roughness = rough.roughness;
+    skin.albedo = rough.albedo;
+    return {color, skin};
   }
   ClearLobe clear(const SurfacePoint& point) const {
     ClearLobe lobe;
     lobe.roughness = p_.specular_roughness.at(point);
     lobe.index = p_.specular_ior;
+    lobe.facing = fresnel_dielectric(1, 1, p_.specular_ior);
     if (p_.transmission_depth == 0) lobe.tint = rgb(p_.transmission_color);
     return lobe;
   }
