@@ -30,6 +30,8 @@ class Camera {
   // Ray through the picture point (x, y) in pixels from the upper left corner of the full picture.
   virtual Ray ray(double x, double y) const = 0;
   virtual PicturePoint project(const Vec3& point) const = 0;
+  // Whether straight lines have straight pictures; of other cameras picture_map() throws std::logic_error.
+  virtual bool is_linear() const { return true; }
   virtual PictureMap picture_map() const = 0;  // agrees with project()
   // Width of one pixel at the given place, in scene units.
   virtual double pixel_size(const Vec3& point) const = 0;

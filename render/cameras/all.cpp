@@ -5,7 +5,8 @@
 #define LEKALO_CAMERA_TYPES(X) \
   X(perspective_type)          \
   X(parallel_type)             \
-  X(graph_type)
+  X(graph_type)                \
+  X(panorama_type)
 
 namespace lekalo::render {
 

@@ -378,6 +378,12 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
   };
   Vec2 corner = at, room = size;
   model.camera = camera_for(size);
+  if (!model.camera->is_linear()) {
+    Diagnostics found;
+    found.error({}, "straight lines are bent before this camera: there are no drawings of it",
+                "render it, or take a perspective, parallel or graph camera");
+    throw SceneError(std::move(found));
+  }
   const bool graph = model.camera->is_graph();
   const bool grows_down = !panel && !graph && model.paper.auto_height,
              grows_wide = !panel && !graph && model.paper.auto_width;

@@ -105,6 +105,7 @@ std::optional<Spectrum> color_at(const Mark& mark, const Vec2& p, double line) {
 
 PictureLines::PictureLines(const World& world, const std::atomic<bool>* stop)
     : world_(world), camera_(world.model().camera.get()) {
+  if (!camera_->is_linear()) return;
   LineWork work = line_work(world, stop);
   // Numbers of lines that clip planes leave nothing of are missing.
   int orders = 0;

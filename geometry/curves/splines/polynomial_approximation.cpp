@@ -33,14 +33,14 @@ class Fitting {
     return add(pieces.first(count)) && add(pieces.subspan(count));
   }
 
-  std::vector<PolynomialCurve::Part> parts;
-
- private:
   bool add(const Interval& t, int depth) {
     if (add_one(t)) return parts.size() <= kMaxParts;
     return depth < kMaxHalvings && add({t.lo, t.middle()}, depth + 1) && add({t.middle(), t.hi}, depth + 1);
   }
 
+  std::vector<PolynomialCurve::Part> parts;
+
+ private:
   // Short pieces tell where to look besides.
   bool add_one(const Interval& t, std::span<const Interval> pieces = {}) {
     PolynomialCurve::Part part;
@@ -81,17 +81,21 @@ std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::funct
                                                                 std::span<const Interval> pieces, double tolerance,
                                                                 const OwnPace* pace) {
   Fitting fitting(point, tolerance, pace);
-  std::vector<Interval> some;
   for (const Interval& t : pieces)
-    if (!t.empty() && t.width() > 0) some.push_back(t);
-  if (!fitting.add(some)) return nullptr;
+    if (!t.empty() && t.width() > 0 && !fitting.add(t, 0)) return nullptr;
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 
 std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
+  const std::function<Vec3(double)> point = [&](double t) { return curve.point(t); };
+  Fitting fitting(point, tolerance, nullptr);
   std::vector<Interval> pieces;
-  for (const CurvePiece& piece : curve.pieces()) pieces.push_back(intersect(piece.domain, curve.domain()));
-  return polynomial_approximation([&](double t) { return curve.point(t); }, pieces, tolerance);
+  for (const CurvePiece& piece : curve.pieces()) {
+    const Interval t = intersect(piece.domain, curve.domain());
+    if (!t.empty() && t.width() > 0) pieces.push_back(t);
+  }
+  if (!fitting.add(pieces)) return nullptr;
+  return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 
 }  // namespace lekalo::geometry

@@ -98,7 +98,8 @@ SurfacePiece patch_of(const Fit& fit) {
   return piece;
 }
 
-void fit(const Surface& surface, Fit& fit, double tolerance) {
+// Beyond `farthest` distances are not known to the end.
+void fit(const Surface& surface, Fit& fit, double tolerance, double farthest) {
   for (int i = 0; i < kNodes; ++i)
     for (int j = 0; j < kNodes; ++j) fit.values[i][j] = surface.point(fit.u(node(i)), fit.v(node(j)));
   const auto off = [&](const Vec3& point, const Vec3& there) {
@@ -117,9 +118,9 @@ void fit(const Surface& surface, Fit& fit, double tolerance) {
       fit.off_u = std::max(fit.off_u, off(along_u, surface.point(fit.u(x), fit.v(node(j)))));
       fit.off_v = std::max(fit.off_v, off(along_v, surface.point(fit.u(node(j)), fit.v(x))));
     }
-    if (fit.off_u > tolerance && fit.off_v > tolerance) return;
+    if (fit.off_u > farthest && fit.off_v > farthest) return;
   }
-  if (!fit.is_near(tolerance)) return;
+  if (!fit.is_near(farthest)) return;
   for (int k = 0; k <= kNodes; k += 2)
     for (int l = 0; l <= kNodes; l += 2) {
       const double x = extremum(k), y = extremum(l);
@@ -128,7 +129,7 @@ void fit(const Surface& surface, Fit& fit, double tolerance) {
       for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j < kNodes; ++j) sum += in_u[i] * in_v[j] * fit.values[i][j];
       const double here = off(sum, surface.point(fit.u(x), fit.v(y)));
-      if (here > 4 * tolerance) fit.off_u = fit.off_v = here;
+      if (here > 4 * tolerance) fit.off_u = std::max(fit.off_u, here), fit.off_v = std::max(fit.off_v, here);
     }
 }
 
@@ -171,12 +172,12 @@ double size_of(const Surface& surface, const std::vector<Rectangle>& boxes) {
 
 FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>& boxes) {
   FittedPieces result;
-  const double tolerance = kFitDistance * size_of(surface, boxes);
+  const double farthest = kFitDistance * size_of(surface, boxes), tolerance = 0.1 * farthest;
   std::vector<Fit> open(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) open[i].box = boxes[i];
   while (!open.empty()) {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, open.size()), [&](const tbb::blocked_range<size_t>& some) {
-      for (size_t i = some.begin(); i < some.end(); ++i) fit(surface, open[i], tolerance);
+      for (size_t i = some.begin(); i < some.end(); ++i) fit(surface, open[i], tolerance, farthest);
     });
     std::vector<Fit> next;
     for (Fit& one : open) {
@@ -185,6 +186,10 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
         continue;
       }
       one.misses = one.misses_again(tolerance) ? one.misses + 1 : 0;
+      if (one.misses > 0 && one.is_near(farthest)) {
+        result.patches.push_back(patch_of(one));
+        continue;
+      }
       if (one.misses > kMostMisses || result.patches.size() + next.size() > kMostPatches)
         result.rest.push_back(one.box);
       else

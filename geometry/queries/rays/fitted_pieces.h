@@ -8,7 +8,7 @@
 
 namespace lekalo::geometry {
 
-// Share of the surface's size from which patches may differ from it.
+// Share of the surface's size by which patches may differ from it; mostly it is a tenth of that.
 inline constexpr double kFitDistance = 1e-12;
 
 struct FittedPieces {

@@ -226,7 +226,7 @@ TypeDeclaration line_surface_type() {
   return declare(Category::surface, "line_surface",
                  "Straight lines from the points of a curve along given directions, or along its tangents: r(u) + v "
                  "l(u). u is the curve's parameter.")
-      .example("of: { type: helix, radius: 1, pitch: 1, turns: 1 }, range: [0, 0.5]")
+      .example("of: { type: helix, radius: 1, pitch: 1, turns: 1 }, range: [0.2, 1]")
       .field("of", reference({Category::curve}), "the directrix")
       .optional("directions", reference({Category::curve}),
                 "a curve over the same parameters whose points are the directions l; the tangents r' when left out")

@@ -80,7 +80,14 @@ void SchemaWriter::add_common_definitions() {
   definitions_["formula"] = {{"type", {"number", "string"}}, {"description", "number or formula"}};
   const Json formula = ref("formula");
   definitions_["coordinates"] = array_of(formula, 2, 3);
-  definitions_["reference"] = {{"type", "string"}, {"description", "name of a thing of this scene"}};
+  definitions_["reference"] =
+      any_of({{{"type", "string"}},
+              {{"type", "object"},
+               {"properties",
+                {{"of", {{"type", "string"}}}, {"member", any_of({ref("formula"), array_of(ref("formula"), 1)})}}},
+               {"required", {"of", "member"}},
+               {"additionalProperties", false}}});
+  definitions_["reference"]["description"] = "name of a thing of this scene, or a member of a family { of:, member: }";
   definitions_["repeat"] = {{"type", "object"},
                             {"description", "counters and their values: { i: 0..5 }, { q: [0, 0.5, 1] }"},
                             {"additionalProperties", {{"type", {"string", "array"}}}}};

@@ -57,7 +57,7 @@ TEST(Declarations, FamiliesAreWhole) {
   check(light_types(), Category::light,
         {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light",
          "environment_light", "profile_light", "ambient_light"});
-  check(camera_types(), Category::camera, {"graph", "perspective", "parallel"});
+  check(camera_types(), Category::camera, {"graph", "perspective", "parallel", "panorama"});
   check(integrator_types(), Category::integrator,
         {"analysis", "classic", "path", "direct_lighting", "ambient_occlusion"});
 }
