@@ -38,6 +38,24 @@ Start along(const CurvePtr& guide, const std::array<SurfacePtr, 2>& of) {
   return start;
 }
 
+void check_edge(const Curve& edge, const SurfacePtr& of) {
+  constexpr double kOn = 1e-6;  // of the edge's size
+  const Interval t = edge.domain();
+  if (!(t.width() < kInfinity)) throw FieldError("edge", "the edge is unbounded", "give it a domain");
+  const SurfaceProjector projector(of);
+  constexpr int kTried = 8;
+  for (int k = 0; k <= kTried; ++k) {
+    const Vec3 p = edge.point(t.lo + t.width() * k / kTried);
+    const SurfaceFootPoints found = projector.foot_points(p);
+    const double distance = found.foot_points.empty() ? 0 : found.foot_points.front().distance;
+    if (distance > kOn * bounds(edge).diameter())
+      throw FieldError("edge",
+                       fmt::format("the edge is {:.4g} from the second surface at [{:.4g}, {:.4g}, {:.4g}]", distance,
+                                   p.x, p.y, p.z),
+                       "it lies on the second surface");
+  }
+}
+
 Contours meeting(const SurfacePtr& a, const SurfacePtr& b) {
   try {
     return intersect(a, b);
@@ -46,12 +64,15 @@ Contours meeting(const SurfacePtr& a, const SurfacePtr& b) {
   }
 }
 
-Start along_branch(const Contours& found, const Fields& f) {
+// An unbounded plane has no image of the branch.
+Start along_branch(const Contours& found, const std::array<SurfacePtr, 2>& of, const Fields& f) {
   const CurvePtr curve = chosen_branch(found.branches, f, "of");
   Start start{contour_approximation(curve), curve->period(), start_of(*curve), {}};
   for (const Contour& branch : found.branches)
     if (branch.curve == curve)
-      for (int k = 0; k < 2; ++k) start.places[k] = Vec2(branch.images[k]->point(start.t));
+      for (size_t k = 0; k < 2; ++k)
+        start.places[k] = k < branch.images.size() && branch.images[k] ? Vec2(branch.images[k]->point(start.t))
+                                                                       : foot_point(curve->point(start.t), of[k]);
   return start;
 }
 
@@ -59,13 +80,16 @@ Start along_branch(const Contours& found, const Fields& f) {
 // their offsets meet.
 Start along_intersection(const BlendLaw& law, const Fields& f) {
   const Contours found = meeting(law.of[0], law.of[1]);
-  if (!found.branches.empty()) return along_branch(found, f);
+  if (found.coincident || !found.complete)
+    throw FieldError("of", "the surfaces coincide in part, or nearly, and have no edge between them there",
+                     "take surfaces that cross each other, or give a `guide`");
+  if (!found.branches.empty()) return along_branch(found, law.of, f);
   if (law.kind == BlendKind::ball && law.sizes[0].is_constant() && law.sizes[1].is_constant()) {
     const auto moved = [&](int k) {
       return offset_surface(law.of[k], law.sides[k] * law.of[k]->normal_sign() * law.sizes[k](0.0));
     };
     const Contours centers = meeting(moved(0), moved(1));
-    if (!centers.branches.empty()) return along_branch(centers, f);
+    if (!centers.branches.empty()) return along_branch(centers, {moved(0), moved(1)}, f);
   }
   throw FieldError("of", "the surfaces do not meet, so that there is nothing to go along",
                    "give a `guide`, a curve beside which the blend runs");
@@ -75,9 +99,10 @@ Start along_intersection(const BlendLaw& law, const Fields& f) {
 
 TypeDeclaration& blend_fields(TypeDeclaration& type) {
   type.field("of", references({Category::surface}).count(2, 2), "both surfaces")
-      .field("sides", words({"front", "back"}).count(2, 2),
-             "the sides of both surfaces between which the blend lies: the front is where the normal points",
-             "[front, front]")
+      .field("sides", words({"front", "back"}).count(1, 2),
+             "the sides of both surfaces between which the blend lies, or one word for both: the front is where the "
+             "normal points",
+             "front")
       .optional("guide", reference({Category::curve}),
                 "the curve beside which the blend runs, each section in a plane across it; else where the surfaces "
                 "meet (of a ball of constant radius also the way of its center)");
@@ -93,10 +118,11 @@ Contacts blend_contacts(BlendLaw law, const Fields& f) {
   const auto& words = f.get<std::vector<std::string>>("sides");
   for (int k = 0; k < 2; ++k) {
     law.of[k] = std::any_cast<SurfacePtr>(f.references("of")[k]);
-    law.sides[k] = law.of[k]->normal_sign() * (words[k] == "front" ? 1 : -1);
+    law.sides[k] = law.of[k]->normal_sign() * ((k == 0 ? words.front() : words.back()) == "front" ? 1 : -1);
   }
   if (law.guide && f.has("guide"))
     throw FieldError("guide", "along an edge the edge itself is the guide", "leave it out");
+  if (law.guide) check_edge(*law.guide, law.of[1]);
   const Start start = law.guide        ? along(law.guide, law.of)
                       : f.has("guide") ? along(f.curve("guide"), law.of)
                                        : along_intersection(law, f);

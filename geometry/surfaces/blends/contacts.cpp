@@ -15,7 +15,8 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kMaxIterations = 20;
-constexpr double kSolved = 1e-11;  // of the size: the step after which there is none, as convergence is quadratic
+constexpr double kSolved = 1e-11;    // of the size: the step after which there is none, as convergence is quadratic
+constexpr double kSatisfied = 1e-9;  // of the size: the equations
 constexpr double kRounding = 1e-15;
 constexpr int kPolished = 4;      // steps below that
 constexpr double kLongest = 0.5;  // of the size: no step is longer
@@ -137,13 +138,16 @@ Contacts::Solution Contacts::solve(const Place& place, Unknowns x) const {
     }
     const Eigen::VectorXd step = matrix.topLeftCorner(n, n).fullPivLu().solve(values.head(n));
     if (!step.allFinite()) return {};
+    const double off = values.head(n).norm();
     double length = glm::length(step(0) * p.point[1] + step(1) * p.point[2]);
     if (n > 2) length = std::max(length, glm::length(step(2) * q.point[1] + step(3) * q.point[2]));
     if (n > 4) length = std::max(length, std::abs(step(4)));
     const double share = std::min(1.0, kLongest * size_ / length);
     for (int k = 0; k < n; ++k) x[k] -= share * step(k);
     // On a surface of class C1 Newton's matrix may be that of the other side of a knot: once more, or twice.
-    if (length <= kRounding * size_ || (length <= kSolved * size_ && ++polished == kPolished)) return {x, true};
+    // A singular matrix may keep still without a solution.
+    if (length <= kRounding * size_ || (length <= kSolved * size_ && ++polished == kPolished))
+      return {x, off <= kSatisfied * size_};
   }
   return {};
 }
@@ -360,6 +364,7 @@ void Contacts::find_breaks() {
   constexpr double kAlong = 1e-9;  // of the width: a contact that keeps as near to a line runs along it
   for (int axis = 0; axis < count() / 2 * 2; ++axis) {
     const Surface& of = *law_.of[axis / 2];
+    if (!of.bounded()) continue;
     const SurfaceProperties properties = properties_of(of);
     const bool is_u = axis % 2 == 0;
     const double period = is_u ? of.periods().u : of.periods().v;

@@ -101,20 +101,21 @@ PolynomialPtr fitted(const std::function<Vec3(double)>& point, const std::vector
   return std::make_shared<PolynomialCurve>(std::move(parts));
 }
 
+// Between the joints of the guide and the breaks of the contacts. A break as near to a joint as rounding puts it is the
+// same place.
 std::vector<Interval> stretches_of(const Contacts& contacts) {
   const Interval domain = contacts.domain();
-  std::vector<double> ends = contacts.breaks();
-  for (const CurvePiece& piece : contacts.law().guide->pieces()) ends.push_back(piece.domain.lo);
-  ends.push_back(domain.hi);
+  const double least = 1e-11 * domain.width();
+  std::vector<double> ends{domain.lo, domain.hi};
+  const auto add = [&](double t) {
+    const bool is_new = std::all_of(ends.begin(), ends.end(), [&](double end) { return std::abs(end - t) > least; });
+    if (is_new && domain.contains(t)) ends.push_back(t);
+  };
+  for (const CurvePiece& piece : contacts.law().guide->pieces()) add(piece.domain.lo);
+  for (const double t : contacts.breaks()) add(t);
   std::sort(ends.begin(), ends.end());
   std::vector<Interval> result;
-  double from = domain.lo;
-  const double least = 1e-12 * domain.width();
-  for (const double end : ends)
-    if (end - from > least && (end == domain.hi || domain.hi - end > least)) {
-      result.push_back({from, end});
-      from = end;
-    }
+  for (size_t i = 0; i + 1 < ends.size(); ++i) result.emplace_back(ends[i], ends[i + 1]);
   return result;
 }
 
