@@ -37,6 +37,7 @@
   X(spline_surface_type)         \
   X(grid_interpolant_type)       \
   X(fit_surface_type)            \
+  X(smoothing_surface_type)      \
   X(section_surface_type)        \
   X(spline_of_surface_type)      \
   X(bezier_triangle_type)        \
