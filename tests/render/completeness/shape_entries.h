@@ -210,6 +210,16 @@ inline std::vector<Entry> composed_entries() {
                               "type: cylinder_surface, radius: 1, height: 2 }] }"),
              offset, truth_of({part}, bounds(*part).diameter()));
        }},
+      // Weights that are one function of u change nothing.
+      polynomial("loft_with_weights",
+                 "{ type: loft_surface, method: bezier, weight_functions: [2 + u, 2 + u, 2 + u], of: [" +
+                     graph("2*t, 0, 3*t - 3*t^2") + ", " + graph("2*t, 1, 4.5*t^2 - 0.6") + ", " +
+                     graph("2*t, 2, 0.9 + 3*t") + "] }",
+                 2, 2, {{0, 1}, {0, 1}},
+                 [](double u, double v) {
+                   const double b0 = (1 - v) * (1 - v), b1 = 2 * v * (1 - v), b2 = v * v;
+                   return Vec3(2 * u, b1 + 2 * b2, 3 * (b0 * (u - u * u) + b1 * (1.5 * u * u - 0.2) + b2 * (0.3 + u)));
+                 }),
   };
 }
 
