@@ -140,6 +140,17 @@ Quantity distance_to(const SurfacePtr& other) {
   return q;
 }
 
+// From the nearest point of a curve.
+Quantity distance_to(const CurvePtr& other) {
+  if (!(other->domain().width() < kInfinity)) throw FieldError("to", "the curve has no ends: give it a domain");
+  Quantity q;
+  q.value = [projector = CurveProjector(other)](const AnalysedPlace& at) -> Value {
+    const CurveFootPoints found = projector.foot_points(at.point.position);
+    return found.foot_points.empty() ? std::nullopt : Value(found.foot_points.front().distance);
+  };
+  return q;
+}
+
 // How high the nearest of given points lies over the tangent plane, on the side of the normal.
 Quantity deviation_of(const std::vector<Vec3>& points) {
   const auto tree = std::make_shared<const NearestPoints>(points);
@@ -193,7 +204,7 @@ Quantity named_quantity(const std::string& name, const Fields& f) {
   if (name == "reflection_lines") return reflection_lines(f.axis("lamp"), f.vec3("ceiling"), f.number("spacing"));
   if (name == "distance") {
     if (!f.has("to")) throw FieldError("quantity", "a distance needs the surface 'to' which it is measured");
-    return distance_to(f.surface("to"));
+    return f.holds<CurvePtr>("to") ? distance_to(f.curve("to")) : distance_to(f.surface("to"));
   }
   if (name == "deviation") {
     if (!f.has("points")) throw FieldError("quantity", "a deviation needs the measured 'points'");
@@ -281,8 +292,8 @@ void add_quantity_fields(TypeDeclaration& type) {
              "tangent plane with `direction`, in degrees; zebra: stripes about `direction`, mirrored; isophotes: "
              "stripes of equal angle between the "
              "normal and `direction`; reflection_lines: parallel lamps, mirrored; parameters: a checker of u and v; "
-             "distance: from the surface `to`, "
-             "positive on the side of its normal; deviation: of the nearest of `points`, along the normal",
+             "distance: from the surface or curve `to`, of "
+             "a surface positive on the side of its normal; deviation: of the nearest of `points`, along the normal",
              "gaussian_curvature")
       .optional("formula", formula(kVariables), kFormulaText)
       .field("direction", direction(), "of zebra, isophotes, draft_angle: axis of the stripes, light, pull of a mould",
@@ -292,7 +303,7 @@ void add_quantity_fields(TypeDeclaration& type) {
       .field("ceiling", direction(), "of reflection_lines: normal of the plane in which the lamps lie", "z")
       .field("spacing", length().positive(), "of reflection_lines: from one lamp to the next", "1")
       .field("cells", integer().between(1, 10000).for_each_direction(), "of parameters: squares over the domain", "10")
-      .optional("to", reference({Category::surface}), "of distance: the other surface")
+      .optional("to", reference({Category::surface, Category::curve}), "of distance: the other surface, or a curve")
       .optional("points", points().count(1), "of deviation: measured points");
 }
 

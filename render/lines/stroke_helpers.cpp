@@ -258,6 +258,7 @@ void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& s
     if (line.image && (drawing_ || !cutters_.empty())) supporting_surfaces_.push_back({surface, line.image});
     stroke(line.curve, style, helper.hidden);
   }
+  for (const SurfaceFigure::Text& one : figure.texts) text(one.point, one.words, helper, false);
   for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
 }
 

@@ -128,6 +128,9 @@ SurfaceFigure contour_lines(const SurfacePtr& surface, const Fields& f) {
       for (const Vec2& place : line.places) places.emplace_back(place, 0);
       const auto image = std::make_shared<NurbsCurve>(polyline(places, line.closed));
       figure.lines.push_back({std::make_shared<SurfaceCurve>(surface, image), image});
+      if (!f.boolean("labels")) continue;
+      const Vec2& middle = line.places[line.places.size() / 2];
+      figure.texts.push_back({surface->point(middle.x, middle.y), fmt::format("{:g}", level)});
     }
   return figure;
 }

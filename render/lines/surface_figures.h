@@ -21,7 +21,12 @@ struct SurfaceFigure {
     geometry::Curve2Ptr image;  // on the surface; none where it does not lie there
     bool arrow = false;         // a head at its end
   };
+  struct Text {
+    geometry::Vec3 point;
+    std::string words;
+  };
   std::vector<Line> lines;
+  std::vector<Text> texts;
   std::vector<geometry::Vec3> points;  // that get the helper's marker
   bool complete = true;                // false where not all of the lines are known
 };

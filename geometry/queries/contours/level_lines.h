@@ -18,7 +18,8 @@ struct LevelLine {
 
 // Followed over a grid of cells, at least 64 a side, whose borders are those of the surface's smooth pieces too; what
 // is smaller than a cell may be missed. The function has the value at the polygon's corners to its rounding, and the
-// line lies within 1e-4 of the surface's size of it. Throws std::invalid_argument for an unbounded surface.
+// middles of its sides lie within about 1e-4 of the surface's size of the line. Throws std::invalid_argument for an
+// unbounded surface.
 std::vector<LevelLine> level_lines(const Surface& surface, const FunctionOnSurface& function, double level);
 
 }  // namespace lekalo::geometry

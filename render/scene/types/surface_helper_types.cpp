@@ -37,7 +37,8 @@ TypeDeclaration contour_lines() {
   TypeDeclaration type =
       helper("contour_lines", "Lines of equal curvature, angle or another quantity on a surface.", "thin");
   add_quantity_of_place(type);
-  type.field("levels", counts(), "about how many round numbers, or which", "10");
+  type.field("levels", counts(), "about how many round numbers, or which", "10")
+      .field("labels", boolean(), "in drawings, the number beside each line", "false");
   finish(type);
   return type.built_by([build = type.build](const Fields& f) -> std::any {
     quantity_of(f);  // throws where it is none

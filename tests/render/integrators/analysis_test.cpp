@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/curves/analytic/circle.h"
 #include "geometry/shapes/tube/balls.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "render/model/color_scale.h"
@@ -153,6 +154,11 @@ TEST(Quantities, DistanceAndDeviation) {
   const Quantity distance = quantity("distance", {{"to", sphere({0, 0, 0}, 2)}});
   EXPECT_NEAR(value_at(distance, {3, 4, 0}, {0, 0, 1}), 3, 1e-12);
   EXPECT_NEAR(value_at(distance, {0, 0.5, 0}, {0, 0, 1}), -1.5, 1e-12);
+  const geometry::CurvePtr circle = std::make_shared<geometry::Circle>(geometry::Frame(), 2.0);
+  const Quantity to_curve = quantity("distance", {{"to", circle}});
+  EXPECT_FALSE(to_curve.has_sign);
+  EXPECT_NEAR(value_at(to_curve, {3, 0, 0}, {0, 0, 1}), 1, 1e-12);
+  EXPECT_NEAR(value_at(to_curve, {0, 0.5, 0}, {0, 0, 1}), 1.5, 1e-12);
   const Quantity deviation = quantity("deviation", {{"points", std::vector<Vec3>{{0, 0, 0.1}, {5, 0, -0.2}}}});
   EXPECT_NEAR(value_at(deviation, {0.2, 0, 0}, {0, 0, 1}), 0.1, 1e-12);
   EXPECT_NEAR(value_at(deviation, {4.8, 0, 0}, {0, 0, 1}), -0.2, 1e-12);

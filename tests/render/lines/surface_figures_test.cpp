@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "render/lines/strokes.h"
 #include "render/scene/scene_text.h"
@@ -84,6 +86,17 @@ TEST(SurfaceFigures, ContourLines) {
   for (const CurvePtr& line : parabolic) each_place(line, [](const Vec3& p) { EXPECT_NEAR(std::abs(p.z), 1, 1e-9); });
   for (const CurvePtr& line : curves_of("bowl", "contour_lines", "formula: z, levels: [0.2]"))
     each_place(line, [](const Vec3& p) { EXPECT_NEAR(p.z, 0.2, 1e-3); });
+}
+
+TEST(SurfaceFigures, ContourLinesSayTheirNumbers) {
+  const LineWork work =
+      drawn("  - { shape: bowl, show: { contour_lines: { formula: z, levels: [0.2, 0.5], labels: true } } }\n");
+  std::set<std::string> words;
+  for (const PointText& text : work.texts) {
+    words.insert(text.text);
+    EXPECT_NEAR(text.point.z, std::stod(text.text), 1e-9);
+  }
+  EXPECT_EQ(words, (std::set<std::string>{"0.2", "0.5"}));
 }
 
 TEST(SurfaceFigures, Isophotes) {
