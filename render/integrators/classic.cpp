@@ -2,6 +2,7 @@
 // model there (8.4.4) and splits into the mirror ray and the refracted ray. Terms in the order of the code:
 //
 //   emission + k_a I_a / (1 + k_r (r - r_0)) + sum over lights of V E / pi (k_d cos(theta) + k_s cos(alpha)^n)
+//   + k_t sum over lights behind of V E / pi cos(beta)^n (where it is asked for)
 //   + mirror radiance(mirror ray) + k_t radiance(refracted ray), all of it times e^(-mu l) of the way to the surface,
 //
 // E / pi the I_p of the book (lights/light.h), V the share of a light sample that shadows let through. Total internal
@@ -101,6 +102,7 @@ class Tracer {
     }
     return passing(shadow_ray, first, media);
   }
+  Spectrum shining_through(const Ray& ray, const Interaction& seen, double exponent, const Media& media);
   Spectrum passing(const Ray& shadow_ray, const Hit& first, const Media& media);
   Spectrum caught_shadow(const Illumination& light, const ClassicCoefficients& c, bool first);
   void record(const Interaction& seen);
@@ -188,6 +190,7 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
       (options_.attenuate_lights ? fading : 1.0f) * (c.diffuse * light.diffuse + c.specular * light.specular);
   if (depth == 0) sample_.direct = direct;
   Spectrum sum = c.emission + direct;
+  if (c.spread > 0) sum += c.transmission * shining_through(ray, seen, c.spread, media);
 
   Spectrum mirror = c.mirror, transmission = c.transmission;
   if (mirror.is_zero() && transmission.is_zero()) return sum;
@@ -381,6 +384,36 @@ Illumination Tracer::illuminate(const Ray& ray, const Interaction& seen, const C
       const auto n = static_cast<float>(count);
       sum.diffuse += Spectrum(share_of_cone[0] / n, share_of_cone[1] / n, share_of_cone[2] / n, share_of_cone[3] / n) *
                      all_of_cone;
+    }
+  }
+  return sum;
+}
+
+// Directed transmission (Golovanov 2016, 8.4): sum of V E / pi cos(beta)^n over the lights behind the surface, beta the
+// angle between their refracted light and the way to the viewer.
+Spectrum Tracer::shining_through(const Ray& ray, const Interaction& seen, double exponent, const Media& media) {
+  Spectrum sum;
+  Ray shadow_ray;
+  shadow_ray.kind = RayKind::shadow;
+  world_.leave(seen.far_side(), -seen.geometric_normal, shadow_ray);
+  for (const LightPtr& light : world_.lamps()) {
+    const bool shadows = options_.shadows != ShadowMode::none && light->casts_shadows();
+    for (int i = 0; i < light->sample_count(); ++i) {
+      const Vec2 r = light->is_jittered() ? random_.next_pair() : Vec2(0.5);
+      const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
+      if (glm::dot(sample.direction, seen.normal) >= 0 || glm::dot(sample.direction, seen.geometric_normal) >= 0)
+        continue;
+      const std::optional<Vec3> out =
+          refracted(-sample.direction, -seen.normal, seen.behind.current().index, media.current().index);
+      const double lobe = out ? phong_lobe(-glm::dot(*out, ray.direction), exponent) : 0;
+      if (lobe == 0 || sample.irradiance.is_zero()) continue;
+      shadow_ray.direction = sample.direction;
+      shadow_ray.t_max = sample.distance;
+      if (shadows) ++sample_.shadow_rays;
+      const Spectrum visible = shadows ? visible_share(shadow_ray, {}, seen.behind) : kWhite;
+      mix(visible.is_zero() ? 5 : 6);
+      sample_.noisy = sample_.noisy || light->is_jittered();
+      sum += static_cast<float>(lobe * sample.weight) * kOverPi * (visible * sample.irradiance);
     }
   }
   return sum;

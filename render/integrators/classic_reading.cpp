@@ -23,6 +23,7 @@ class Reader {
     c_.mirror += weight_ * lobe.mirror;
     c_.transmission += weight_ * lobe.transmission;
     c_.fresnel = lobe.fresnel ? Fresnel::boundary : Fresnel::none;
+    c_.spread = static_cast<float>(lobe.spread);
   }
   void operator()(const CoatLobe& lobe) {
     gloss(lobe.roughness, lobe.facing);

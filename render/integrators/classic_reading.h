@@ -36,6 +36,7 @@ struct ClassicCoefficients {
   float exponent = 1;     // n of the Phong lobe
   Spectrum mirror;        // share of the traced mirror reflection
   Spectrum transmission;  // k_t, share of the traced refracted ray
+  float spread = 0;       // n of the light k_t cos(beta)^n of lamps behind the surface; 0: none
   Fresnel fresnel = Fresnel::none;
   Spectrum index{1.0f};          // of coats and conductors, at the wavelengths asked for
   Spectrum extinction;           // of conductors: imaginary part of the index

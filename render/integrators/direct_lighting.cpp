@@ -15,6 +15,7 @@ class DirectLighting final : public Integrator {
   RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
     return trace_path(world, ray, first, random, options_);
   }
+  std::any made_from() const override { return options_; }
 
  private:
   PathOptions options_;

@@ -1,7 +1,12 @@
 // Path tracing: pictures that converge to what the light of a scene really does.
 #include "render/integrators/path.h"
 
+#include <algorithm>
+
 #include "geometry/describe.h"
+#include "render/lobes/microfacet.h"
+#include "render/lobes/scattering.h"
+#include "render/model/placed_objects.h"
 
 namespace lekalo::render {
 
@@ -25,6 +30,41 @@ class PathIntegrator final : public Integrator {
 }  // namespace
 
 IntegratorPtr make_path_integrator(const PathOptions& options) { return std::make_shared<PathIntegrator>(options); }
+
+namespace {
+
+bool is_sharp(const Material& material) {
+  const Scattering scattering = material.scattering({}, Wavelengths{});
+  const auto medium = material.interior(Wavelengths{});
+  const Sides sides{1, medium ? medium->index : 1.0};
+  return std::any_of(scattering.lobes.begin(), scattering.lobes.end(), [&](const WeightedLobe& part) {
+    if (const auto* metal = std::get_if<MetalLobe>(&part.lobe))
+      return microfacets(metal->roughness, metal->anisotropy).smooth();
+    if (const auto* coat = std::get_if<CoatLobe>(&part.lobe)) return microfacets(coat->roughness, 0).smooth();
+    if (const auto* matt = std::get_if<CoatedMattLobe>(&part.lobe))
+      return microfacets(matt->coat.roughness, 0).smooth();
+    if (const auto* boundary = std::get_if<BoundaryLobe>(&part.lobe))
+      return !boundary->mirror.is_zero() || sides.behind != sides.near;
+    if (const auto* clear = std::get_if<ClearLobe>(&part.lobe))
+      return !clear->thin && sides.behind != sides.near && microfacets(clear->roughness, 0).smooth();
+    return false;
+  });
+}
+
+}  // namespace
+
+bool misses_light(const Model& model) {
+  const bool has_points = std::any_of(model.lights.begin(), model.lights.end(), [](const LightPtr& light) {
+    return light->ambient().is_zero() && light->casts_shadows() && light->sample_all(Vec3(0), Vec2(0.5)).density == 0;
+  });
+  if (!has_points) return false;
+  bool found = false;
+  each_object(model.objects, [&](const Object& object) {
+    for (const Material* material : {object.material.get(), object.back_material.get()})
+      found = found || (material && is_sharp(*material));
+  });
+  return found;
+}
 
 TypeDeclaration path_integrator_type() {
   return declare(

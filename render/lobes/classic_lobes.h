@@ -23,6 +23,7 @@ struct PhongLobe {
 struct BoundaryLobe {
   Spectrum mirror, transmission;
   bool fresnel = false;
+  double spread = 0;  // of the classic model: exponent of the light of lamps behind, directed transmission; 0: none
 
   Spectrum evaluate(const Vec3&, const Vec3&, const Sides&) const { return {}; }
   double density(const Vec3&, const Vec3&, const Sides&) const { return 0; }

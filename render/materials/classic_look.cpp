@@ -52,7 +52,8 @@ class ClassicMaterial final : public Material {
     const Spectrum diffuse = color * look_.diffuse.at(point), specular = look_.specular.at(point);
     if (!diffuse.is_zero()) s.lobes.add(LambertLobe{diffuse});
     if (!specular.is_zero()) s.lobes.add(PhongLobe{specular, look_.exponent});
-    const BoundaryLobe boundary{look_.mirror.at(point), look_.transmission.at(point), look_.fresnel};
+    const BoundaryLobe boundary{look_.mirror.at(point), look_.transmission.at(point), look_.fresnel,
+                                look_.transmission_exponent};
     if (!boundary.mirror.is_zero() || !boundary.transmission.is_zero()) s.lobes.add(boundary);
     s.two_sided = look_.two_sided;
     s.unbalanced = true;
@@ -82,6 +83,10 @@ TypeDeclaration classic_look_type() {
       .field("exponent", number().at_least(1), "n: larger is sharper; about 1 to 200", "20")
       .field("mirror", textured_share(), "share of the traced mirror reflection", "0")
       .field("transmission", textured_share(), "k_t: share of the traced refracted ray", "0")
+      .optional(
+          "transmission_exponent", number().at_least(1),
+          "lamps behind the surface shine through it with k_t cos(beta)^n, beta between their refracted light and "
+          "the way to the viewer; without it they do not show")
       .field("fresnel", boolean(),
              "at angle-dependent reflectance F, reflect mirror + F transmission and let (1 - F) transmission through",
              "false")
@@ -101,6 +106,7 @@ TypeDeclaration classic_look_type() {
     look.exponent = f.number("exponent");
     look.mirror = color_texture(f, "mirror");
     look.transmission = color_texture(f, "transmission");
+    if (f.has("transmission_exponent")) look.transmission_exponent = f.number("transmission_exponent");
     look.fresnel = f.boolean("fresnel");
     look.index = f.number("index");
     look.absorption = f.vec3("absorption");

@@ -19,6 +19,7 @@ struct ClassicLook {
   double exponent = 20;              // n of the Phong lobe, >= 1
   TexturedColor mirror = 0.0;        // k_s of the traced reflection
   TexturedColor transmission = 0.0;  // k_t
+  double transmission_exponent = 0;  // n of k_t cos(beta)^n of lamps behind, >= 1; 0: these do not show
   bool fresnel = false;              // mirror + transmission F and transmission (1 - F) take their places
   double index = 1;                  // refractive index of the substance behind the surface
   Vec3 absorption{0};                // mu of that substance, 1/length

@@ -91,6 +91,7 @@ std::string texture(const ClassicCoefficients& c, const std::string& name, PovNo
     const float height = is_grey(c.specular) ? c.specular[0] : (c.specular[0] + c.specular[1] + c.specular[2]) / 3;
     text += fmt::format(" phong {} phong_size {}", height, c.exponent);
   }
+  if (c.spread > 0) notes.add(name + ": POV-Ray shows no lamps through clear surfaces");
   if (!c.two_sided) notes.add(name + ": POV-Ray lights both sides of a surface");
   if (c.catches_shadows) notes.add(name + ": POV-Ray has no ground that shows only shadows");
   return text + reflection(c, name, notes) + " }";

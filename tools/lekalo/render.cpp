@@ -21,6 +21,7 @@
 #include "picture.h"
 #include "progress.h"
 #include "render/image/image_error.h"
+#include "render/integrators/path.h"
 #include "render/trace/world.h"
 #include "watch.h"
 
@@ -203,6 +204,11 @@ int render_frame(Run& run, const Frame& frame, bool first) {
                  "note: light goes straight through clear bodies, which throw no shadow ({}); integrator: {{ shadows: "
                  "opaque }} draws one, `absorption` of the material a tinted one\n",
                  clear);
+    const std::any made = model->integrator ? model->integrator->made_from() : std::any();
+    if (std::any_cast<render::PathOptions>(&made) && !outputs.empty() && render::misses_light(*model))
+      fmt::print(stderr,
+                 "note: light of points and parallel light that mirrors and clear bodies throw is left out; lights "
+                 "that have a size (sphere_light, angular_diameter of distant_light) throw it\n");
   }
   if (!drawn.empty())
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});

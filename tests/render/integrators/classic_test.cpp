@@ -51,6 +51,22 @@ TEST(ClassicIntegrator, LocalLightAtSixtyDegrees) {
   EXPECT_NEAR(trace(*scene.world(), eye, -eye).radiance[0], 0.5864644500601672 / 1.5, kFloat);
 }
 
+TEST(ClassicIntegrator, LampBehindShinesThrough) {
+  // Golovanov 2016, (8.4.4): I_t = 0.5, k_t = 0.4, n = 20, beta = 10 degrees.
+  SmallScene scene;
+  ClassicLook look;
+  look.diffuse = look.ambient = 0.0;
+  look.transmission = 0.4;
+  look.transmission_exponent = 20;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(look));
+  scene.light(DistantLight{.direction = in_xz(50), .lamp = {.intensity = 0.5}});
+  const Vec3 eye = 15.0 * in_xz(40);
+  EXPECT_NEAR(trace(*scene.world(), eye, -eye).radiance[0], 0.1472513126949291, kFloat);
+  // Something between lamp and surface hides it.
+  scene.add(plane({0, 0, -1}, {0, 0, 1}), make_material(Emission{.strength = 0}));
+  EXPECT_EQ(trace(*scene.world(), eye, -eye).radiance[0], 0);
+}
+
 TEST(ClassicIntegrator, PointLightShowsItsIntensityOnWhiteMattSurfaces) {
   SmallScene scene;
   scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
