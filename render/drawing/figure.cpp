@@ -22,6 +22,7 @@
 #include "render/drawing/paths/overlaps.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
+#include "render/scene/values/diagnostics.h"
 
 namespace lekalo::render {
 
