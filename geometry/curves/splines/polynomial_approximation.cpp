@@ -86,7 +86,8 @@ std::shared_ptr<const PolynomialCurve> polynomial_approximation(const std::funct
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 
-std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance) {
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance,
+                                                                bool joins_pieces) {
   const std::function<Vec3(double)> point = [&](double t) { return curve.point(t); };
   Fitting fitting(point, tolerance, nullptr);
   std::vector<Interval> pieces;
@@ -94,7 +95,10 @@ std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& cur
     const Interval t = intersect(piece.domain, curve.domain());
     if (!t.empty() && t.width() > 0) pieces.push_back(t);
   }
-  if (!fitting.add(pieces)) return nullptr;
+  const bool is_done = joins_pieces ? fitting.add(pieces)
+                                    : std::all_of(pieces.begin(), pieces.end(),
+                                                  [&](const Interval& piece) { return fitting.add(piece, 0); });
+  if (!is_done) return nullptr;
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 

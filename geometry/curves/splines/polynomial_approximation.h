@@ -12,8 +12,10 @@ namespace lekalo::geometry {
 
 // Interpolates in Chebyshev's points and halves until points between them agree within `tolerance` (a length), checked,
 // not proven. Null where the curve is not smooth enough for that in a reasonable number of parts. The domain must be
-// finite; the parameter is the curve's.
-std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance);
+// finite; the parameter is the curve's. `joins_pieces`: one polynomial for several of the curve's pieces where it
+// serves; its derivatives then agree less well.
+std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance,
+                                                                bool joins_pieces = false);
 
 // Of functions whose rounding moves points along a line more than across it.
 struct OwnPace {

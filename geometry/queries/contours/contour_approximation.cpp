@@ -34,7 +34,8 @@ CurvePtr contour_approximation(const CurvePtr& curve, double coarsest) {
   const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
   for (const double agree : {kAgree, coarsest})
-    if (auto simple = polynomial_approximation(*curve, std::max(agree * box.diameter(), rounding))) return simple;
+    if (auto simple = polynomial_approximation(*curve, std::max(agree * box.diameter(), rounding), coarsest > kAgree))
+      return simple;
   return curve;
 }
 

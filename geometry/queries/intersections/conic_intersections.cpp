@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/analytic/hyperbola.h"
@@ -62,7 +63,11 @@ class ConicAndPlane {
       // Two that no tolerance tells apart are one contact, as is a double one.
       const bool is_double = roots.size() == 1 && std::any_of(turns.begin(), turns.end(),
                                                               [&](double turn) { return !are_apart(roots[0], turn); });
-      if (is_double || (roots.size() == 2 && !are_apart(roots[0], roots[1]) && !turns.empty())) roots.clear();
+      const bool is_one = roots.size() == 2 && !turns.empty() &&
+                          (!are_apart(roots[0], roots[1]) || std::any_of(turns.begin(), turns.end(), [&](double turn) {
+                            return std::abs(height(turn)) <= rounding();
+                          }));
+      if (is_double || is_one) roots.clear();
       for (const double root : roots) add(root, false);
       if (roots.empty())
         for (const double at : places) add(at, true);
@@ -73,9 +78,13 @@ class ConicAndPlane {
   }
 
  private:
-  bool is_in_plane(double t) const {
-    return std::abs(glm::dot(normal_, curve_.point(t) - plane_.origin)) <= tolerance_;
+  double height(double t) const { return glm::dot(normal_, curve_.point(t) - plane_.origin); }
+  // Of heights: between two roots whose sagitta is no more the curve is as good as tangent.
+  double rounding() const {
+    constexpr double kUlps = 4 * std::numeric_limits<double>::epsilon();
+    return kUlps * (glm::length(conic_.origin - plane_.origin) + glm::length(conic_.x) + glm::length(conic_.y));
   }
+  bool is_in_plane(double t) const { return std::abs(height(t)) <= tolerance_; }
   bool are_apart(double a, double b) const { return glm::length(curve_.point(a) - curve_.point(b)) > 4 * tolerance_; }
 
   // Where the height along a direction is greatest and least.

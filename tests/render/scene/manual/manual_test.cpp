@@ -15,7 +15,8 @@ const std::string kNamed =
     "geometry:\n"
     "  my_curve: { type: nurbs_curve, degree: 1, points: [[1, 0], [2, 0, 1], [3, 0]] }\n"
     "  my_body: { type: ball, radius: 1 }\n"
-    "  round: { type: circle, radius: 1 }\n";
+    "  round: { type: circle, radius: 1 }\n"
+    "  pipe: { type: cylinder_surface, radius: 1, height: 2 }\n";
 
 bool offers(const std::string& type, const std::string& helper) {
   for (const TypeDeclaration& one : all_types()) {
