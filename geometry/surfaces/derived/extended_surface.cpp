@@ -30,6 +30,19 @@ auto middle_of(const J& x) {
   return middle_of(x.value());
 }
 
+template <class T>
+struct Scalars {
+  using Type = T;
+};
+template <class T>
+requires requires { typename T::Scalar; }
+struct Scalars<T> {
+  using Type = typename T::Scalar;
+};
+// What a jet is of, or the number itself.
+template <class T>
+using ScalarOf = typename Scalars<T>::Type;
+
 struct Extended {
   SurfacePtr of;
   Rectangle domain;  // of the extension
@@ -39,10 +52,14 @@ struct Extended {
     const Rectangle base = of->domain();
     const Side side_u = side_of(middle_of(u), base.u, domain.u), side_v = side_of(middle_of(v), base.v, domain.v);
     const T a = side_u.is_out ? T(side_u.border) : u, b = side_v.is_out ? T(side_v.border) : v;
+    if (side_u.is_out && side_v.is_out) {
+      const auto corner = [&](int i, int j) { return constant_at<T>(side_u.border, side_v.border, i, j); };
+      const T p = u - a, q = v - b;
+      return corner(0, 0) + p * corner(1, 0) + q * corner(0, 1) + (p * q) * corner(1, 1);
+    }
     Triple<T> r = surface_at(*of, a, b);
     if (side_u.is_out) r += (u - a) * surface_at(*of, a, b, 1, 0);
     if (side_v.is_out) r += (v - b) * surface_at(*of, a, b, 0, 1);
-    if (side_u.is_out && side_v.is_out) r += ((u - a) * (v - b)) * surface_at(*of, a, b, 1, 1);
     return r;
   }
 
@@ -64,6 +81,12 @@ struct Extended {
   }
 
  private:
+  // A derivative at a corner of the base, whose own derivatives are none.
+  template <class T>
+  Triple<T> constant_at(double u, double v, int i, int j) const {
+    const auto d = surface_at(*of, ScalarOf<T>(u), ScalarOf<T>(v), i, j);
+    return {T(d.x), T(d.y), T(d.z)};
+  }
   // A cell of the extension lies on one side of the border: its middle tells where. At the border itself derivatives
   // are those from greater parameters, but at the extension's end.
   struct Side {

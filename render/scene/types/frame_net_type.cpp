@@ -11,10 +11,10 @@ TypeDeclaration frame_net_type() {
                  "Mesh of points and normals of a surface of which a wire frame is known: they lie on splines through "
                  "the points where planes across a base plane meet the frame's lines.")
       .example(
-          "of: [{ type: bezier_curve, points: [[0, 0], [1, 0, 1], [2, 0]] }, { type: bezier_curve, points: [[0, 1, "
-          "0.5], [1, 1, 1.5], [2, 1, 0.5]] }, { type: bezier_curve, points: [[0, 2], [1, 2, 1], [2, 2]] }, { type: "
-          "bezier_curve, points: [[0, 0], [0, 1, 1], [0, 2]] }, { type: bezier_curve, points: [[2, 0], [2, 1, 1], [2, "
-          "2]] }]")
+          "of: [{ type: bezier_curve, points: [[0, 0], [1, 0, 1], [2, 0]] }, "
+          "{ type: bezier_curve, points: [[0, 1], [1, 1, 1.5], [2, 1]] }, "
+          "{ type: bezier_curve, points: [[0, 2], [1, 2, 1], [2, 2]] }, "
+          "{ type: segment, from: [0, 0], to: [0, 2] }, { type: segment, from: [2, 0], to: [2, 2] }]")
       .field("of", references({Category::curve}), "the lines of the frame")
       .field("frame", frame(), "the surface projects one to one onto x, y of this frame; normals point along its z",
              "{}")
