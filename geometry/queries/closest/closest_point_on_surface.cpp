@@ -25,6 +25,8 @@ constexpr double kNoDerivative = 1e-9;
 constexpr double kAtPole = 1e-6;
 // Foot points nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFootPoint = 1e-11;
+// A point is on a line of the surface: rounding of the coordinates.
+constexpr double kOnLine = 1e-14;
 
 // (p - s) . s_u = (p - s) . s_v = 0 (Golovanov 2016, (4.2.5)).
 struct SurfaceSystem {
@@ -303,10 +305,14 @@ class SurfaceProjection {
       if (foot_point.kind == FootPointKind::maximum) continue;
       const Vec3 way = p_ - foot_point.point;
       const double rounding = 1e-14 * glm::length(way);
+      // Of a point on the line the way is rounding, and its direction tells nothing.
+      const bool lies_on_line = glm::length(way) <= kOnLine * (size_ + glm::length(p_));
       const auto slope = [&](const Vec3& d) { return glm::dot(way, d) / std::max(glm::length(d), 1e-300); };
       const bool holds_u = line.holds_u;
-      if (line.has_below && !(slope(on_.across(holds_u, line.below, foot_point.t, true)) > rounding)) continue;
-      if (line.has_above && !(slope(on_.across(holds_u, line.place, foot_point.t, false)) < -rounding)) continue;
+      if (!lies_on_line && line.has_below && !(slope(on_.across(holds_u, line.below, foot_point.t, true)) > rounding))
+        continue;
+      if (!lies_on_line && line.has_above && !(slope(on_.across(holds_u, line.place, foot_point.t, false)) < -rounding))
+        continue;
       holds_u ? add(line.place, foot_point.t, FootPointKind::border)
               : add(foot_point.t, line.place, FootPointKind::border);
     }

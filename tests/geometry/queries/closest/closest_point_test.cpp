@@ -344,5 +344,22 @@ TEST(RandomFootPoints, OfSurfacesByPolynomialsAndByIntervals) {
   tests::report_figure("feet", foot_points);
 }
 
+// Rounding puts points of a border to either side of it.
+TEST(ClosestPointOnSurface, OfPointsOnItsBordersIsThere) {
+  const std::array<TorusSurface, 2> parts{TorusSurface(Frame{}, 2.5, 0.5, {{0, kTwoPi}, {kPi / 2, 2.8}}),
+                                          TorusSurface(Frame{}, 2.5, 0.5, {{0.1, 1.3}, {kPi / 2, kPi}})};
+  for (const TorusSurface& part : parts) {
+    const Rectangle domain = part.domain();
+    for (int k = 0; k <= 20; ++k)
+      for (const double off : {0.0, 1e-15, -1e-15})
+        for (const double v : {domain.v.lo, domain.v.hi}) {
+          const Vec3 p = part.point(domain.u.lo + domain.u.width() * k / 20, v) + Vec3(0, off, off);
+          const SurfaceFootPoints found = project(p, part);
+          ASSERT_FALSE(found.foot_points.empty());
+          EXPECT_LE(found.foot_points.front().distance, 1e-14);
+        }
+  }
+}
+
 }  // namespace
 }  // namespace lekalo::geometry::closest_point_test
