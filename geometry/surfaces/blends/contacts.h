@@ -59,7 +59,11 @@ class Contacts {
  private:
   static constexpr int kMost = 5;  // u, v, u, v, radius
   using Unknowns = std::array<double, kMost>;
-  struct Place;
+  struct Place {
+    double t = 0;
+    Vec3 guide{0}, along{0};  // its point, its direction of length 1
+    std::array<double, 2> sizes{0, 0};
+  };
   struct Node {
     double t;
     Unknowns x;
