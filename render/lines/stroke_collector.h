@@ -258,6 +258,8 @@ class StrokeCollector {
   void add_net(const geometry::TriangularNet& net, const std::string& sign, const Helper& helper);
   void add_triangle(geometry::TriangularNet net, const geometry::ParameterTriangle& triangle, const std::string& sign,
                     const Helper& helper);
+  void add_mesh_image(const geometry::SurfacePtr& surface, const geometry::TSpline& spline, const std::string& sign,
+                      const Helper& helper);
 
   void blossom(const Vec3& point, const geometry::NurbsCurveForm& form, size_t index, int level, double t,
                const Helper& helper);

@@ -80,7 +80,10 @@ void StrokeCollector::add_helper(const Helper& helper) {
     }
     const auto form = surface->as_nurbs();
     if (const auto* spline = dynamic_cast<const TSpline*>(surface.get())) {
-      if (helper.type == "control_net" || helper.type == "t_mesh") add_mesh(*spline, sign, helper);
+      if (helper.type == "t_mesh" && helper.values.text("on") == "surface")
+        add_mesh_image(surface, *spline, sign, helper);
+      else if (helper.type == "control_net" || helper.type == "t_mesh")
+        add_mesh(*spline, sign, helper);
     } else if (helper.type == "control_net" && form && !triangular_net(*surface)) {
       add_net(*form, surface->periods(), sign, helper);
     }
@@ -236,6 +239,26 @@ void StrokeCollector::add_triangle(TriangularNet net, const ParameterTriangle& t
       mark(shown[k], sign, helper.style, helper.hidden);
       label(shown[k], {static_cast<double>(k), static_cast<double>(level)}, helper);
     }
+  }
+}
+
+// The lines of the mesh on the surface itself, as far as it goes.
+void StrokeCollector::add_mesh_image(const SurfacePtr& surface, const TSpline& spline, const std::string& sign,
+                                     const Helper& helper) {
+  const Rectangle domain = spline.domain();
+  for (const auto& [i, j] : spline.edges()) {
+    const Vec2 a = spline.place(i), b = spline.place(j);
+    const bool along_u = a.y == b.y;
+    const Interval part = along_u ? intersect({a.x, b.x}, domain.u) : intersect({a.y, b.y}, domain.v);
+    const double at = along_u ? a.y : a.x;
+    if (part.width() > 0 && (along_u ? domain.v : domain.u).contains(at))
+      add(NetLine{surface, along_u ? IsoDirection::v : IsoDirection::u, at, part}, helper.style, helper.hidden);
+  }
+  for (size_t i = 0; i < spline.points().size(); ++i) {
+    const Vec2 place = spline.place(static_cast<int>(i));
+    if (!domain.contains(place.x, place.y)) continue;
+    mark(spline.point(place.x, place.y), sign, helper.style, helper.hidden);
+    label(spline.point(place.x, place.y), {static_cast<double>(i), 0.0}, helper);
   }
 }
 

@@ -33,10 +33,12 @@ CurvePtr contour_approximation(const CurvePtr& curve, double coarsest) {
     box.include(curve->point(curve->domain().lo + curve->domain().width() * k / kPlaces));
   const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
-  for (const double agree : {kAgree, coarsest})
-    if (auto simple = polynomial_approximation(*curve, std::max(agree * box.diameter(), rounding), coarsest > kAgree))
-      return simple;
-  return curve;
+  const auto nearer_than = [&](double share) {
+    return polynomial_approximation(*curve, std::max(share * box.diameter(), rounding), coarsest > kAgree);
+  };
+  if (auto simple = nearer_than(kAgree)) return simple;
+  auto simple = coarsest > kAgree ? nearer_than(coarsest) : nullptr;
+  return simple ? simple : curve;
 }
 
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {

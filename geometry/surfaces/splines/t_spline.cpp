@@ -2,31 +2,45 @@
 // Riesenfeld 1980): on knots t that contain its own, s,
 //
 //   a_i^0(j) = 1 where s_i <= t_j < s_{i+1}, else 0
-//   a_i^d(j) = (t_{j+d} - s_i)/(s_{i+d} - s_i) a_i^{d-1}(j) + (s_{i+d+1} - t_{j+d})/(s_{i+d+1} - s_{i+1})
-//   a_{i+1}^{d-1}(j)
+//   a_i^d(j) = (t_{j+d} - s_i)/(s_{i+d} - s_i) a_i^{d-1}(j)
+//              + (s_{i+d+1} - t_{j+d})/(s_{i+d+1} - s_{i+1}) a_{i+1}^{d-1}(j)
 //
 // The sum of their products with w_i p_i and w_i is the control net of the surface as a NURBS surface.
 #include "geometry/surfaces/splines/t_spline.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <map>
-#include <set>
 
-#include "geometry/curves/splines/bspline_basis.h"
-#include "geometry/numerics/quadrature.h"
+#include "geometry/surfaces/splines/t_refinement.h"
 
 namespace lekalo::geometry {
+
+static int degree_of(const std::vector<LocalKnots>& functions) {
+  return static_cast<int>(functions.front().u.size()) - 2;
+}
+
+std::vector<double> all_knots(const std::vector<LocalKnots>& functions, bool along_u, const Interval& domain) {
+  std::map<double, int> inner;
+  for (const LocalKnots& function : functions) {
+    std::map<double, int> own;
+    for (const double knot : along_u ? function.u : function.v)
+      if (knot > domain.lo && knot < domain.hi) ++own[knot];
+    for (const auto& [knot, times] : own) inner[knot] = std::max(inner[knot], times);
+  }
+  const int ends = degree_of(functions) + 1;
+  std::vector<double> knots(ends, domain.lo);
+  for (const auto& [knot, times] : inner) knots.insert(knots.end(), times, knot);
+  knots.insert(knots.end(), ends, domain.hi);
+  return knots;
+}
 
 namespace {
 
 // Sums of functions are 1 to this, where they are 1.
 constexpr double kSumIsOne = 1e-14;
 constexpr double kMaxNet = 4e6;  // control points
-
-int degree_of(const std::vector<LocalKnots>& functions) { return static_cast<int>(functions.front().u.size()) - 2; }
 
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
@@ -51,22 +65,6 @@ Refined refined(const std::vector<double>& s, const std::vector<double>& t) {
     result.coefficients.push_back(value);
   }
   return result;
-}
-
-// All knots inside the domain as often as one of the functions has them, and its ends, clamped.
-std::vector<double> all_knots(const std::vector<LocalKnots>& functions, bool along_u, const Interval& domain) {
-  std::map<double, int> inner;
-  for (const LocalKnots& function : functions) {
-    std::map<double, int> own;
-    for (const double knot : along_u ? function.u : function.v)
-      if (knot > domain.lo && knot < domain.hi) ++own[knot];
-    for (const auto& [knot, times] : own) inner[knot] = std::max(inner[knot], times);
-  }
-  const int ends = degree_of(functions) + 1;
-  std::vector<double> knots(ends, domain.lo);
-  for (const auto& [knot, times] : inner) knots.insert(knots.end(), times, knot);
-  knots.insert(knots.end(), ends, domain.hi);
-  return knots;
 }
 
 // The sums of the functions times these values, as a NURBS surface on all knots.
@@ -144,75 +142,6 @@ Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functio
   return domain;
 }
 
-std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const std::vector<double>& weights,
-                                const Rectangle& domain, const Surface& of) {
-  const Rectangle all = of.domain();
-  if (!(all.u.contains(domain.u.lo) && all.u.contains(domain.u.hi) && all.v.contains(domain.v.lo) &&
-        all.v.contains(domain.v.hi)))
-    throw FieldError(
-        "of",
-        fmt::format("the surface goes over u {:.6g}..{:.6g}, v {:.6g}..{:.6g}, the T-spline over u "
-                    "{:.6g}..{:.6g}, v {:.6g}..{:.6g}",
-                    all.u.lo, all.u.hi, all.v.lo, all.v.hi, domain.u.lo, domain.u.hi, domain.v.lo, domain.v.hi),
-        "draw the mesh over the surface's own parameters");
-  const int degree = degree_of(functions), count = static_cast<int>(functions.size());
-  const auto rule = gauss_legendre(degree + 1);
-  const auto places = [&](bool along_u, const Interval& range) {
-    const std::vector<double> knots = all_knots(functions, along_u, range);
-    std::vector<double> at;
-    for (size_t k = 1; k < knots.size(); ++k)
-      for (size_t g = 0; knots[k] > knots[k - 1] && g < rule.nodes.size(); ++g)
-        at.push_back(0.5 * (knots[k - 1] + knots[k] + rule.nodes[g] * (knots[k] - knots[k - 1])));
-    return at;
-  };
-  const std::vector<double> at_u = places(true, domain.u), at_v = places(false, domain.v);
-  // Values of one function at the places, between the first and last that it reaches.
-  const auto values = [&](const std::vector<double>& knots, const std::vector<double>& at) {
-    std::vector<double> padded(degree, knots.front());
-    padded.insert(padded.end(), knots.begin(), knots.end());
-    padded.insert(padded.end(), degree, knots.back());
-    std::vector<std::pair<int, double>> result;
-    std::vector<double> basis(degree + 1);
-    for (size_t k = 0; k < at.size(); ++k) {
-      if (!(at[k] > knots.front() && at[k] < knots.back())) continue;
-      const int span = static_cast<int>(std::upper_bound(padded.begin(), padded.end(), at[k]) - padded.begin()) - 1;
-      basis_derivative(degree, padded, span, at[k], 0, basis);
-      result.emplace_back(static_cast<int>(k), basis[degree - (span - degree)]);
-    }
-    return result;
-  };
-  const size_t columns = at_v.size(), height = at_u.size() * columns;
-  std::vector<double> sums(height, 0.0);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < count; ++i) {
-    const auto a = values(functions[i].u, at_u), b = values(functions[i].v, at_v);
-    for (const auto& [k, x] : a)
-      for (const auto& [l, y] : b) {
-        const size_t row = k * columns + l;
-        const double value = x * y * (weights.empty() ? 1 : weights[i]);
-        entries.emplace_back(static_cast<int>(row), i, value);
-        sums[row] += value;
-      }
-  }
-  for (auto& entry : entries) entry = {entry.row(), entry.col(), entry.value() / sums[entry.row()]};
-  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(height), count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::MatrixX3d right(height, 3);
-  for (size_t k = 0; k < at_u.size(); ++k)
-    for (size_t l = 0; l < columns; ++l) {
-      const Vec3 p = of.point(at_u[k], at_v[l]);
-      right.row(static_cast<Eigen::Index>(k * columns + l)) << p.x, p.y, p.z;
-    }
-  const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors(matrix);
-  if (factors.rank() < count)
-    throw FieldError("lines", fmt::format("{} functions of the mesh depend on one another", count - factors.rank()),
-                     "lines that end opposite to one another, or cross in their continuations, do this");
-  const Eigen::MatrixX3d solution = factors.solve(right);
-  std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) points.emplace_back(solution(i, 0), solution(i, 1), solution(i, 2));
-  return points;
-}
-
 namespace {
 
 struct GivenFunctions {
@@ -273,7 +202,19 @@ GivenFunctions read_functions(const Fields& f) {
   return given;
 }
 
+TSpline build_within(const Fields& f) {
+  for (const char* other : {"at", "lines", "knots_u", "knots_v", "points", "weights", "domain"})
+    if (f.has(other))
+      throw FieldError(other, "with a tolerance the mesh and its points are made of the surface",
+                       "leave one of them out");
+  if (!f.has("of")) throw FieldError("tolerance", "there is nothing to be near", "give 'of', a surface");
+  const int degree = f.integer("degree");
+  if (degree % 2 == 0) throw FieldError("degree", fmt::format("{} is even", degree), "1, 3, 5 or 7");
+  return t_spline_within(*f.surface("of"), degree, f.u<int>("cells"), f.v<int>("cells"), f.number("tolerance"));
+}
+
 TSpline build(const Fields& f) {
+  if (f.has("tolerance")) return build_within(f);
   GivenFunctions given = read_functions(f);
   const std::vector<double> weights = f.has("weights") ? f.numbers("weights") : std::vector<double>();
   if (f.has("points") && f.has("of"))
@@ -337,6 +278,12 @@ TypeDeclaration t_spline_type() {
                 "control points, in the order of the vertices; else the vertices themselves, in the plane z = 0")
       .optional("of", reference({Category::surface}),
                 "a surface instead, over the same parameters: the points of least squared distance from it")
+      .optional(
+          "tolerance", length().positive(),
+          "of `of`, without a mesh: one is made that is fine where it has to be, until at places of its cells the "
+          "two are nowhere farther apart")
+      .field("cells", integer().between(1, 100).for_each_direction(), "of the mesh that is made: how many at first",
+             "4")
       .optional("weights", numbers(), "one for each point; all 1 when left out")
       .optional("domain", rectangle(), "where the surface is wanted; else where the functions of the mesh sum to 1")
       .shows({"control_net", "t_mesh"})

@@ -42,8 +42,11 @@ class TSpline final : public Surface {
 // border on (Golovanov 2016, 3.9). Throws FieldError (field degree) for too small a mesh.
 Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functions);
 
+// All knots of the functions inside the domain, each as often as one of them has it, and the domain's ends, clamped.
+std::vector<double> all_knots(const std::vector<LocalKnots>& functions, bool along_u, const Interval& domain);
+
 // The points of least squared distance from a surface, over Gauss points of all cells between knots (Golovanov 2016,
-// 3.9). Throws FieldError (fields of, lines).
+// 3.9); of functions that are zero all over the domain points of the surface. Throws FieldError (fields of, lines).
 std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const std::vector<double>& weights,
                                 const Rectangle& domain, const Surface& of);
 

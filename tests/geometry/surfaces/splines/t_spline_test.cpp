@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "geometry/curves/splines/nurbs_operations.h"
 #include "geometry/describe.h"
+#include "geometry/surfaces/splines/t_refinement.h"
 #include "geometry/surfaces/surface_checks.h"
 
 namespace lekalo::geometry::t_spline_test {
@@ -118,6 +121,32 @@ TEST(TSpline, FitOfASurfaceInItsSpace) {
   for (int k = 0; k < 100; ++k) {
     const Vec2 p = random_place(domain, random);
     EXPECT_LE(glm::length(fit.point(p.x, p.y) - cubic.point(p.x, p.y)), 1e-13);
+  }
+}
+
+// A bump on a flat surface, by cubics and quintics: as near as wanted, with functions that sum to 1 and are fewer than
+// those of full rows and columns.
+TEST(TSpline, MeshMadeForATolerance) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 15; ++i)
+    for (int j = 0; j < 15; ++j) points.emplace_back(i, j, i == 2 && j == 3 ? 2 : 0);
+  const std::vector<double> knots{0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 12, 12, 12};
+  const SplineAxis axis(3, knots, Extension::tangent);
+  const NurbsSurface bump(axis, axis, points);
+  for (const auto& [degree, tolerance] : {std::pair(3, 0.01), std::pair(5, 0.06)}) {
+    const TSpline spline = t_spline_within(bump, degree, 5, 5, tolerance);
+    std::set<double> lines_u, lines_v;
+    for (size_t i = 0; i < spline.points().size(); ++i) {
+      lines_u.insert(spline.place(static_cast<int>(i)).x);
+      lines_v.insert(spline.place(static_cast<int>(i)).y);
+    }
+    EXPECT_LT(spline.points().size(), 0.8 * lines_u.size() * lines_v.size()) << degree;
+    for (int k = 0; k <= 60; ++k)
+      for (int l = 0; l <= 60; ++l)
+        EXPECT_LE(glm::length(spline.point(0.2 * k, 0.2 * l) - bump.point(0.2 * k, 0.2 * l)), 1.2 * tolerance);
+    // Polynomial where the functions sum to 1.
+    const auto form = spline.as_nurbs();
+    for (const Vec4& p : form->points) EXPECT_NEAR(p.w, 1, 1e-13);
   }
 }
 
