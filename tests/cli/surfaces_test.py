@@ -122,6 +122,32 @@ geometry:
         for (a, b), found in zip(places, self.points("scene.yaml", "s", places)):
             self.assertAlmostEqual(found[2], float(interpolate.CubicSpline(v, along_u(a))(b)), delta=1e-12)
 
+    def test_fit_of_a_grid_to_a_tolerance(self):
+        u, v = [0.25 * i for i in range(25)], [0.2 * j for j in range(21)]
+        grid = [[[a, b, math.sin(a) * math.cos(b) / (1 + (a - 3)**2)] for b in v] for a in u]
+        for tolerance in (0.02, 0.001):
+            self.write("scene.yaml", "lekalo: 1\ngeometry:\n  fit: { type: fit_surface, tolerance: %r, grid: %s, knots: { u: %s, v: %s } }\n" %
+                       (tolerance, grid, u, v))
+            found = self.points("scene.yaml", "fit", [(a, b) for a in u for b in v])
+            off = max(math.dist(p, q) for p, q in zip(found, [p for row in grid for p in row]))
+            self.assertLessEqual(off, tolerance)
+            self.assertGreater(off, tolerance / 100)  # no finer than it has to be
+
+    def test_cloud_on_a_surface_near_it(self):
+        """Points of a paraboloid, whose parameters come from a plane below and move to their feet: the sum of squares falls."""
+        random = [((0.618033988749895 * k) % 1 * 4, (0.7548776662466927 * k) % 1 * 3) for k in range(1, 121)]
+        cloud = [[x, y, 0.3 * x * x - 0.2 * x * y + 0.02 * math.sin(9 * x + 5 * y)] for x, y in random]
+        sums = []
+        for passes in (0, 20):
+            self.write("scene.yaml", "lekalo: 1\ngeometry:\n  sheet: { type: bilinear_surface, points: [[[0, 0, 0], [0, 3, 0]], [[4, 0, 3], [4, 3, 1]]] }\n"
+                       "  fit: { type: fit_surface, on: sheet, degree: 2, spans: 1, passes: %d, points: %s }\n" % (passes, cloud))
+            total = 0
+            for p in cloud[:40]:
+                total += self.json_of("measure", "scene.yaml", "fit", "--to", ",".join(map(repr, p)), "--nearest")["distance"]**2
+            sums.append(total)
+        self.assertLess(sums[1], sums[0])
+        self.assertLess(math.sqrt(sums[1] / 40), 0.03)
+
 
 if __name__ == "__main__":
     unittest.main()

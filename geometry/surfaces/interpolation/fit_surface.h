@@ -27,7 +27,7 @@ NurbsSurface fit_surface(SurfaceData& data, const Rectangle& domain, const Surfa
 
 // The same with spans halved where a point is farther away than the tolerance, in both directions, until none is.
 // Throws FieldError (field tolerance) where that cannot be.
-NurbsSurface fit_surface_within(SurfaceData& data, const Rectangle& domain, SurfaceFitOptions options,
+NurbsSurface fit_surface_within(SurfaceData& data, const Rectangle& domain, const SurfaceFitOptions& options,
                                 double tolerance);
 
 // Parameters of the point of a surface that is nearest to p, by Newton's method from the nearest of 33 x 33 places.
