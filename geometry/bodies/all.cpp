@@ -11,7 +11,11 @@
   X(prism_type)              \
   X(pyramid_type)            \
   X(arrow_body_type)         \
-  X(trimmed_surface_type)
+  X(trimmed_surface_type)    \
+  X(simplex_spline_type)     \
+  X(s_surface_type)          \
+  X(dms_surface_type)        \
+  X(triangulated_surface_type)
 
 namespace lekalo::geometry {
 

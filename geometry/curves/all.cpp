@@ -32,6 +32,7 @@
   X(spline_curve_type)            \
   X(lagrange_curve_type)          \
   X(hermite_curve_type)           \
+  X(hermite_edge_type)            \
   X(tension_spline_type)          \
   X(smoothing_spline_type)        \
   X(local_spline_type)            \

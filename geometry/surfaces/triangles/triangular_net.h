@@ -99,6 +99,18 @@ TriangularNetOf<Point> elevated(const TriangularNetOf<Point>& net) {
   return times_linear(net, Vec3(1));
 }
 
+// Nets of one degree.
+template <class Point>
+TriangularNetOf<Point> operator+(TriangularNetOf<Point> a, const TriangularNetOf<Point>& b) {
+  for (size_t k = 0; k < a.points.size(); ++k) a.points[k] += b.points[k];
+  return a;
+}
+template <class Point>
+TriangularNetOf<Point> operator*(double factor, TriangularNetOf<Point> net) {
+  for (Point& p : net.points) p *= factor;
+  return net;
+}
+
 // The corners in another order: the point ijk of the result is that whose corner order[0] has i, ...
 template <class Point>
 TriangularNetOf<Point> permuted(const TriangularNetOf<Point>& net, const std::array<int, 3>& order) {
