@@ -56,7 +56,9 @@
   X(reparametrized_surface_type) \
   X(line_surface_type)           \
   X(developable_surface_type)    \
-  X(development_type)
+  X(development_type)            \
+  X(thread_surface_type)         \
+  X(weld_groove_type)
 
 namespace lekalo::geometry {
 

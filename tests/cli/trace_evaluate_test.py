@@ -81,6 +81,8 @@ SURFACES = {
     "reparametrized_surface": f"of: {{ type: bezier_surface, points: [{NET}] }}, swap: true, reverse: [u], domain: {{ u: [1, 3], v: [0, 5] }}",
     "chamfer_surface": "of: [{ type: plane, origin: [0, 0, -0.5], size: [6, 6] }, { type: cylinder_surface, radius: 1, height: 2, frame: "
                        "{ origin: [0, 0, -1], z: [0.3, 0, 1] } }], legs: [0.6, 1]",
+    "thread_surface": "diameter: 2, length: 0.8",
+    "weld_groove": "seam: { type: circle, radius: 1.5 }, normal: z, thickness: 0.6, gap: 0.1, root_face: 0.1, angle: 60",
     "line_surface": "of: { type: helix, radius: 1, pitch: 2, turns: 1 }, range: [0.2, 0.6]",
     "developable_surface": "of: [{ type: ellipse, semi_axes: [1.5, 1] }, { type: ellipse, semi_axes: [1, 1.5], frame: { origin: [0, 0, 1] } }]",
     "development": "of: { type: cone_surface, radius: 1.5, top_radius: 0.5, height: 2 }",

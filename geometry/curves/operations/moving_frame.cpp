@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/curves/operations/surface_curve.h"
 #include "geometry/describe.h"
 #include "geometry/numerics/chebyshev.h"
 #include "geometry/numerics/halving.h"
 #include "geometry/numerics/quadrature.h"
+#include "geometry/point_formulas.h"
 
 namespace lekalo::geometry {
 
@@ -41,7 +43,8 @@ struct Tangent {
 // The normal of a surface at the points of a curve that lies on it.
 class Base {
  public:
-  explicit Base(SurfacePtr surface) : surface_(std::move(surface)), domain_(surface_->domain()) {
+  explicit Base(SurfacePtr surface)
+      : surface_(std::move(surface)), domain_(surface_->domain()), periods_(closed_periods(*surface_)) {
     if (!(domain_.u.width() < kInfinity && domain_.v.width() < kInfinity))
       throw FieldError("on", "the surface is unbounded", "give it a domain");
     size_ = bounds(*surface_).diameter();
@@ -66,7 +69,8 @@ class Base {
       const double det = e * g - f * f;
       if (!(det > 0)) break;
       const double a = glm::dot(at.du(), off), b = glm::dot(at.dv(), off);
-      const Vec2 next(domain_.u.clamp(uv.x + (g * a - f * b) / det), domain_.v.clamp(uv.y + (e * b - f * a) / det));
+      const Vec2 next(inside(uv.x + (g * a - f * b) / det, domain_.u, periods_.u),
+                      inside(uv.y + (e * b - f * a) / det, domain_.v, periods_.v));
       const bool stays = glm::length((next - uv) / Vec2(domain_.u.width(), domain_.v.width())) <= 1e-15;
       uv = next;
       if (stays) break;
@@ -80,8 +84,14 @@ class Base {
     Vec2 uv;
     Vec3 point;
   };
+  // Over a seam to the other side.
+  static double inside(double x, const Interval& range, double period) {
+    return period > 0 ? wrapped(x, range) : range.clamp(x);
+  }
+
   SurfacePtr surface_;
   Rectangle domain_;
+  Periods periods_;
   double size_ = 0;
   std::vector<Start> grid_;
 };
