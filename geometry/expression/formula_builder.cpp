@@ -23,6 +23,25 @@ namespace {
 
 bool is_exact(double x, const Interval& range) { return range.lo == x && range.hi == x; }
 
+// Whole numbers and truths, which jump.
+bool is_stepped(Operation operation) {
+  switch (operation) {
+    case Operation::equal:
+    case Operation::unequal:
+    case Operation::less:
+    case Operation::less_equal:
+    case Operation::greater:
+    case Operation::greater_equal:
+    case Operation::sign:
+    case Operation::floor:
+    case Operation::ceil:
+    case Operation::round:
+      return true;
+    default:
+      return false;
+  }
+}
+
 // Division by such a number is multiplication by its inverse, without rounding.
 bool has_exact_inverse(double x) {
   int exponent;
@@ -131,6 +150,8 @@ class FormulaProgram::Builder {
     if (x && (b < 0 || y) && (c < 0 || z)) {
       const Constant& p = *x;
       const Constant q = y.value_or(p), r = z.value_or(p);
+      // What a jump of constants gives is not left open by their rounding: floor(3/3) is 1 over intervals too.
+      if (is_stepped(operation)) return constant(result_of(operation, p.value, q.value, r.value, index));
       return constant(Constant{result_of(operation, p.value, q.value, r.value, index),
                                result_of(operation, p.range, q.range, r.range, index)});
     }

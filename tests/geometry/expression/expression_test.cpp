@@ -265,6 +265,13 @@ TEST(Expression, intervals_keep_open_questions_open) {
   EXPECT_EQ(bound("mod(t, 2)", {{"t"}})(Interval(5, 6.5)), Interval(0, 2));
 }
 
+// The rounding of constants is no question: what a formula of numbers alone is, it is over intervals too.
+TEST(Expression, jumps_of_constants_are_closed_questions) {
+  EXPECT_EQ(bound("floor(k/3)", {{"t"}}, {{"k", 3}})(Interval(0)), Interval(1));
+  EXPECT_EQ(bound("1 if k/3 >= 1 else 0", {{"t"}}, {{"k", 3}})(Interval(0)), Interval(1));
+  EXPECT_EQ(bound("round(k/4)", {{"t"}}, {{"k", 10}})(Interval(0)), Interval(number("round(10/4)")));
+}
+
 TEST(Expression, singular_values_are_not_errors) {
   EXPECT_TRUE(std::isinf(number("1/0")));
   EXPECT_TRUE(std::isnan(number("0/0")));
