@@ -270,15 +270,17 @@ double value_on(const Quantity& quantity, const Surface& surface, double u, doub
   return quantity.value(place).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-Interval range_on(const Quantity& quantity, const Surface& surface) {
-  const Rectangle domain = surface.domain();
+Interval range_on(const Quantity& quantity, const std::vector<SurfacePtr>& surfaces) {
   std::vector<double> values;
-  for (int i = 0; i < kPlaces; ++i)
-    for (int j = 0; j < kPlaces; ++j) {
-      const double value = value_on(quantity, surface, domain.u.lo + domain.u.width() * (i + 0.5) / kPlaces,
-                                    domain.v.lo + domain.v.width() * (j + 0.5) / kPlaces);
-      if (std::isfinite(value)) values.push_back(value);
-    }
+  for (const SurfacePtr& surface : surfaces) {
+    const Rectangle domain = surface->domain();
+    for (int i = 0; i < kPlaces; ++i)
+      for (int j = 0; j < kPlaces; ++j) {
+        const double value = value_on(quantity, *surface, domain.u.lo + domain.u.width() * (i + 0.5) / kPlaces,
+                                      domain.v.lo + domain.v.width() * (j + 0.5) / kPlaces);
+        if (std::isfinite(value)) values.push_back(value);
+      }
+  }
   return range_of(std::move(values), false);
 }
 
@@ -321,10 +323,10 @@ Quantity quantity_of(const Fields& f) {
   Quantity result = name == "formula" ? of_formula(f.get<Expression>("formula")) : named_quantity(name, f);
   result.name = name;
   if (result.is_direction) return result;
-  // What is not finite is not known.
+  // What is not finite, or no float holds, is not known.
   result.value = [value = std::move(result.value)](const AnalysedPlace& at) -> Value {
     const Value found = value(at);
-    return found && std::isfinite(*found) ? found : std::nullopt;
+    return found && std::abs(*found) <= std::numeric_limits<float>::max() ? found : std::nullopt;
   };
   return result;
 }

@@ -39,8 +39,8 @@ Quantity quantity_of(const geometry::Fields& fields);
 void add_quantity_of_place(geometry::TypeDeclaration& type);
 // NaN where it is not known. In the surface's own coordinates.
 double value_on(const Quantity& quantity, const geometry::Surface& surface, double u, double v);
-// Its range there, as seen at places of the surface, but for the outermost.
-geometry::Interval range_on(const Quantity& quantity, const geometry::Surface& surface);
+// Its range on bounded surfaces together, as seen at places of each, but for the outermost.
+geometry::Interval range_on(const Quantity& quantity, const std::vector<geometry::SurfacePtr>& surfaces);
 
 // The range of a list of values but for the outermost two in a hundred, its ends rounded outwards to two digits;
 // symmetric where they have signs. Of one value a range about it.

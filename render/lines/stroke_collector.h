@@ -267,6 +267,8 @@ class StrokeCollector {
   void add_figure(const geometry::CurvePtr& curve, const std::string& sign, const Helper& helper);
 
   void add_figure(const geometry::SurfacePtr& surface, const std::string& sign, const Helper& helper);
+  // On the faces of the object's body.
+  void add_figure(const geometry::Body& body, const std::string& sign, const Helper& helper);
 
   void add_colored(const geometry::CurvePtr& curve, const Helper& helper);
 

@@ -72,6 +72,8 @@ void StrokeCollector::add_helper(const Helper& helper) {
     for (const CurvePtr& line : figure.lines) stroke(line, helper.style, helper.hidden);
     marks(figure.points);
   }
+  if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && lies_on_surface(helper))
+    add_figure(**body, sign, helper);
   each_surface([&](const SurfacePtr& surface) {
     if (const auto net = triangular_net(*surface)) {
       if (helper.type == "control_net") add_net(*net, sign, helper);
@@ -273,7 +275,11 @@ void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign,
 }
 
 void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {
-  const SurfaceFigure figure = surface_figure(surface, helper);
+  std::vector<SurfacePtr> all;
+  each_face([&](const SurfacePtr& one) {
+    if (one->bounded()) all.push_back(one);
+  });
+  const SurfaceFigure figure = surface_figure(surface, helper, all);
   if (!figure.complete) is_incomplete();
   for (const SurfaceFigure::Line& line : figure.lines) {
     Style style = helper.style;
@@ -283,6 +289,18 @@ void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& s
   }
   for (const SurfaceFigure::Text& one : figure.texts) text(one.point, one.words, helper, false);
   for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
+}
+
+void StrokeCollector::add_figure(const Body& body, const std::string& sign, const Helper& helper) {
+  for (const FaceRegion& face : face_regions(body)) {
+    if (!face.surface->bounded()) {
+      leave_out(helper.type + " of unbounded surfaces (" + name_of_object() + ")");
+      continue;
+    }
+    if (face.region) cutters_.push_back(cutter_of(face, to_world_));
+    add_figure(face.surface, sign, helper);
+    if (face.region) cutters_.pop_back();
+  }
 }
 
 // Parts of equal ranges of the parameter, each in the colour of its middle.

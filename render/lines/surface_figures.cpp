@@ -113,12 +113,13 @@ SurfaceFigure asymptotic_lines(const SurfacePtr& surface, const Fields& f) {
   return figure;
 }
 
-SurfaceFigure contour_lines(const SurfacePtr& surface, const Fields& f) {
+// At given levels, or at round numbers of the range on all surfaces together.
+SurfaceFigure contour_lines(const SurfacePtr& surface, const Fields& f, const std::vector<SurfacePtr>& all) {
   const Quantity quantity = quantity_of(f);
   const auto value = [&](double u, double v) { return value_on(quantity, *surface, u, v); };
   std::vector<double> levels = f.get<ParameterValues>("levels").values;
   if (levels.empty()) {
-    const Interval range = range_on(quantity, *surface);
+    const Interval range = range_on(quantity, all.empty() ? std::vector{surface} : all);
     levels = round_numbers(range, f.get<ParameterValues>("levels").count);
   }
   SurfaceFigure figure;
@@ -318,7 +319,6 @@ using Draw = SurfaceFigure (*)(const SurfacePtr&, const Fields&);
 const std::map<std::string, Draw, std::less<>>& figures() {
   static const std::map<std::string, Draw, std::less<>> all = {{"curvature_lines", curvature_lines},
                                                                {"asymptotic_lines", asymptotic_lines},
-                                                               {"contour_lines", contour_lines},
                                                                {"isophotes", isophotes},
                                                                {"reflections", reflections},
                                                                {"principal_directions", principal_directions},
@@ -332,7 +332,13 @@ const std::map<std::string, Draw, std::less<>>& figures() {
 
 }  // namespace
 
-bool is_surface_figure(const std::string& helper) { return figures().count(helper) > 0; }
+bool is_surface_figure(const std::string& helper) { return helper == "contour_lines" || figures().count(helper) > 0; }
+
+bool lies_on_surface(const Helper& helper) {
+  const std::string& type = helper.type;
+  return type == "contour_lines" || type == "isophotes" || type == "reflections" || type == "curvature_lines" ||
+         type == "asymptotic_lines";
+}
 
 bool leaves_surface(const Helper& helper) {
   return is_surface_figure(helper.type) && (helper.values.has("u") || helper.type == "hedgehog");
@@ -342,8 +348,9 @@ void check_surface_figure(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("the surface is unbounded: give it a domain");
 }
 
-SurfaceFigure surface_figure(const SurfacePtr& surface, const Helper& helper) {
+SurfaceFigure surface_figure(const SurfacePtr& surface, const Helper& helper, const std::vector<SurfacePtr>& all) {
   check_surface_figure(*surface);
+  if (helper.type == "contour_lines") return contour_lines(surface, helper.values, all);
   return figures().at(helper.type)(surface, helper.values);
 }
 

@@ -40,7 +40,12 @@ bool leaves_surface(const Helper& helper);
 // Throws std::invalid_argument for a surface of which none of these can be drawn: an unbounded one.
 void check_surface_figure(const geometry::Surface& surface);
 
-// Throws FieldError for fields that do not fit the surface; std::invalid_argument for an unbounded one.
-SurfaceFigure surface_figure(const geometry::SurfacePtr& surface, const Helper& helper);
+// Whether all of it lies on the surface, so that faces of bodies have it too.
+bool lies_on_surface(const Helper& helper);
+
+// Throws FieldError for fields that do not fit the surface; std::invalid_argument for an unbounded one. `all`: the
+// surfaces of the object, which have their contour lines at the same levels; empty: this one alone.
+SurfaceFigure surface_figure(const geometry::SurfacePtr& surface, const Helper& helper,
+                             const std::vector<geometry::SurfacePtr>& all = {});
 
 }  // namespace lekalo::render

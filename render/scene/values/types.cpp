@@ -180,6 +180,8 @@ std::vector<std::string> helpers_of(Category category) {
     return {"normals",  "curvature_lines",      "asymptotic_lines",  "contour_lines",    "isophotes",
             "umbilics", "principal_directions", "principal_circles", "dupin_indicatrix", "tangent_plane",
             "hedgehog", "reflections"};
+  if (category == Category::body)
+    return {"curvature_lines", "asymptotic_lines", "contour_lines", "isophotes", "reflections"};
   return {};
 }
 

@@ -99,6 +99,26 @@ TEST(SurfaceFigures, ContourLinesSayTheirNumbers) {
   EXPECT_EQ(words, (std::set<std::string>{"0.2", "0.5"}));
 }
 
+// On a disk only the chord is left of the line x = 1/2; all faces of a body have the same levels.
+TEST(SurfaceFigures, FacesOfBodies) {
+  const auto chords = curves_of(
+      "{ type: trimmed_surface, of: { type: plane, size: [4, 4] }, loops: { type: circle, "
+      "radius: 1 } }",
+      "contour_lines", "formula: x, levels: [0.5]");
+  ASSERT_EQ(chords.size(), 1u);
+  double reach = 0;
+  each_place(chords[0], [&](const Vec3& p) {
+    EXPECT_NEAR(p.x, 0.5, 1e-12);
+    reach = std::max(reach, std::abs(p.y));
+  });
+  EXPECT_NEAR(reach, std::sqrt(0.75), 1e-6);
+  std::set<double> heights;
+  for (const CurvePtr& line : curves_of("{ type: box, size: [2, 2, 2] }", "contour_lines", "formula: z, levels: 3"))
+    heights.insert(std::round(1e9 * line->point(line->domain().lo).z) / 1e9);
+  heights.erase(0), heights.erase(2);  // edges
+  EXPECT_EQ(heights, (std::set<double>{0.5, 1, 1.5}));
+}
+
 TEST(SurfaceFigures, Isophotes) {
   for (const CurvePtr& line : curves_of("torus", "isophotes", "direction: z, angles: [60]"))
     each_place(line, [](const Vec3& p) { EXPECT_NEAR(p.z, 0.5, 1e-9); });
