@@ -27,7 +27,7 @@ TypeDeclaration direct_lighting_type() {
   return declare(Category::integrator, "direct_lighting",
                  "Path tracing without light between surfaces: what lamps, surroundings and glowing objects throw on "
                  "things directly, with mirrors and clear bodies.")
-      .field("max_depth", integer().between(0, 1000), "mirror reflections and refractions in a row", "16")
+      .field("max_depth", integer().between(0, 1000), "mirror reflections and refractions after the first", "16")
       .field("background_light", boolean(), "true: the background lights the scene from everywhere", "false")
       .built_by([](const Fields& f) -> IntegratorPtr {
         PathOptions options;

@@ -73,16 +73,21 @@ TypeDeclaration path_integrator_type() {
              "the samples. Lamps that have a size are seen in mirrors and through glass; light that reaches the eye "
              "through refraction or a mirror from a point, spot or parallel light is left out, as are Phong "
              "highlights of smooth surfaces. Ambient light comes from everywhere and is shadowed.")
-      .field("max_depth", integer().between(0, 1000), "reflections and refractions in a row", "64")
+      .field("max_depth", integer().between(0, 1000), "reflections and refractions after the first", "64")
       .field("clamp", number().non_negative(),
              "light over two and more surfaces is at most so bright in each sample: less noise, and less light; 0: as "
              "it is",
              "0")
+      .field("dispersion", boolean(),
+             "true: what meets `glass` of a dielectric goes on in one wavelength, whose index counts; false: light of "
+             "all colours is bent as yellow light is",
+             "true")
       .field("background_light", boolean(), "true: the background lights the scene from everywhere", "false")
       .built_by([](const Fields& f) {
         PathOptions options;
         options.max_depth = f.integer("max_depth");
         options.clamp = f.number("clamp");
+        options.dispersion = f.boolean("dispersion");
         options.background_shines = f.boolean("background_light");
         return make_path_integrator(options);
       });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/integrators/dispersion.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/bsdf.h"
 #include "render/materials/optical_constants.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr int kMaxPasses = 1000;
 // Paths live at least so many bounces, and then by chance (Russian roulette).
 constexpr int kSafeBounces = 4;
-constexpr double kLongestLife = 0.95;
+constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
 // Share of the choice of lamps that does not look at how bright they seem.
 constexpr double kBlindChoice = 0.1;
 const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
@@ -33,8 +34,8 @@ double power_heuristic(double own, double other) {
 
 // What a ray sees, normals on the viewer's side.
 struct SurfacePlace : Boundary {
-  SurfacePlace(const World& world, const Ray& ray, const Hit& hit, Media& media)
-      : Boundary(world, ray, hit, kYellow, media),
+  SurfacePlace(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media)
+      : Boundary(world, ray, hit, wavelengths, media),
         geometric_normal(front ? point.geometric_normal : -point.geometric_normal) {}
 
   Vec3 shading_normal(const Vec3& direction) const {
@@ -73,6 +74,7 @@ class PathTracer {
   void choose_lamps(const Vec3& point);
   void add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media);
   void record(const SurfacePlace& seen);
+  void take_one_wavelength();
 
   const World& world_;
   SampleStream& random_;
@@ -80,9 +82,11 @@ class PathTracer {
   RaySample& sample_;
   bool has_backdrop_ = false;
   Origin origin_;
-  std::vector<double> choices_;  // of lamps at the present place
-  Spectrum share_ = kWhite;      // of the light at the end of the path that reaches the eye
-  bool shown_ = true;            // the path is an image in mirrors and smooth boundaries
+  std::vector<double> choices_;        // of lamps at the present place
+  Spectrum share_ = kWhite;            // of the light at the end of the path that reaches the eye
+  Wavelengths wavelengths_ = kYellow;  // of refraction
+  bool one_wavelength_ = false;
+  bool shown_ = true;  // the path is an image in mirrors and smooth boundaries
   int bounces_ = 0, scatterings_ = 0;
   double way_ = 0;
 };
@@ -200,6 +204,13 @@ void PathTracer::record(const SurfacePlace& seen) {
                              seen.material->cell(seen.point));
 }
 
+void PathTracer::take_one_wavelength() {
+  const WavelengthSample taken = sample_wavelength(random_.next_sobol_pair().x);
+  share_ *= taken.share;
+  wavelengths_.nanometres.fill(taken.nanometres);
+  one_wavelength_ = true;
+}
+
 void PathTracer::trace(Ray ray, Hit hit, Media media) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0 && !world_.nearest(ray, hit)) hit.instance = -1;
@@ -211,7 +222,14 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       add(surroundings());
       return;
     }
-    const SurfacePlace seen(world_, ray, hit, media);
+    const Media around = media;
+    std::optional<SurfacePlace> met(std::in_place, world_, ray, hit, wavelengths_, media);
+    if (options_.dispersion && !one_wavelength_ && disperses(*met->material)) {
+      take_one_wavelength();
+      media = around;
+      met.emplace(world_, ray, hit, wavelengths_, media);
+    }
+    const SurfacePlace& seen = *met;
     share_ *= transmittance(media.current().absorption, hit.t);
     way_ += hit.t;
     const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
@@ -257,7 +275,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       origin_.gone = 0;
       origin_.choices.swap(choices_);
       if (bounces_ > kSafeBounces) {
-        const double life = std::min(kLongestLife, static_cast<double>(share_.largest()));
+        const double life = std::clamp(static_cast<double>(share_.largest()), kLeastLife, kLongestLife);
         if (lobe_choice.y >= life) return;
         share_ *= static_cast<float>(1 / life);
       }
@@ -282,7 +300,7 @@ Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& ar
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     Hit hit;
     if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
-    const SurfacePlace met(world, ray, hit, media);
+    const SurfacePlace met(world, ray, hit, kYellow, media);
     if (!met.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);
     if (met.changes_filling) {

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "render/integrators/dispersion.h"
 #include "render/lobes/fresnel.h"
+#include "render/materials/optical_constants.h"
 #include "tests/render/small_scene.h"
 
 namespace lekalo::render::path_test {
@@ -170,6 +172,60 @@ TEST(Path, ShadowsOfAmbientLight) {
   scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
   scene.add(plane({0, 1e-6, 0}, {0, -1, 0}), make_material(Diffuse{.color = 0.0}));
   expect_mean(estimate(*world(scene), {0, -1, 1}, {0, 1, -1}, 2048), 0.5, "wall", 5e-3);
+}
+
+TEST(Path, WavelengthsTogetherAreWhite) {
+  constexpr int kCount = 1 << 14;
+  Spectrum sum;
+  double last = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const WavelengthSample sample = sample_wavelength((i + 0.5) / kCount);
+    EXPECT_GT(sample.nanometres, last);
+    last = sample.nanometres;
+    sum += (1.0f / kCount) * sample.share;
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], 1, 1e-3);
+  EXPECT_LE(last, 780);
+}
+
+TEST(Path, PrismSpreadsColours) {
+  // Light at right angles through the first face of a prism, out through the second one at an angle a from it: it goes
+  // on at asin(n sin(a)) from that face's normal. The place where it meets a screen is what the screen glows with.
+  SmallScene scene;
+  const double a = 30 * kPi / 180;
+  const MaterialPtr glass = make_material(Dielectric{.glass = "SF10"});
+  scene.add(SurfaceSet{plane({0, 0, 0}, {0, 0, 1}), plane({0, 0, -1}, {std::sin(a), 0, -std::cos(a)})}, glass);
+  scene.add(plane({0, 0, -11}, {0, 0, 1}), coordinate_screen({1, 0, 0}));
+  scene.model.background = Spectrum();
+  // Where the ray x = 0 of a wavelength meets the screen.
+  const auto place = [&](double nanometres) {
+    const double out = std::asin(dielectric_index("SF10", nanometres) * std::sin(a)) - a;
+    return -10 * std::tan(out);
+  };
+  Spectrum truth;
+  constexpr int kCount = 4096;
+  for (int i = 0; i < kCount; ++i) {
+    const WavelengthSample sample = sample_wavelength((i + 0.5) / kCount);
+    truth += (static_cast<float>(place(sample.nanometres)) / kCount) * sample.share;
+  }
+  // Of the light both faces let through: what goes straight through the first one is no bounce, and what the second one
+  // reflects is cut off.
+  const double n = dielectric_index("SF10", 587.56);
+  EXPECT_LT(std::abs(place(450)), 100);
+  EXPECT_NE(place(450), place(650));
+  const Estimate found = estimate(*world(scene, {.max_depth = 0}), {0, 0, 3}, {0, 0, -1}, 16384);
+  const double passes = (1 - fresnel_dielectric(1, 1, n)) * (1 - fresnel_dielectric(std::cos(a), n, 1));
+  EXPECT_NEAR(found.mean, truth[0] * passes, 0.02 * std::abs(truth[0]) + 3 * found.error);
+  const Estimate yellow = estimate(*world(scene, {.max_depth = 0, .dispersion = false}), {0, 0, 3}, {0, 0, -1}, 4096);
+  EXPECT_NEAR(yellow.mean, place(587.5618) * passes, 0.02 * std::abs(truth[0]) + 3 * yellow.error);
+}
+
+TEST(Path, DispersingBallInAFurnaceIsWhite) {
+  SmallScene scene;
+  scene.light(AmbientLight{.intensity = 1});
+  scene.model.background = Spectrum(1, 1, 1);
+  scene.add(sphere({0, 0, 0}, 1), make_material(Dielectric{.glass = "N-BK7"}));
+  expect_mean(estimate(*world(scene), {0.7, 0, 4}, {0, 0, -1}, 8192), 1, "glass", 1e-2);
 }
 
 TEST(Path, ClampIsRecordedInTheOptions) {

@@ -1,0 +1,71 @@
+"""Light by paths: the same picture for any number of threads, and what is wrong with lights and materials is said."""
+
+import unittest
+
+from program import ProgramTest
+
+SCENE = """lekalo: 1
+geometry: {{ ball: {{ type: ball, center: [0, 0, 1], radius: 1 }}, floor: {{ type: plane, size: [6, 6] }} }}
+materials:
+  red: {{ type: plastic, color: [0.7, 0.1, 0.1] }}
+  glass: {{ type: dielectric, glass: N-BK7 }}
+  other: {other}
+lights: {{ lamp: {light} }}
+integrator: {{ type: {integrator} }}
+objects: [{{ shape: ball, material: glass }}, {{ shape: floor, material: red }}]
+camera: {{ type: perspective, from: [0, -6, 3], at: [0, 0, 0.9], field_of_view: 30 }}
+image: {{ size: [48, 32], samples: 4 }}
+outputs: picture.exr
+"""
+BALL = "{ type: sphere_light, center: [2, -2, 4], radius: 0.5 }"
+MATT = "{ type: diffuse }"
+
+
+class Light(ProgramTest):
+    def scene(self, light=BALL, integrator="path", other=MATT):
+        return self.write("scene.yaml", SCENE.format(light=light, integrator=integrator, other=other))
+
+    def complaint(self, **parts):
+        self.scene(**parts)
+        return self.run_program("check", "scene.yaml", code=3)[1]
+
+    def test_same_bits_for_any_number_of_threads(self):
+        for integrator in ("path", "direct_lighting", "ambient_occlusion"):
+            with self.subTest(integrator):
+                self.scene(integrator=integrator)
+                for threads in (1, 3):
+                    self.run_program("render", "scene.yaml", "--threads", str(threads), "-o", f"{threads}.exr", "--quiet")
+                self.assertEqual(self.bytes_of("1.exr"), self.bytes_of("3.exr"))
+
+    def test_light_that_is_left_out_is_named(self):
+        self.scene(light="{ type: point_light, position: [0, 0, 5] }")
+        self.assertIn("is left out", self.run_program("render", "scene.yaml")[1])
+        self.scene()
+        self.assertNotIn("is left out", self.run_program("render", "scene.yaml")[1])
+
+    def test_panoramas(self):
+        self.scene(light="{ type: environment_light, file: studio/environments/studio.exr }")
+        self.run_program("render", "scene.yaml", "--quiet")
+        self.assertIn("nowhere.exr", self.complaint(light="{ type: environment_light, file: nowhere.exr }"))
+        self.write("words.exr", "not a picture")
+        self.assertIn("words.exr", self.complaint(light="{ type: environment_light, file: words.exr }"))
+
+    def test_ies_files(self):
+        lamp = "{ type: profile_light, frame: { origin: [0, 0, 4], z: -z }, file: lamp.ies }"
+        self.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 50\n0 90\n0\n100 0\n")
+        self.scene(light=lamp)
+        self.run_program("render", "scene.yaml", "--quiet")
+        self.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 50\n0 90\n0\n100\n")
+        self.assertIn("the file ends after", self.complaint(light=lamp))
+
+    def test_materials(self):
+        self.assertIn("one of 'metal' and 'color'", self.complaint(other="{ type: conductor }"))
+        self.assertIn("one of 'metal' and 'color'", self.complaint(other="{ type: conductor, metal: Cu, color: 0.5 }"))
+        self.assertIn("more light than falls", self.complaint(other="{ type: translucent_sheet, color: 0.8, transmission: 0.5 }"))
+        self.assertIn("a substance behind them", self.complaint(other="{ type: mix, first: glass, second: { type: dielectric } }"))
+        self.assertIn("roughness", self.complaint(other="{ type: plastic, roughness: 2 }"))
+        self.assertIn("anisotropy", self.complaint(other="{ type: conductor, metal: Cu, anisotropy: 1 }"))
+
+
+if __name__ == "__main__":
+    unittest.main()
