@@ -80,8 +80,8 @@ TypeDeclaration path_integrator_type() {
              "0")
       .field("dispersion", boolean(),
              "true: what meets `glass` of a dielectric goes on in one wavelength, whose index counts; false: light of "
-             "all colours is bent as yellow light is",
-             "true")
+             "all colours is bent as yellow light is, which takes fewer samples",
+             "false")
       .field("background_light", boolean(), "true: the background lights the scene from everywhere", "false")
       .built_by([](const Fields& f) {
         PathOptions options;

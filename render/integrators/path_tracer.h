@@ -25,8 +25,8 @@ class Bsdf;
 struct PathOptions {
   int max_depth = 64;          // reflections and refractions of a path after the first, in [0, 1000]
   int max_scatterings = 1000;  // those of them that are no mirrors and smooth boundaries
-  double clamp = 0;        // light that reached the eye over two and more surfaces is at most so bright; 0: as it is
-  bool dispersion = true;  // paths that meet a substance whose index depends on the wavelength take one
+  double clamp = 0;         // light that reached the eye over two and more surfaces is at most so bright; 0: as it is
+  bool dispersion = false;  // paths that meet a substance whose index depends on the wavelength take one
   bool background_shines = false;  // the background lights the scene from everywhere
 };
 

@@ -44,27 +44,20 @@ LobeSample CoatLobe::sample(const Vec3& out, const Vec2&, const Vec2& square, co
 
 double CoatLobe::importance(const Vec3& out, const Sides&) const { return albedo->at(out); }
 
-Spectrum CoatedMattLobe::body_share() const {
-  const double inside = 1 - (1 - coat.albedo->mean()) / (coat.index * coat.index);
-  Spectrum share;
-  for (int i = 0; i < 4; ++i) share.set(i, static_cast<float>(albedo[i] * (1 - inside) / (1 - albedo[i] * inside)));
-  return share;
-}
-
 double CoatedMattLobe::importance(const Vec3& out, const Sides& sides) const {
   const double coat_share = coat.importance(out, sides);
-  return coat_share + (1 - coat_share) * body_share().largest();
+  return coat_share + (1 - coat_share) * albedo.largest();
 }
 
 double CoatedMattLobe::coat_probability(const Vec3& out) const {
-  const double mirror = coat.importance(out, {}), body = (1 - mirror) * body_share().largest();
+  const double mirror = coat.importance(out, {}), body = (1 - mirror) * albedo.largest();
   return mirror / std::max(mirror + body, 1e-9);
 }
 
 Spectrum CoatedMattLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const {
   if (in.z <= 0) return {};
   const double passes = (1 - coat.albedo->at(out)) * (1 - coat.albedo->at(in)) / (1 - coat.albedo->mean());
-  return coat.evaluate(out, in, sides) + static_cast<float>(passes * in.z / kPi) * body_share();
+  return coat.evaluate(out, in, sides) + static_cast<float>(passes * in.z / kPi) * albedo;
 }
 
 double CoatedMattLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) const {

@@ -23,9 +23,9 @@ struct CoatLobe {
 CoatLobe coat_lobe(double index);
 
 // A coat over a matt body. With E the reflectance of the coat by angle and E_mean its mean, the body adds
-//   f = a (1 - E(out)) (1 - E(in)) / (pi (1 - E_mean)),  a = albedo (1 - R) / (1 - albedo R),
-// R = 1 - (1 - E_mean) / index^2 the share of the body's light that the coat sends back inside: what a white body under
-// a lossless coat does not mirror it all returns.
+//   f = albedo (1 - E(out)) (1 - E(in)) / (pi (1 - E_mean)):
+// what a white body does not get because the coat mirrors it, is all that it does not return. The albedo is that of the
+// body as it is seen through the coat, which throws some of its light back to it.
 struct CoatedMattLobe {
   Spectrum albedo;
   CoatLobe coat;
@@ -34,7 +34,6 @@ struct CoatedMattLobe {
   double density(const Vec3& out, const Vec3& in, const Sides& sides) const;
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
   double importance(const Vec3& out, const Sides& sides) const;
-  Spectrum body_share() const;  // a
 
  private:
   double coat_probability(const Vec3& out) const;

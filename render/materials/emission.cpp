@@ -32,8 +32,7 @@ MaterialPtr make_material(const Emission& emission) { return std::make_shared<Em
 TypeDeclaration emission_type() {
   return declare(Category::material, "emission",
                  "Surface that glows evenly. Classic reading: the radiance color times strength whatever the light; it "
-                 "does "
-                 "not light other objects (area lights do).")
+                 "does not light other objects (area lights do). By paths it does.")
       .field("color", textured_color(), "of the light", "white")
       .field("strength", number().non_negative(), "multiplies the colour", "1")
       .built_by([](const Fields& f) {

@@ -132,6 +132,7 @@ struct Pattern {
     else
       checker = *found;
   }
+  void read(const Roughness& roughness) { other = other || roughness.texture; }
   void read(const NormalDeviation& deviation) { rough = deviation.amplitude > 0; }
 };
 
@@ -145,16 +146,23 @@ Pattern pattern(const Material& material) {
     p.read(look->normal_deviation);
   } else if (const auto* diffuse = std::any_cast<Diffuse>(&value)) {
     p.read(diffuse->color);
+    p.read(diffuse->roughness);
     p.read(diffuse->normal_deviation);
   } else if (const auto* plastic = std::any_cast<Plastic>(&value)) {
     p.read(plastic->color);
+    p.read(plastic->roughness);
     p.read(plastic->normal_deviation);
   } else if (const auto* conductor = std::any_cast<Conductor>(&value)) {
+    p.read(conductor->color);
+    p.read(conductor->roughness);
     p.read(conductor->normal_deviation);
   } else if (const auto* dielectric = std::any_cast<Dielectric>(&value)) {
+    p.read(dielectric->roughness);
     p.read(dielectric->normal_deviation);
   } else if (const auto* emission = std::any_cast<Emission>(&value)) {
     p.read(emission->color);
+  } else {
+    p.other = material.uses_parameters();
   }
   return p;
 }
