@@ -1,21 +1,29 @@
 // The list of body types that scene files can name: one line each; the declaration stands in the type's own file.
 #include "geometry/describe.h"
 
-#define LEKALO_BODY_TYPES(X) \
-  X(box_type)                \
-  X(ball_type)               \
-  X(cylinder_body_type)      \
-  X(cone_body_type)          \
-  X(torus_body_type)         \
-  X(wedge_type)              \
-  X(prism_type)              \
-  X(pyramid_type)            \
-  X(arrow_body_type)         \
-  X(trimmed_surface_type)    \
-  X(simplex_spline_type)     \
-  X(s_surface_type)          \
-  X(dms_surface_type)        \
-  X(triangulated_surface_type)
+#define LEKALO_BODY_TYPES(X)   \
+  X(box_type)                  \
+  X(ball_type)                 \
+  X(cylinder_body_type)        \
+  X(cone_body_type)            \
+  X(torus_body_type)           \
+  X(wedge_type)                \
+  X(prism_type)                \
+  X(pyramid_type)              \
+  X(arrow_body_type)           \
+  X(trimmed_surface_type)      \
+  X(simplex_spline_type)       \
+  X(s_surface_type)            \
+  X(dms_surface_type)          \
+  X(triangulated_surface_type) \
+  X(extrusion_body_type)       \
+  X(revolution_body_type)      \
+  X(translation_body_type)     \
+  X(sweep_body_type)           \
+  X(pipe_type)                 \
+  X(loft_body_type)            \
+  X(thickened_sheet_type)      \
+  X(sewn_shell_type)
 
 namespace lekalo::geometry {
 

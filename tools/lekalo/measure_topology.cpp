@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "command.h"
+#include "geometry/bodies/topology/characteristics.h"
 #include "geometry/body.h"
 #include "measure.h"
 
@@ -72,6 +73,37 @@ ordered_json edges_of(const Body& body) {
   return edges;
 }
 
+// Of each connected part of the body's faces.
+ordered_json characteristics_of(const Body& body) {
+  ordered_json parts = ordered_json::array();
+  for (const geometry::ShellCharacteristics& part : geometry::characteristics(body)) {
+    ordered_json one{{"faces", part.faces},       {"edges", part.edges},
+                     {"vertices", part.vertices}, {"loops", part.loops},
+                     {"borders", part.borders},   {"euler_characteristic", part.euler_characteristic},
+                     {"manifold", part.manifold}, {"orientable", part.orientable}};
+    one["connectivity"] = part.manifold ? ordered_json(part.connectivity) : ordered_json(nullptr);
+    one["genus"] = part.genus ? ordered_json(*part.genus) : ordered_json(nullptr);
+    one["volume"] = part.volume ? ordered_json(*part.volume) : ordered_json(nullptr);
+    one["kind"] = !part.volume ? "open" : *part.volume > 0 ? "outer" : "inner";
+    if (part.borders == 0 && !part.volume) one["kind"] = "closed";
+    parts.push_back(std::move(one));
+  }
+  return parts;
+}
+
+std::string name_of(const char* kind, int index, const geometry::Origin& origin) {
+  const std::string text = origin.text();
+  return text.empty() ? fmt::format("{} {}", kind, index) : text;
+}
+
+ordered_json non_manifold_of(const Body& body) {
+  const geometry::NonManifold found = geometry::non_manifold_places(body);
+  ordered_json out{{"edges", ordered_json::array()}, {"vertices", ordered_json::array()}};
+  for (const int e : found.edges) out["edges"].push_back(name_of("edge", e, body.edges[e].origin));
+  for (const int v : found.vertices) out["vertices"].push_back(name_of("vertex", v, body.vertices[v].origin));
+  return out;
+}
+
 ordered_json body_topology(const Body& body) {
   ordered_json out;
   const std::vector<geometry::Violation> violations = body.violations();
@@ -80,6 +112,8 @@ ordered_json body_topology(const Body& body) {
   out["euler_characteristic"] = body.euler_characteristic();
   out["shells"] = body.shells.size();
   out["loops"] = body.loops.size();
+  out["characteristics"] = characteristics_of(body);
+  out["non_manifold"] = non_manifold_of(body);
   out["faces"] = faces_of(body);
   out["edges"] = edges_of(body);
   ordered_json vertices = ordered_json::array();
@@ -135,6 +169,16 @@ std::string loops_text(const ordered_json& loops) {
   return text;
 }
 
+void print_characteristics(const ordered_json& part) {
+  fmt::print("{} shell of {} faces, {} edges, {} vertices, {} loops: H {}", part["kind"].get<std::string>(),
+             part["faces"].get<int>(), part["edges"].get<int>(), part["vertices"].get<int>(), part["loops"].get<int>(),
+             part["euler_characteristic"].get<int>());
+  if (!part["connectivity"].is_null()) fmt::print(", connectivity {}", part["connectivity"].get<int>());
+  if (!part["genus"].is_null()) fmt::print(", genus {}", part["genus"].get<int>());
+  if (part["borders"].get<int>() > 0) fmt::print(", {} borders", part["borders"].get<int>());
+  fmt::print("{}\n", part["orientable"].get<bool>() ? "" : ", one-sided");
+}
+
 }  // namespace
 
 void put_open_sides(ordered_json& out, const geometry::MeshSides& sides) {
@@ -177,6 +221,9 @@ void print_topology(const ordered_json& found) {
   }
   for (const auto& violation : found["violations"])
     fmt::print("violated: {}: {}\n", violation["condition"].get<std::string>(), violation["entity"].get<std::string>());
+  for (const auto& part : found["characteristics"]) print_characteristics(part);
+  for (const char* kind : {"edges", "vertices"})
+    for (const auto& place : found["non_manifold"][kind]) fmt::print("not manifold at {}\n", place.get<std::string>());
   fmt::print("{} shell{}, {} loops\n{} faces\n", found["shells"].get<size_t>(),
              found["shells"].get<size_t>() == 1 ? "" : "s", found["loops"].get<size_t>(), found["faces"].size());
   for (const auto& face : found["faces"])

@@ -2,11 +2,10 @@
 // edges are not looked for.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "geometry/bodies/topology/characteristics.h"
 #include "geometry/body.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/tessellation/triangulation.h"
@@ -255,46 +254,13 @@ class Validation {
     return true;
   }
 
-  // The face corners at a vertex form one closed fan (one open fan at a border): corners are joined where they share an
-  // edge end.
   void check_vertices() {
-    struct Corner {
-      int arriving;  // coedge that ends at the vertex
-      int leaving;   // the next one of the loop
-    };
-    std::vector<std::vector<Corner>> corners(body_.vertices.size());
-    for (const Loop& loop : body_.loops)
-      for (size_t i = 0; i < loop.coedges.size(); ++i) {
-        const int arriving = loop.coedges[i], leaving = loop.coedges[(i + 1) % loop.coedges.size()];
-        corners[last_vertex(body_.coedges[arriving])].push_back({arriving, leaving});
-      }
-    for (size_t v = 0; v < corners.size(); ++v) {
-      const std::string name = entity_name("vertex", static_cast<int>(v), body_.vertices[v].origin);
-      if (corners[v].empty()) {
-        report("a vertex belongs to an edge", name);
-        continue;
-      }
-      std::vector<int> parent(corners[v].size());
-      std::iota(parent.begin(), parent.end(), 0);
-      const auto find = [&](int i) {
-        while (parent[i] != i) i = parent[i];
-        return i;
-      };
-      // An end of an edge: (edge, at its start?). Pole edges end twice in the pole's one point.
-      std::map<std::pair<int, bool>, int> ends;
-      for (size_t i = 0; i < corners[v].size(); ++i) {
-        const Coedge &in = body_.coedges[corners[v][i].arriving], &out = body_.coedges[corners[v][i].leaving];
-        for (const auto& end : {std::pair{in.edge, !in.forward}, std::pair{out.edge, out.forward}}) {
-          auto key = end;
-          if (body_.edges[key.first].kind == EdgeKind::pole) key.second = false;
-          const auto [found, is_new] = ends.try_emplace(key, static_cast<int>(i));
-          if (!is_new) parent[find(static_cast<int>(i))] = find(found->second);
-        }
-      }
-      int fans = 0;
-      for (size_t i = 0; i < parent.size(); ++i) fans += parent[i] == static_cast<int>(i);
-      if (fans > 1) report("the faces around a vertex form one fan", name);
-    }
+    std::vector<char> used(body_.vertices.size(), 0);
+    for (const Coedge& coedge : body_.coedges) used[first_vertex(coedge)] = used[last_vertex(coedge)] = 1;
+    const auto name = [&](int v) { return entity_name("vertex", v, body_.vertices[v].origin); };
+    for (size_t v = 0; v < used.size(); ++v)
+      if (!used[v]) report("a vertex belongs to an edge", name(static_cast<int>(v)));
+    for (const int v : non_manifold_places(body_).vertices) report("the faces around a vertex form one fan", name(v));
   }
 
   void check_shells() {

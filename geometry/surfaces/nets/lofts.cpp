@@ -18,6 +18,7 @@
 #include "geometry/expression/expression.h"
 #include "geometry/surfaces/nets/boolean_sum.h"
 #include "geometry/surfaces/nets/curve_family.h"
+#include "geometry/surfaces/nets/lofts.h"
 
 namespace lekalo::geometry {
 
@@ -66,7 +67,7 @@ std::vector<Expression> read_weights(const Fields& f, const std::vector<CurvePtr
   return weights;
 }
 
-std::any weighted_loft(Family family, std::vector<Expression> weights, const Interval& range_v, Periods periods) {
+SurfacePtr weighted_loft(Family family, std::vector<Expression> weights, const Interval& range_v, Periods periods) {
   const Interval range = common_domain(family.curves);
   for (const Expression& weight : weights)
     if (std::abs(weight(range.lo) - weight(range.hi)) > 1e-12 * weight(range.lo)) periods.u = 0;
@@ -74,13 +75,30 @@ std::any weighted_loft(Family family, std::vector<Expression> weights, const Int
   for (const CurvePtr& curve : family.curves) add_operand(properties, *curve, Along::u);
   for (const CurvePtr& function : family.functions) add_operand(properties, *function, Along::v);
   properties.periods = periods;
-  return std::any(SurfacePtr(std::make_shared<ComposedSurface<WeightedFamily>>(
+  return std::make_shared<ComposedSurface<WeightedFamily>>(
       WeightedFamily{std::move(family), std::make_shared<const std::vector<Expression>>(std::move(weights))},
-      std::move(properties))));
+      std::move(properties));
 }
 
-std::any loft(const Fields& f) {
-  const std::vector<CurvePtr> curves = read_family(f, "of");
+}  // namespace
+
+SurfacePtr ruled_surface(const CurvePtr& first, const CurvePtr& second) {
+  BooleanSum sum;
+  sum.along_u = {{first, second}, lagrange_functions({0, 1})};
+  return std::make_shared<BlendedSurface>(
+      blended_surface(std::move(sum), {first->domain(), {0, 1}}, {common_period({first, second}), 0}));
+}
+
+SurfacePtr translation_surface(const CurvePtr& c, const CurvePtr& g) {
+  BooleanSum sum;
+  sum.along_u = {{c}, {one_function(g->domain())}};
+  sum.along_v = {{g}, {one_function(c->domain())}};
+  sum.points = {{g->point(g->domain().lo)}};
+  return std::make_shared<BlendedSurface>(
+      blended_surface(std::move(sum), {c->domain(), g->domain()}, {c->period(), g->period()}));
+}
+
+SurfacePtr loft_surface(const Fields& f, const std::vector<CurvePtr>& curves) {
   const std::string& method = f.text("method");
   const bool closed = f.boolean("closed");
   const int count = static_cast<int>(curves.size());
@@ -105,8 +123,8 @@ std::any loft(const Fields& f) {
                             : method == "spline" ? spline_functions(nodes, closed)
                                                  : hermite_functions(nodes, closed);
     if (closed) periods.v = nodes.back() - nodes.front();
-    return std::any(SurfacePtr(std::make_shared<BlendedSurface>(
-        blended_surface(std::move(sum), {common_domain(curves), {nodes.front(), nodes.back()}}, periods))));
+    return std::make_shared<BlendedSurface>(
+        blended_surface(std::move(sum), {common_domain(curves), {nodes.front(), nodes.back()}}, periods));
   }
   const std::vector<double> weights = f.has("weights") ? f.numbers("weights") : std::vector<double>();
   if (!weights.empty() && static_cast<int>(weights.size()) != count)
@@ -123,11 +141,9 @@ std::any loft(const Fields& f) {
   periods.v = axis.period();
   if (f.has("weight_functions"))
     return weighted_loft(std::move(sum.along_u), read_weights(f, curves), axis.domain(), periods);
-  return std::any(SurfacePtr(std::make_shared<BlendedSurface>(
-      blended_surface(std::move(sum), {common_domain(curves), axis.domain()}, periods))));
+  return std::make_shared<BlendedSurface>(
+      blended_surface(std::move(sum), {common_domain(curves), axis.domain()}, periods));
 }
-
-}  // namespace
 
 TypeDeclaration ruled_surface_type() {
   return declare(
@@ -143,10 +159,7 @@ TypeDeclaration ruled_surface_type() {
         if (curves.size() != 2)
           throw FieldError("of", fmt::format("a ruled surface has two curves, not {}", curves.size()),
                            "loft_surface takes more");
-        BooleanSum sum;
-        sum.along_u = {curves, lagrange_functions({0, 1})};
-        return std::any(SurfacePtr(std::make_shared<BlendedSurface>(
-            blended_surface(std::move(sum), {common_domain(curves), {0, 1}}, {common_period(curves), 0}))));
+        return std::any(ruled_surface(curves[0], curves[1]));
       });
 }
 
@@ -181,26 +194,12 @@ TypeDeclaration translation_surface_type() {
         for (const auto& [curve, field] : {std::pair(c, "of"), std::pair(g, "along")})
           if (!(curve->domain().width() < kInfinity))
             throw FieldError(field, "the curve is unbounded", "give it a domain");
-        BooleanSum sum;
-        sum.along_u = {{c}, {one_function(g->domain())}};
-        sum.along_v = {{g}, {one_function(c->domain())}};
-        sum.points = {{g->point(g->domain().lo)}};
-        return std::any(SurfacePtr(std::make_shared<BlendedSurface>(
-            blended_surface(std::move(sum), {c->domain(), g->domain()}, {c->period(), g->period()}))));
+        return std::any(translation_surface(c, g));
       });
 }
 
-TypeDeclaration loft_surface_type() {
-  return declare(
-             Category::surface, "loft_surface",
-             "Surface on a family of curves. Methods hermite (cubic, tangents from three neighbours), spline (cubic, "
-             "second derivatives continuous) and lagrange (one polynomial: it oscillates over many curves) go "
-             "through the curves at the values at_v; bezier and b_spline have them for control curves.")
-      .example(
-          "of: [{ type: circle, radius: 1 }, { type: circle, radius: 2, center: [0, 0, 1] }, "
-          "{ type: circle, radius: 1, center: [0, 0, 2] }]")
-      .field("of", references({Category::curve}), "the curves in their order; all run the same way")
-      .field("method", choice({"hermite", "spline", "lagrange", "bezier", "b_spline"}), "how they are joined",
+void declare_loft(TypeDeclaration& type) {
+  type.field("method", choice({"hermite", "spline", "lagrange", "bezier", "b_spline"}), "how they are joined",
              "hermite")
       .optional(
           "at_v", numbers(),
@@ -211,8 +210,22 @@ TypeDeclaration loft_surface_type() {
       .field("knots", knots(), "of method b_spline: as of nurbs_curve", "clamped")
       .optional("weights", numbers(), "of methods bezier and b_spline: one for each curve")
       .optional("weight_functions", formulas({"u"}, 2, 1000),
-                "of methods bezier and b_spline: for each curve a positive, smooth function of u")
-      .built_by(loft);
+                "of methods bezier and b_spline: for each curve a positive, smooth function of u");
+}
+
+TypeDeclaration loft_surface_type() {
+  TypeDeclaration type =
+      declare(Category::surface, "loft_surface",
+              "Surface on a family of curves. Methods hermite (cubic, tangents from three neighbours), spline (cubic, "
+              "second derivatives continuous) and lagrange (one polynomial: it oscillates over many curves) go "
+              "through the curves at the values at_v; bezier and b_spline have them for control curves.")
+          .example(
+              "of: [{ type: circle, radius: 1 }, { type: circle, radius: 2, center: [0, 0, 1] }, "
+              "{ type: circle, radius: 1, center: [0, 0, 2] }]")
+          .field("of", references({Category::curve}), "the curves in their order; all run the same way");
+  declare_loft(type);
+  type.built_by([](const Fields& f) { return std::any(loft_surface(f, read_family(f, "of"))); });
+  return type;
 }
 
 }  // namespace lekalo::geometry

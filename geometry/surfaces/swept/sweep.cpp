@@ -17,6 +17,7 @@
 #include "geometry/expression/scalar_law.h"
 #include "geometry/surfaces/nets/curve_family.h"
 #include "geometry/surfaces/swept/moved_sections.h"
+#include "geometry/surfaces/swept/sweep.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -171,8 +172,7 @@ SurfacePtr swept(const CurvePtr& path, const std::array<CurvePtr, 3>& axes, cons
 //
 // with a_0 = 1 - 3 w^2 + 2 w^3, a_1 = 1 - a_0 between v_i and v_(i+1). (The printed g(v) in place of g(v_i) would miss
 // the curves.) Sections in the frame's own coordinates do not ask where they come from: the blend is of these.
-std::any guided_loft(const Fields& f) {
-  const std::vector<CurvePtr> curves = read_family(f, "of");
+SurfacePtr loft_along(const Fields& f, const std::vector<CurvePtr>& curves) {
   const CurvePtr guide = f.curve("along");
   const std::vector<double> at = read_places(f, curves.size(), *guide);
   const CurvePtr across = direction_across(*guide, read_frame(f));
@@ -180,22 +180,13 @@ std::any guided_loft(const Fields& f) {
   for (size_t i = 0; i < curves.size(); ++i)
     sections.curves.push_back(in_frame(curves[i], frame_at(*guide, *across, at[i])));
   const Interval range(at.front(), at.back());
-  return std::any(swept(guide, section_axes(guide, across, {}, range), sections, range, 0));
+  return swept(guide, section_axes(guide, across, {}, range), sections, range, 0);
 }
 
-std::any sweep(const Fields& f) {
-  const CurvePtr path = by_length_fraction(f.curve("path"));
-  Placed placed = read_sections(f);
-  const CurvePtr across = direction_across(*path, read_frame(f));
-  if (f.boolean("placed"))
-    for (CurvePtr& curve : placed.curves) curve = in_frame(curve, frame_at(*path, *across, 0));
-  const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
+SectionLaws read_laws(const Fields& f) {
   const auto law = [&](const char* field) { return ScalarLaw(f.get<Expression>(field)); };
   const auto& scale = f.get<std::vector<Expression>>("scale");
-  const SectionLaws laws{law("twist"), ScalarLaw(scale.front()), ScalarLaw(scale.back()), law("pitch"), law("yaw")};
-  const auto axes = section_axes(path, across, laws, {0, 1});
-  const Family sections{curves, functions_between(placed.at)};
-  return std::any(swept(path, axes, sections, {0, 1}, path->is_closed() ? 1 : 0));
+  return {law("twist"), ScalarLaw(scale.front()), ScalarLaw(scale.back()), law("pitch"), law("yaw")};
 }
 
 FieldType frame_kind() {
@@ -203,7 +194,36 @@ FieldType frame_kind() {
       .or_word({"rotation_minimizing", "frenet"});
 }
 
+std::any sweep(const Fields& f) {
+  const SectionMotion motion(f);
+  Placed placed = read_sections(f);
+  if (f.boolean("placed"))
+    for (CurvePtr& curve : placed.curves) curve = in_frame(curve, motion.frame(0));
+  const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
+  return std::any(motion.surface(curves, placed.at));
+}
+
 }  // namespace
+
+SurfacePtr guided_loft(const Fields& f, const std::vector<CurvePtr>& curves) { return loft_along(f, curves); }
+
+FieldType guide_frame() { return frame_kind(); }
+
+SectionMotion::SectionMotion(const Fields& f) {
+  path_ = by_length_fraction(f.curve("path"));
+  across_ = direction_across(*path_, read_frame(f));
+  axes_ = section_axes(path_, across_, read_laws(f), {0, 1});
+}
+
+Frame SectionMotion::frame(double v) const { return frame_at(*path_, *across_, v); }
+
+Affine SectionMotion::placement(double v) const {
+  return {Mat3(axes_[0]->point(v), axes_[1]->point(v), axes_[2]->point(v)), path_->point(v)};
+}
+
+SurfacePtr SectionMotion::surface(const std::vector<CurvePtr>& sections, const std::vector<double>& at) const {
+  return swept(path_, axes_, {sections, functions_between(at)}, {0, 1}, path_->is_closed() ? 1 : 0);
+}
 
 TypeDeclaration guided_loft_type() {
   return declare(Category::surface, "guided_loft",
@@ -220,25 +240,11 @@ TypeDeclaration guided_loft_type() {
              "direction }",
              "rotation_minimizing")
       .field("match", choice({"parameter", "arc_length"}), "which points of the curves belong together", "parameter")
-      .built_by(guided_loft);
+      .built_by([](const Fields& f) { return std::any(guided_loft(f, read_family(f, "of"))); });
 }
 
-TypeDeclaration sweep_surface_type() {
-  return declare(
-             Category::surface, "sweep_surface",
-             "What a section, or several, sweep along a path. The section lies in the plane x, y: its x goes to the "
-             "frame's normal, its y to the binormal. u is the section's parameter, v in 0..1 the fraction s of the "
-             "path's length; laws are formulas of s.")
-      .example(
-          "path: { type: bezier_curve, points: [[0, 0, 0], [0, 0, 3], [3, 0, 3]] }, section: { type: circle, radius: "
-          "0.5 }")
-      .field("path", reference({Category::curve}), "the curve along which; smooth")
-      .optional("section", reference({Category::curve}), "the curve that is moved")
-      .optional("sections",
-                groups({{"s", number().between(0, 1), "fraction of the path's length, 0..1", true, {}},
-                        {"section", reference({Category::curve}), "the curve there", true, {}}}),
-                "several in place of one, the first at s: 0, the last at s: 1; between them the shape changes smoothly")
-      .field("frame", frame_kind(),
+void declare_motion(TypeDeclaration& type) {
+  type.field("frame", frame_kind(),
              "how it turns: about the path no more than it must (and closing with a closed path), as the path's normal "
              "and "
              "binormal, or { fixed: direction }",
@@ -248,11 +254,32 @@ TypeDeclaration sweep_surface_type() {
       .field("pitch", angle_formula({"s"}), "turn of the section about the frame's normal, before the twist", "0")
       .field("yaw", angle_formula({"s"}), "turn of the section about the frame's binormal, before the pitch", "0")
       .field("scale", formulas({"s"}, 1, 2),
-             "of the section, as a formula of s, or one along its x and one along its y", "1")
-      .field("match", choice({"parameter", "arc_length"}), "which points of several sections belong together",
+             "of the section, as a formula of s, or one along its x and one along its y", "1");
+}
+
+TypeDeclaration sweep_surface_type() {
+  TypeDeclaration type =
+      declare(Category::surface, "sweep_surface",
+              "What a section, or several, sweep along a path. The section lies in the plane x, y: its x goes to the "
+              "frame's normal, its y to the binormal. u is the section's parameter, v in 0..1 the fraction s of the "
+              "path's length; laws are formulas of s.")
+          .example(
+              "path: { type: bezier_curve, points: [[0, 0, 0], [0, 0, 3], [3, 0, 3]] }, section: { type: circle, "
+              "radius: "
+              "0.5 }")
+          .field("path", reference({Category::curve}), "the curve along which; smooth")
+          .optional("section", reference({Category::curve}), "the curve that is moved")
+          .optional(
+              "sections",
+              groups({{"s", number().between(0, 1), "fraction of the path's length, 0..1", true, {}},
+                      {"section", reference({Category::curve}), "the curve there", true, {}}}),
+              "several in place of one, the first at s: 0, the last at s: 1; between them the shape changes smoothly");
+  declare_motion(type);
+  type.field("match", choice({"parameter", "arc_length"}), "which points of several sections belong together",
              "parameter")
       .field("placed", boolean(), "the section stands in space as it is at the path's beginning", "false")
       .built_by(sweep);
+  return type;
 }
 
 }  // namespace lekalo::geometry
