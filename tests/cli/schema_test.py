@@ -20,6 +20,19 @@ def run(*arguments):
     return subprocess.run([LEKALO, *arguments], check=True, capture_output=True, text=True).stdout
 
 
+class Loader(yaml.SafeLoader):
+    """YAML 1.2, as scenes are: on, off, yes and no are words."""
+
+
+Loader.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in resolvers if tag != "tag:yaml.org,2002:bool" or first in "tTfF"]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+
+
+def load_yaml(text):
+    return yaml.load(text, Loader)
+
+
 class Schema(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -29,7 +42,7 @@ class Schema(unittest.TestCase):
         cls.suites = jsonschema.Draft202012Validator(cls.suite_schema)
 
     def valid(self, text):
-        return not list(self.validator.iter_errors({"lekalo": 1, **yaml.safe_load(text)}))
+        return not list(self.validator.iter_errors({"lekalo": 1, **load_yaml(text)}))
 
     def test_is_a_schema(self):
         jsonschema.Draft202012Validator.check_schema(self.schema)
@@ -40,7 +53,7 @@ class Schema(unittest.TestCase):
                   if path.parent.name not in ("figures", "drawing") or path.name != "index.yaml"]
         self.assertNotEqual(scenes, [])
         for path in scenes:
-            scene = yaml.safe_load(path.read_text())
+            scene = load_yaml(path.read_text())
             validator = self.suites if "lekalo_suite" in scene else self.validator
             with self.subTest(scene=path.name):
                 self.assertEqual([f"{list(e.absolute_path)}: {e.message}" for e in validator.iter_errors(scene)], [])
@@ -74,7 +87,7 @@ class Schema(unittest.TestCase):
 
     def test_suites(self):
         def valid(test):
-            return not list(self.suites.iter_errors({"lekalo_suite": 1, "tests": [yaml.safe_load(test)]}))
+            return not list(self.suites.iter_errors({"lekalo_suite": 1, "tests": [load_yaml(test)]}))
 
         good = "name: a_%02k, scene: a.yaml, repeat: { k: 1..3 }, set: { r: k/2 }"
         for more in "", ", compare: { metric: ssim, minimum: 0.99 }", ", expect: { measure: a, area: 1, tolerance: 1e-9 }":

@@ -57,7 +57,7 @@ SURFACES = {
                         "[0, 2]], [[2, -1], [2, 2, 2]], [[3, -1, 1], [3, 2]]]",
     "control_polyhedron": f"of: {{ type: bezier_surface, points: [{NET}] }}",
     "fit_surface": f"grid: [{NET}], degree: 2, spans: 1",
-    "smoothing_surface": f"points: [{NET}], passes: 1",
+    "smoothing_surface": f"points: [{NET}], order: second, passes: 1",
     "section_surface": "sections: [{ points: [[-1, -1, 0], [0.5, -1, 1.5], [2, -1, 0]] }, { points: [[-1, 2, 0.5], [0, 2, 1], [1, 2, "
                        "1.5], [2, 2, 0]] }]",
     "spline_of_surface": "of: { type: torus_surface, major_radius: 1.5, minor_radius: 0.5 }, tolerance: 0.01",

@@ -83,7 +83,8 @@ TypeDeclaration smoothing_surface_type() {
                 "weight of the integral of the squared second derivative along the lines beside the sum of squares")
       .shows({"control_net", "knots"})
       .example(
-          "passes: 2, points: [[[0, 0, 0], [0, 1, 1], [0, 2, 0]], [[1, 0, 1], [1, 1, 0], [1, 2, 1]], [[2, 0, 0], [2, "
+          "order: second, passes: 2, points: [[[0, 0, 0], [0, 1, 1], [0, 2, 0]], [[1, 0, 1], [1, 1, 0], [1, 2, 1]], "
+          "[[2, 0, 0], [2, "
           "1, "
           "1], [2, 2, 0]]]")
       .built_by(build);
