@@ -34,6 +34,16 @@ struct ParameterLaw {
     for (int k = 0; k < 60; ++k) (((*this)(w.middle()) < place) != is_reversed ? w.lo : w.hi) = w.middle();
     return w.middle();
   }
+  // Whether a map from the parameter of a patch is one of the same kind for w.
+  bool keeps(const ParameterMap& map) const {
+    return map.kind == ParameterMap::Kind::affine || range.width() == base.width();
+  }
+  ParameterMap image(const ParameterMap& map) const {
+    const double factor = range.width() / base.width();
+    const auto at = [&](double t) { return range.lo + factor * (is_reversed ? base.hi - t : t - base.lo); };
+    if (!is_reversed) return {map.kind, at(map.lo), at(map.hi), map.from, map.to};
+    return {map.kind, at(map.hi), at(map.lo), 1 - map.to, 1 - map.from};
+  }
   std::vector<double> lines(const std::vector<double>& of_base) const {
     std::vector<double> result;
     for (const double line : of_base) {
@@ -57,7 +67,8 @@ struct Reparametrized {
     return surface_at(*of, u(is_swapped ? b : a), v(is_swapped ? a : b));
   }
 
-  // The base's patches where the parameters run evenly and are the patches' own.
+  // The base's patches where the parameters run evenly; patches with angles for parameters where they are not
+  // stretched.
   std::vector<SurfacePiece> rational_pieces(const std::vector<double>& breaks_a,
                                             const std::vector<double>& breaks_b) const {
     if (u.formula || v.formula) return {};
@@ -66,9 +77,7 @@ struct Reparametrized {
       for (size_t j = 0; j + 1 < breaks_b.size(); ++j)
         result.push_back(plain_piece({{breaks_a[i], breaks_a[i + 1]}, {breaks_b[j], breaks_b[j + 1]}}));
     for (const SurfacePiece& patch : of->pieces()) {
-      const bool is_even =
-          patch.map_u.kind == ParameterMap::Kind::affine && patch.map_v.kind == ParameterMap::Kind::affine;
-      if (!patch.is_rational() || !is_even) return {};
+      if (!patch.is_rational() || !u.keeps(patch.map_u) || !v.keeps(patch.map_v)) return {};
       const double at_u = u.inverse(patch.domain.u.middle()), at_v = v.inverse(patch.domain.v.middle());
       for (SurfacePiece& piece : result)
         if (piece.domain.contains(is_swapped ? at_v : at_u, is_swapped ? at_u : at_v)) take(patch, piece);
@@ -80,6 +89,8 @@ struct Reparametrized {
   void take(const SurfacePiece& patch, SurfacePiece& piece) const {
     const int p = patch.degree_u, q = patch.degree_v;
     piece.degree_u = is_swapped ? q : p, piece.degree_v = is_swapped ? p : q;
+    (is_swapped ? piece.map_v : piece.map_u) = u.image(patch.map_u);
+    (is_swapped ? piece.map_u : piece.map_v) = v.image(patch.map_v);
     piece.points.resize(patch.points.size());
     for (int i = 0; i <= p; ++i)
       for (int j = 0; j <= q; ++j) {

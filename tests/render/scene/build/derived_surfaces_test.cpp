@@ -47,6 +47,10 @@ TEST(DerivedSurfaces, HaveDerivativesAndEnclosures) {
         {{1, 3}, {0, 5}}, 4);
   check("{ type: reparametrized_surface, of: wave, u: 2*w^2, v: 2*w, domain: { u: [0.2, 1], v: [0, 1] } }",
         {{0.2, 1}, {0, 1}}, 4);
+  check(
+      "{ type: reparametrized_surface, of: { type: torus_surface, major_radius: 2, minor_radius: 0.5, domain: { u: [0, "
+      "2.5], v: [0, 5] } }, swap: true, reverse: [u] }",
+      {{0, 5}, {0, 2.5}}, 3);
   check("{ type: offset_surface, of: { type: offset_surface, of: wave, distance: 0.1*u }, distance: 0.1 }",
         {{0, 2}, {0, 2}}, 3);
   check("{ type: fillet_surface, of: [floor, post], radius: 0.2 + 0.1*s*(1 - s), section: parabola }",
