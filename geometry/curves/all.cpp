@@ -59,6 +59,7 @@
   X(extended_curve_type)          \
   X(reparametrized_curve_type)    \
   X(offset_curve_type)            \
+  X(thickened_curve_type)         \
   X(transition_curve_type)        \
   X(wrapped_curve_type)           \
   X(evolute_curve_type)           \

@@ -133,8 +133,8 @@ TypeDeclaration carried_curve_type() {
                  "development, or from there back. Its parameter is the curve's; a closed curve that runs over a seam "
                  "begins there, at 0.")
       .example(
-          "of: { type: geodesic_curve, of: pipe, from: [0, 0], direction: 30, length: 2 }, from: pipe, to: { type: "
-          "development, of: pipe }")
+          "of: { type: circle, center: [0, 1.5], radius: 1 }, from: { type: plane, size: [6, 6] }, to: { type: "
+          "formula_surface, point: [cos(u/2), sin(u/2), v], domain: { u: [-3, 3], v: [-3, 3] } }")
       .field("of", reference({Category::curve}), "the curve; it lies on the surface `from`")
       .field("from", reference({Category::surface}), "the surface that it lies on")
       .field("to", reference({Category::surface}), "the surface that it is carried to, of the same domain")
