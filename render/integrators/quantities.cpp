@@ -97,7 +97,6 @@ Quantity reflection_lines(const Axis& lamp, const Vec3& plane_normal, double spa
 Quantity draft(const Vec3& pull) {
   Quantity q;
   q.has_sign = true;
-  q.range = Interval(-90, 90);
   q.value = [pull](const AnalysedPlace& at) -> Value { return 90 - angle_between(at.point.normal, pull); };
   return q;
 }

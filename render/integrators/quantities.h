@@ -26,9 +26,8 @@ struct Quantity {
   bool has_sign = false;         // 0 is the middle of its colours
   bool needs_curvature = false;  // else AnalysedPlace::curvature is left out
   bool needs_parameters = false;
-  bool is_direction = false;                // no number: the normal itself, its coordinates as colour
-  double stripe = 0;                        // shown as light and dark stripes so wide; 0: by a scale of colours
-  std::optional<geometry::Interval> range;  // of its values wherever; none: as found in the picture
+  bool is_direction = false;  // no number: the normal itself, its coordinates as colour
+  double stripe = 0;          // shown as light and dark stripes so wide; 0: by a scale of colours
 };
 
 // The fields of `analysis` that say which quantity, and the quantity of their values. Throws FieldError.
