@@ -154,6 +154,7 @@ class ViewDrawing {
     if (options_.rendering) settings.progress = [&](double done, uint64_t) { options_.rendering(done); };
     const World world(model, false);
     const RenderResult rendered = render(world, settings);
+    for (const std::string& note : rendered.notes) add_once(note, figure_.notes);
     DisplayTransform transform;
     for (const OutputFile& file : model->outputs)
       if (file.kind == "render" && file.path.ends_with(".png"))

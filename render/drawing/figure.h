@@ -28,6 +28,7 @@ struct Figure {
   std::vector<std::string> incomplete_objects;  // theirs, in words
   int open_areas = 0;                           // areas of fills whose border is not known all around
   std::vector<std::string> cut_off;             // texts that go over the page's edges, with what would have room
+  std::vector<std::string> notes;               // on a ground that is rendered, a sentence each
   std::vector<std::string> left_out;            // what the scene asks for and drawings do not show
 };
 

@@ -63,6 +63,10 @@ image: { size: [32, 24], samples: 1 }
         _, notes = self.run_program("render", "t.yaml", "-o", "t.png")
         self.assertIn("the quantity 'gaussian_curvature' is not known everywhere; grey in the picture", notes)
         self.assertIn("'net'", notes)
+        with open(self.folder / "t.yaml", "a") as scene:
+            scene.write("drawing: { ground: shaded }\n")
+        _, notes = self.run_program("draw", "t.yaml", "-o", "t.svg")
+        self.assertIn("the quantity 'gaussian_curvature' is not known everywhere", notes)
 
     def test_color_bar_of_the_integrator(self):
         scene = SCENE.format("name: it", "quantity: mean_curvature, range: [-1, 1], title: mean") + """

@@ -137,8 +137,10 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       found = std::prev(all.end());
       progress.end();
       const render::Figure& figure = found->figure;
-      if (!settings.quiet)
+      if (!settings.quiet) {
+        for (const std::string& note : figure.notes) fmt::print(stderr, "note: {}\n", note);
         for (const std::string& what : figure.left_out) fmt::print(stderr, "note: not in the drawing: {}\n", what);
+      }
       for (const std::string& cut : figure.cut_off) fmt::print(stderr, "warning: {}\n", cut);
       if (figure.incomplete > 0)
         fmt::print(stderr, "warning: of {} surface{} not all lines are known: they nearly touch or coincide ({})\n",
