@@ -3,6 +3,7 @@
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/blends/sections.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -48,6 +49,20 @@ CurvePtr curve_of(const BlendCurves& curves, const std::array<SurfacePtr, 2>& of
   return composed(Divided{curves.middle, curves.weight}, *curves.middle);
 }
 
+// What lies in space moves with a fillet that is moved.
+CurvePtr curve_of_surface(const SurfacePtr& of, const std::string& part) {
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(of.get())) {
+    const CurvePtr curve = curve_of_surface(moved->original(), part);
+    const bool lies_in_space = part != "weight" && part != "first_image" && part != "second_image";
+    return lies_in_space ? transformed(curve, moved->map()) : curve;
+  }
+  if (const auto* fillet = dynamic_cast<const ComposedSurface<ConicSections>*>(of.get()))
+    return curve_of(fillet->formula().curves, fillet->formula().of, part);
+  if (const auto* chamfer = dynamic_cast<const ComposedSurface<StraightSections>*>(of.get()))
+    return curve_of(chamfer->formula().curves, chamfer->formula().of, part);
+  throw FieldError("of", "the surface is no fillet and no chamfer", "name a fillet_surface or chamfer_surface");
+}
+
 }  // namespace
 
 TypeDeclaration blend_curve_type() {
@@ -63,14 +78,7 @@ TypeDeclaration blend_curve_type() {
              "where the tangent planes meet); the middle curve, where the tangent planes at the contacts meet; the "
              "weight of the middle curve, as a graph (u, weight); the contacts in the parameter planes of the surfaces",
              "first")
-      .built_by([](const Fields& f) {
-        const SurfacePtr of = f.surface("of");
-        if (const auto* fillet = dynamic_cast<const ComposedSurface<ConicSections>*>(of.get()))
-          return std::any(curve_of(fillet->formula().curves, fillet->formula().of, f.text("part")));
-        if (const auto* chamfer = dynamic_cast<const ComposedSurface<StraightSections>*>(of.get()))
-          return std::any(curve_of(chamfer->formula().curves, chamfer->formula().of, f.text("part")));
-        throw FieldError("of", "the surface is no fillet and no chamfer", "name a fillet_surface or chamfer_surface");
-      });
+      .built_by([](const Fields& f) { return std::any(curve_of_surface(f.surface("of"), f.text("part"))); });
 }
 
 }  // namespace lekalo::geometry
