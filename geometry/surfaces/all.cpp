@@ -17,7 +17,6 @@
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
   X(composite_bezier_type)       \
-  X(control_polyhedron_type)     \
   X(spline_volume_face_type)     \
   X(t_spline_type)               \
   X(t_spline_functions_type)     \
@@ -44,7 +43,6 @@
   X(triangle_surface_type)       \
   X(triangle_part_type)          \
   X(bernstein_triangle_type)     \
-  X(control_triangles_type)      \
   X(transfinite_triangle_type)   \
   X(ribbon_type)                 \
   X(vintoid_type)                \

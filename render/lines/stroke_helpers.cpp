@@ -234,7 +234,7 @@ void StrokeCollector::add_triangle(TriangularNet net, const ParameterTriangle& t
     std::vector<Vec3> shown;
     for (const Vec4& p : net.points) shown.push_back(Vec3(p) / p.w);
     each_index(net.degree - 1, [&](int i, int j, int) {
-      const auto point = [&](int i, int j) { return shown[static_cast<size_t>(net.index(i, j))]; };
+      const auto point = [&](int p, int q) { return shown[static_cast<size_t>(net.index(p, q))]; };
       polygon({point(i + 1, j), point(i, j + 1), point(i, j)}, true, helper.style, helper.hidden);
     });
     for (size_t k = 0; k < shown.size(); ++k) {

@@ -10,7 +10,7 @@ _lekalo() {
     --isa) words='sse2 avx2 avx512 native' ;;
     --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
     --format) words='pov obj ply stl json' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --along | --ray | --filter | --jobs | --accept | --reason)
+    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --uv | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --along | --ray | --filter | --jobs | --accept | --reason)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
     --report) compopt -o dirnames; return ;;

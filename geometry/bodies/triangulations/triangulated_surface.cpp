@@ -37,7 +37,7 @@ void move_points(const Fields& f, SpatialTriangulation& t) {
   if (f.text("normals_of_moved") == "mean") set_mean_normals(t);
 }
 
-std::vector<SurfacePtr> patches(const SpatialTriangulation& t, const std::string& kind) {
+std::vector<SurfacePtr> patches(const SpatialTriangulation& t, const std::string& kind, EdgeTangents tangents) {
   std::vector<SurfacePtr> result;
   const auto add = [&](TriangularNet net, const std::array<Vec2, 3>& uv) {
     result.push_back(std::make_shared<BezierTriangle>(std::move(net), ParameterTriangle{uv}));
@@ -57,10 +57,10 @@ std::vector<SurfacePtr> patches(const SpatialTriangulation& t, const std::string
     } else if (kind == "flat") {
       add(net_of_points(1, {corners[0].point, corners[1].point, corners[2].point}), uv);
     } else {
-      add(curved_triangle(corners, kind == "hermite"    ? CurvedTriangle::hermite
-                                   : kind == "balanced" ? CurvedTriangle::balanced
-                                                        : CurvedTriangle::pn),
-          uv);
+      const CurvedTriangle curved = kind == "hermite"    ? CurvedTriangle::hermite
+                                    : kind == "balanced" ? CurvedTriangle::balanced
+                                                         : CurvedTriangle::pn;
+      add(curved_triangle(corners, curved, tangents), uv);
     }
   }
   return result;
@@ -86,6 +86,10 @@ TypeDeclaration triangulated_surface_type() {
              "pn: cubic; hermite: the surface on the three edge curves, which bulges; balanced: without the bulge; "
              "clough_tocher: three cubics each, smooth everywhere, of points with parameters; flat: facets",
              "pn")
+      .field("tangents", choice({"projected", "arc"}),
+             "of the edge curves at their ends: the chord without its part along the normal; or as long as arcs of "
+             "circles have them, which halves the error on a torus",
+             "projected")
       .optional("moved",
                 groups({{"index", integer().at_least(0),
                          "number of the point, from 0; of a surface its rows "
@@ -101,8 +105,12 @@ TypeDeclaration triangulated_surface_type() {
         const std::string& kind = f.text("patch");
         if (kind == "clough_tocher" && !t.is_parametrized)
           throw FieldError("patch", "Clough's and Tocher's triangles need parameters", "give 'parameters'");
+        const auto tangents = f.text("tangents") == "arc" ? EdgeTangents::arc : EdgeTangents::projected;
+        if (f.given("tangents") && (kind == "clough_tocher" || kind == "flat"))
+          throw FieldError("tangents", fmt::format("triangles '{}' have no edge curves of normals", kind),
+                           "leave it out, or patch: pn");
         move_points(f, t);
-        return std::make_shared<Body>(sew(patches(t, kind)));
+        return std::make_shared<Body>(sew(patches(t, kind, tangents)));
       });
 }
 

@@ -6,6 +6,7 @@
 #include "geometry/queries/contours/contour_parts.h"
 #include "geometry/queries/contours/contours_of_function.h"
 #include "geometry/queries/contours/picture_cusps.h"
+#include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -35,7 +36,41 @@ static bool is_edge_on(const Surface& surface, const Rectangle& part, const View
   return true;
 }
 
+// Whether a Bezier triangle turns one side to the viewer everywhere. The tangent plane holds the eye E (or the
+// direction of a parallel view, of weight 0) where det(R_a, R_b, R_c, E) = 0, R being the homogeneous point: a
+// polynomial whose Bernstein coefficients are sums of determinants of control points. Of one sign, and not by rounding,
+// they leave no outline.
+static bool shows_one_side(const TriangularNet& net, const ViewOf& view) {
+  constexpr double kSure = 1e-12;
+  constexpr int kMaxDegreeTried = 6;
+  const int m = net.degree - 1;
+  if (net.degree > kMaxDegreeTried) return false;
+  const Vec4 eye(view.direction_or_eye, view.central ? 1 : 0);
+  double factorial[kMaxDegreeTried] = {1};
+  for (int k = 1; k < kMaxDegreeTried; ++k) factorial[k] = k * factorial[k - 1];
+  const auto ways = [&](int i, int j, int k) { return 1 / (factorial[i] * factorial[j] * factorial[k]); };
+  const auto count = static_cast<size_t>(TriangularNet::count(3 * m));
+  std::vector<double> sums(count, 0.0), sizes(count, 0.0);
+  each_index(m, [&](int i, int j, int k) {
+    each_index(m, [&](int i2, int j2, int k2) {
+      each_index(m, [&](int i3, int j3, int k3) {
+        const double term = ways(i, j, k) * ways(i2, j2, k2) * ways(i3, j3, k3) *
+                            glm::determinant(glm::dmat4(net.at(i + 1, j), net.at(i2, j2 + 1), net.at(i3, j3), eye));
+        const auto at = static_cast<size_t>(TriangularNet::index_in(3 * m, i + i2 + i3, j + j2 + j3));
+        sums[at] += term, sizes[at] += std::abs(term);
+      });
+    });
+  });
+  bool all_front = true, all_back = true;
+  for (size_t k = 0; k < count; ++k) {
+    all_front = all_front && sums[k] > kSure * sizes[k];
+    all_back = all_back && sums[k] < -kSure * sizes[k];
+  }
+  return all_front || all_back;
+}
+
 static Contours smooth_silhouette(const SurfacePtr& surface, const ViewOf& view) {
+  if (const auto net = triangular_net(*surface); net && shows_one_side(*net, view)) return {};
   if (is_edge_on(*surface, surface->domain(), view)) return {};
   if (auto exact = closed_silhouette(surface, view, kSamePoint * bounds(*surface).diameter())) return *exact;
   Contours found =

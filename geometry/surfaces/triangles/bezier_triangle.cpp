@@ -90,9 +90,9 @@ struct NetOverTriangle {
       for (const Vec4& p : net.points) c.push_back(T(p[k]));
       for (int n = net.degree; n > 0; --n)
         each_index(n - 1, [&](int i, int j, int) {
-          const auto at = [&](int i, int j) { return c[static_cast<size_t>(TriangularNet::index_in(n, i, j))]; };
+          const auto above = [&](int p, int q) { return c[static_cast<size_t>(TriangularNet::index_in(n, p, q))]; };
           c[static_cast<size_t>(TriangularNet::index_in(n - 1, i, j))] =
-              t[0] * at(i + 1, j) + t[1] * at(i, j + 1) + t[2] * at(i, j);
+              t[0] * above(i + 1, j) + t[1] * above(i, j + 1) + t[2] * above(i, j);
         });
       return c.front();
     };

@@ -1,19 +1,19 @@
 #include "geometry/surfaces/triangles/curved_triangles.h"
 
-#include "geometry/curves/interpolation/hermite_edge.h"
 #include "geometry/surfaces/triangles/three_curves.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-std::vector<Vec3> edge(const TriangleCorner& from, const TriangleCorner& to) {
-  return hermite_edge(from.point, from.normal, to.point, to.normal);
+std::vector<Vec3> edge(const TriangleCorner& from, const TriangleCorner& to, EdgeTangents tangents) {
+  return hermite_edge(from.point, from.normal, to.point, to.normal, tangents);
 }
 
 // The middle point from the mean of the other points: E + (E - V)/2.
-TriangularNet pn_triangle(const std::array<TriangleCorner, 3>& p) {
-  const std::vector<Vec3> ab = edge(p[0], p[1]), bc = edge(p[1], p[2]), ca = edge(p[2], p[0]);
+TriangularNet pn_triangle(const std::array<TriangleCorner, 3>& p, EdgeTangents tangents) {
+  const std::vector<Vec3> ab = edge(p[0], p[1], tangents), bc = edge(p[1], p[2], tangents),
+                          ca = edge(p[2], p[0], tangents);
   const Vec3 edges = (ab[1] + ab[2] + bc[1] + bc[2] + ca[1] + ca[2]) / 6.0;
   const Vec3 corners = (p[0].point + p[1].point + p[2].point) / 3.0;
   const Vec3 middle = edges + 0.5 * (edges - corners);
@@ -32,9 +32,10 @@ Vec3 inner_point(const TriangleCorner& p, const TriangleCorner& q, const Vec2& m
 
 }  // namespace
 
-TriangularNet curved_triangle(const std::array<TriangleCorner, 3>& p, CurvedTriangle kind) {
-  if (kind == CurvedTriangle::pn) return pn_triangle(p);
-  const std::array<std::vector<Vec3>, 3> curves{edge(p[2], p[1]), edge(p[0], p[2]), edge(p[1], p[0])};
+TriangularNet curved_triangle(const std::array<TriangleCorner, 3>& p, CurvedTriangle kind, EdgeTangents tangents) {
+  if (kind == CurvedTriangle::pn) return pn_triangle(p, tangents);
+  const std::array<std::vector<Vec3>, 3> curves{edge(p[2], p[1], tangents), edge(p[0], p[2], tangents),
+                                                edge(p[1], p[0], tangents)};
   return kind == CurvedTriangle::hermite ? net_on_three_curves(curves) : balanced_net_on_three_curves(curves);
 }
 

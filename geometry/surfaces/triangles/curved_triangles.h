@@ -1,6 +1,7 @@
 // Curved triangles on corners with normals or derivatives (Golovanov 2016, 3.17).
 #pragma once
 
+#include "geometry/curves/interpolation/hermite_edge.h"
 #include "geometry/surfaces/triangles/bezier_triangle.h"
 
 namespace lekalo::geometry {
@@ -17,7 +18,8 @@ struct TriangleCorner {
 // facets. balanced: without its bulge (3.10). pn: cubic on the same edges (Vlachos et al. 2001). All three join their
 // neighbours without a gap, and without a crease at the corners alone.
 enum class CurvedTriangle { hermite, balanced, pn };
-TriangularNet curved_triangle(const std::array<TriangleCorner, 3>& corners, CurvedTriangle kind);
+TriangularNet curved_triangle(const std::array<TriangleCorner, 3>& corners, CurvedTriangle kind,
+                              EdgeTangents tangents = EdgeTangents::projected);
 
 // Three cubics about the middle of the triangle, which join each other, and neighbours that have the same points and
 // derivatives at the common corners, with equal derivatives by u and v (Clough, Tocher 1965): across a side these are

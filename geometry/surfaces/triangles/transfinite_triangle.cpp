@@ -30,9 +30,9 @@ struct OnThreeCurves {
   template <class T>
   Triple<T> at(const std::array<T, 3>& t) const {
     const auto& [a, b, d] = t;
-    const auto at = [&](int k, const T& t) { return curve_at(*c[k], t); };
-    return a * (at(2, 1.0 - b) + at(1, d) - triple(p[0])) + b * (at(0, 1.0 - d) + at(2, a) - triple(p[1])) +
-           d * (at(1, 1.0 - a) + at(0, b) - triple(p[2])) - (a * b * d) * triple(4.0 * correction);
+    const auto curve = [&](int k, const T& parameter) { return curve_at(*c[k], parameter); };
+    return a * (curve(2, 1.0 - b) + curve(1, d) - triple(p[0])) + b * (curve(0, 1.0 - d) + curve(2, a) - triple(p[1])) +
+           d * (curve(1, 1.0 - a) + curve(0, b) - triple(p[2])) - (a * b * d) * triple(4.0 * correction);
   }
 };
 

@@ -9,7 +9,14 @@
   X(patches_type)            \
   X(mesh_type)               \
   X(triangulation_type)      \
-  X(frame_net_type)
+  X(frame_net_type)          \
+  X(control_triangles_type)
+
+namespace lekalo::geometry {
+
+TypeDeclaration control_triangles_type();
+
+}  // namespace lekalo::geometry
 
 namespace lekalo::render {
 

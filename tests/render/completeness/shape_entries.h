@@ -220,6 +220,15 @@ inline std::vector<Entry> composed_entries() {
                    const double b0 = (1 - v) * (1 - v), b1 = 2 * v * (1 - v), b2 = v * v;
                    return Vec3(2 * u, b1 + 2 * b2, 3 * (b0 * (u - u * u) + b1 * (1.5 * u * u - 0.2) + b2 * (0.3 + u)));
                  }),
+      // Over parabolas z = ab + bc + ca + 3abc, with a pole.
+      polynomial("triangle_on_formulas",
+                 "{ type: transfinite_triangle, of: [" + graph("0*sin(t), t, t*(1 - t)") + ", " +
+                     graph("1 - t, 0, t*(1 - t)") + ", " + graph("t, 1 - t, t*(1 - t)") + "] }",
+                 3, 2, {{0, 1}, {0, 1}},
+                 [](double u, double v) {
+                   const double b = (1 - u) * v, c = (1 - u) * (1 - v);
+                   return Vec3(u, b, u * b + b * c + c * u + 3 * u * b * c);
+                 }),
   };
 }
 

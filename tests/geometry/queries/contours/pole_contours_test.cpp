@@ -2,11 +2,14 @@
 // ellipsoids by formulas of every form, and a lemon, whose poles are tips.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "geometry/contour.h"
 #include "geometry/queries/contours/contour_length.h"
 #include "geometry/queries/contours/isophote.h"
 #include "geometry/queries/contours/silhouette.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
+#include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry::pole_contours_test {
@@ -124,6 +127,45 @@ TEST(PoleContours, OutlinesOfALemonRunThroughItsTips) {
       }
     }
   }
+}
+
+// Triangles that turn both sides to the viewer have an outline, or it is said that one is missing; plane ones have
+// none.
+TEST(PoleContours, TrianglesThatShowBothSidesHaveAnOutline) {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int of_one_side = 0, of_both = 0;
+  for (int set = 0; set < 30; ++set) {
+    const int degree = 1 + set % 3;
+    TriangularNet net{degree, {}};
+    each_index(degree, [&](int i, int j, int) {
+      const double w = set % 2 == 0 ? 1 : 1.5 + uniform(random);
+      net.points.push_back(w * Vec4(i + 0.2 * uniform(random), j + 0.2 * uniform(random), 3 * uniform(random), 1));
+    });
+    const auto triangle = std::make_shared<BezierTriangle>(net);
+    const bool central = set % 3 == 0;
+    const Vec3 direction = glm::normalize(Vec3(uniform(random), uniform(random), 1.2));
+    const ViewOf view{central, central ? 9.0 * direction : direction};
+    bool front = false, back = false;
+    for (int i = 0; i <= 40; ++i)
+      for (int j = 0; i + j <= 40; ++j) {
+        const SurfaceJet jet = triangle->evaluate_over_triangle({i / 40.0, j / 40.0}, 1);
+        const Vec3 sight = central ? jet.point() - view.direction_or_eye : view.direction_or_eye;
+        const double side = glm::dot(glm::cross(jet.du(), jet.dv()), sight);
+        front = front || side < 0;
+        back = back || side > 0;
+      }
+    const Contours found = silhouette(triangle, view);
+    if (front && back) {
+      EXPECT_TRUE(!found.branches.empty() || !found.complete) << set;
+    }
+    (front && back ? of_both : of_one_side) += 1;
+    if (degree == 1) {
+      EXPECT_TRUE(found.branches.empty()) << set;
+    }
+  }
+  EXPECT_GT(of_one_side, 8);
+  EXPECT_GT(of_both, 5);
 }
 
 }  // namespace

@@ -394,6 +394,14 @@ TEST(LineIntersections, AFlatBandThatShrinksToAPoint) {
   }
 }
 
+// The sectors at a pole are never flat: cells must not be spent there.
+TEST(LineIntersections, CellsAtAPoleAreFew) {
+  const FormulaSurface cap(point_formulas({"u*cos(v)", "u*sin(v)", "0.3*cos(2*u)"}, {"u", "v"}, Coordinates::cartesian),
+                           {{0, 1}, {0, 1.5}}, {});
+  ASSERT_TRUE(cap.degenerate_edges().u_min);
+  EXPECT_LT(make_line_target(std::make_shared<FormulaSurface>(cap))->piece_count(), 1000);
+}
+
 TEST(LineIntersections, BoxesHoldTheirPieces) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> unit(0, 1);

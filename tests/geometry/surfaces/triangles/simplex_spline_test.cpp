@@ -204,13 +204,14 @@ TEST(CurvedTriangles, ErrorsOnATorus) {
     const Vec3 out(std::cos(u), std::sin(u), 0), n = std::cos(v) * out + Vec3(0, 0, std::sin(v));
     return TriangleCorner{3.0 * out + n, n, {}, {}, {}};
   };
-  const auto errors = [&](int count_u, int count_v, CurvedTriangle kind) {
+  const auto errors = [&](int count_u, int count_v, CurvedTriangle kind,
+                          EdgeTangents tangents = EdgeTangents::projected) {
     Vec2 worst(0);
     for (int j = 0; j < count_v; ++j) {
       const double u = 2 * kPi / count_u, v0 = 2 * kPi * j / count_v, v1 = 2 * kPi * (j + 1) / count_v;
       for (const auto& corners : {std::array{corner(0, v0), corner(u, v0), corner(u, v1)},
                                   std::array{corner(0, v0), corner(u, v1), corner(0, v1)}}) {
-        const BezierTriangle surface(curved_triangle(corners, kind));
+        const BezierTriangle surface(curved_triangle(corners, kind, tangents));
         each_index(12, [&](int a, int b, int) {
           const SurfaceJet jet = surface.evaluate_over_triangle({a / 12.0, b / 12.0}, 1);
           const Vec3 p = jet.point(), out = glm::normalize(Vec3(p.x, p.y, 0)), off = p - 3.0 * out;
@@ -242,6 +243,8 @@ TEST(CurvedTriangles, ErrorsOnATorus) {
     EXPECT_NEAR(found.y, row.angle, row.angle < 1 ? 0.006 : 0.06)
         << row.u << " cells, kind " << static_cast<int>(row.kind);
   }
+  // Tangents as long as those of arcs.
+  EXPECT_NEAR(errors(24, 16, CurvedTriangle::balanced, EdgeTangents::arc).x, 1.14e-3, 0.006e-3);
 }
 
 }  // namespace

@@ -248,7 +248,7 @@ TEST(BuilderErrors, UnknownTypes) {
   EXPECT_EQ(about("{ type: sphere, radius: 1 }"), "3:14 'sphere' exists for several kinds\n");
   EXPECT_EQ(hints("geometry: { a: { type: sphere, radius: 1 } }"), "say which: ball, sphere_surface\n");
   // One that is meant is named, not a choice of it.
-  EXPECT_EQ(about("{ type: extrusion, of: a }"), "3:14 unknown type 'extrusion' (did you mean 'extrusion_surface'?)\n");
+  EXPECT_EQ(about("{ type: ruled, of: a }"), "3:14 unknown type 'ruled' (did you mean 'ruled_surface'?)\n");
   EXPECT_EQ(said("integrator: { type: clasic }"), "2:21 unknown type 'clasic' (did you mean 'classic'?)\n");
 }
 
