@@ -47,6 +47,27 @@ struct SurfacePlace : Boundary {
   Vec3 geometric_normal;
 };
 
+// Directions from a point to a ball: all of them from within.
+struct Cone {
+  Vec3 axis{0, 0, 1};
+  double height = 2;  // 1 - the cosine of half its opening
+
+  double solid_angle() const { return geometry::kTwoPi * height; }
+  // Even in solid angle.
+  Vec3 direction(const Vec2& square) const {
+    const double h = height * square.x, s = std::sqrt(std::max(0.0, h * (2 - h))), angle = geometry::kTwoPi * square.y;
+    return geometry::frame_about(Vec3(0), axis).direction({s * std::cos(angle), s * std::sin(angle), 1 - h});
+  }
+};
+
+Cone cone_of(const World::Glow& glow, const Vec3& point) {
+  const Vec3 to = glow.center - point;
+  const double distance = glm::length(to);
+  if (distance <= glow.radius) return {};
+  const double sine = glow.radius / distance;
+  return {to / distance, sine * sine / (1 + std::sqrt(1 - sine * sine))};
+}
+
 class PathTracer {
  public:
   PathTracer(const World& world, SampleStream& random, const PathOptions& options, RaySample& sample)
@@ -64,7 +85,7 @@ class PathTracer {
     Vec3 point{0};
     double density = 0;           // of the direction
     double gone = 0;              // way to the present ray's origin
-    std::vector<double> choices;  // of each lamp
+    std::vector<double> choices;  // of each lamp, and of what glows
   };
 
   void add(const Spectrum& light);
@@ -72,6 +93,8 @@ class PathTracer {
   void add_lamps_along(const Ray& ray, double end, const Medium& medium);
   void add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
   void choose_lamps(const Vec3& point);
+  void add_glow(size_t number, const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& square);
+  double weight_of_glow(const SurfacePoint& point) const;
   void add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media);
   void record(const SurfacePlace& seen);
   void take_one_wavelength();
@@ -82,7 +105,7 @@ class PathTracer {
   RaySample& sample_;
   bool has_backdrop_ = false;
   Origin origin_;
-  std::vector<double> choices_;        // of lamps at the present place
+  std::vector<double> choices_;        // of lamps at the present place, and of what glows
   Spectrum share_ = kWhite;            // of the light at the end of the path that reaches the eye
   Wavelengths wavelengths_ = kYellow;  // of refraction
   bool one_wavelength_ = false;
@@ -122,24 +145,31 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
 
 void PathTracer::choose_lamps(const Vec3& point) {
   const std::vector<LightPtr>& lamps = world_.lamps();
-  choices_.assign(lamps.size(), 1);
-  if (lamps.size() < 2) return;
+  const std::vector<World::Glow>& glows = world_.glows();
+  choices_.assign(lamps.size() + glows.size(), 1);
+  if (choices_.size() < 2) return;
   double sum = 0;
   for (size_t i = 0; i < lamps.size(); ++i) {
     choices_[i] = lamps[i]->sample_all(point, Vec2(0.5)).irradiance.largest();
     if (!std::isfinite(choices_[i])) choices_[i] = 0;
     sum += choices_[i];
   }
-  const double n = static_cast<double>(lamps.size());
+  for (size_t i = 0; i < glows.size(); ++i)
+    sum += choices_[lamps.size() + i] = glows[i].brightness * cone_of(glows[i], point).solid_angle();
+  const double n = static_cast<double>(choices_.size());
   for (double& choice : choices_) choice = sum > 0 ? (1 - kBlindChoice) * choice / sum + kBlindChoice / n : 1 / n;
 }
 
 void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
                           const Vec2& square) {
-  if (world_.lamps().empty()) return;
+  if (choices_.empty()) return;
   double place = choice.x;
   size_t i = 0;
   while (i + 1 < choices_.size() && place >= choices_[i]) place -= choices_[i++];
+  if (i >= world_.lamps().size()) {
+    add_glow(i - world_.lamps().size(), seen, bsdf, media, square);
+    return;
+  }
   const Light& lamp = *world_.lamps()[i];
   const LightSample sample = lamp.sample_all(seen.point.position, square);
   if (sample.irradiance.is_zero()) return;
@@ -165,6 +195,47 @@ void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Medi
   ++bounces_;
   add(light);
   --bounces_;
+}
+
+// What meets the glowing object first counts; light that comes straight through panes is left to drawn directions.
+void PathTracer::add_glow(size_t number, const SurfacePlace& seen, const Bsdf& bsdf, const Media& around,
+                          const Vec2& square) {
+  const World::Glow& glow = world_.glows()[number];
+  const Cone cone = cone_of(glow, seen.point.position);
+  Ray ray;
+  const Vec3 direction = cone.direction(square);
+  const Spectrum reflected = bsdf.evaluate(direction);
+  if (reflected.is_zero()) return;
+  const bool behind = glm::dot(direction, seen.geometric_normal) < 0;
+  world_.leave(behind ? seen.far_side() : seen.near_side(), direction, ray);
+  ray.direction = direction;
+  ray.kind = RayKind::reflection;
+  Hit hit;
+  ++sample_.shadow_rays;
+  if (!world_.nearest(ray, hit) || hit.instance != glow.instance) return;
+  Media media = behind ? seen.behind : around;
+  const SurfacePlace met(world_, ray, hit, wavelengths_, media);
+  if (!met.changes_filling || met.point.instance != glow.instance) return;
+  const Spectrum emission = met.material->scattering(met.point, kPrimaries).emission;
+  const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
+  const double weight = power_heuristic(density, bsdf.density(direction));
+  const Spectrum light =
+      static_cast<float>(weight / density) * (reflected * emission * transmittance(media.current().absorption, hit.t));
+  if (bounces_ == 0) sample_.direct += share_ * light;
+  ++bounces_;
+  add(light);
+  --bounces_;
+}
+
+// Of the light of a surface that a drawn direction has met.
+double PathTracer::weight_of_glow(const SurfacePoint& point) const {
+  if (origin_.eye || origin_.sharp || origin_.gone > 0) return 1;
+  const std::vector<World::Glow>& glows = world_.glows();
+  for (size_t i = 0; i < glows.size(); ++i)
+    if (glows[i].instance == point.instance)
+      return power_heuristic(
+          origin_.density, origin_.choices[world_.lamps().size() + i] / cone_of(glows[i], origin_.point).solid_angle());
+  return 1;
 }
 
 void PathTracer::add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media) {
@@ -245,7 +316,11 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       continue;
     }
     if (bounces_ == 0 && !sample_.point) record(seen);
-    add(scattering.emission);
+    if (!scattering.emission.is_zero()) {
+      const Spectrum light = static_cast<float>(weight_of_glow(seen.point)) * scattering.emission;
+      if (bounces_ == 1 && !origin_.sharp) sample_.direct += share_ * light;
+      add(light);
+    }
     if (!seen.front && !scattering.two_sided) return;
     if (bounces_ > options_.max_depth || scatterings_ > options_.max_scatterings) return;
 

@@ -9,7 +9,9 @@
 //   any path that ends D L      both, weighted
 //   any path that ends D P      the lamp
 //   any path that ends S L      the drawn direction
-//   any path that ends E or A   the drawn direction
+//   any path that ends D E      both, weighted (E is looked for within a ball that holds it)
+//   any path that ends S E      the drawn direction
+//   any path that ends A        the drawn direction
 //   any path that ends S P      nothing: mirrors and lenses would have to find a point; the light is left out
 //
 // Radiance is that over the square of the refractive index of the place.

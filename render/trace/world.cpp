@@ -10,11 +10,13 @@
 #include <map>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 
 #include "geometry/bodies/topology/sew.h"
 #include "geometry/queries/rays/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
+#include "render/lobes/scattering.h"
 #include "render/model/mesh_tolerance.h"
 #include "render/model/placed_objects.h"
 #include "render/trace/clipped_body.h"
@@ -363,6 +365,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
     for (const Material* material : {object->material.get(), object->back_material.get()})
       transmits_ = transmits_ || (material && material->transmits());
   if (transmits_) list_contacts();
+  list_glows();
   c.statistics.pieces = c.top.piece_count();
   c.statistics.triangles = c.top.triangle_count();
   c.statistics.hierarchy_bytes = std::max(device_memory(), embree_before) - embree_before;
@@ -372,6 +375,29 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 }
 
 // Where bodies of some substance are, and where others may touch them.
+void World::list_glows() {
+  constexpr size_t kMostGlows = 64;
+  std::unordered_map<const Object*, float> brightness;
+  for (const Object* object : compiled_->objects) {
+    float most = 0;
+    for (const Material* material : {object->material.get(), object->back_material.get()})
+      if (material) most = std::max(most, material->scattering({}, Wavelengths()).emission.largest());
+    if (most > 0 && !is_drawn_only(object->shape)) brightness.emplace(object, most);
+  }
+  if (brightness.empty()) return;
+  const Hierarchy& top = compiled_->top;
+  for (int64_t i = 0; i < static_cast<int64_t>(top.leaf_count()); ++i) {
+    const auto found = brightness.find(compiled_->objects[top.place(i).object]);
+    const Box3 box = top.bounds(i);
+    if (found == brightness.end() || box.empty() || !box.bounded()) continue;
+    glows_.push_back({i, 0.5 * (box.lo + box.hi), 0.5 * box.diameter() * (1 + 1e-6), found->second});
+    if (glows_.size() > kMostGlows) {
+      glows_.clear();
+      return;
+    }
+  }
+}
+
 void World::list_contacts() {
   const Hierarchy& top = compiled_->top;
   const auto has_medium = [](const Object& object) {

@@ -98,6 +98,15 @@ class World {
   // The lights that are somewhere, and the sum I_a of the ambient ones.
   const std::vector<LightPtr>& lamps() const { return lamps_; }
   const Spectrum& ambient() const { return ambient_; }
+  // What glows by itself: a copy of an object, a ball that holds it, and about how bright it is. None at all if there
+  // are too many to look for.
+  struct Glow {
+    int64_t instance;
+    Vec3 center;
+    double radius;
+    float brightness;
+  };
+  const std::vector<Glow>& glows() const { return glows_; }
   WorldStatistics statistics() const;
   // Centre and radius of the bounding sphere of all bounded shapes.
   Vec3 center() const;
@@ -105,6 +114,7 @@ class World {
 
  private:
   void list_contacts();
+  void list_glows();
 
   struct Compiled;
   std::shared_ptr<const Model> model_;
@@ -115,6 +125,7 @@ class World {
       contacts_;                       // by instance: where its box meets others'; none at all where that is not known
   std::vector<geometry::Box3> media_;  // hold all bodies of some substance
   std::unique_ptr<Compiled> compiled_;
+  std::vector<Glow> glows_;
 };
 
 }  // namespace lekalo::render

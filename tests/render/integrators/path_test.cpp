@@ -135,6 +135,29 @@ TEST(Path, MattBallInsideAGlowingOne) {
   expect_mean(found, 1, "enclosure", 5e-3);
 }
 
+TEST(Path, GlowingBallLightsAPlane) {
+  // Radiance e, radius r, its middle at the distance 1 and b from the normal: irradiance pi e r^2 cos(b).
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 0.5}));
+  scene.add(sphere({0.6, 0, 0.8}, 0.1), make_material(Emission{.strength = 20}));
+  const Estimate found = estimate(*world(scene, {.max_depth = 0}), {0, -3, 3}, {0, 3, -3}, 4096);
+  expect_mean(found, 0.5 * 20 * 0.01 * 0.8, "ball", 2e-2);
+}
+
+TEST(Path, GlowingBallIsALampOfItsRadiance) {
+  SmallScene glow, lamp;
+  for (SmallScene* scene : {&glow, &lamp})
+    scene->add(plane({0, 0, 0}, {0, 0, 1}), make_material(Conductor{.metal = "Cu", .roughness = 0.3}));
+  glow.add(sphere({0, 1.2, 1.2}, 0.3), make_material(Emission{.strength = 2}));
+  const double sine = 0.3 / (1.2 * std::sqrt(2.0)), height = 1 - std::sqrt(1 - sine * sine);
+  lamp.light(
+      SphereLight{.center = {0, 1.2, 1.2}, .radius = 0.3, .lamp = {.intensity = 2 * 2 * height * (1 - 0.5 * height)}});
+  const Estimate by_glow = estimate(*world(glow, {.max_depth = 0}), {0, -3, 3}, {0, 3, -3}, 8192);
+  const Estimate by_lamp = estimate(*world(lamp, {.max_depth = 0}), {0, -3, 3}, {0, 3, -3}, 8192);
+  EXPECT_NEAR(by_glow.mean, by_lamp.mean, 3 * std::hypot(by_glow.error, by_lamp.error));
+  EXPECT_LT(by_glow.error, 0.02 * by_glow.mean);
+}
+
 TEST(Path, WhiteFurnace) {
   // Whatever stands in light that is the same from everywhere and takes nothing looks like that light.
   for (const bool clear : {false, true}) {
