@@ -23,7 +23,10 @@
   X(pipe_type)                 \
   X(loft_body_type)            \
   X(thickened_sheet_type)      \
-  X(sewn_shell_type)
+  X(sewn_shell_type)           \
+  X(exploded_body_type)        \
+  X(face_loop_type)            \
+  X(hollow_body_type)
 
 namespace lekalo::geometry {
 

@@ -25,8 +25,7 @@ Vec3 center_of(const Profile& section) {
   return sum / static_cast<double>(points.size());
 }
 
-// Each section's plane looks towards the next one, the last one's away from the one before. (In a closed loft of a
-// cycle too.)
+// Each section's plane looks towards the next one, the last one's away from the one before.
 void face_forward(std::vector<Profile>& sections, bool closed) {
   const size_t count = sections.size();
   for (size_t i = 0; i < count; ++i) {

@@ -8,6 +8,7 @@
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/operations/parameter_line.h"
+#include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/surfaces/nets/lofts.h"
 #include "geometry/surfaces/swept/sweep.h"
 #include "geometry/transformed.h"
@@ -19,6 +20,21 @@ namespace {
 constexpr int kTried = 256;  // places of a path that are looked at
 
 double at_share(const Interval& range, int k) { return range.clamp(range.lo + range.width() * k / kTried); }
+
+// Where two pieces of the path meet their tangents agree.
+void check_smooth(const Curve& path) {
+  if (!(path.domain().width() < kInfinity)) throw FieldError("path", "the path is unbounded", "give it a domain");
+  const std::vector<CurvePiece> pieces = path.pieces();
+  for (size_t i = 0; i + 1 < pieces.size(); ++i) {
+    const double t = pieces[i].domain.hi;
+    const Vec3 before = evaluate_within(path, pieces[i].domain, t, 1).d[1], after = path.evaluate(t, 1).d[1];
+    const Vec3 p = path.point(t);
+    if (glm::length(glm::normalize(before) - glm::normalize(after)) > 1e-6)
+      throw FieldError("path",
+                       fmt::format("the path has a corner at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}", p.x, p.y, p.z, t),
+                       "round it, or make a body of each part");
+  }
+}
 
 // Everywhere across the plane of the profile, the same way.
 void check_monotone(const Curve& path, const Vec3& normal) {
@@ -126,6 +142,7 @@ Profile in_frame(const Profile& profile, const Frame& frame) {
 }
 
 Body swept_along(const Fields& f) {
+  check_smooth(*f.curve("path"));
   const SectionMotion motion(f);
   Profile profile = read_thick_profile(f, "of", f.boolean("placed") ? motion.frame(0).z : Vec3(0, 0, 1));
   if (f.boolean("placed")) profile = in_frame(profile, motion.frame(0));
@@ -141,6 +158,7 @@ Body pipe(const Fields& f) {
                        fmt::format("less than the radius, {:.6g}, or none at all for a rod", radius));
     circles.push_back(std::make_shared<Circle>(Frame{}, radius - f.number("wall")));
   }
+  check_smooth(*f.curve("path"));
   return carried(SectionMotion(f), profile_of(circles, "radius"), "radius");
 }
 

@@ -1,0 +1,105 @@
+// A body with voids (Golovanov 2016, 5.4): its outer shell, and the outer shells of other bodies turned inside out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/body.h"
+#include "geometry/describe.h"
+#include "geometry/queries/closest/position.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Points of the body's edges and the middles of its faces' parameters.
+std::vector<Vec3> samples(const Body& body) {
+  constexpr int kSamples = 16;
+  std::vector<Vec3> result;
+  for (const Edge& edge : body.edges) {
+    const Interval t = edge.curve->domain();
+    for (int k = 0; k <= kSamples; ++k) result.push_back(edge.curve->point(t.lo + t.width() * k / kSamples));
+  }
+  for (const Face& face : body.faces) {
+    if (face.trimmed) continue;
+    const Rectangle d = face.surface->domain();
+    for (int i = 1; i < kSamples; ++i)
+      for (int j = 1; j < kSamples; ++j)
+        result.push_back(face.surface->point(d.u.lo + d.u.width() * i / kSamples, d.v.lo + d.v.width() * j / kSamples));
+  }
+  return result;
+}
+
+void require(const Body& void_body, size_t number, const Body& other, Containment where, const std::string& what) {
+  for (const Vec3& p : samples(void_body))
+    if (position(p, other).where != where)
+      throw FieldError("voids", fmt::format("void {} {} at ({:.6g}, {:.6g}, {:.6g})", number, what, p.x, p.y, p.z),
+                       "voids lie inside of the body and apart from each other");
+}
+
+// The shells of another body, turned to look into it.
+void add_turned(const Body& other, size_t number, Body& result) {
+  const int first_vertex = static_cast<int>(result.vertices.size()), first_edge = static_cast<int>(result.edges.size()),
+            first_shell = static_cast<int>(result.shells.size()), first_face = static_cast<int>(result.faces.size());
+  const std::string feature = fmt::format("void.{}", number);
+  const auto named = [&](Origin origin) {
+    origin.feature = origin.feature.empty() ? feature : feature + "." + origin.feature;
+    return origin;
+  };
+  for (const Vertex& v : other.vertices) {
+    result.add_vertex(v.point, named(v.origin));
+    result.vertices.back().tolerance = v.tolerance;
+  }
+  for (const Edge& e : other.edges) {
+    result.add_edge(e.curve, first_vertex + e.start, first_vertex + e.end, named(e.origin), e.kind);
+    result.edges.back().tolerance = e.tolerance;
+  }
+  for (const Face& face : other.faces) {
+    const int copy = result.add_face(face.surface, !face.forward, named(face.origin), face.trimmed);
+    result.faces[copy].shell = first_shell + face.shell;
+    for (const int loop : face.loops) {
+      std::vector<Body::Use> uses;
+      for (const int c : other.loops[loop].coedges) {
+        const Coedge& use = other.coedges[c];
+        uses.push_back({first_edge + use.edge, !use.forward, use.image});
+      }
+      std::reverse(uses.begin(), uses.end());
+      result.add_loop(copy, uses);
+    }
+  }
+  for (Shell shell : other.shells) {
+    for (int& face : shell.faces) face += first_face;
+    result.shells.push_back(std::move(shell));
+  }
+}
+
+Body hollowed(const Fields& f) {
+  const Body& body = *f.body("of");
+  if (!body.is_closed()) throw FieldError("of", "the body is open: it has no inside", "a closed body");
+  std::vector<BodyPtr> voids;
+  for (const std::any& one : f.references("voids")) voids.push_back(std::any_cast<BodyPtr>(one));
+  Body result = body;
+  for (size_t k = 0; k < voids.size(); ++k) {
+    if (!voids[k]->is_closed() || voids[k]->shells.size() != 1)
+      throw FieldError("voids", fmt::format("void {} is not bounded by one closed shell", k), "a body without voids");
+    require(*voids[k], k, body, Containment::inside, "is not inside of the body");
+    for (size_t j = 0; j < voids.size(); ++j)
+      if (j != k) require(*voids[k], k, *voids[j], Containment::outside, fmt::format("runs into void {}", j));
+    add_turned(*voids[k], k, result);
+  }
+  return result;
+}
+
+}  // namespace
+
+TypeDeclaration hollow_body_type() {
+  return declare(Category::body, "hollow_body",
+                 "A body with voids inside: its shells, and those of the voids turned inside out. Faces of void k are "
+                 "called void.k and their names in it.")
+      .example("of: { type: box, size: [3, 3, 3] }, voids: { type: box, size: [1, 1, 1], corner: [1, 1, 1] }")
+      .field("of", reference({Category::body}), "the body")
+      .field("voids", references({Category::body}), "bodies of one shell each, inside of it and apart from each other")
+      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(hollowed(f)); });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,141 @@
+"""Bodies from curves and surfaces: valid, meshed without cracks, met by rays an even number of times; volumes of random profiles; errors."""
+
+import collections
+import math
+import random
+import unittest
+
+from program import ProgramTest
+
+PATH = "{ type: bezier_curve, points: [[0, 0, 0], [0, 0, 4], [4, 0, 4], [5, 5, 5]] }"
+ROUND = "{ type: rectangle, size: [2, 1], corner_radius: 0.2 }"
+HOLE = "{ type: circle, radius: 0.2 }"
+BODIES = {
+    "extruded": f"{{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [1, 0, 3], back: 1 }}",
+    "drafted": f"{{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [0, 0, 1], draft: 5 }}",
+    "turned": f"{{ type: revolution_body, of: {{ type: rectangle, size: [1, 1], center: [2.5, 0] }}, axis: y, angle: 250 }}",
+    "spheroid": "{ type: revolution_body, of: { type: nurbs_curve, points: [[1, 0, -1], [1.7, 0, -0.3], [0.5, 0, 0.4], [0.9, 0, 1.5]] } }",
+    "slice": "{ like: spheroid, angle: 100 }",
+    "shifted": f"{{ type: translation_body, of: {ROUND}, along: {{ type: bezier_curve, points: [[0, 0, 0], [0, 0, 2], [3, 0, 2], [3, 0, 4]] }} }}",
+    "bent": f"{{ type: sweep_body, of: {ROUND}, path: {PATH} }}",
+    "link": "{ type: sweep_body, of: { type: circle, radius: 0.5 }, path: { type: ellipse, semi_axes: [3, 2] } }",
+    "tube": f"{{ type: pipe, radius: 0.3, wall: 0.1, path: {PATH} }}",
+    "loft": "{ type: loft_body, of: [{ type: rectangle, size: [2, 2] }, { type: rectangle, size: [3, 3], center: [0, 0, 1] }, "
+            "{ type: rectangle, size: [1, 1], center: [0, 0, 3] }] }",
+    "sheet": "{ type: thickened_sheet, of: { type: trimmed_surface, of: { type: formula_surface, point: [u, v, u*v], domain: "
+             "{ u: [0, 1], v: [0, 1] } }, loops: [{ type: circle, center: [0.5, 0.5], radius: 0.4 }, "
+             "{ type: circle, center: [0.5, 0.5], radius: 0.1 }] }, thickness: 0.2 }",
+    "shell": "{ type: thickened_sheet, of: { type: sphere_surface, radius: 1 }, thickness: 0.2 }",
+    "wall": "{ type: extrusion_body, of: { type: line_arc_curve, closed: false, nodes: [{ at: [0, 0] }, { at: [2, 0], fillet: 0.4 }, "
+            "{ at: [2, 1] }, { at: [3, 1] }] }, thickness: 0.1, along: z }",
+    "hollow": "{ type: hollow_body, of: { type: box, size: [3, 3, 3] }, voids: { type: ball, radius: 1, center: [1.5, 1.5, 1.5] } }",
+}
+SCENE = "lekalo: 1\ngeometry:\n" + "".join(f"  {name}: {body}\n" for name, body in BODIES.items())
+
+
+class Bodies(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("bodies.yaml", SCENE)
+
+    def test_valid_and_closed(self):
+        for name in BODIES:
+            with self.subTest(name):
+                found = self.json_of("measure", "bodies.yaml", name, "--topology")
+                self.assertEqual(found["violations"], [])
+                self.assertTrue(found["closed"])
+
+    def test_meshes_have_no_cracks(self):
+        for name in BODIES:
+            with self.subTest(name):
+                self.run_program("export", "bodies.yaml", name, "-o", f"{name}.obj", "--sag", "0.02")
+                sides = collections.Counter()
+                for line in (self.folder / f"{name}.obj").read_text().splitlines():
+                    if line.startswith("f "):
+                        corners = [word.split("/")[0] for word in line.split()[1:]]
+                        sides.update(zip(corners, corners[1:] + corners[:1]))
+                self.assertGreater(len(sides), 0)
+                self.assertTrue(all(count == 1 and (b, a) in sides for (a, b), count in sides.items()))
+
+    def test_rays_meet_them_evenly(self):
+        random.seed(7)
+        rays = []
+        for _ in range(60):
+            direction = [random.uniform(-1, 1) for _ in range(3)]
+            rays.append([random.uniform(-0.8, 3) - 20 * direction[0], random.uniform(-0.8, 3) - 20 * direction[1],
+                         random.uniform(0, 4) - 20 * direction[2], *direction])
+        self.write("rays.csv", "".join(",".join(map(repr, ray)) + "\n" for ray in rays))
+        for name in BODIES:
+            with self.subTest(name):
+                self.write("one.yaml", SCENE + f"objects: [{{ shape: {name} }}]\n")
+                found = [len(ray["hits"]) for ray in self.json_of("trace", "one.yaml", "--rays", "rays.csv")["rays"]]
+                self.assertEqual([count % 2 for count in found], [0] * len(rays))
+                self.assertGreater(sum(found), 0)
+
+    def test_random_prisms(self):
+        random.seed(11)
+        for _ in range(4):
+            count = random.randint(3, 9)
+            corners = [(random.uniform(0.6, 2) * math.cos(2 * math.pi * k / count),
+                        random.uniform(0.6, 2) * math.sin(2 * math.pi * k / count)) for k in range(count)]
+            along = [random.uniform(-1, 1), random.uniform(-1, 1), random.choice([-1, 1]) * random.uniform(0.5, 2)]
+            if random.random() < 0.5:
+                corners.reverse()
+            area = abs(sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(corners, corners[1:] + corners[:1]))) / 2
+            points = ", ".join(f"[{x!r}, {y!r}]" for x, y in corners)
+            self.write("prism.yaml", f"lekalo: 1\ngeometry:\n  b: {{ type: extrusion_body, along: {along}, of: "
+                       f"{{ type: polyline, closed: true, points: [{points}] }} }}\n")
+            found = self.json_of("measure", "prism.yaml", "b")
+            self.assert_near(found["volume"], area * abs(along[2]), 1e-12 * area)
+            self.assertEqual(self.json_of("measure", "prism.yaml", "b", "--topology")["characteristics"][0]["faces"], count + 2)
+
+    def test_exploded(self):
+        self.write("apart.yaml", "lekalo: 1\ngeometry:\n  box: { type: box, size: [3, 2, 1] }\n"
+                   "  apart: { type: exploded_body, of: box, distance: 0.5 }\n"
+                   "  loop: { type: face_loop, of: box, face: z_max, inset: 0.25 }\n")
+        found = self.json_of("measure", "apart.yaml", "apart", "--topology")
+        self.assertEqual((found["valid"], found["closed"], found["shells"], len(found["vertices"])), (True, False, 6, 24))
+        self.assert_near(self.json_of("evaluate", "apart.yaml", "apart", "--face", "x_max", "--at", "0,0")["point"][0], 3.5, 1e-15)
+        self.assert_near(self.json_of("measure", "apart.yaml", "loop")["length"], 8, 1e-12)
+
+    def refused(self, body, *texts):
+        self.write("wrong.yaml", f"lekalo: 1\ngeometry:\n  b: {{ {body} }}\n")
+        errors = self.run_program("measure", "wrong.yaml", "b", code=3)[1]
+        for text in texts:
+            self.assertIn(text, errors)
+
+    def test_refused(self):
+        self.refused("type: extrusion_body, of: { type: polyline, points: [[0, 0], [1, 0], [1, 1]] }, along: z",
+                     "the profile is open: it begins at (0, 0, 0) and ends at (1, 1, 0)", "thickness")
+        self.refused("type: extrusion_body, of: { type: polyline, closed: true, points: [[0, 0], [2, 2], [2, 0], [0, 1]] }, along: z",
+                     "the profile meets itself at (0.666667, 0.666667, 0)")
+        self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: x", "within its own plane")
+        self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: [0, 0, 0]", "must not be zero")
+        self.refused("type: extrusion_body, of: [{ type: circle, radius: 1 }, { type: circle, radius: 1, center: [1.5, 0] }], along: z",
+                     "curves 0 and 1 of the profile meet at")
+        self.refused("type: extrusion_body, of: [{ type: circle, radius: 1 }, { type: circle, radius: 0.5, center: [2.5, 0] }], along: z",
+                     "two lie beside each other")
+        self.refused("type: extrusion_body, of: { type: rectangle, size: [1, 1] }, along: z, draft: 40", "profile")
+        self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: z, draft: 50", "the arc of radius 1")
+        self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [0.5, 0, 0], normal: y }", "the profile crosses the axis")
+        self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [3, 0, 0] }", "does not lie in the plane")
+        self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [1, 0, 0], normal: y }", "touches the axis")
+        self.refused("type: translation_body, of: { type: circle, radius: 1 }, along: { type: bezier_curve, points: [[0, 0, 0], [0, 0, 3], "
+                     "[2, 0, 3], [2, 0, 1]] }", "the curve turns back")
+        self.refused("type: sweep_body, of: { type: circle, radius: 1 }, path: { type: circle, radius: 0.8 }", "would run through itself",
+                     "0.8 away")
+        self.refused("type: sweep_body, of: { type: circle, radius: 0.1 }, path: { type: polyline, points: [[0, 0, 0], [0, 0, 1], [1, 0, 1]] }",
+                     "the path has a corner at (0, 0, 1), t = 1")
+        self.refused("type: pipe, radius: 0, path: { type: segment, from: [0, 0, 0], to: [0, 0, 1] }", "radius")
+        self.refused("type: pipe, radius: 1, wall: 1, path: { type: segment, from: [0, 0, 0], to: [0, 0, 1] }", "nothing is left open")
+        self.refused("type: loft_body, of: [{ type: circle, radius: 1 }, { type: rectangle, size: [1, 1], center: [0, 0, 1] }]",
+                     "section 0 has 1 segments and section 1 has 4")
+        self.refused("type: thickened_sheet, of: { type: cylinder_surface, radius: 1, height: 1 }, thickness: -1.5",
+                     "curved more than that", "radius of curvature on this side is 1")
+        self.refused("type: hollow_body, of: { type: box, size: [1, 1, 1] }, voids: { type: box, size: [1, 1, 1], corner: [0.5, 0, 0] }",
+                     "void 0 is not inside of the body")
+        self.refused("type: sewn_shell, solid: true, of: { type: plane, size: [1, 1] }", "it is open")
+
+
+if __name__ == "__main__":
+    unittest.main()
