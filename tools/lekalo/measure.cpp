@@ -127,6 +127,8 @@ struct Options {
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
   std::optional<int> samples, order;
+  int cubature = 0;  // points of the rule; 0: not asked for
+  double turn = 20;  // degrees
   bool topology = false, regularity = false, self_intersection = false, nearest = false, nurbs = false,
        features = false, rim = false, json = false;
 };
@@ -276,6 +278,9 @@ int run(const Options& options) {
   } else if (options.regularity) {
     out = regularity(options.name, entity);
     print = print_regularity;
+  } else if (options.cubature > 0) {
+    out = cubature_of(options.name, entity, options.cubature, options.turn);
+    print = print_cubature;
   } else if (!options.cells.empty()) {
     out = cells_of(options.name, entity, parse_numbers(options.cells, 2, "--cells"),
                    options.line.empty() ? std::vector<double>() : parse_numbers(options.line, 6, "--line"));
@@ -413,6 +418,16 @@ void add_measure(CLI::App& app, Action& action) {
   auto* topology = sub->add_flag("--topology", options->topology, "faces, edges and vertices with their names instead");
   auto* regular = sub->add_flag("--regularity", options->regularity,
                                 "whether the curve or surface is regular: bounds of speed and curvature");
+  auto* cubature =
+      sub->add_option("--cubature", options->cubature,
+                      "area and volume by rules of so many points on triangular cells, without bounds of the error: "
+                      "1, 3, 4, 6 or 7, exact for degrees 1 to 5")
+          ->type_name("POINTS")
+          ->check(CLI::IsMember({1, 3, 4, 6, 7}));
+  sub->add_option("--turn", options->turn, "of --cubature, how far the normal turns inside of a cell at most [20]")
+      ->type_name("DEGREES")
+      ->needs(cubature)
+      ->check(CLI::Range(0.5, 90.0));
   auto* cells = sub->add_option("--cells", options->cells,
                                 "cut into so many cells: bounds of their diameters and of the surface's")
                     ->type_name("NU,NV");
@@ -488,9 +503,9 @@ void add_measure(CLI::App& app, Action& action) {
                                   "parameters, as a development on its surface")
                       ->type_name("NAME");
   // One question at a time.
-  const std::array modes{topology, regular,    cells,  to,       intersect, self_intersection, section,   silhouette,
-                         position, continuity, nurbs,  features, arc,       at_length,         hausdorff, frechet,
-                         against,  rim,        stretch};
+  const std::array modes{cubature,  topology,   regular,  cells,      to,    intersect, self_intersection,
+                         section,   silhouette, position, continuity, nurbs, features,  arc,
+                         at_length, hausdorff,  frechet,  against,    rim,   stretch};
   for (size_t i = 0; i < modes.size(); ++i)
     for (size_t j = 0; j < i; ++j) modes[i]->excludes(modes[j]);
   sub->add_option("--tolerance", options->tolerance,

@@ -25,6 +25,11 @@ void print_topology(const ordered_json& found);
 ordered_json regularity(const std::string& name, const render::Entity& entity);
 void print_regularity(const ordered_json& found);
 
+// Area and volume on triangular cells inside of which the normal turns by so many degrees at most, by a rule of so many
+// points. Throws UsageError for what is neither a surface nor a body.
+ordered_json cubature_of(const std::string& name, const render::Entity& entity, int points, double turn);
+void print_cubature(const ordered_json& found);
+
 // Diameters of the cells of a surface, `counts` of them along u and v, and whether they prove that a line (a point and
 // a direction, or empty) misses it. Throws UsageError for anything else.
 ordered_json cells_of(const std::string& name, const render::Entity& entity, const std::vector<double>& counts,
