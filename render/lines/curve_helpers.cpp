@@ -158,7 +158,7 @@ std::vector<Vec3> helper_points(const Object& object) {
     for (const SurfacePtr& surface : surfaces) {
       const auto* spline = dynamic_cast<const TSpline*>(surface.get());
       const bool on_surface =
-          spline && helper.type == "t_mesh" && f.text("on") == "surface";  // framed with the surface
+          spline && helper.type == "t_mesh" && f.text("where") == "surface";  // framed with the surface
       if (on_surface) continue;
       if (spline && (helper.type == "control_net" || helper.type == "t_mesh")) {
         for (const Vec3& point : mesh_points(*spline, helper)) points.push_back(point);

@@ -82,7 +82,7 @@ void StrokeCollector::add_helper(const Helper& helper) {
     }
     const auto form = surface->as_nurbs();
     if (const auto* spline = dynamic_cast<const TSpline*>(surface.get())) {
-      if (helper.type == "t_mesh" && helper.values.text("on") == "surface")
+      if (helper.type == "t_mesh" && helper.values.text("where") == "surface")
         add_mesh_image(surface, *spline, sign, helper);
       else if (helper.type == "control_net" || helper.type == "t_mesh")
         add_mesh(*spline, sign, helper);

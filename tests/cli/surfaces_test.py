@@ -140,7 +140,7 @@ geometry:
         sums = []
         for passes in (0, 20):
             self.write("scene.yaml", "lekalo: 1\ngeometry:\n  sheet: { type: bilinear_surface, points: [[[0, 0, 0], [0, 3, 0]], [[4, 0, 3], [4, 3, 1]]] }\n"
-                       "  fit: { type: fit_surface, on: sheet, degree: 2, spans: 1, passes: %d, points: %s }\n" % (passes, cloud))
+                       "  fit: { type: fit_surface, near: sheet, degree: 2, spans: 1, passes: %d, points: %s }\n" % (passes, cloud))
             total = 0
             for p in cloud[:40]:
                 total += self.json_of("measure", "scene.yaml", "fit", "--to", ",".join(map(repr, p)), "--nearest")["distance"]**2

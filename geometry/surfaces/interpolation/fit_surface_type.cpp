@@ -41,18 +41,19 @@ Rectangle bounds_of(const std::vector<Vec2>& at) {
   Rectangle box{{at[0].x, at[0].x}, {at[0].y, at[0].y}};
   for (const Vec2& p : at) box.u = hull(box.u, Interval(p.x)), box.v = hull(box.v, Interval(p.y));
   if (!(box.u.width() > 0 && box.v.width() > 0))
-    throw FieldError("points", "the points' parameters lie on one line", "give other ones by 'at' or 'on'");
+    throw FieldError("points", "the points' parameters lie on one line", "give other ones by 'at' or 'near'");
   return box;
 }
 
 SurfaceData read_cloud(const Fields& f, Rectangle& domain) {
   SurfaceData data{f.points("points"), {}, {}};
-  if (f.has("at") && f.has("on")) throw FieldError("on", "the points have parameters already", "give 'at' or 'on'");
-  if (f.has("on")) {
-    const Surface& on = *f.surface("on");
-    if (!on.bounded()) throw FieldError("on", "the surface is unbounded", "give it a domain");
-    for (const Vec3& p : data.points) data.at.push_back(foot_parameters(on, p));
-    domain = on.domain();
+  if (f.has("at") && f.has("near"))
+    throw FieldError("near", "the points have parameters already", "give 'at' or 'near'");
+  if (f.has("near")) {
+    const Surface& near = *f.surface("near");
+    if (!near.bounded()) throw FieldError("near", "the surface is unbounded", "give it a domain");
+    for (const Vec3& p : data.points) data.at.push_back(foot_parameters(near, p));
+    domain = near.domain();
     return data;
   }
   if (f.has("at")) {
@@ -73,7 +74,7 @@ SurfaceData read_data(const Fields& f, Rectangle& domain) {
                      "give 'points' or 'grid'");
   SurfaceData data;
   if (f.has("grid")) {
-    for (const char* other : {"at", "on"})
+    for (const char* other : {"at", "near"})
       if (f.has(other)) throw FieldError(other, "points of a grid have their parameters by 'knots'");
     const PointGrid grid = read_open_grid(f, "grid");
     data.points = grid.points.values;
@@ -131,13 +132,13 @@ TypeDeclaration fit_surface_type() {
       .optional("points", points().count(4), "the points, in any order")
       .optional("grid", net(), "or the points in rows along v, rows following one another along u")
       .optional("at", parameter_points(), "the parameters (u, v) of `points`")
-      .optional("on", reference({Category::surface}),
+      .optional("near", reference({Category::surface}),
                 "a surface near `points`: their parameters are those of its nearest points. Without it and `at`: "
                 "coordinates in the plane of least squared distances, along its main directions")
       .field("knots", knots().for_each_direction(),
              "of `grid` values of u at the rows and of v at the columns, or a rule: uniform, chord_length, centripetal",
              "chord_length")
-      .optional("domain", rectangle(), "of the surface; else that of the parameters, or of `on`")
+      .optional("domain", rectangle(), "of the surface; else that of the parameters, or of `near`")
       .field("degree", integer().between(1, kMaxDegree).for_each_direction(), "degrees of the polynomial pieces", "3")
       .optional("spans", integer().between(1, 200).for_each_direction(), "number of equal pieces")
       .optional("tolerance", length().positive(),

@@ -85,6 +85,8 @@ class Builder {
   void each_item(const Value& value, const Counters& counters,
                  const std::function<void(const Value& item, const Counters& inner)>& visit);
   std::vector<Scoped> items(const Value& value, const Counters& counters);  // of each_item()
+  // The list of a row that is repeated, { repeat: { i: 0..5 }, row: [..] }; others are their own.
+  static const Value& row_of(const Value& value);
   // A copy in which every text has its templates filled: %k, %02k, %.3r, %(k+1); %% is a percent sign (templates.cpp).
   std::optional<Value> fill_templates(const Value& value, const Counters& counters);
   // A formula as --set takes it: as written, or its value if it speaks of counters.

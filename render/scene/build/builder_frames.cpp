@@ -178,8 +178,9 @@ std::optional<Grid<Vec3>> Builder::read_net(const FieldType&, const Value& value
                        "write a list of rows; each row is a list of points");
     return std::nullopt;
   }
-  for (const Value& row : value.items) {
-    const auto points = read_points(geometry::points().count(1), row, counters);
+  for (const Scoped& item : items(value, counters)) {
+    const Value& row = row_of(*item.value);
+    const auto points = read_points(geometry::points().count(1), row, item.counters);
     if (!points || !add_row(*points, row.place)) return std::nullopt;
   }
   return net;

@@ -55,6 +55,11 @@ void Builder::each_item(const Value& value, const Counters& counters,
   for (const Value& item : value.items) add(item);
 }
 
+const Value& Builder::row_of(const Value& value) {
+  const Value* row = value.is_map() && value.entries.size() == 2 && value.find("repeat") ? value.find("row") : nullptr;
+  return row ? *row : value;
+}
+
 std::vector<Scoped> Builder::items(const Value& value, const Counters& counters) {
   std::vector<Scoped> all;
   each_item(value, counters, [&](const Value& item, const Counters& inner) { all.push_back({&item, inner}); });
@@ -200,7 +205,7 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     case Kind::indices: {
       std::vector<std::vector<int>> lists;
       for (const Scoped& row : items(value, counters)) {
-        auto list = read_list<int>(geometry::integer(), *row.value, row.counters);
+        auto list = read_list<int>(geometry::integer(), row_of(*row.value), row.counters);
         if (!list) return std::nullopt;
         lists.push_back(*std::move(list));
       }

@@ -126,7 +126,15 @@ void SchemaWriter::add_common_definitions() {
   const Json table = {{"type", "object"}, {"properties", {{"file", {{"type", "string"}}}}}, {"required", {"file"}}};
   definitions_["numbers"] = any_of({formula, array_of(any_of({formula, {{"type", "object"}}})), table});
   definitions_["points"] = any_of({array_of(ref("place")), table});
-  definitions_["net"] = any_of({array_of(ref("points")), table});
+  const auto rows_of = [&](const char* row) {
+    const Json repeated = {{"type", "object"},
+                           {"properties", {{"repeat", ref("repeat")}, {"row", ref(row)}}},
+                           {"required", {"repeat", "row"}},
+                           {"additionalProperties", false}};
+    return array_of(any_of({ref(row), repeated}));
+  };
+  definitions_["net"] = any_of({rows_of("points"), table});
+  definitions_["indices"] = rows_of("numbers");
   definitions_["number_grid"] = any_of({array_of(ref("numbers")), table});
   const Json step = {{"type", "object"},
                      {"properties",
@@ -197,8 +205,9 @@ Json SchemaWriter::single(const FieldType& type) {
     case Kind::formulas:
       return ref("numbers");
     case Kind::number_grid:
-    case Kind::indices:
       return ref("number_grid");
+    case Kind::indices:
+      return ref("indices");
     case Kind::knots:
       return any_of(
           {words_of(type.choices.empty() ? std::vector<std::string>{"clamped", "uniform", "chord_length", "centripetal"}

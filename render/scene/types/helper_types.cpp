@@ -66,7 +66,7 @@ TypeDeclaration control_net() {
 
 TypeDeclaration t_mesh_helper() {
   TypeDeclaration type = helper("t_mesh", "The mesh of a T-spline in the parameter plane, or on the surface.", "thin");
-  type.field("on", choice({"plane", "surface"}), "plane: the vertices at (u, v, 0); surface: as far as it goes",
+  type.field("where", choice({"plane", "surface"}), "plane: the vertices at (u, v, 0); surface: as far as it goes",
              "plane")
       .field("marker", marker(), "sign at the vertices", "dot")
       .optional("label", label({"i", "j"}), "text at each vertex; %i is its number");
