@@ -1,6 +1,7 @@
 #include "geometry/queries/contours/silhouette.h"
 
 #include <cmath>
+#include <vector>
 
 #include "geometry/queries/contours/analytic/closed_contours.h"
 #include "geometry/queries/contours/contour_parts.h"
@@ -69,8 +70,60 @@ static bool shows_one_side(const TriangularNet& net, const ViewOf& view) {
   return all_front || all_back;
 }
 
+// Whether all control points of polynomial patches lie in a plane in which the patches do not fold: the Bernstein
+// coefficients of the area element have one sign, or are rounding. Where it vanishes at a side, to any order, there is
+// no outline either (a wall below a curve that touches the ground).
+static bool is_unfolded_plane(const Surface& surface) {
+  constexpr double kRounding = 1e-12;
+  const std::vector<SurfacePiece> pieces = surface.pieces();
+  std::vector<Vec3> all;
+  for (const SurfacePiece& piece : pieces) {
+    if (!piece.is_rational()) return false;
+    for (const Vec4& p : piece.points) {
+      if (p.w != 1) return false;
+      all.emplace_back(p);
+    }
+  }
+  // Across the point farthest from the first, and the one farthest from their line.
+  Vec3 along(0), normal(0);
+  for (const Vec3& p : all)
+    if (glm::length(p - all[0]) > glm::length(along)) along = p - all[0];
+  for (const Vec3& p : all)
+    if (const Vec3 n = glm::cross(along, p - all[0]); glm::length(n) > glm::length(normal)) normal = n;
+  if (!(glm::length(normal) > kRounding * glm::dot(along, along))) return false;
+  normal = glm::normalize(normal);
+  for (const Vec3& p : all)
+    if (std::abs(glm::dot(normal, p - all[0])) > kRounding * glm::length(along)) return false;
+  bool up = false, down = false;
+  for (const SurfacePiece& piece : pieces) {
+    const int p = piece.degree_u, q = piece.degree_v;
+    const auto at = [&](int i, int j) { return Vec3(piece.points[static_cast<size_t>(i * (q + 1) + j)]); };
+    const auto choose = [](int n, int k) {
+      double c = 1;
+      for (int m = 1; m <= k; ++m) c = c * (n - k + m) / m;
+      return c;
+    };
+    std::vector<double> sums(static_cast<size_t>(2 * p * 2 * q), 0.0), sizes = sums;
+    for (int i = 0; i < p; ++i)
+      for (int j = 0; j <= q; ++j)
+        for (int k = 0; k <= p; ++k)
+          for (int l = 0; l < q; ++l) {
+            const double term = choose(p - 1, i) * choose(q, j) * choose(p, k) * choose(q - 1, l) *
+                                glm::dot(normal, glm::cross(at(i + 1, j) - at(i, j), at(k, l + 1) - at(k, l)));
+            const auto index = static_cast<size_t>((i + k) * 2 * q + j + l);
+            sums[index] += term, sizes[index] += std::abs(term);
+          }
+    for (size_t k = 0; k < sums.size(); ++k) {
+      up = up || sums[k] > kRounding * sizes[k];
+      down = down || sums[k] < -kRounding * sizes[k];
+    }
+  }
+  return up != down;
+}
+
 static Contours smooth_silhouette(const SurfacePtr& surface, const ViewOf& view) {
   if (const auto net = triangular_net(*surface); net && shows_one_side(*net, view)) return {};
+  if (is_unfolded_plane(*surface)) return {};
   if (is_edge_on(*surface, surface->domain(), view)) return {};
   if (auto exact = closed_silhouette(surface, view, kSamePoint * bounds(*surface).diameter())) return *exact;
   Contours found =
