@@ -17,6 +17,7 @@
   X(bezier_surface_type)         \
   X(nurbs_surface_type)          \
   X(composite_bezier_type)       \
+  X(control_polyhedron_type)     \
   X(spline_volume_face_type)     \
   X(t_spline_type)               \
   X(t_spline_functions_type)     \
