@@ -14,6 +14,12 @@ BODIES = {
     "extruded": f"{{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [1, 0, 3], back: 1 }}",
     "drafted": f"{{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [0, 0, 1], draft: 5 }}",
     "turned": f"{{ type: revolution_body, of: {{ type: rectangle, size: [1, 1], center: [2.5, 0] }}, axis: y, angle: 250 }}",
+    "hollow_ring": f"{{ type: revolution_body, of: [{{ type: rectangle, size: [1, 1], center: [2.5, 0] }}, {{ type: circle, radius: 0.25, "
+                   f"center: [2.5, 0] }}], axis: y }}",
+    "closed_loft": "{ type: loft_body, closed: true, of: { repeat: { k: 0..4 }, type: circle, radius: 0.5 + 0.1*(k/4), center: "
+                   "[2*cos(2*pi*k/5), 2*sin(2*pi*k/5), 1], normal: [-sin(2*pi*k/5), cos(2*pi*k/5), 0] } }",
+    "twisted": "{ type: sweep_body, of: { type: rectangle, size: [1, 1] }, path: { type: segment, from: [0, 0, 0], to: [0, 0, 3] }, "
+               "twist: 90 deg*s, scale: 1 - 0.3*s }",
     "spheroid": "{ type: revolution_body, of: { type: nurbs_curve, points: [[1, 0, -1], [1.7, 0, -0.3], [0.5, 0, 0.4], [0.9, 0, 1.5]] } }",
     "slice": "{ like: spheroid, angle: 100 }",
     "shifted": f"{{ type: translation_body, of: {ROUND}, along: {{ type: bezier_curve, points: [[0, 0, 0], [0, 0, 2], [3, 0, 2], [3, 0, 4]] }} }}",

@@ -30,7 +30,8 @@ Body sewn(const Fields& f) {
   }
   if (surfaces.empty()) throw FieldError("of", "there is nothing to sew", "surfaces whose sides coincide");
   try {
-    return f.boolean("solid") ? enclosed_by(surfaces, f.number("tolerance")) : sew(surfaces, f.number("tolerance"));
+    return f.boolean("solid") ? enclosed_by(surfaces, f.number("tolerance"))
+                              : sew(surfaces, f.number("tolerance"), true);
   } catch (const FieldError&) {
     throw;
   } catch (const std::invalid_argument& error) {

@@ -29,7 +29,10 @@ class Sweeping {
       add_end(0);
       add_end(1);
     }
-    body_.close_shell();
+    if (closed())
+      make_shells();
+    else
+      body_.close_shell();
     measure_tolerances(body_);
     return std::move(body_);
   }
@@ -45,6 +48,20 @@ class Sweeping {
     size_t count = 0;
     for (const SweptLoop& loop : parts_.loops) count += loop.sides.size();
     return {"", role, count == 1 ? -1 : static_cast<int>(index)};
+  }
+
+  // Without ends nothing joins the faces of a hole to those of the outline.
+  void make_shells() {
+    int face = 0;
+    for (const SweptLoop& loop : parts_.loops) {
+      Shell shell;
+      for (const SweptSide& side : loop.sides) {
+        if (!side.surface) continue;
+        body_.faces[face].shell = static_cast<int>(body_.shells.size());
+        shell.faces.push_back(face++);
+      }
+      body_.shells.push_back(std::move(shell));
+    }
   }
 
   void add_sides(const SweptLoop& loop) {

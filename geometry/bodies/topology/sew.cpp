@@ -83,7 +83,7 @@ class SideCurve final : public Curve {
 
 class Sewing {
  public:
-  Sewing(std::span<const SurfacePtr> surfaces, double tolerance) {
+  Sewing(std::span<const SurfacePtr> surfaces, double tolerance, bool crowded) : crowded_(crowded) {
     Box3 box;
     for (const SurfacePtr& surface : surfaces) {
       if (!surface->bounded()) throw std::invalid_argument("an unbounded surface has no sides to sew");
@@ -135,7 +135,7 @@ class Sewing {
     for (auto at = first; at != last && !pole; ++at) {
       const int e = at->second;
       Edge& edge = body_.edges[e];
-      if (edge.kind == EdgeKind::pole || uses_[e].size() > 1) continue;
+      if (edge.kind == EdgeKind::pole || (uses_[e].size() > 1 && !crowded_)) continue;
       const Probes& other = probes_[e];
       const bool same = matches(probes, [&](size_t k) { return other[k]; });
       const bool opposite = matches(probes, [&](size_t k) { return other[kProbes.size() - 1 - k]; });
@@ -176,6 +176,7 @@ class Sewing {
 
   Body body_;
   double near_ = 0;
+  bool crowded_;
   std::vector<Probes> probes_;          // of each edge
   std::vector<std::vector<int>> uses_;  // faces of each edge
   std::multimap<std::pair<int, int>, int> edges_between_;
@@ -251,6 +252,8 @@ Body enclosed_by(std::span<const SurfacePtr> surfaces, double tolerance) {
   return body;
 }
 
-Body sew(std::span<const SurfacePtr> surfaces, double tolerance) { return Sewing(surfaces, tolerance).take(); }
+Body sew(std::span<const SurfacePtr> surfaces, double tolerance, bool crowded) {
+  return Sewing(surfaces, tolerance, crowded).take();
+}
 
 }  // namespace lekalo::geometry
