@@ -71,8 +71,8 @@ TypeDeclaration path_integrator_type() {
              Category::integrator, "path",
              "Path tracing: light over any number of surfaces, with its noise, which falls as the square root of "
              "the samples. Lamps that have a size are seen in mirrors and through glass; light that reaches the eye "
-             "through refraction or a mirror from a point, spot or parallel light is left out, as are Phong "
-             "highlights of smooth surfaces. Ambient light comes from everywhere and is shadowed.")
+             "through refraction or a mirror from a point, spot or parallel light is left out; a note says "
+             "so. Ambient light comes from everywhere and is shadowed.")
       .field("max_depth", integer().between(0, 1000), "reflections and refractions after the first", "64")
       .field("clamp", number().non_negative(),
              "light over two and more surfaces is at most so bright in each sample: less noise, and less light; 0: as "
