@@ -83,7 +83,8 @@ SURFACES = {
                        "{ origin: [0, 0, -1], z: [0.3, 0, 1] } }], legs: [0.6, 1]",
     "thread_surface": "diameter: 2, length: 0.8",
     "weld_groove": "seam: { type: circle, radius: 1.5 }, normal: z, thickness: 0.6, gap: 0.1, root_face: 0.1, angle: 60",
-    "line_surface": "of: { type: helix, radius: 0.4, pitch: 3, turns: 1 }, range: [0.2, 3]",
+    "line_surface": "of: { type: segment, from: [-1.5, -1.5, 0], to: [1.5, -1.5, 0.4] }, "
+                    "directions: { type: bezier_curve, points: [[0, 3, 1], [0.3, 3, 0.6], [0, 3, 0.2]] }",
     "developable_surface": "of: [{ type: ellipse, semi_axes: [1.5, 1] }, { type: ellipse, semi_axes: [1, 1.5], frame: { origin: [0, 0, 1] } }]",
     "development": "of: { type: cone_surface, radius: 1.5, top_radius: 0.5, height: 2 }",
     "ribbon": "of: { type: bezier_curve, points: [[-1, -1, -1], [1, -1, 0], [1, 1, 0.5], [-1, 1, 1]] }, width: 1.5",
