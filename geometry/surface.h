@@ -183,8 +183,8 @@ class Surface {
   // 2, or up to kMaxSurfaceOrder of a surface that encloses more derivatives.
   virtual int enclosure_order() const { return 2; }
 
-  // Made of the evaluations of curves and surfaces: boxes of it are wide and dear, and lines meet polynomials that agree
-  // with it to kFitDistance of its size (geometry/queries/rays/fitted_pieces.h).
+  // Made of the evaluations of curves and surfaces: boxes of it are wide and dear, and lines meet polynomials that
+  // agree with it to kFitDistance of its size (geometry/queries/rays/fitted_pieces.h).
   virtual bool is_composed() const { return false; }
 
   // Smooth pieces that cover the domain without gaps or overlap; rational where an exact form exists.

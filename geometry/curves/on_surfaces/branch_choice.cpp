@@ -42,7 +42,8 @@ CurvePtr chosen_branch(const std::vector<Contour>& branches, const Fields& f, co
     size_t best = 0;
     double least = kInfinity;
     for (size_t k = 0; k < count; ++k) {
-      const double distance = project(f.vec3("near"), *contour_approximation(branches[k].curve)).foot_points.front().distance;
+      const double distance =
+          project(f.vec3("near"), *contour_approximation(branches[k].curve)).foot_points.front().distance;
       if (distance < least) least = distance, best = k;
     }
     return branches[best].curve;
