@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kNodes = 8;  // degree 7
 constexpr int kMostParts = 8;
-constexpr size_t kMostPatches = 4096;
+// From so many on what is near enough is not cut for the sake of a tenth of that.
+constexpr size_t kManyPatches = 1024, kMostPatches = 16384;
 // Parts of a smooth surface gain more. Parts that do not, twice in a row, are beside a place that is not smooth, or
 // rounding is all that is left.
 constexpr double kLeastGain = 4;
@@ -186,11 +187,12 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
         continue;
       }
       one.misses = one.misses_again(tolerance) ? one.misses + 1 : 0;
-      if (one.misses > 0 && one.is_near(farthest)) {
+      const size_t count = result.patches.size() + next.size();
+      if (one.is_near(farthest) && (one.misses > 0 || count > kManyPatches)) {
         result.patches.push_back(patch_of(one));
         continue;
       }
-      if (one.misses > kMostMisses || result.patches.size() + next.size() > kMostPatches)
+      if (one.misses > kMostMisses || count > kMostPatches)
         result.rest.push_back(one.box);
       else
         divide(one, tolerance, next);
