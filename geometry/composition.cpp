@@ -164,7 +164,7 @@ bool is_closed_along(const Surface& surface, Along along) {
   for (int i = 0; i <= kTried; ++i) {
     const double x = other.lo + other.width() * i / kTried;
     const SurfaceJet a = at(run.lo, x), b = at(next_down(run.hi), x);
-    const Vec3 turn = along == Along::u ? a.du() - b.du() : a.dv() - b.dv();
+    const Vec3 turn = run.width() * (along == Along::u ? a.du() - b.du() : a.dv() - b.dv());
     if (glm::length(a.point() - b.point()) > near || glm::length(turn) > 1e3 * near) return false;
   }
   return true;

@@ -325,6 +325,10 @@ class ComposedSurface final : public Surface {
   }
 
   const Formula& formula() const { return formula_; }
+  // From now on it goes on at the end as it begins, with this period (is_closed_along says whether it does).
+  void close(Along along, double period) {
+    (along == Along::u ? properties_.periods.u : properties_.periods.v) = period;
+  }
 
   Rectangle domain() const override { return properties_.domain; }
   Periods periods() const override { return properties_.periods; }

@@ -70,6 +70,19 @@ class TransformedSurface final : public Surface {
 CurvePtr transformed(const CurvePtr& curve, const Affine& map);
 SurfacePtr transformed(const SurfacePtr& surface, const Affine& map);
 
+// A surface of that type, or an image of one; null where it is neither.
+template <class S>
+struct Placed {
+  const S* surface = nullptr;
+  Affine map;
+};
+template <class S>
+Placed<S> placed(const Surface& surface) {
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(&surface))
+    return {dynamic_cast<const S*>(moved->original().get()), moved->map()};
+  return {dynamic_cast<const S*>(&surface), {}};
+}
+
 // Whether both are one surface, or its images under equal maps.
 bool is_same(const SurfacePtr& a, const SurfacePtr& b);
 

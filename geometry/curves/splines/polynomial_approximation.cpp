@@ -102,4 +102,16 @@ std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& cur
   return std::make_shared<const PolynomialCurve>(std::move(fitting.parts));
 }
 
+CurvePtr as_polynomials(const CurvePtr& curve, double share) {
+  constexpr int kPlaces = 16;
+  const Interval domain = curve->domain();
+  double largest = 0;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const Vec3 p = glm::abs(curve->point(domain.lo + domain.width() * k / kPlaces));
+    largest = std::max({largest, p.x, p.y, p.z});
+  }
+  auto polynomials = polynomial_approximation(*curve, share * largest);
+  return polynomials ? polynomials : curve;
+}
+
 }  // namespace lekalo::geometry

@@ -17,6 +17,9 @@ namespace lekalo::geometry {
 std::shared_ptr<const PolynomialCurve> polynomial_approximation(const Curve& curve, double tolerance,
                                                                 bool joins_pieces = false);
 
+// The same to a share of the curve's largest coordinate (from some places); the curve itself where there is none.
+CurvePtr as_polynomials(const CurvePtr& curve, double share);
+
 // Of functions whose rounding moves points along a line more than across it.
 struct OwnPace {
   double tolerance;  // how far along the line a point may be from the function's

@@ -67,16 +67,19 @@ class LevelSearch {
 
   // Between places of opposite signs.
   std::optional<Vec2> crossing(Vec2 below, Vec2 above) const {
+    const double far = std::max(std::abs(value(below)), std::abs(value(above)));
     for (int k = 0; k < 60; ++k) {
       const Vec2 middle = 0.5 * (below + above);
       const double there = value(middle);
       if (!std::isfinite(there)) return std::nullopt;
       (there < 0 ? below : above) = middle;
     }
-    // A jump has none.
+    // A jump or a pole has none: the values do not go to zero there.
+    constexpr double kNear = 1e-6;
     const double a = value(below), b = value(above);
-    return std::isfinite(a) && std::isfinite(b) ? std::optional(std::abs(a) < std::abs(b) ? below : above)
-                                                : std::nullopt;
+    if (!std::isfinite(a) || !std::isfinite(b) || !(std::min(std::abs(a), std::abs(b)) <= kNear * far))
+      return std::nullopt;
+    return std::abs(a) < std::abs(b) ? below : above;
   }
 
   void add_cell(size_t i, size_t j) {
@@ -128,23 +131,33 @@ class LevelSearch {
     return result;
   }
 
+  // Without what crosses a jump; there a line ends.
   void add_line(const std::vector<Side>& chain, bool closed, std::vector<LevelLine>& result) const {
     LevelLine line;
-    line.closed = closed && chain.size() > 2;
+    const auto finish = [&] {
+      if (line.places.size() > 1) result.push_back(std::move(line));
+      line = {};
+    };
+    bool whole = true;
     for (const Side& side : chain) {
       const auto here = place(side);
-      if (!here) continue;
+      if (!here) {
+        whole = false;
+        finish();
+        continue;
+      }
       if (!line.places.empty()) {
         if (line.places.back() == *here) continue;
         add_between(line.places.back(), *here, kHalvings, line.places);
       }
       line.places.push_back(*here);
     }
+    line.closed = closed && whole && chain.size() > 2;
     if (line.closed && line.places.size() > 2) {
       const Vec2 last = line.places.back();
       add_between(last, line.places.front(), kHalvings, line.places);
     }
-    if (line.places.size() > 1) result.push_back(std::move(line));
+    finish();
   }
 
   void add_between(const Vec2& a, const Vec2& b, int halvings, std::vector<Vec2>& places) const {

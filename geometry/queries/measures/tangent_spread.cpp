@@ -1,13 +1,16 @@
 #include "geometry/queries/measures/tangent_spread.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kPlaces = 256;
+// Places of the curve from which the search begins, and of a piece.
+constexpr int kPlaces = 2048, kLeastPlaces = 8, kPlacesOfPiece = 256;
 // Halvings of the step by which the best pair is searched further.
 constexpr int kHalvings = 45;
 
@@ -29,27 +32,31 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::leng
 
 TangentSpread tangent_spread(const Curve& curve) {
   if (!(curve.domain().width() < kInfinity)) throw std::invalid_argument("the curve is unbounded");
-  std::vector<Place> places;
-  for (const CurvePiece& piece : curve.pieces())
-    for (int i = 0; i <= kPlaces; ++i) {
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  const int count = std::clamp(kPlaces / static_cast<int>(pieces.size()), kLeastPlaces, kPlacesOfPiece);
+  std::vector<Place> places;  // in the order of t
+  for (const CurvePiece& piece : pieces)
+    for (int i = 0; i <= count; ++i) {
       const Interval range = intersect(piece.domain, curve.domain());
-      const double t = range.lo + range.width() * i / kPlaces;
-      places.push_back({t, range, tangent_at(curve, t, range)});
-      if (places.back().tangent == Vec3(0)) places.pop_back();
+      const double t = range.lo + range.width() * i / count;
+      const Vec3 tangent = tangent_at(curve, t, range);
+      if (tangent != Vec3(0)) places.push_back({t, range, tangent});
     }
   TangentSpread best;
+  double least = 1;  // cosine of the angle
   const Place *first = nullptr, *second = nullptr;
-  for (const Place& a : places)
-    for (const Place& b : places)
-      if (a.t < b.t && glm::dot(a.tangent, b.tangent) < std::cos(best.angle)) {
-        best = {angle_between(a.tangent, b.tangent), a.t, b.t};
-        first = &a, second = &b;
+  for (auto a = places.begin(); a != places.end(); ++a)
+    for (auto b = std::next(a); b != places.end(); ++b)
+      if (const double cosine = glm::dot(a->tangent, b->tangent); cosine < least && a->t < b->t) {
+        least = cosine;
+        first = &*a, second = &*b;
       }
+  if (first) best = {angle_between(first->tangent, second->tangent), first->t, second->t};
   if (!first) return best;
   const auto angle = [&](double s, double t) {
     return angle_between(tangent_at(curve, s, first->piece), tangent_at(curve, t, second->piece));
   };
-  const double step_s = first->piece.width() / kPlaces, step_t = second->piece.width() / kPlaces;
+  const double step_s = first->piece.width() / count, step_t = second->piece.width() / count;
   double step = 0.5;
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2)
     for (const Vec2 by : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {

@@ -17,12 +17,11 @@ Contacts blend_contacts(BlendLaw law, const Fields& f);
 template <class Sections>
 SurfacePtr blend_surface(Sections sections, const Contacts& contacts) {
   SurfaceProperties properties = blend_properties(contacts, sections.curves);
-  auto surface = std::make_shared<ComposedSurface<Sections>>(sections, properties);
+  auto surface = std::make_shared<ComposedSurface<Sections>>(std::move(sections), std::move(properties));
   const double period = contacts.law().period;
-  if (!(period > 0) || contacts.domain().width() < period * (1 - 1e-12) || !is_closed_along(*surface, Along::u))
-    return surface;
-  properties.periods.u = period;
-  return std::make_shared<ComposedSurface<Sections>>(std::move(sections), std::move(properties));
+  if (period > 0 && contacts.domain().width() >= period * (1 - 1e-12) && is_closed_along(*surface, Along::u))
+    surface->close(Along::u, period);
+  return surface;
 }
 
 }  // namespace lekalo::geometry

@@ -1,10 +1,10 @@
 // Where a ball, or a chamfer, touches two surfaces r and s as it goes along a guide g (Golovanov 2016, 4.9 and 4.10).
 // With the unit normals m_r, m_s towards the ball and the plane across the guide at g(t), the parameters obey
 //
-//   ball      r + p_r m_r = s + p_s m_s = c,  (c - g) . g' = 0         p_r, p_s: its radius; two that differ: an
-//   ellipse chord     the same with one radius, which is unknown, and |r - s| = h edge      |r + p m_r - g| = p,  (r +
-//   p m_r - g) . g' = 0           g is an edge of s, which the ball touches chamfer   r + d_r t_r = s + d_s t_s = c, (c
-//   - g) . g' = 0         t_r = (m_r (m_r . m_s) - m_s)/|m_r x m_s|
+//   ball      r + p_r m_r = s + p_s m_s = c,  (c - g) . g' = 0      p_r, p_s: its radius; two that differ: an ellipse
+//   chord     the same with one radius, which is unknown, and |r - s| = h
+//   edge      |r + p m_r - g| = p,  (r + p m_r - g) . g' = 0        g is an edge of s, which the ball touches
+//   chamfer   r + d_r t_r = s + d_s t_s = c,  (c - g) . g' = 0      t_r = (m_r (m_r . m_s) - m_s)/|m_r x m_s|
 //
 // They are solved by Newton's iteration where they are asked for, from places that a march along the guide has found.
 #pragma once

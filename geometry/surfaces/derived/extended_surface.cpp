@@ -113,8 +113,13 @@ SurfacePtr by_law(const SurfacePtr& of, const Rectangle& domain) {
     return std::make_shared<CylinderSurface>(c->frame(), c->radius(), c->height(), domain);
   if (const auto* c = as((ConeSurface*)nullptr))
     return std::make_shared<ConeSurface>(c->frame(), c->radius(), c->top_radius(), c->height(), domain);
-  if (const auto* f = as((FormulaSurface*)nullptr))
-    return std::make_shared<FormulaSurface>(f->formulas(), domain, FormulaSurface::Closed{});
+  if (const auto* f = as((FormulaSurface*)nullptr)) {
+    const Periods periods = f->periods();
+    const Rectangle own = f->domain();
+    return std::make_shared<FormulaSurface>(
+        f->formulas(), domain,
+        FormulaSurface::Closed{periods.u > 0 && domain.u == own.u, periods.v > 0 && domain.v == own.v});
+  }
   if (const auto* moved = as((TransformedSurface*)nullptr)) {
     const SurfacePtr more = by_law(moved->original(), domain);
     return more ? transformed(more, moved->map()) : nullptr;
@@ -161,6 +166,7 @@ std::any extended(const Fields& f) {
       throw FieldError("of", error.what(), "extend it by less, or along tangents (mode: tangent)");
     }
   if (!result) {
+    if (!of->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
     SurfaceProperties properties = properties_of(*of, 1);
     const auto cut = [](const Interval& whole, std::vector<double>& breaks) {
       std::vector<double> inside{whole.lo};

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "geometry/composition.h"
 #include "geometry/describe.h"
@@ -82,9 +83,14 @@ std::shared_ptr<Surface> cone_offset(const ConeSurface& of, double d) {
 std::shared_ptr<Surface> analytic_offset(const Surface& of, double d) {
   if (const auto* sphere = dynamic_cast<const SphereSurface*>(&of); sphere && sphere->radius() + d > 0)
     return std::make_shared<SphereSurface>(sphere->frame(), sphere->radius() + d, sphere->domain());
-  if (const auto* torus = dynamic_cast<const TorusSurface*>(&of); torus && torus->minor_radius() + d > 0)
-    return std::make_shared<TorusSurface>(torus->frame(), torus->major_radius(), torus->minor_radius() + d,
-                                          torus->domain());
+  if (const auto* torus = dynamic_cast<const TorusSurface*>(&of); torus && torus->minor_radius() + d > 0) {
+    try {
+      return std::make_shared<TorusSurface>(torus->frame(), torus->major_radius(), torus->minor_radius() + d,
+                                            torus->domain());
+    } catch (const std::invalid_argument&) {
+      return nullptr;  // it would pass its axis within the domain
+    }
+  }
   if (const auto* plane = dynamic_cast<const Plane*>(&of)) {
     Frame frame = plane->frame();
     frame.origin += d * frame.z;

@@ -170,9 +170,9 @@ std::any developable_surface(const Fields& f) {
   sum.along_u = {{first, std::make_shared<ComposedCurve<Matched>>(Matched{second, w}, properties)},
                  lagrange_functions({0, 1})};
   const Rectangle domain{range, {0, 1}};
-  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain));
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain));
   if (first->is_closed() && range == first->domain() && is_closed_along(*surface, Along::u))
-    surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {range.width(), 0}));
+    surface->close(Along::u, range.width());
   return std::any(SurfacePtr(surface));
 }
 

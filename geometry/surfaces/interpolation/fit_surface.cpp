@@ -238,20 +238,25 @@ NurbsSurface fit_surface_within(SurfaceData& data, const Rectangle& domain, cons
   return *found.surface;
 }
 
-Vec2 foot_parameters(const Surface& surface, const Vec3& p) {
-  constexpr int kTried = 32, kSteps = 60;
+FootSearch::FootSearch(const Surface& surface) : surface_(surface) {
+  constexpr int kTried = 32;
   const Rectangle domain = surface.domain();
-  Vec2 best(domain.u.lo, domain.v.lo);
-  double least = kInfinity;
   for (int i = 0; i <= kTried; ++i)
     for (int j = 0; j <= kTried; ++j) {
       const Vec2 at(domain.u.clamp(domain.u.lo + domain.u.width() * i / kTried),
                     domain.v.clamp(domain.v.lo + domain.v.width() * j / kTried));
-      const double far = glm::length(surface.point(at.x, at.y) - p);
-      if (far < least) least = far, best = at;
+      grid_.push_back({at, surface.point(at.x, at.y)});
     }
+}
+
+Vec2 FootSearch::at(const Vec3& p) const {
+  constexpr int kSteps = 60;
+  const auto distance = [&](const Start& start) { return glm::dot(start.point - p, start.point - p); };
+  Vec2 best = std::min_element(grid_.begin(), grid_.end(), [&](const Start& a, const Start& b) {
+                return distance(a) < distance(b);
+              })->uv;
   for (int step = 0; step < kSteps; ++step) {
-    const Vec2 next = nearer_place(surface, p, best);
+    const Vec2 next = nearer_place(surface_, p, best);
     if (next == best) break;
     best = next;
   }

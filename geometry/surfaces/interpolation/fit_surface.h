@@ -30,7 +30,20 @@ NurbsSurface fit_surface(SurfaceData& data, const Rectangle& domain, const Surfa
 NurbsSurface fit_surface_within(SurfaceData& data, const Rectangle& domain, const SurfaceFitOptions& options,
                                 double tolerance);
 
-// Parameters of the point of a surface that is nearest to p, by Newton's method from the nearest of 33 x 33 places.
-Vec2 foot_parameters(const Surface& surface, const Vec3& p);
+// Parameters of the point of a surface that is nearest to p, by Newton's method from the nearest of 33 x 33 places. The
+// surface must stay.
+class FootSearch {
+ public:
+  explicit FootSearch(const Surface& surface);
+  Vec2 at(const Vec3& p) const;
+
+ private:
+  struct Start {
+    Vec2 uv;
+    Vec3 point;
+  };
+  const Surface& surface_;
+  std::vector<Start> grid_;
+};
 
 }  // namespace lekalo::geometry

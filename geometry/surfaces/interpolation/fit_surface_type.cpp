@@ -52,7 +52,8 @@ SurfaceData read_cloud(const Fields& f, Rectangle& domain) {
   if (f.has("near")) {
     const Surface& near = *f.surface("near");
     if (!near.bounded()) throw FieldError("near", "the surface is unbounded", "give it a domain");
-    for (const Vec3& p : data.points) data.at.push_back(foot_parameters(near, p));
+    const FootSearch feet(near);
+    for (const Vec3& p : data.points) data.at.push_back(feet.at(p));
     domain = near.domain();
     return data;
   }

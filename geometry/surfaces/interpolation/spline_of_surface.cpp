@@ -8,6 +8,7 @@
 #include <array>
 
 #include "geometry/composition.h"
+#include "geometry/curves/operations/hermite_span.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/interpolation/hermite_surface.h"
 
@@ -59,16 +60,13 @@ NurbsSurface spline_on(const Surface& of, const NodeLines& lines, bool closed_u,
 // The largest error of the cubic between two places of a line of the surface.
 double error_of_span(const Surface& of, const Vec2& from, const Vec2& to) {
   const bool along_u = from.y == to.y;
-  const double h = along_u ? to.x - from.x : to.y - from.y;
   const SurfaceJet a = of.evaluate(from.x, from.y, 1), b = of.evaluate(to.x, to.y, 1);
-  const Vec3 start = h * (along_u ? a.du() : a.dv()), end = h * (along_u ? b.du() : b.dv());
+  const Interval range = along_u ? Interval{from.x, to.x} : Interval{from.y, to.y};
+  const HermiteSpan span{range, a.point(), b.point(), along_u ? a.du() : a.dv(), along_u ? b.du() : b.dv()};
   double largest = 0;
   for (int k = 1; k < kChecked; ++k) {
-    const double x = static_cast<double>(k) / kChecked, y = 1 - x;
-    const Vec3 on =
-        y * y * (1 + 2 * x) * a.point() + x * x * (3 - 2 * x) * b.point() + x * y * y * start - x * x * y * end;
-    const Vec2 at = from + x * (to - from);
-    largest = std::max(largest, glm::length(on - of.point(at.x, at.y)));
+    const Vec2 at = from + static_cast<double>(k) / kChecked * (to - from);
+    largest = std::max(largest, glm::length(span.point(along_u ? at.x : at.y) - of.point(at.x, at.y)));
   }
   return largest;
 }

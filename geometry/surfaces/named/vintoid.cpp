@@ -115,10 +115,8 @@ std::any vintoid(const Fields& f) {
   BooleanSum sum;
   sum.along_u = moved_sections(base, {axis_of(laws, range, 0), axis_of(laws, range, 1), base}, {{flat(profile)}, {}});
   const Rectangle domain{range, profile->domain()};
-  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain, {0, profile->period()}));
-  if (is_closed_along(*surface, Along::u))
-    surface =
-        std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {range.width(), profile->period()}));
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {0, profile->period()}));
+  if (is_closed_along(*surface, Along::u)) surface->close(Along::u, range.width());
   return std::any(SurfacePtr(surface));
 }
 

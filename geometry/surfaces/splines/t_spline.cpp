@@ -14,6 +14,7 @@
 #include <map>
 
 #include "geometry/surfaces/splines/t_refinement.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -301,7 +302,8 @@ TypeDeclaration t_spline_functions_type() {
       .optional("vertices", numbers(), "whose functions are added; all without it")
       .optional("domain", rectangle(), "part of the plane; else where the functions are not zero")
       .built_by([](const Fields& f) {
-        const auto* spline = dynamic_cast<const TSpline*>(f.surface("of").get());
+        const SurfacePtr of = f.surface("of");
+        const TSpline* const spline = placed<TSpline>(*of).surface;  // its functions do not move with it
         if (!spline) throw FieldError("of", "the surface is not a t_spline");
         return graph_of_sum(*spline, f.has("vertices") ? f.numbers("vertices") : std::vector<double>(),
                             f.has("domain") ? std::optional(f.rectangle("domain")) : std::nullopt);

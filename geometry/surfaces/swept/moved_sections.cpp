@@ -9,7 +9,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Polynomials agree with a product of a function and an axis to this.
+// Polynomials agree with a product of a function and an axis to this share of it.
 constexpr double kSameAxis = 1e-13;
 // A section this near to the plane of its x and y, relative to its size, lies in it.
 constexpr double kPlane = 1e-15;
@@ -25,9 +25,8 @@ struct Scaled {
 CurvePtr scaled(const CurvePtr& function, const CurvePtr& axis) {
   CurveProperties properties = properties_of(*axis);
   add_operand(properties, *function);
-  auto result = std::make_shared<ComposedCurve<Scaled>>(Scaled{function, axis}, std::move(properties));
-  if (auto polynomials = polynomial_approximation(*result, kSameAxis)) return polynomials;
-  return result;
+  return as_polynomials(std::make_shared<ComposedCurve<Scaled>>(Scaled{function, axis}, std::move(properties)),
+                        kSameAxis);
 }
 
 // The k-th coordinate as the first.

@@ -61,7 +61,7 @@ struct SectionAxis {
   }
 };
 
-// Polynomials where those agree with the axes to rounding, as the direction across does: they are asked for often.
+// Polynomials where those agree with the axes to this share, as the direction across does: they are asked for often.
 constexpr double kSameAxis = 1e-13;
 
 std::array<CurvePtr, 3> section_axes(const CurvePtr& path, const CurvePtr& across, const SectionLaws& laws,
@@ -72,8 +72,8 @@ std::array<CurvePtr, 3> section_axes(const CurvePtr& path, const CurvePtr& acros
   properties.period = 0;
   std::array<CurvePtr, 3> axes;
   for (int k = 0; k < 3; ++k) {
-    axes[k] = std::make_shared<ComposedCurve<SectionAxis>>(SectionAxis{path, across, laws, k}, properties);
-    if (auto polynomials = polynomial_approximation(*axes[k], kSameAxis)) axes[k] = std::move(polynomials);
+    axes[k] = as_polynomials(
+        std::make_shared<ComposedCurve<SectionAxis>>(SectionAxis{path, across, laws, k}, properties), kSameAxis);
   }
   return axes;
 }
@@ -159,9 +159,8 @@ SurfacePtr swept(const CurvePtr& path, const std::array<CurvePtr, 3>& axes, cons
   sum.along_v = moved_sections(path, axes, sections);
   const Rectangle domain{sections.curves.front()->domain(), range};
   const double period_u = common_period(sections.curves);
-  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain, {period_u, 0}));
-  if (period > 0 && is_closed_along(*surface, Along::v))
-    surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {period_u, period}));
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {period_u, 0}));
+  if (period > 0 && is_closed_along(*surface, Along::v)) surface->close(Along::v, period);
   return surface;
 }
 

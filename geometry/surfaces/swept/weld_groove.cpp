@@ -29,7 +29,7 @@ struct Across {
   bool is_between;
 };
 
-// b (k = 0), n (1) or t (2).
+// b (k = 0) or n (1).
 struct SeamAxis {
   Across across;
   int k;
@@ -38,7 +38,7 @@ struct SeamAxis {
   Triple<T> operator()(const T& v) const {
     const Triple<T> along = curve_at(*across.seam, v, 1), t = (1.0 / length(along)) * along;
     const Triple<T> n = normal(v, t);
-    return k == 0 ? cross(t, n) : k == 1 ? n : t;
+    return k == 0 ? cross(t, n) : n;
   }
 
  private:
@@ -73,13 +73,8 @@ struct Opening {
 // Polynomials that agree with a curve to this, of its size, stand for it: a seam is solved anew at every point.
 constexpr double kSame = 1e-13;
 
-CurvePtr as_polynomials(const CurvePtr& curve) {
-  if (auto polynomials = polynomial_approximation(*curve, kSame * bounds(*curve).diameter())) return polynomials;
-  return curve;
-}
-
 Across read_across(const Fields& f) {
-  Across across{as_polynomials(by_length_fraction(f.curve("seam"))), nullptr, nullptr, f.has("between")};
+  Across across{as_polynomials(by_length_fraction(f.curve("seam")), kSame), nullptr, nullptr, f.has("between")};
   if (f.has("between") == f.has("normal") || f.has("between") != f.has("bevel") || f.has("normal") != f.has("angle"))
     throw FieldError("seam", "a groove has a normal and an angle, or a bevel between two surfaces",
                      "give 'normal' and 'angle', or 'between: [a, b]' and 'bevel'");
@@ -124,15 +119,16 @@ std::any weld_groove(const Fields& f) {
   if (across.second) add_operand(properties, *across.second);
   properties.period = 0;
   std::array<CurvePtr, 3> axes;
-  for (int k = 0; k < 3; ++k)
-    axes[k] = as_polynomials(std::make_shared<ComposedCurve<SeamAxis>>(SeamAxis{across, k}, properties));
+  for (int k = 0; k < 2; ++k)
+    axes[k] = as_polynomials(std::make_shared<ComposedCurve<SeamAxis>>(SeamAxis{across, k}, properties), kSame);
+  axes[2] = across.seam;  // both outlines are plane: it is not asked for
   const CurvePtr opening = std::make_shared<ComposedCurve<Opening>>(
       Opening{ScalarLaw(f.get<Expression>(across.is_between ? "bevel" : "angle")), across}, properties);
   constexpr int kPlaces = 64;
   for (int i = 0; i <= kPlaces; ++i)
     if (const double v = static_cast<double>(i) / kPlaces; !(opening->point(v).x >= 0))
       throw FieldError(across.is_between ? "bevel" : "angle",
-                       fmt::format("the groove closes at s = {:.6g}: its angle is not positive", v), "make it larger");
+                       fmt::format("the groove closes at s = {:.6g}: its angle is negative", v), "make it larger");
   const double open = thick - face;
   const CurvePtr closed =
       outline({{-gap, thick, 0}, {-gap, face, 0}, {-gap, 0, 0}, {gap, 0, 0}, {gap, face, 0}, {gap, thick, 0}});
@@ -140,9 +136,8 @@ std::any weld_groove(const Fields& f) {
   BooleanSum sum;
   sum.along_v = moved_sections(across.seam, axes, {{closed, opened}, {one_function({0, 1}), opening}});
   const Rectangle domain{closed->domain(), {0, 1}};
-  auto surface = std::make_shared<BlendedSurface>(blended_surface(sum, domain));
-  if (f.curve("seam")->is_closed() && is_closed_along(*surface, Along::v))
-    surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain, {0, 1}));
+  auto surface = std::make_shared<BlendedSurface>(blended_surface(std::move(sum), domain));
+  if (f.curve("seam")->is_closed() && is_closed_along(*surface, Along::v)) surface->close(Along::v, 1);
   return std::any(SurfacePtr(surface));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry/describe.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -14,9 +15,8 @@ SurfaceJet PlacedTriangle::evaluate(const Vec2& uv, int order) const {
 }
 
 PlacedTriangle placed_triangle(const Surface& surface) {
-  if (const auto* moved = dynamic_cast<const TransformedSurface*>(&surface))
-    return {dynamic_cast<const TriangularSurface*>(moved->original().get()), moved->map()};
-  return {dynamic_cast<const TriangularSurface*>(&surface), {}};
+  const auto [triangular, map] = placed<TriangularSurface>(surface);
+  return {triangular, map};
 }
 
 void declare_triangle(TypeDeclaration& type) {

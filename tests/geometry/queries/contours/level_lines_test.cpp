@@ -65,6 +65,15 @@ TEST(LevelLines, JumpsAndHoles) {
   EXPECT_TRUE(level_lines(
                   plane, [](double u, double) { return u < 0.01 ? std::nan("") : u + 0.5; }, 0)
                   .empty());
+  EXPECT_TRUE(level_lines(
+                  plane, [](double u, double) { return u < 0.11 ? -1.0 : 1.0; }, 0)
+                  .empty());
+  // tan(3 u) = 5 twice; its two poles are no lines.
+  const auto lines = level_lines(
+      plane, [](double u, double) { return std::sin(3 * u) / std::cos(3 * u); }, 5);
+  ASSERT_EQ(lines.size(), 2u);
+  for (const LevelLine& line : lines)
+    for (const Vec2& place : line.places) EXPECT_NEAR(std::tan(3 * place.x), 5, 1e-9);
 }
 
 }  // namespace

@@ -97,5 +97,41 @@ TEST(DerivedSurfaces, EqualHeightsMakeTheOffset) {
       "{ type: offset_surface, of: wave, distance: 0.2 }", {{0, 2}, {0, 2}});
 }
 
+// A direction that is closed stays so where the other one is extended.
+TEST(DerivedSurfaces, ExtendedTubesStayClosed) {
+  const SurfacePtr longer = built(
+      "{ type: extended_surface, after: { u: 0, v: 1 }, of: { type: formula_surface, point: [cos(u), sin(u), v], "
+      "domain: "
+      "{ u: [0, 2*pi], v: [0, 1] }, closed: { u: true, v: false } } }");
+  EXPECT_NEAR(longer->periods().u, geometry::kTwoPi, 1e-15);
+  EXPECT_EQ(longer->domain().v.hi, 2);
+  EXPECT_NE(build_text("geometry:\n  s: { type: extended_surface, mode: tangent, of: { type: plane } }\n")
+                .said.find("the surface is unbounded"),
+            std::string::npos);
+}
+
+// A torus whose offset would pass its axis within the domain is an offset by points.
+TEST(DerivedSurfaces, OffsetsOfToriBeyondTheAxis) {
+  const SurfacePtr offset = built(
+      "{ type: offset_surface, distance: 0.8, of: { type: torus_surface, major_radius: 2, minor_radius: 1.5, domain: { "
+      "u: "
+      "[0, 2*pi], v: [-2, 2] } } }");
+  const SurfacePtr base =
+      built("{ type: torus_surface, major_radius: 2, minor_radius: 1.5, domain: { u: [0, 2*pi], v: [-2, 2] } }");
+  for (const double v : {-1.9, 0.3, 1.5})
+    EXPECT_NEAR(glm::length(offset->point(1, v) - base->point(1, v) - 0.8 * base->normal(1, v)), 0, 1e-13);
+}
+
+// Functions of a T-spline do not move with it.
+TEST(DerivedSurfaces, FunctionsOfMovedTSplines) {
+  const std::string mesh =
+      "type: t_spline, degree: 1, at: [[0, 0], [2, 0], [1, 0], [0, 2], [1, 2], [2, 2]], lines: [[0, "
+      "1], [3, 5], [0, 3], [1, 5], [2, 4]]";
+  const SurfacePtr plain = built("{ type: t_spline_functions, of: { " + mesh + " }, vertices: [2] }");
+  const SurfacePtr moved =
+      built("{ type: t_spline_functions, of: { " + mesh + ", transform: { translate: [0, 0, 3] } }, vertices: [2] }");
+  EXPECT_EQ(plain->point(0.5, 0.5), moved->point(0.5, 0.5));
+}
+
 }  // namespace
 }  // namespace lekalo::render
