@@ -132,8 +132,11 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
     if (origin_.eye && !lamps[i]->is_backdrop()) continue;
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;
-    const bool here = lamps[i]->casts_shadows() ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
-                                                : origin_.gone == 0;
+    // Without shadows the light arrives through everything, but what is seen, itself or in a mirror, still lies before
+    // or behind other things.
+    const bool here = lamps[i]->casts_shadows() || origin_.sharp
+                          ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
+                          : origin_.gone == 0;
     if (!here) continue;
     const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
     const Spectrum light = static_cast<float>(weight * lamp->density) * lamp->irradiance *

@@ -290,6 +290,31 @@ TEST(Path, DispersingBallInAFurnaceIsWhite) {
   expect_mean(estimate(*world(scene, {.dispersion = true}), {0.7, 0, 4}, {0, 0, -1}, 8192), 1, "glass", 1e-2);
 }
 
+// White above, dim below the horizon.
+EnvironmentLight sky() {
+  EnvironmentLight light;
+  light.image = make_image(8, 4);
+  for (const char* name : {"R", "G", "B"}) {
+    Channel& channel = add_channel(light.image, name);
+    for (size_t i = 0; i < channel.values.size(); ++i) channel.values[i] = i < 16 ? 1.0f : 0.3f;
+  }
+  return light;
+}
+
+TEST(Path, PanoramaWithoutShadowsStaysBehindThings) {
+  EnvironmentLight light = sky();
+  light.shadows = false;
+  SmallScene scene;
+  scene.light(light);
+  scene.add(sphere({0, 0, 0}, 1), make_material(Diffuse{.color = 0.0}));
+  scene.add(plane({0, 0, -3}, {0, 0, 1}), make_material(Conductor{.metal = "", .roughness = 0, .color = 1.0}));
+  const auto w = world(scene);
+  EXPECT_EQ(estimate(*w, {0, -5, 0}, {0, 1, 0}, 32).mean, 0) << "black ball";
+  EXPECT_NEAR(estimate(*w, {0, -5, 3}, {0, 0, 1}, 32).mean, 1, 1e-5) << "beside it";
+  EXPECT_NEAR(estimate(*w, {0, -4, -1}, {0, -1, -1}, 32).mean, 1, 1e-5) << "sky in the mirror";
+  EXPECT_EQ(estimate(*w, {0, -3, 0}, {0, 1.5, -3}, 32).mean, 0) << "ball in the mirror";
+}
+
 TEST(Path, ClampIsRecordedInTheOptions) {
   const IntegratorPtr path = make_path_integrator({.clamp = 4});
   const std::any made = path->made_from();
