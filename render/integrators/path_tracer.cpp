@@ -241,24 +241,25 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
   return 1;
 }
 
+// Of all samples of all lamps together: the share of one sample alone would be that of what it meets, however little
+// light it brings.
 void PathTracer::add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media) {
   Spectrum open, lit;
+  Ray ray;
+  ray.kind = RayKind::shadow;
+  world_.leave(seen.near_side(), seen.geometric_normal, ray);
   for (const LightPtr& lamp : world_.lamps()) {
-    const LightSample sample = lamp->sample_all(seen.point.position, random_.next_sobol_pair());
-    const double cosine = glm::dot(sample.direction, seen.geometric_normal);
-    if (cosine <= 0) continue;
-    const Spectrum light = static_cast<float>(cosine / kPi) * sample.irradiance;
-    open += light;
-    Spectrum visible = kWhite;
-    if (lamp->casts_shadows()) {
-      Ray ray;
-      ray.kind = RayKind::shadow;
-      world_.leave(seen.near_side(), seen.geometric_normal, ray);
+    for (int i = 0; i < lamp->sample_count(); ++i) {
+      const Vec2 square = lamp->is_jittered() ? random_.next_sobol_pair() : Vec2(0.5);
+      const LightSample sample = lamp->sample(seen.point.position, i, square.x, square.y);
+      const double cosine = glm::dot(sample.direction, seen.geometric_normal);
+      if (cosine <= 0) continue;
+      const Spectrum light = static_cast<float>(sample.weight * cosine / kPi) * sample.irradiance;
+      open += light;
       ray.direction = sample.direction;
       ray.t_max = sample.distance;
-      visible = unobstructed(world_, ray, media, sample_);
+      lit += lamp->casts_shadows() ? unobstructed(world_, ray, media, sample_) * light : light;
     }
-    lit += visible * light;
   }
   Spectrum missing;
   for (int i = 0; i < 3; ++i) {

@@ -315,6 +315,19 @@ TEST(Path, PanoramaWithoutShadowsStaysBehindThings) {
   EXPECT_EQ(estimate(*w, {0, -3, 0}, {0, 1.5, -3}, 32).mean, 0) << "ball in the mirror";
 }
 
+TEST(Path, CaughtShadowsAreThoseOfTheClassicModel) {
+  SmallScene scene;
+  scene.light(sky());
+  scene.model.background = Spectrum(1, 1, 1);
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(ShadowCatcher{}));
+  scene.add(plane_part(geometry::frame_about({0, 0, 1}, {0, 0, 1}), {-1, 1}, {-1, 1}),
+            make_material(Diffuse{.color = 0.0}));
+  const Estimate classic = estimate(*scene.world(), {0, -3, 0.5}, {0, 3, -0.5}, 2048);
+  const Estimate path = estimate(*world(scene), {0, -3, 0.5}, {0, 3, -0.5}, 2048);
+  EXPECT_LT(classic.mean, 0.6);
+  EXPECT_NEAR(path.mean, classic.mean, 3 * (path.error + classic.error));
+}
+
 TEST(Path, ClampIsRecordedInTheOptions) {
   const IntegratorPtr path = make_path_integrator({.clamp = 4});
   const std::any made = path->made_from();
