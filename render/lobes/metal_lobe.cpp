@@ -14,17 +14,24 @@ Spectrum MetalReflectance::at(double cosine, double near) const {
   const double c = std::clamp(cosine, 0.0, 1.0);
   if (measured()) return fresnel_conductor(c, static_cast<float>(1 / near) * n, static_cast<float>(1 / near) * k);
   const double x = 1 - c, x5 = x * x * x * x * x;
+  return tinted(x5, c * x5 * x);
+}
+
+// F for given values, or means, of (1 - c)^5 and c (1 - c)^6.
+Spectrum MetalReflectance::tinted(double schlick, double dip) const {
   const double at_edge = std::pow(6.0 / 7, 5), scale = std::pow(6.0 / 7, 6) / 7;
   Spectrum f;
   for (int i = 0; i < 4; ++i) {
     const double f0 = color[i], edge = f0 + (1 - f0) * at_edge;
-    const double value = f0 + (1 - f0) * x5 - c * x5 * x * edge * (1 - edge_tint[i]) / scale;
+    const double value = f0 + (1 - f0) * schlick - dip * edge * (1 - edge_tint[i]) / scale;
     f.set(i, static_cast<float>(std::clamp(value, 0.0, 1.0)));
   }
   return f;
 }
 
 Spectrum MetalReflectance::mean() const {
+  // Euler's B(2, 6) = 1/42 and B(3, 7) = 1/252.
+  if (!measured()) return tinted(1.0 / 21, 1.0 / 126);
   constexpr int kParts = 16;
   Spectrum sum;
   for (int i = 0; i < kParts; ++i) {
@@ -51,12 +58,12 @@ Spectrum MetalLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides
   const double first = facets.facets(h) * facets.seen_and_lit(o, i) / (4 * out.z);
   Spectrum value = static_cast<float>(first) * reflectance.at(glm::dot(o, h), sides.near);
   if (!albedo) return value;
-  const double mean = albedo->mean();
-  if (mean > 1 - 1e-6) return value;
-  const double further = further_share(o) * further_share(i) * in.z / (kPi * (1 - mean));
-  const Spectrum f = reflectance.mean();
+  const double e = albedo->mean();
+  if (e > 1 - 1e-6) return value;
+  const double further = further_share(o) * further_share(i) * in.z / (kPi * (1 - e));
   for (int lane = 0; lane < 4; ++lane) {
-    const double more = f[lane] * f[lane] * mean / (1 - f[lane] * (1 - mean));
+    const double f = mean[lane];
+    const double more = f * f * e / (1 - f * (1 - e));
     value.set(lane, static_cast<float>(value[lane] + more * further));
   }
   return value;

@@ -18,7 +18,11 @@ struct MetalReflectance {
   bool measured() const { return !n.is_zero(); }
   // From a side of the given index.
   Spectrum at(double cosine, double near = 1) const;
-  Spectrum mean() const;  // 2 times the integral of F c dc
+  // 2 times the integral of F c dc: of colours closed; of measured metals a sum, to be made once and kept.
+  Spectrum mean() const;
+
+ private:
+  Spectrum tinted(double schlick, double dip) const;
 };
 
 // GGX mirrors (microfacet.h): f = F D G / (4 in.z out.z), and the light of further bounces between the facets,
@@ -30,6 +34,7 @@ struct MetalLobe {
   double anisotropy = 0;
   double rotation = 0;                 // radians, of the long direction from the frame's x towards y
   const LobeAlbedo* albedo = nullptr;  // mirror_albedo of the two; none: no further bounces
+  Spectrum mean;                       // reflectance.mean(), for these
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
   double density(const Vec3& out, const Vec3& in, const Sides& sides) const;

@@ -16,12 +16,14 @@ class ConductorMaterial final : public Material {
   explicit ConductorMaterial(const Conductor& conductor)
       : conductor_(conductor),
         rgb_index_(conductor.metal.empty() ? ComplexIndex{} : metal_index(conductor.metal, Wavelengths{})),
+        rgb_mean_(MetalReflectance{rgb_index_.n, rgb_index_.k}.mean()),
         roughness_(conductor.roughness,
                    [stretch = conductor.anisotropy](double roughness) { return mirror_albedo(roughness, stretch); }) {}
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     MetalLobe lobe;
     lobe.reflectance = reflectance(point, wavelengths);
+    lobe.mean = lobe.reflectance.measured() && is_usual(wavelengths) ? rgb_mean_ : lobe.reflectance.mean();
     lobe.anisotropy = conductor_.anisotropy;
     lobe.rotation = conductor_.rotation;
     const TabledRoughness::Value rough = roughness_.at(point);
@@ -45,6 +47,7 @@ class ConductorMaterial final : public Material {
   std::any made_from() const override { return conductor_; }
 
  private:
+  static bool is_usual(const Wavelengths& wavelengths) { return wavelengths.nanometres == Wavelengths{}.nanometres; }
   MetalReflectance reflectance(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     MetalReflectance f;
     if (conductor_.metal.empty()) {
@@ -52,8 +55,7 @@ class ConductorMaterial final : public Material {
       f.edge_tint = conductor_.edge_tint.at(point);
       return f;
     }
-    const ComplexIndex index =
-        wavelengths.nanometres == Wavelengths{}.nanometres ? rgb_index_ : metal_index(conductor_.metal, wavelengths);
+    const ComplexIndex index = is_usual(wavelengths) ? rgb_index_ : metal_index(conductor_.metal, wavelengths);
     f.n = index.n;
     f.k = index.k;
     return f;
@@ -61,6 +63,7 @@ class ConductorMaterial final : public Material {
 
   Conductor conductor_;
   ComplexIndex rgb_index_;  // looked up once for the usual wavelengths
+  Spectrum rgb_mean_;       // of the measured reflectance there
   TabledRoughness roughness_;
 };
 

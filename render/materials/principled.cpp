@@ -78,6 +78,7 @@ class PrincipledMaterial final : public Material {
     MetalLobe lobe;
     lobe.reflectance.color = static_cast<float>(p_.specular_weight) * color;
     lobe.reflectance.edge_tint = p_.specular_color.at(point);
+    lobe.mean = lobe.reflectance.mean();
     lobe.anisotropy = p_.specular_roughness_anisotropy;
     const TabledRoughness::Value rough = metal_.at(point);
     lobe.roughness = rough.roughness;

@@ -43,6 +43,7 @@ MetalLobe white_metal(double roughness, double anisotropy) {
   lobe.roughness = roughness;
   lobe.anisotropy = anisotropy;
   lobe.albedo = &kept(mirror_albedo(roughness, anisotropy));
+  lobe.mean = lobe.reflectance.mean();
   return lobe;
 }
 
@@ -255,6 +256,19 @@ TEST(Lobes, SchlickMetalHasItsColours) {
   metal.edge_tint = Spectrum(0.5f);
   const double at_82 = 0.5 + 0.5 * std::pow(6.0 / 7, 5);  // cos of 82 degrees is about 1/7
   EXPECT_NEAR(metal.at(1.0 / 7)[1], 0.5 * at_82, 1e-6);
+}
+
+TEST(Lobes, MeanOfATintedMetalIsTheIntegral) {
+  MetalReflectance metal;
+  metal.color = Spectrum(0.9f, 0.5f, 0.1f);
+  metal.edge_tint = Spectrum(1.0f, 0.5f, 0.7f);
+  constexpr int kN = 2000;
+  Vec3 sum(0);
+  for (int i = 0; i < kN; ++i) {
+    const double c = (i + 0.5) / kN;
+    for (int lane = 0; lane < 3; ++lane) sum[lane] += 2 * c / kN * metal.at(c)[lane];
+  }
+  for (int lane = 0; lane < 3; ++lane) EXPECT_NEAR(metal.mean()[lane], sum[lane], 1e-6) << lane;
 }
 
 }  // namespace

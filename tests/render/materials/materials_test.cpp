@@ -88,6 +88,20 @@ TEST(Materials, MixIsTheMeanOfBoth) {
   EXPECT_TRUE(make_material(Mix{glass, dark, 0.5})->transmits());
 }
 
+TEST(Materials, MetalsKnowTheirMeanReflectance) {
+  Principled principled;
+  principled.base_metalness = 1;
+  Wavelengths yellow;
+  yellow.nanometres.fill(587.56f);
+  for (const MaterialPtr& material : {make_material(Conductor{.metal = "Cu"}), make_material(principled),
+                                      make_material(Conductor{.metal = "", .color = 0.5})})
+    for (const Wavelengths& wavelengths : {Wavelengths(), yellow}) {
+      const Scattering scattering = material->scattering({}, wavelengths);
+      const auto& metal = std::get<MetalLobe>(scattering.lobes[0].lobe);
+      EXPECT_EQ(metal.mean, metal.reflectance.mean());
+    }
+}
+
 TEST(Materials, RoughnessFromATexture) {
   Plastic plastic;
   plastic.roughness.texture = make_texture(Checker{.color = 0.0, .background = 0.5});
