@@ -332,10 +332,14 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     const Sides sides{media.current().index, seen.behind.current().index};
     const Bsdf bsdf(scattering, normal, seen.geometric_normal, seen.point.du, -ray.direction, sides);
     if (bsdf.is_black()) return;
-    const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
+    if (bsdf.has_spread()) {
+      const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
+      choose_lamps(seen.point.position);
+      add_lamp(seen, bsdf, media, lamp_choice, lamp_square);
+    } else {
+      random_.skip_pairs(2);
+    }
     const Vec2 lobe_choice = random_.next_sobol_pair(), lobe_square = random_.next_sobol_pair();
-    choose_lamps(seen.point.position);
-    add_lamp(seen, bsdf, media, lamp_choice, lamp_square);
     const std::optional<BsdfSample> next = bsdf.sample(lobe_choice, lobe_square);
     if (!next) return;
     share_ *= next->share;

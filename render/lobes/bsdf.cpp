@@ -28,6 +28,14 @@ double importance(const WeightedLobe& part, const Vec3& out, const Sides& sides)
          std::visit([&](const auto& lobe) { return lobe.importance(out, sides); }, part.lobe);
 }
 
+bool spreads(const Lobe& lobe, const Sides& sides) {
+  if (const auto* metal = std::get_if<MetalLobe>(&lobe))
+    return !microfacets(metal->roughness, metal->anisotropy).smooth();
+  if (const auto* coat = std::get_if<CoatLobe>(&lobe)) return !microfacets(coat->roughness, 0).smooth();
+  if (const auto* clear = std::get_if<ClearLobe>(&lobe)) return !clear->smooth(sides);
+  return !std::holds_alternative<BoundaryLobe>(lobe);
+}
+
 // What the lobes are multiplied with so that they send back no more than what falls on them.
 float balance(const Scattering& scattering, const Vec3& out, const Sides& sides) {
   if (!scattering.unbalanced) return 1;
@@ -48,6 +56,11 @@ Bsdf::Bsdf(const Scattering& scattering, const Vec3& normal, const Vec3& geometr
       scale_(balance(scattering, out_, sides)) {
   for (int i = 0; i < scattering.lobes.size(); ++i)
     total_ += importance_[i] = importance(scattering.lobes[i], out_, sides_);
+}
+
+bool Bsdf::has_spread() const {
+  return std::any_of(scattering_.lobes.begin(), scattering_.lobes.end(),
+                     [&](const WeightedLobe& part) { return spreads(part.lobe, sides_); });
 }
 
 Spectrum Bsdf::evaluate(const Vec3& in) const {

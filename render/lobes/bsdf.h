@@ -20,6 +20,8 @@ class Bsdf {
        const Vec3& out, const Sides& sides);
 
   bool is_black() const { return total_ <= 0; }
+  // False: all light is mirrored or refracted sharply; then evaluate() brings nothing.
+  bool has_spread() const;
   // f |cos| for light from `in`, without sharp lobes.
   Spectrum evaluate(const Vec3& in) const;
   // Of sample() for that direction.

@@ -23,9 +23,9 @@ struct ClearLobe {
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
   double importance(const Vec3&, const Sides&) const { return 1; }
   Spectrum straight_share(const Vec3& out, const Sides& sides) const;
+  bool smooth(const Sides& sides) const;
 
  private:
-  bool smooth(const Sides& sides) const;
   double pane_reflectance(double cosine, const Sides& sides) const;
   LobeSample smooth_sample(const Vec3& out, double choice, const Sides& sides) const;
 };

@@ -79,12 +79,14 @@ uint32_t scrambled(uint32_t x, uint32_t seed) {
   return reversed(x);
 }
 
-// Second dimension of Sobol's sequence; the first is the reversed index.
-uint32_t second_sobol(uint32_t index) {
-  uint32_t result = 0;
-  for (uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
-    if (index & 1) result ^= v;
-  return result;
+// Second dimension of Sobol's sequence, from the first, which is the reversed index. Its matrix is Pascal's modulo 2, a
+// product of one step for each power of two.
+uint32_t second_sobol(uint32_t x) {
+  x ^= (x & 0x55555555u) << 1;
+  x ^= (x & 0x33333333u) << 2;
+  x ^= (x & 0x0f0f0f0fu) << 4;
+  x ^= (x & 0x00ff00ffu) << 8;
+  return x ^ (x << 16);
 }
 
 class StratifiedSampler final : public Sampler {
@@ -110,20 +112,22 @@ class StratifiedSampler final : public Sampler {
 }  // namespace
 
 SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed)
-    : x_(x), y_(y), seed_(seed), sample_(sample), count_(count) {}
+    : key_(mix(pixel_key(x, y, seed) + kGolden)), sample_(sample), count_(count) {}
+
+uint64_t SampleStream::next_key() { return mix(key_ + ++dimension_ * kGolden); }
 
 Vec2 SampleStream::next_pair() {
-  const uint64_t key = mix(mix(pixel_key(x_, y_, seed_) + kGolden) + ++dimension_ * kGolden);
+  const uint64_t key = next_key();
   if (count_ > 1 && sample_ < count_) return multi_jittered(sample_, count_, key);
   return {unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 1) * kGolden)),
           unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 2) * kGolden))};
 }
 
 Vec2 SampleStream::next_sobol_pair() {
-  const uint64_t key = mix(mix(pixel_key(x_, y_, seed_) + kGolden) + ++dimension_ * kGolden);
-  const uint32_t index = scrambled(sample_, static_cast<uint32_t>(mix(key + 1)));
-  const uint32_t x = scrambled(reversed(index), static_cast<uint32_t>(mix(key + 2)));
-  const uint32_t y = scrambled(second_sobol(index), static_cast<uint32_t>(mix(key + 3)));
+  const uint64_t key = next_key();
+  const uint32_t first = reversed(scrambled(sample_, static_cast<uint32_t>(mix(key + 1))));
+  const uint32_t x = scrambled(first, static_cast<uint32_t>(mix(key + 2)));
+  const uint32_t y = scrambled(second_sobol(first), static_cast<uint32_t>(mix(key + 3)));
   return {x * 0x1p-32, y * 0x1p-32};
 }
 

@@ -18,9 +18,14 @@ class SampleStream {
   // The same from Sobol's first two dimensions, shuffled and scrambled as Owen's (Burley, "Practical hash-based Owen
   // scrambling", 2020): evenest for counts that are powers of two.
   Vec2 next_sobol_pair();
+  // As if so many pairs had been drawn.
+  void skip_pairs(uint32_t n) { dimension_ += n; }
 
  private:
-  uint32_t x_, y_, seed_, sample_, count_;
+  uint64_t next_key();
+
+  uint64_t key_;  // of pixel and seed
+  uint32_t sample_, count_;
   uint32_t dimension_ = 0;
 };
 

@@ -74,5 +74,27 @@ TEST(SampleStream, DimensionsDiffer) {
   EXPECT_EQ(SampleStream(1, 2, 3, 4, 5).next_pair(), first);
 }
 
+TEST(SampleStream, SobolPairsFillEveryCellOfEqualArea) {
+  // A (0, m, 2)-net: each way of cutting the square into 2^m equal boxes by halving leaves one point in each.
+  constexpr int kM = 8, kN = 1 << kM;
+  for (int wide = 0; wide <= kM; ++wide) {
+    std::set<int> cells;
+    for (int i = 0; i < kN; ++i) {
+      SampleStream stream(3, 4, i, kN, 5);
+      stream.skip_pairs(2);
+      const Vec2 p = stream.next_sobol_pair();
+      cells.insert((static_cast<int>(p.x * (1 << wide)) << (kM - wide)) + static_cast<int>(p.y * (1 << (kM - wide))));
+    }
+    EXPECT_EQ(static_cast<int>(cells.size()), kN) << wide;
+  }
+}
+
+TEST(SampleStream, SkippedPairsAreThoseNotDrawn) {
+  SampleStream drawn(1, 2, 3, 4, 5), skipped(1, 2, 3, 4, 5);
+  drawn.next_pair(), drawn.next_sobol_pair();
+  skipped.skip_pairs(2);
+  EXPECT_EQ(drawn.next_sobol_pair(), skipped.next_sobol_pair());
+}
+
 }  // namespace
 }  // namespace lekalo::render::sampler_test
