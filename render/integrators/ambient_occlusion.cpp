@@ -27,11 +27,9 @@ class AmbientOcclusion final : public Integrator {
     sample.point = seen.point;
     sample.depth = first.t;
     sample.key = static_cast<uint64_t>(seen.point.instance + 1);
-    Vec3 normal = seen.material->shading_normal(seen.point);
-    if (glm::dot(normal, ray.direction) > 0) normal = -normal;
-    const Frame frame = frame_about(Vec3(0), normal);
+    const Frame frame = frame_about(Vec3(0), seen.shading_normal(ray.direction));
     Ray around;
-    world.leave(seen.near_side(), seen.front ? seen.point.geometric_normal : -seen.point.geometric_normal, around);
+    world.leave(seen.near_side(), seen.geometric_normal(), around);
     around.kind = RayKind::shadow;
     around.t_max = distance_;
     int open = 0;

@@ -121,6 +121,13 @@ bool Boundary::take_all(const World& world, const Ray& ray, const Hit& hit, cons
   return true;
 }
 
+Vec3 Boundary::shading_normal(const Vec3& direction) const {
+  Vec3 normal = material->shading_normal(point);
+  if (!front) normal = -normal;
+  // Near the outline of a mesh it may look away from the viewer; then the facet's own is taken.
+  return glm::dot(direction, normal) < 0 ? normal : geometric_normal();
+}
+
 Spectrum backdrop(const World& world, const Ray& ray) {
   for (const LightPtr& lamp : world.lamps()) {
     if (!lamp->is_backdrop()) continue;

@@ -39,6 +39,10 @@ class Boundary {
   // False for a surface inside of a substance that fills both its sides: none for light.
   bool changes_filling = true;
 
+  // Both on the side from which it was met: of the surface or facet; and after bumps, for a ray of that direction.
+  Vec3 geometric_normal() const { return front ? point.geometric_normal : -point.geometric_normal; }
+  Vec3 shading_normal(const Vec3& direction) const;
+
   // The points that rays leave to the side from which the boundary was met, and to the other one.
   const SurfacePoint& near_side() const { return others_ ? others_->first : point; }
   const SurfacePoint& far_side() const { return others_ ? others_->second : point; }

@@ -48,12 +48,11 @@ struct Interaction : Boundary {
   Interaction(const World& world, const Ray& ray, const Hit& hit, double way, Media& media)
       : Boundary(world, ray, hit, kYellow, media),
         length(way + hit.t),
-        geometric_normal(front ? point.geometric_normal : -point.geometric_normal),
         smooth_normal(front ? point.normal : -point.normal) {}
 
-  double length;                         // of the way from the eye
-  Vec3 geometric_normal, smooth_normal;  // of the facet; of the surface
-  Vec3 normal;                           // after bumps; set where light is reflected
+  double length;       // of the way from the eye
+  Vec3 smooth_normal;  // of the surface that a facet stands for
+  Vec3 normal;         // after bumps; set where light is reflected
 };
 
 // A sample of a light at a surface point.
@@ -196,7 +195,7 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
   if (mirror.is_zero() && transmission.is_zero()) return sum;
   const double n0 = media.current().index, n1 = seen.behind.current().index;
   // A smooth normal may look away from the viewer near the outline of a mesh; then the facet's own is taken.
-  const Vec3 m = glm::dot(ray.direction, seen.normal) < 0 ? seen.normal : seen.geometric_normal;
+  const Vec3 m = glm::dot(ray.direction, seen.normal) < 0 ? seen.normal : seen.geometric_normal();
   const double cosine = -glm::dot(ray.direction, m);
   const float per_n0 = static_cast<float>(1 / n0);
   switch (c.fresnel) {
@@ -218,8 +217,8 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
   std::optional<Vec3> inward;
   if (!transmission.is_zero()) {
     inward = refracted(ray.direction, m, n0, n1);
-    if (inward && glm::dot(*inward, seen.geometric_normal) >= 0)
-      inward = refracted(ray.direction, seen.geometric_normal, n0, n1);
+    if (inward && glm::dot(*inward, seen.geometric_normal()) >= 0)
+      inward = refracted(ray.direction, seen.geometric_normal(), n0, n1);
     if (!inward) mirror += transmission;
   }
 
@@ -237,7 +236,8 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
   };
   if (!mirror.is_zero()) {
     Vec3 direction = reflected(ray.direction, m);
-    if (glm::dot(direction, seen.geometric_normal) <= 0) direction = reflected(ray.direction, seen.geometric_normal);
+    if (glm::dot(direction, seen.geometric_normal()) <= 0)
+      direction = reflected(ray.direction, seen.geometric_normal());
     mix(2);
     sum += follow(seen.near_side(), direction, mirror, media);
   }
@@ -262,7 +262,7 @@ Illumination Tracer::illuminate(const Ray& ray, const Interaction& seen, const C
     if (has_left) return;
     has_left = true;
     shadow_ray.kind = RayKind::shadow;
-    world_.leave(seen.near_side(), seen.geometric_normal, shadow_ray);
+    world_.leave(seen.near_side(), seen.geometric_normal(), shadow_ray);
   };
   for (const LightPtr& light : world_.lamps()) {
     const int count = light->sample_count();
@@ -395,13 +395,13 @@ Spectrum Tracer::shining_through(const Ray& ray, const Interaction& seen, double
   Spectrum sum;
   Ray shadow_ray;
   shadow_ray.kind = RayKind::shadow;
-  world_.leave(seen.far_side(), -seen.geometric_normal, shadow_ray);
+  world_.leave(seen.far_side(), -seen.geometric_normal(), shadow_ray);
   for (const LightPtr& light : world_.lamps()) {
     const bool shadows = options_.shadows != ShadowMode::none && light->casts_shadows();
     for (int i = 0; i < light->sample_count(); ++i) {
       const Vec2 r = light->is_jittered() ? random_.next_pair() : Vec2(0.5);
       const LightSample sample = light->sample(seen.point.position, i, r.x, r.y);
-      if (glm::dot(sample.direction, seen.normal) >= 0 || glm::dot(sample.direction, seen.geometric_normal) >= 0)
+      if (glm::dot(sample.direction, seen.normal) >= 0 || glm::dot(sample.direction, seen.geometric_normal()) >= 0)
         continue;
       const std::optional<Vec3> out =
           refracted(-sample.direction, -seen.normal, seen.behind.current().index, media.current().index);

@@ -32,21 +32,6 @@ double power_heuristic(double own, double other) {
   return 1 / (1 + ratio * ratio);
 }
 
-// What a ray sees, normals on the viewer's side.
-struct SurfacePlace : Boundary {
-  SurfacePlace(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media)
-      : Boundary(world, ray, hit, wavelengths, media),
-        geometric_normal(front ? point.geometric_normal : -point.geometric_normal) {}
-
-  Vec3 shading_normal(const Vec3& direction) const {
-    Vec3 normal = material->shading_normal(point);
-    if (!front) normal = -normal;
-    // Near the outline of a mesh it may look away from the viewer; then the facet's own is taken.
-    return glm::dot(direction, normal) < 0 ? normal : geometric_normal;
-  }
-  Vec3 geometric_normal;
-};
-
 // Directions from a point to a ball: all of them from within.
 struct Cone {
   Vec3 axis{0, 0, 1};
@@ -91,12 +76,12 @@ class PathTracer {
   void add(const Spectrum& light);
   Spectrum surroundings() const;
   void add_lamps_along(const Ray& ray, double end, const Medium& medium);
-  void add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
+  void add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
   void choose_lamps(const Vec3& point);
-  void add_glow(size_t number, const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& square);
+  void add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& square);
   double weight_of_glow(const SurfacePoint& point) const;
-  void add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media);
-  void record(const SurfacePlace& seen);
+  void add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media);
+  void record(const Boundary& seen);
   void take_one_wavelength();
 
   const World& world_;
@@ -163,7 +148,7 @@ void PathTracer::choose_lamps(const Vec3& point) {
   for (double& choice : choices_) choice = sum > 0 ? (1 - kBlindChoice) * choice / sum + kBlindChoice / n : 1 / n;
 }
 
-void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
+void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
                           const Vec2& square) {
   if (choices_.empty()) return;
   double place = choice.x;
@@ -180,11 +165,11 @@ void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Medi
   if (reflected.is_zero()) return;
   Spectrum visible = kWhite;
   if (lamp.casts_shadows()) {
-    const bool behind = glm::dot(sample.direction, seen.geometric_normal) < 0;
+    const bool behind = glm::dot(sample.direction, seen.geometric_normal()) < 0;
     Ray ray;
     ray.kind = RayKind::shadow;
-    world_.leave(behind ? seen.far_side() : seen.near_side(), behind ? -seen.geometric_normal : seen.geometric_normal,
-                 ray);
+    world_.leave(behind ? seen.far_side() : seen.near_side(),
+                 behind ? -seen.geometric_normal() : seen.geometric_normal(), ray);
     ray.direction = sample.direction;
     ray.t_max = sample.distance;
     visible = unobstructed(world_, ray, behind ? seen.behind : media, sample_);
@@ -201,7 +186,7 @@ void PathTracer::add_lamp(const SurfacePlace& seen, const Bsdf& bsdf, const Medi
 }
 
 // What meets the glowing object first counts; light that comes straight through panes is left to drawn directions.
-void PathTracer::add_glow(size_t number, const SurfacePlace& seen, const Bsdf& bsdf, const Media& around,
+void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf, const Media& around,
                           const Vec2& square) {
   const World::Glow& glow = world_.glows()[number];
   const Cone cone = cone_of(glow, seen.point.position);
@@ -209,7 +194,7 @@ void PathTracer::add_glow(size_t number, const SurfacePlace& seen, const Bsdf& b
   const Vec3 direction = cone.direction(square);
   const Spectrum reflected = bsdf.evaluate(direction);
   if (reflected.is_zero()) return;
-  const bool behind = glm::dot(direction, seen.geometric_normal) < 0;
+  const bool behind = glm::dot(direction, seen.geometric_normal()) < 0;
   world_.leave(behind ? seen.far_side() : seen.near_side(), direction, ray);
   ray.direction = direction;
   ray.kind = RayKind::reflection;
@@ -217,7 +202,7 @@ void PathTracer::add_glow(size_t number, const SurfacePlace& seen, const Bsdf& b
   ++sample_.shadow_rays;
   if (!world_.nearest(ray, hit) || hit.instance != glow.instance) return;
   Media media = behind ? seen.behind : around;
-  const SurfacePlace met(world_, ray, hit, wavelengths_, media);
+  const Boundary met(world_, ray, hit, wavelengths_, media);
   if (!met.changes_filling || met.point.instance != glow.instance) return;
   const Spectrum emission = met.material->scattering(met.point, kPrimaries).emission;
   const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
@@ -243,16 +228,16 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
 
 // Of all samples of all lamps together: the share of one sample alone would be that of what it meets, however little
 // light it brings.
-void PathTracer::add_caught_shadow(const SurfacePlace& seen, const Spectrum& strength, const Media& media) {
+void PathTracer::add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media) {
   Spectrum open, lit;
   Ray ray;
   ray.kind = RayKind::shadow;
-  world_.leave(seen.near_side(), seen.geometric_normal, ray);
+  world_.leave(seen.near_side(), seen.geometric_normal(), ray);
   for (const LightPtr& lamp : world_.lamps()) {
     for (int i = 0; i < lamp->sample_count(); ++i) {
       const Vec2 square = lamp->is_jittered() ? random_.next_sobol_pair() : Vec2(0.5);
       const LightSample sample = lamp->sample(seen.point.position, i, square.x, square.y);
-      const double cosine = glm::dot(sample.direction, seen.geometric_normal);
+      const double cosine = glm::dot(sample.direction, seen.geometric_normal());
       if (cosine <= 0) continue;
       const Spectrum light = static_cast<float>(sample.weight * cosine / kPi) * sample.irradiance;
       open += light;
@@ -270,7 +255,7 @@ void PathTracer::add_caught_shadow(const SurfacePlace& seen, const Spectrum& str
   add((kWhite - missing) * world_.model().background);
 }
 
-void PathTracer::record(const SurfacePlace& seen) {
+void PathTracer::record(const Boundary& seen) {
   sample_.alpha = 1;
   sample_.noisy = true;
   sample_.point = seen.point;
@@ -298,13 +283,13 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       return;
     }
     const Media around = media;
-    std::optional<SurfacePlace> met(std::in_place, world_, ray, hit, wavelengths_, media);
+    std::optional<Boundary> met(std::in_place, world_, ray, hit, wavelengths_, media);
     if (options_.dispersion && !one_wavelength_ && disperses(*met->material)) {
       take_one_wavelength();
       media = around;
       met.emplace(world_, ray, hit, wavelengths_, media);
     }
-    const SurfacePlace& seen = *met;
+    const Boundary& seen = *met;
     share_ *= transmittance(media.current().absorption, hit.t);
     way_ += hit.t;
     const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
@@ -330,7 +315,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
 
     const Vec3 normal = seen.shading_normal(ray.direction);
     const Sides sides{media.current().index, seen.behind.current().index};
-    const Bsdf bsdf(scattering, normal, seen.geometric_normal, seen.point.du, -ray.direction, sides);
+    const Bsdf bsdf(scattering, normal, seen.geometric_normal(), seen.point.du, -ray.direction, sides);
     if (bsdf.is_black()) return;
     if (bsdf.has_spread()) {
       const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
@@ -363,7 +348,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
         share_ *= static_cast<float>(1 / life);
       }
     }
-    const bool passes = glm::dot(next->in, seen.geometric_normal) < 0;
+    const bool passes = glm::dot(next->in, seen.geometric_normal()) < 0;
     if (passes) media = seen.behind;
     world_.leave(passes ? seen.far_side() : seen.near_side(), next->in, ray);
     ray.direction = next->in;
@@ -383,7 +368,7 @@ Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& ar
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     Hit hit;
     if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
-    const SurfacePlace met(world, ray, hit, kYellow, media);
+    const Boundary met(world, ray, hit, kYellow, media);
     if (!met.material->transmits()) return {};
     share *= transmittance(media.current().absorption, hit.t);
     if (met.changes_filling) {
