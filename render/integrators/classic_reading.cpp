@@ -6,10 +6,11 @@ namespace lekalo::render {
 
 namespace {
 
-// Adds a lobe of the given weight to the coefficients.
+// Adds a lobe of the given weight to the coefficients; a matt one to the ambient share only if that is not known.
 class Reader {
  public:
-  Reader(ClassicCoefficients& c, const Spectrum& weight) : c_(c), weight_(weight) {}
+  Reader(ClassicCoefficients& c, const Spectrum& weight, bool knows_ambient)
+      : c_(c), weight_(weight), knows_ambient_(knows_ambient) {}
 
   void operator()(const LambertLobe& lobe) { matt(lobe.albedo); }
   void operator()(const RoughMattLobe& lobe) { matt(lobe.albedo); }
@@ -62,7 +63,7 @@ class Reader {
 
  private:
   void matt(const Spectrum& albedo) {
-    c_.ambient += weight_ * albedo;
+    if (!knows_ambient_) c_.ambient += weight_ * albedo;
     c_.diffuse += weight_ * albedo;
   }
   void gloss(double roughness, double reflectance) {
@@ -72,6 +73,7 @@ class Reader {
 
   ClassicCoefficients& c_;
   Spectrum weight_;
+  bool knows_ambient_;
 };
 
 }  // namespace
@@ -81,8 +83,9 @@ ClassicCoefficients classic_reading(const Scattering& scattering) {
   c.emission = scattering.emission;
   c.two_sided = scattering.two_sided;
   c.catches_shadows = scattering.catches_shadows;
-  for (const WeightedLobe& part : scattering.lobes) std::visit(Reader(c, part.weight), part.lobe);
-  if (scattering.ambient) c.ambient = *scattering.ambient;
+  const bool knows_ambient = scattering.ambient.has_value();
+  if (knows_ambient) c.ambient = *scattering.ambient;
+  for (const WeightedLobe& part : scattering.lobes) std::visit(Reader(c, part.weight, knows_ambient), part.lobe);
   return c;
 }
 

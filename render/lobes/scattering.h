@@ -49,7 +49,7 @@ class LobeList {
     return *this;
   }
 
-  // Nothing if the weight is zero, or the list full.
+  // Nothing if the weight is zero, or the list full; mixes, which could fill it, are refused (materials/mix.cpp).
   template <class AnyLobe>
   void add(const AnyLobe& lobe, const Spectrum& weight = Spectrum(1.0f)) {
     if (count_ == kMost || weight.is_zero()) return;
@@ -83,8 +83,8 @@ class LobeList {
 struct Scattering {
   LobeList lobes;
   Spectrum emission;                // radiance added whatever the light
-  std::optional<Spectrum> ambient;  // share of the light of ambient lights in the classic model, where that is not what
-                                    // the matt lobes reflect
+  std::optional<Spectrum> ambient;  // share of the light of ambient lights that the matt lobes send back in the classic
+                                    // model, where that is not what they reflect
   bool two_sided = true;            // false: the back shows only emission and ambient light
   bool catches_shadows = false;     // shows the background, darkened where lights do not reach; not seen from behind
   bool unbalanced = false;          // the lobes may send back more than what falls on them

@@ -1,4 +1,6 @@
 // Two materials in grains too small to be seen: dust, a worn coat, a mask from a texture.
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "render/lobes/scattering.h"
@@ -10,11 +12,20 @@ using namespace geometry;
 
 namespace {
 
+// Of the light of ambient lights in the classic model.
+Spectrum matt_ambient(const Scattering& scattering) {
+  return scattering.ambient.value_or(matt_reflectance(scattering));
+}
+
 class MixedMaterial final : public Material {
  public:
-  explicit MixedMaterial(const Mix& mix) : mix_(mix) {
-    if (mix.first->interior(Wavelengths{}) && mix.second->interior(Wavelengths{}))
-      throw std::invalid_argument("both materials of the mix have a substance behind them");
+  explicit MixedMaterial(const Mix& mix) : mix_(mix), lobe_count_(lobe_count(*mix.first) + lobe_count(*mix.second)) {}
+
+  // Of all grains, whatever the share.
+  int lobe_count() const { return lobe_count_; }
+  static int lobe_count(const Material& material) {
+    const auto* mixed = dynamic_cast<const MixedMaterial*>(&material);
+    return mixed ? mixed->lobe_count() : material.scattering({}, Wavelengths{}).lobes.size();
   }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
@@ -26,6 +37,8 @@ class MixedMaterial final : public Material {
     s.lobes.append(second.lobes, share);
     s.emission = (Spectrum(1, 1, 1) - share) * first.emission + share * second.emission;
     s.two_sided = first.two_sided || second.two_sided;
+    if (first.ambient || second.ambient)
+      s.ambient = (Spectrum(1, 1, 1) - share) * matt_ambient(first) + share * matt_ambient(second);
     s.unbalanced = first.unbalanced || second.unbalanced;
     return s;
   }
@@ -45,11 +58,34 @@ class MixedMaterial final : public Material {
 
  private:
   Mix mix_;
+  int lobe_count_;
 };
+
+struct Fault {
+  std::string field, message, hint;
+};
+
+std::optional<Fault> fault(const Mix& mix) {
+  for (const auto& [field, material] : {std::pair("first", mix.first), std::pair("second", mix.second)})
+    if (material->scattering({}, Wavelengths{}).catches_shadows)
+      return Fault{field, "a shadow_catcher cannot be mixed", "give it to an object of its own"};
+  if (mix.first->interior(Wavelengths{}) && mix.second->interior(Wavelengths{}))
+    return Fault{"second", "both materials of the mix have a substance behind them",
+                 "mix a clear material with one that is opaque or thin"};
+  const int count = MixedMaterial::lobe_count(*mix.first) + MixedMaterial::lobe_count(*mix.second);
+  if (count > LobeList::kMost)
+    return Fault{"second",
+                 fmt::format("the mix has {} lobes, more than the {} that a surface can have", count, LobeList::kMost),
+                 "mix fewer materials, or such of fewer layers"};
+  return std::nullopt;
+}
 
 }  // namespace
 
-MaterialPtr make_material(const Mix& mix) { return std::make_shared<MixedMaterial>(mix); }
+MaterialPtr make_material(const Mix& mix) {
+  if (const std::optional<Fault> found = fault(mix)) throw std::invalid_argument(found->message);
+  return std::make_shared<MixedMaterial>(mix);
+}
 
 TypeDeclaration mix_type() {
   return declare(Category::material, "mix",
@@ -61,9 +97,7 @@ TypeDeclaration mix_type() {
       .example("first: { type: diffuse, color: 0.6 }, second: { type: conductor, metal: Au }, share: 0.3")
       .built_by([](const Fields& f) {
         const Mix mix{f.get<MaterialPtr>("first"), f.get<MaterialPtr>("second"), color_texture(f, "share")};
-        if (mix.first->interior(Wavelengths{}) && mix.second->interior(Wavelengths{}))
-          throw FieldError("second", "both materials of the mix have a substance behind them",
-                           "mix a clear material with one that is opaque or thin");
+        if (const std::optional<Fault> found = fault(mix)) throw FieldError(found->field, found->message, found->hint);
         return make_material(mix);
       });
 }

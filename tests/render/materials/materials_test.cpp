@@ -88,6 +88,31 @@ TEST(Materials, MixIsTheMeanOfBoth) {
   EXPECT_TRUE(make_material(Mix{glass, dark, 0.5})->transmits());
 }
 
+TEST(Materials, MixKeepsTheAmbientLightOfClassicLooks) {
+  const MaterialPtr look = make_material(ClassicLook{.color = 1.0, .ambient = 1.0, .diffuse = 0.0});
+  const auto ambient = [](const MaterialPtr& first, const MaterialPtr& second) {
+    return classic_reading(*make_material(Mix{first, second, 0.25}), {}, {}).ambient[0];
+  };
+  EXPECT_NEAR(ambient(look, look), 1, 1e-6);
+  EXPECT_NEAR(ambient(look, make_material(Diffuse{.color = 0.2})), 0.75 + 0.25 * 0.2, 1e-6);
+  const MaterialPtr metal = make_material(Conductor{.metal = "", .roughness = 0.6, .color = 0.5});
+  EXPECT_NEAR(ambient(look, metal), 0.75 + 0.25 * classic_reading(*metal, {}, {}).ambient[0], 1e-6);
+}
+
+TEST(Materials, MixesThatCannotBeAreRefused) {
+  const MaterialPtr dark = make_material(Diffuse{.color = 0.2}), catcher = make_material(ShadowCatcher{});
+  EXPECT_THROW(make_material(Mix{catcher, dark, 0.5}), std::invalid_argument);
+  EXPECT_THROW(make_material(Mix{dark, catcher, 0.5}), std::invalid_argument);
+  Principled layered = white();
+  layered.base_metalness = 0.5;
+  layered.coat_weight = 0.5;
+  layered.fuzz_weight = 0.5;
+  const MaterialPtr four = make_material(layered);
+  ASSERT_EQ(four->scattering({}, {}).lobes.size(), 4);
+  const MaterialPtr eight = make_material(Mix{four, four, 0.0}), twelve = make_material(Mix{eight, four, 0.5});
+  EXPECT_THROW(make_material(Mix{twelve, dark, 0.5}), std::invalid_argument);
+}
+
 TEST(Materials, MetalsKnowTheirMeanReflectance) {
   Principled principled;
   principled.base_metalness = 1;
