@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/lobes/lobe.h"
+#include "render/lobes/lobe_albedo.h"
 
 namespace lekalo::render {
 
@@ -13,11 +14,12 @@ double sheen(double roughness, const Vec3& out, const Vec3& in);
 struct SheenLobe {
   Spectrum color;
   double roughness = 0.3;
+  const LobeAlbedo* albedo = nullptr;  // sheen_albedo of it
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides&) const;
   double density(const Vec3&, const Vec3& in, const Sides&) const { return in.z > 0 ? 1 / geometry::kTwoPi : 0; }
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
-  double importance(const Vec3&, const Sides&) const { return color.largest() * 0.5; }
+  double importance(const Vec3& out, const Sides&) const { return color.largest() * albedo->at(out); }
 };
 
 }  // namespace lekalo::render

@@ -18,6 +18,7 @@ class ClothMaterial final : public Material {
     SheenLobe nap;
     nap.color = cloth_.sheen_color.at(point);
     nap.roughness = cloth_.sheen_roughness;
+    nap.albedo = albedo_.get();
     s.lobes.cover(nap, Spectrum(static_cast<float>(cloth_.sheen)), *albedo_);
     return s;
   }

@@ -51,6 +51,7 @@ class PrincipledMaterial final : public Material {
     SheenLobe nap;
     nap.color = p_.fuzz_color.at(point);
     nap.roughness = p_.fuzz_roughness;
+    nap.albedo = fuzz_.get();
     s.lobes.cover(nap, Spectrum(static_cast<float>(p_.fuzz_weight)), *fuzz_);
     s.emission = static_cast<float>(p_.emission_luminance) * p_.emission_color.at(point);
     return s;

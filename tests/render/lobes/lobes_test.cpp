@@ -65,6 +65,7 @@ SheenLobe white_sheen(double roughness) {
   SheenLobe lobe;
   lobe.color = Spectrum(1.0f);
   lobe.roughness = roughness;
+  lobe.albedo = &kept(sheen_albedo(roughness));
   return lobe;
 }
 
@@ -237,6 +238,13 @@ TEST(Lobes, SamplesHaveTheirDensity) {
       EXPECT_LT(normal, 4.5) << s.name << " at " << cosine << ": " << chi << " of " << k;
     }
   EXPECT_EQ(tests, 2 * static_cast<int>(subjects().size()));
+}
+
+TEST(Lobes, SheenIsAsImportantAsTheLightItSendsBack) {
+  for (const double cosine : {1.0, 0.5, 0.2}) {
+    const Subject s = subject("sheen", white_sheen(0.3), 1);
+    EXPECT_NEAR(white_sheen(0.3).importance(viewer(cosine), {}), furnace(s, viewer(cosine), 1 << 12).mean, 0.01);
+  }
 }
 
 TEST(Lobes, MeanReflectanceOfFresnel) {
