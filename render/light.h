@@ -65,6 +65,8 @@ class Light {
   virtual LightSample sample_all(const Vec3& point, const Vec2&) const { return sample(point, 0, 0.5, 0.5); }
   // What sample_all() says of the place of the light that lies in the direction from the point; nothing if none does.
   virtual std::optional<LightSample> towards(const Vec3&, const Vec3& /*direction*/) const { return std::nullopt; }
+  // True if it is seen under more than a point, so that towards() may find it.
+  virtual bool has_size() const { return false; }
   // True for surroundings that show themselves in place of the background.
   virtual bool is_backdrop() const { return false; }
   // True if r1 and r2 matter.

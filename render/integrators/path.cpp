@@ -55,7 +55,7 @@ bool is_sharp(const Material& material) {
 
 bool misses_light(const Model& model) {
   const bool has_points = std::any_of(model.lights.begin(), model.lights.end(), [](const LightPtr& light) {
-    return light->ambient().is_zero() && light->casts_shadows() && light->sample_all(Vec3(0), Vec2(0.5)).density == 0;
+    return light->ambient().is_zero() && light->casts_shadows() && !light->has_size();
   });
   if (!has_points) return false;
   bool found = false;

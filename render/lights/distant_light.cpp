@@ -35,6 +35,7 @@ class DistantLamp final : public Light {
     if (light_.angular_diameter == 0 || 1 - glm::dot(direction, frame_.z) > one_minus_cosine_) return std::nullopt;
     return LightSample{direction, kInfinity, whole_, 1, 1 / (kTwoPi * one_minus_cosine_)};
   }
+  bool has_size() const override { return light_.angular_diameter > 0; }
   bool is_jittered() const override { return light_.angular_diameter > 0 && !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3&) const override {
     if (!is_jittered()) return std::nullopt;

@@ -65,6 +65,7 @@ class EnvironmentLamp final : public Light {
     const Vec2 place = place_of(direction);
     return sample_at(direction, pixel(place.y, height_), pixel(place.x, width_));
   }
+  bool has_size() const override { return true; }
   bool is_backdrop() const override { return light_.visible; }
   bool is_jittered() const override { return !light_.sampling.grid; }
   bool casts_shadows() const override { return light_.shadows; }

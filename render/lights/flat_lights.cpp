@@ -42,6 +42,7 @@ class FlatLamp : public Light {
     if (!is_on_area({local.x, local.y})) return std::nullopt;
     return sample_at(point, place);
   }
+  bool has_size() const override { return true; }
   bool is_jittered() const override { return !sampling_.grid; }
   Box3 places() const override { return places_; }
   bool casts_shadows() const override { return lamp_.shadows; }

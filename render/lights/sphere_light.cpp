@@ -32,6 +32,7 @@ class SphereLamp final : public Light {
     const double height = one_minus_cosine(distance);
     return LightSample{direction, along - std::sqrt(square), whole_.at(distance, height), 1, 1 / (kTwoPi * height)};
   }
+  bool has_size() const override { return true; }
   bool is_jittered() const override { return !light_.sampling.grid; }
   std::optional<ConeLight> cone(const Vec3& point) const override {
     const Vec3 to_center = light_.center - point;

@@ -40,8 +40,25 @@ class Light(ProgramTest):
     def test_light_that_is_left_out_is_named(self):
         self.scene(light="{ type: point_light, position: [0, 0, 5] }")
         self.assertIn("is left out", self.run_program("render", "scene.yaml")[1])
-        self.scene()
-        self.assertNotIn("is left out", self.run_program("render", "scene.yaml")[1])
+        for light in BALL, "{ type: sphere_light, center: [0, 0, 0], radius: 9 }":  # this one all about the scene
+            self.scene(light=light)
+            self.assertNotIn("is left out", self.run_program("render", "scene.yaml")[1])
+
+    def test_open_surroundings_of_a_coarse_ball_are_white(self):
+        """As the same facets are that glow."""
+        scene = """lekalo: 1
+geometry: {{ ball: {{ type: ball, radius: 1 }} }}
+materials: {{ it: {{ type: {1} }} }}
+integrator: {{ type: {0} }}
+objects: [{{ shape: ball, material: it, representation: mesh, mesh: {{ sag: 0.1 }} }}]
+camera: {{ type: perspective, from: [0, -6, 3], at: [0, 0, 0], field_of_view: 25 }}
+image: {{ size: [96, 96], samples: 4, background: white }}
+"""
+        for integrator, material in ("ambient_occlusion", "diffuse"), ("classic", "emission, color: white"):
+            self.write("scene.yaml", scene.format(integrator, material))
+            self.run_program("render", "scene.yaml", "-o", f"{integrator}.exr", "--quiet")
+        worst = self.json_of("compare", "ambient_occlusion.exr", "classic.exr", "--metric", "max", "--threshold", "9")
+        self.assertEqual(worst["value"], 0)
 
     def test_panoramas(self):
         self.scene(light="{ type: environment_light, file: studio/environments/studio.exr }")

@@ -199,6 +199,17 @@ TEST(Lights, DirectionsOfAConeAreAsCloseAsTheirCosines) {
     }
 }
 
+TEST(Lights, OnlyThoseWithASizeAreFoundByDirections) {
+  EXPECT_FALSE(make_light(PointLight{})->has_size());
+  EXPECT_FALSE(make_light(SpotLight{})->has_size());
+  EXPECT_FALSE(make_light(DistantLight{})->has_size());
+  DistantLight sun;
+  sun.angular_diameter = 0.01;
+  for (const LightPtr& light :
+       {make_light(sun), make_light(RectangleLight{}), make_light(DiscLight{}), make_light(SphereLight{})})
+    EXPECT_TRUE(light->has_size());
+}
+
 TEST(Lights, AmbientLightIsTakenOnce) {
   const LightPtr ambient = make_light(AmbientLight{{1, 0.5, 0.25}, 2});
   EXPECT_EQ(ambient->sample_count(), 0);
