@@ -4,6 +4,8 @@
 // middle in +x; `rotation` turns it about z, counterclockwise from above. A place of the unit square goes to a pixel
 // with a probability as its brightness (and its neighbours', for values between pixels are joined) times its solid
 // angle, and evenly to a place within it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -130,10 +132,21 @@ class EnvironmentLamp final : public Light {
   Choice rows_;
 };
 
+// What makes a picture no panorama: one infinite pixel would take all samples.
+std::optional<std::string> fault(const Image& image) {
+  if (!has_color(image)) return "the panorama has no colour channels";
+  const ColorPlanes planes = color_planes(image);
+  for (size_t i = 0; i < planes.r.size(); ++i)
+    if (!std::isfinite(planes.r[i]) || !std::isfinite(planes.g[i]) || !std::isfinite(planes.b[i]))
+      return fmt::format("pixel ({}, {}) of the panorama, from the upper left, is no finite number",
+                         i % static_cast<size_t>(image.width), i / static_cast<size_t>(image.width));
+  return std::nullopt;
+}
+
 }  // namespace
 
 LightPtr make_light(const EnvironmentLight& light) {
-  if (!has_color(light.image)) throw std::invalid_argument("the panorama has no colour channels");
+  if (const std::optional<std::string> found = fault(light.image)) throw std::invalid_argument(*found);
   return std::make_shared<EnvironmentLamp>(light);
 }
 
@@ -159,6 +172,8 @@ TypeDeclaration environment_light_type() {
     }
     if (!has_color(light.image))
       throw FieldError("file", "the picture has no colour channels", "R, G, B or Y are needed");
+    if (const std::optional<std::string> found = fault(light.image))
+      throw FieldError("file", *found, "clamp the picture to what half floats hold, 65504");
     light.rotation = f.number("rotation");
     light.color = f.vec3("color");
     light.intensity = f.number("intensity");

@@ -101,7 +101,7 @@ LightPtr make_light(const DistantLight& light);
 LightPtr make_light(const RectangleLight& light);
 LightPtr make_light(const DiscLight& light);
 LightPtr make_light(const SphereLight& light);
-// Throws std::invalid_argument for a picture without colour.
+// Throws std::invalid_argument for a picture without colour, or with a pixel that is no finite number.
 LightPtr make_light(const EnvironmentLight& light);
 LightPtr make_light(const ProfileLight& light);
 LightPtr make_light(const AmbientLight& light);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "render/lights/lights.h"
 #include "render/samplers/sampler.h"
@@ -76,6 +77,19 @@ TEST(EnvironmentLight, WantsColours) {
   EnvironmentLight light;
   light.image = make_image(2, 1);
   EXPECT_THROW(make_light(light), std::invalid_argument);
+}
+
+TEST(EnvironmentLight, WantsFiniteNumbers) {
+  for (const float wrong : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    EnvironmentLight light = panorama();
+    light.image.channels[1].values[2 * 16 + 5] = wrong;
+    try {
+      make_light(light);
+      FAIL();
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("pixel (5, 2)"), std::string::npos) << error.what();
+    }
+  }
 }
 
 const char* const kLuminaire =
