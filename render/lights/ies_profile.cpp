@@ -19,14 +19,15 @@ class Numbers {
   double next(const char* what) {
     std::string word;
     while (stream_ >> word) {
-      std::replace(word.begin(), word.end(), ',', ' ');
       size_t end = 0;
       double value = 0;
       try {
         value = std::stod(word, &end);
       } catch (const std::exception&) {
-        throw IesError(fmt::format("'{}' stands where {} should be (number {})", word, what, count_ + 1));
+        end = 0;
       }
+      if (end != word.size())
+        throw IesError(fmt::format("'{}' stands where {} should be (number {})", word, what, count_ + 1));
       ++count_;
       if (!std::isfinite(value)) throw IesError(fmt::format("{} is no finite number (number {})", what, count_));
       return value;
@@ -65,7 +66,9 @@ std::pair<size_t, double> between(const std::vector<double>& values, double x) {
 }  // namespace
 
 IesProfile::IesProfile(const std::string& text) {
-  std::istringstream stream(text);
+  std::string blank = text;  // numbers may stand apart by commas, too
+  std::replace(blank.begin(), blank.end(), ',', ' ');
+  std::istringstream stream(blank);
   std::string line;
   bool found = false;
   while (!found && std::getline(stream, line)) found = line.starts_with("TILT=");

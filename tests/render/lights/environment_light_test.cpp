@@ -117,6 +117,15 @@ std::string complaint(std::string text) {
   return {};
 }
 
+TEST(ProfileLight, CommasSeparateNumbers) {
+  std::string text = kLuminaire;
+  text.replace(text.find("0 45 90"), 7, "0,45,90");
+  text.replace(text.find("100 60 0"), 8, "100, 60, 0");
+  const IesProfile profile{text};
+  EXPECT_EQ(profile.largest(), 200);
+  EXPECT_NEAR(profile.share({std::sqrt(0.5), 0, std::sqrt(0.5)}), 0.6, 1e-9);
+}
+
 TEST(ProfileLight, DamagedFilesSayWhatIsWrong) {
   const std::string good = kLuminaire;
   EXPECT_NE(complaint("hello").find("TILT="), std::string::npos);
@@ -124,6 +133,9 @@ TEST(ProfileLight, DamagedFilesSayWhatIsWrong) {
   std::string wrong = good;
   wrong.replace(wrong.find("100 60"), 6, "100 xx");
   EXPECT_NE(complaint(wrong).find("'xx' stands where an intensity"), std::string::npos);
+  wrong = good;
+  wrong.replace(wrong.find("100 60"), 6, "100 6x");
+  EXPECT_NE(complaint(wrong).find("'6x' stands where an intensity"), std::string::npos);
   wrong = good;
   wrong.replace(wrong.find("0 45 90"), 7, "0 45 45");
   EXPECT_NE(complaint(wrong).find("do not grow"), std::string::npos);
