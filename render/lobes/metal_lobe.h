@@ -32,7 +32,7 @@ struct MetalLobe {
   MetalReflectance reflectance;
   double roughness = 0;
   double anisotropy = 0;
-  double rotation = 0;                 // radians, of the long direction from the frame's x towards y
+  double rotation = 0;                 // radians, of the long direction of highlights, from the frame's x towards y
   const LobeAlbedo* albedo = nullptr;  // mirror_albedo of the two; none: no further bounces
   Spectrum mean;                       // reflectance.mean(), for these
 

@@ -82,9 +82,8 @@ TypeDeclaration conductor_type() {
   type.optional("metal", choice(metal_names()), "chemical symbol; CuZn is brass, CuZn_90_10 tombac; or give `color`")
       .optional("color", textured_share(), "reflectance at right angles, in place of a measured metal")
       .field("edge_tint", textured_share(), "of `color`: factor of the reflectance at 82 degrees", "1")
-      .field("anisotropy", number().non_negative().below(1),
-             "0: round highlights; towards 1: stretched across the grain", "0")
-      .field("rotation", angle(), "of the grain from the direction in which u grows", "0");
+      .field("anisotropy", number().non_negative().below(1), "0: round highlights; towards 1: stretched ones", "0")
+      .field("rotation", angle(), "of the long direction of highlights, from the direction in which u grows", "0");
   type.example_fields = "metal: Cu";
   declare_roughness(type, "roughness", "0: mirror; 0.5 and more: no mirror images, only highlights", "0.2");
   declare_normal_deviation(type);

@@ -47,7 +47,7 @@ struct Conductor {
   std::string metal = "Al";       // one of metal_names(); empty: `color`
   Roughness roughness = 0.2;      // in [0, 1]
   double anisotropy = 0;          // in [0, 1): 0 round highlights, towards 1 stretched ones
-  double rotation = 0;            // radians, of the grain, along which the surface is rougher, from r_u towards r_v
+  double rotation = 0;            // radians, of the long direction of highlights, from r_u towards r_v
   TexturedColor color = 0.9;      // reflectance at right angles
   TexturedColor edge_tint = 1.0;  // its factor at 82 degrees
   NormalDeviation normal_deviation;
