@@ -374,7 +374,6 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   c.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Where bodies of some substance are, and where others may touch them.
 void World::list_glows() {
   constexpr size_t kMostGlows = 64;
   std::unordered_map<const Object*, float> brightness;
@@ -398,6 +397,7 @@ void World::list_glows() {
   }
 }
 
+// Where bodies of some substance are, and where others may touch them.
 void World::list_contacts() {
   const Hierarchy& top = compiled_->top;
   const auto has_medium = [](const Object& object) {
