@@ -2,15 +2,12 @@
 #include "geometry/describe.h"
 #include "render/integrators/boundary.h"
 #include "render/lobes/lobe.h"
-#include "render/materials/optical_constants.h"
 
 namespace lekalo::render {
 
 using namespace geometry;
 
 namespace {
-
-const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
 
 class AmbientOcclusion final : public Integrator {
  public:

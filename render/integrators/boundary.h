@@ -5,9 +5,15 @@
 #pragma once
 
 #include "render/integrators/media.h"
+#include "render/materials/optical_constants.h"
 #include "render/trace/world.h"
 
 namespace lekalo::render {
+
+// Of refraction where colours are not bent differently; of colours; and all of the light.
+inline const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
+inline const Wavelengths kPrimaries;
+inline const Spectrum kWhite{1, 1, 1, 0};
 
 class Boundary {
  public:

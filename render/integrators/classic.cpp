@@ -17,7 +17,6 @@
 #include "render/integrators/classic_reading.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/fresnel.h"
-#include "render/materials/optical_constants.h"
 #include "render/materials/textured_color.h"
 #include "render/trace/world.h"
 
@@ -32,9 +31,6 @@ constexpr int kMaxPasses = 1000;
 // Light of a highlight below which its grain is not seen.
 constexpr float kGrain = 0.004f;
 constexpr float kOverPi = static_cast<float>(1 / kPi);
-const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
-const Wavelengths kPrimaries;
-const Spectrum kWhite{1, 1, 1, 0};
 
 // The light of lights at a point, before the coefficients.
 struct Illumination {

@@ -6,7 +6,6 @@
 #include "render/integrators/dispersion.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/bsdf.h"
-#include "render/materials/optical_constants.h"
 #include "render/materials/textured_color.h"
 
 namespace lekalo::render {
@@ -23,9 +22,6 @@ constexpr int kSafeBounces = 4;
 constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
 // Share of the choice of lamps that does not look at how bright they seem.
 constexpr double kBlindChoice = 0.1;
-const Wavelengths kYellow{{kLineD, kLineD, kLineD, kLineD}};
-const Wavelengths kPrimaries;
-const Spectrum kWhite{1, 1, 1, 0};
 
 double power_heuristic(double own, double other) {
   const double ratio = other / own;
@@ -51,6 +47,34 @@ Cone cone_of(const World::Glow& glow, const Vec3& point) {
   if (distance <= glow.radius) return {};
   const double sine = glow.radius / distance;
   return {to / distance, sine * sine / (1 + std::sqrt(1 - sine * sine))};
+}
+
+// Share of light that arrives along a shadow ray: nothing through what refracts, straight through the rest of what is
+// clear, by Bouguer's law in substances.
+Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& around, RaySample& sample) {
+  ++sample.shadow_rays;
+  if (!world.has_transmitting_materials()) return world.occluded(shadow_ray) ? Spectrum() : kWhite;
+  Ray ray = shadow_ray;
+  Media media = around;
+  Spectrum share = kWhite;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    Hit hit;
+    if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
+    const Boundary met(world, ray, hit, kYellow, media);
+    if (!met.material->transmits()) return {};
+    share *= transmittance(media.current().absorption, hit.t);
+    if (met.changes_filling) {
+      const Sides sides{media.current().index, met.behind.current().index};
+      const double cosine = std::fabs(glm::dot(ray.direction, met.shading_normal(ray.direction)));
+      share *= straight_share(met.material->scattering(met.point, kPrimaries), cosine, sides);
+    }
+    if (share.is_zero()) return {};
+    media = met.behind;
+    const Vec3 before = ray.origin;
+    world.leave(met.far_side(), ray.direction, ray);
+    ray.t_max -= glm::dot(ray.origin - before, ray.direction);
+  }
+  return {};
 }
 
 class PathTracer {
@@ -358,32 +382,6 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
 }
 
 }  // namespace
-
-Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& around, RaySample& sample) {
-  ++sample.shadow_rays;
-  if (!world.has_transmitting_materials()) return world.occluded(shadow_ray) ? Spectrum() : kWhite;
-  Ray ray = shadow_ray;
-  Media media = around;
-  Spectrum share = kWhite;
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
-    Hit hit;
-    if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
-    const Boundary met(world, ray, hit, kYellow, media);
-    if (!met.material->transmits()) return {};
-    share *= transmittance(media.current().absorption, hit.t);
-    if (met.changes_filling) {
-      const Sides sides{media.current().index, met.behind.current().index};
-      const double cosine = std::fabs(glm::dot(ray.direction, met.shading_normal(ray.direction)));
-      share *= straight_share(met.material->scattering(met.point, kPrimaries), cosine, sides);
-    }
-    if (share.is_zero()) return {};
-    media = met.behind;
-    const Vec3 before = ray.origin;
-    world.leave(met.far_side(), ray.direction, ray);
-    ray.t_max -= glm::dot(ray.origin - before, ray.direction);
-  }
-  return {};
-}
 
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
                      const PathOptions& options) {

@@ -35,8 +35,4 @@ struct PathOptions {
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
                      const PathOptions& options);
 
-// Share of light that arrives along a shadow ray: nothing through what refracts, straight through the rest of what is
-// clear, by Bouguer's law in substances.
-Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& media, RaySample& sample);
-
 }  // namespace lekalo::render
