@@ -140,6 +140,8 @@ class Bodies(ProgramTest):
                      "curved more than that", "radius of curvature on this side is 1")
         self.refused("type: hollow_body, of: { type: box, size: [1, 1, 1] }, voids: { type: box, size: [1, 1, 1], corner: [0.5, 0, 0] }",
                      "void 0 is not inside of the body")
+        self.refused("type: extrusion_body, of: [{ type: rectangle, size: [4, 4] }, { type: circle, radius: 1 }], along: z, draft: 50",
+                     "nothing is left of the profile", "a smaller draft")
         self.refused("type: sewn_shell, solid: true, of: { type: plane, size: [1, 1] }", "it is open")
 
 

@@ -28,14 +28,17 @@ void check_end(const Profile& profile, const std::vector<std::vector<CurvePtr>>&
   std::vector<CurvePtr> curves;
   for (const auto& segments : ends) curves.push_back(std::make_shared<CompositeCurve>(segments, true, 1e-9));
   const char* hint = "a smaller draft, or a shorter vector";
+  Profile found;
   try {
-    const Profile found = profile_of(curves, "draft");
-    for (size_t k = 0; k < curves.size(); ++k)
-      if (glm::dot(found.loops[k].area, profile.loops[k].area) < 0)
-        throw FieldError("draft", "nothing is left of the profile before the end of the vector", hint);
+    found = profile_of(curves, "draft");
   } catch (const FieldError& error) {
     throw FieldError("draft", std::string("at the end of the vector there is no profile: ") + error.what(), hint);
   }
+  // The outline is still around its holes, and no loop has turned over.
+  bool is_left = found.loops[0].source == 0;
+  for (const ProfileLoop& loop : found.loops)
+    is_left = is_left && glm::dot(loop.area, profile.loops[loop.source].area) > 0;
+  if (!is_left) throw FieldError("draft", "nothing is left of the profile before the end of the vector", hint);
 }
 
 Body extruded(const Fields& f) {

@@ -132,13 +132,14 @@ struct Outline {
   CurvePtr curve;
   std::vector<Vec3> polygon;
   Vec3 area;
+  size_t source;
 };
 
 std::string name_of(size_t k, size_t count) {
   return count == 1 ? "the profile" : fmt::format("curve {} of the profile", k);
 }
 
-Outline outline_of(const CurvePtr& curve, const std::string& name, const char* field) {
+Outline outline_of(const CurvePtr& curve, size_t source, const std::string& name, const char* field) {
   if (!(curve->domain().width() < kInfinity)) throw FieldError(field, name + " is unbounded", "give it a domain");
   if (!curve->is_closed()) {
     const Vec3 begin = curve->point(curve->domain().lo), end = curve->point(curve->domain().hi);
@@ -147,7 +148,7 @@ Outline outline_of(const CurvePtr& curve, const std::string& name, const char* f
                                  text_of(end), glm::length(end - begin)),
                      "close it, or give a thickness where the body has one");
   }
-  Outline outline{curve, samples_of(*curve), {}};
+  Outline outline{curve, samples_of(*curve), {}, source};
   outline.area = area_of(outline.polygon);
   const double size = bounds(*curve).diameter();
   if (!(glm::length(outline.area) > 1e-12 * size * size))
@@ -217,16 +218,17 @@ std::shared_ptr<const Circle> circle_of(const Curve& curve) {
   const Interval domain = curve.domain();
   Vec3 center(0), normal(0);
   double radius = 0;
+  const double size = bounds(curve).diameter();
   for (int k = 0; k <= kSamples; ++k) {
     const double t = domain.lo + domain.width() * k / kSamples;
     const EndState state = state_at(curve, t);
     const double curvature = glm::length(state.curvature);
-    if (!(curvature * bounds(curve).diameter() > 1e-6)) return nullptr;
+    if (!(curvature * size > 1e-6)) return nullptr;
     const Vec3 found = curve.point(t) + state.curvature / (curvature * curvature);
     const Vec3 turning = glm::cross(state.tangent, state.curvature / curvature);
     if (k == 0) center = found, normal = turning, radius = 1 / curvature;
-    const double size = radius + glm::length(center);
-    if (glm::length(found - center) > kSame * size || std::abs(1 / curvature - radius) > kSame * size ||
+    const double same = kSame * (radius + glm::length(center));
+    if (glm::length(found - center) > same || std::abs(1 / curvature - radius) > same ||
         glm::length(turning - normal) > kSame)
       return nullptr;
   }
@@ -236,12 +238,6 @@ std::shared_ptr<const Circle> circle_of(const Curve& curve) {
   if (angle <= 1e-9) angle += kTwoPi;
   if (curve.is_closed()) angle = kTwoPi;
   return std::make_shared<Circle>(frame, glm::length(begin), Interval(0, angle));
-}
-
-double Profile::area() const {
-  double sum = 0;
-  for (const ProfileLoop& loop : loops) sum += (loop.hole ? -1 : 1) * glm::length(loop.area);
-  return sum;
 }
 
 std::vector<Vec3> Profile::samples() const {
@@ -264,7 +260,7 @@ Profile profile_of(const std::vector<CurvePtr>& curves, const char* field) {
   std::vector<Outline> outlines;
   Box3 box;
   for (size_t k = 0; k < count; ++k) {
-    outlines.push_back(outline_of(curves[k], name_of(k, count), field));
+    outlines.push_back(outline_of(curves[k], k, name_of(k, count), field));
     box.include(bounds(*curves[k]));
   }
   Profile profile;
@@ -291,7 +287,7 @@ Profile profile_of(const std::vector<CurvePtr>& curves, const char* field) {
     for (size_t j = 1; j < count && k > 0; ++j)
       if (j != k && is_in(flat(outlines[k].polygon)[0], flat(outlines[j].polygon)))
         throw FieldError(field, "a hole of the profile lies inside of another", "make a body of each outline");
-    profile.loops.push_back({smooth_segments(outlines[k].curve), outlines[k].area, k > 0});
+    profile.loops.push_back({smooth_segments(outlines[k].curve), outlines[k].area, k > 0, outlines[k].source});
   }
   return profile;
 }

@@ -15,6 +15,7 @@ struct ProfileLoop {
   std::vector<CurvePtr> segments;  // each begins where the one before ends, and the first where the last ends
   Vec3 area{0};                    // area times the normal about which the loop runs counterclockwise
   bool hole = false;
+  size_t source = 0;  // its curve among those given
 };
 
 struct Profile {
@@ -23,7 +24,6 @@ struct Profile {
 
   // Seen against the plane's z, the region lies to the left of the loop.
   bool is_left(const ProfileLoop& loop) const { return (glm::dot(loop.area, plane.z) > 0) != loop.hole; }
-  double area() const;
   std::vector<Vec3> samples() const;
 };
 
