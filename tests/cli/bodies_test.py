@@ -104,6 +104,15 @@ class Bodies(ProgramTest):
         self.assert_near(self.json_of("evaluate", "apart.yaml", "apart", "--face", "x_max", "--at", "0,0")["point"][0], 3.5, 1e-15)
         self.assert_near(self.json_of("measure", "apart.yaml", "loop")["length"], 8, 1e-12)
 
+    def test_walls_of_uneven_arcs(self):
+        # The same arc, its angle the parameter and not.
+        walls = [f"{{ type: extrusion_body, along: z, thickness: 0.2, of: {{ type: composite_curve, of: [{{ type: segment, from: [0, 0], to: [1, 0] }}, "
+                 f"{{ type: formula_curve, point: [2 - cos({angle}), sin({angle}), 0], domain: [0, {end}] }}] }} }}"
+                 for angle, end in (("t", 1.3), ("t + 0.3*t*t", 1))]
+        self.write("walls.yaml", f"lekalo: 1\ngeometry:\n  even: {walls[0]}\n  uneven: {walls[1]}\n")
+        even, uneven = (self.json_of("measure", "walls.yaml", name)["volume"] for name in ("even", "uneven"))
+        self.assert_near(even, uneven, 1e-12)
+
     def refused(self, body, *texts):
         self.write("wrong.yaml", f"lekalo: 1\ngeometry:\n  b: {{ {body} }}\n")
         errors = self.run_program("measure", "wrong.yaml", "b", code=3)[1]

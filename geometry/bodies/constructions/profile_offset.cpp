@@ -32,6 +32,18 @@ struct PlaneOffset {
   }
 };
 
+// Whether the parameter goes on as the angle of an arc does.
+bool runs_evenly(const Curve& curve) {
+  constexpr int kSamples = 12;
+  const Interval domain = curve.domain();
+  const double speed = glm::length(curve.evaluate(domain.lo, 1).d[1]);
+  for (int k = 1; k <= kSamples; ++k) {
+    const double t = domain.clamp(domain.lo + domain.width() * k / kSamples);
+    if (!(std::abs(glm::length(curve.evaluate(t, 1).d[1]) - speed) <= 1e-12 * speed)) return false;
+  }
+  return true;
+}
+
 class Mitre {
  public:
   Mitre(const std::vector<CurvePtr>& segments, const Vec3& normal, double distance, bool closed, const char* field)
@@ -106,10 +118,12 @@ class Mitre {
                         circle->radius(), i, distance_),
             "a smaller distance, or a larger radius");
       if (range == domain) return transformed(segment, Affine::scaling(Vec3(factor), circle->frame().origin));
-      // Angles go on beyond the arc.
-      const double turn = circle->domain().width() / domain.width();
-      const Interval angles((range.lo - domain.lo) * turn, (range.hi - domain.lo) * turn);
-      return with_domain(std::make_shared<Circle>(circle->frame(), factor * circle->radius(), angles), domain);
+      if (runs_evenly(*segment)) {
+        // Angles go on beyond the arc.
+        const double turn = circle->domain().width() / domain.width();
+        const Interval angles((range.lo - domain.lo) * turn, (range.hi - domain.lo) * turn);
+        return with_domain(std::make_shared<Circle>(circle->frame(), factor * circle->radius(), angles), domain);
+      }
     }
     if (range.lo < domain.lo || range.hi > domain.hi) {
       whole = segment->continued({std::min(range.lo, domain.lo), std::max(range.hi, domain.hi)});
