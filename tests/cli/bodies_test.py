@@ -113,6 +113,14 @@ class Bodies(ProgramTest):
         even, uneven = (self.json_of("measure", "walls.yaml", name)["volume"] for name in ("even", "uneven"))
         self.assert_near(even, uneven, 1e-12)
 
+    def test_sheet_of_flat_part(self):
+        # The surface is curved more than the thickness allows, but not where it is used.
+        self.write("part.yaml", "lekalo: 1\ngeometry:\n"
+                   "  hill: { type: formula_surface, z: '2*exp(-20*((x - 3)^2 + y^2))', domain: { u: [-1, 4], v: [-1, 1] } }\n"
+                   "  part: { type: trimmed_surface, of: hill, loops: [{ type: circle, radius: 0.5 }] }\n"
+                   "  sheet: { type: thickened_sheet, of: part, thickness: 0.2 }\n")
+        self.assert_near(self.json_of("measure", "part.yaml", "sheet")["volume"], 0.05 * math.pi, 1e-9)
+
     def refused(self, body, *texts):
         self.write("wrong.yaml", f"lekalo: 1\ngeometry:\n  b: {{ {body} }}\n")
         errors = self.run_program("measure", "wrong.yaml", "b", code=3)[1]

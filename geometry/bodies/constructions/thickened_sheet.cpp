@@ -11,6 +11,8 @@
 #include "geometry/bodies/topology/sew.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/queries/contours/parameter_lines.h"
+#include "geometry/queries/differential/curvature.h"
 #include "geometry/surfaces/derived/offset.h"
 #include "geometry/surfaces/nets/lofts.h"
 
@@ -18,29 +20,36 @@ namespace lekalo::geometry {
 
 namespace {
 
+constexpr int kTried = 24;
+
 // The offset is regular while 1 - 2 h H + h^2 K > 0 and h is below both principal radii on its side.
-void check_regular(const Surface& base, double h) {
-  constexpr int kTried = 24;
-  const Rectangle d = base.domain();
+void check_regular(const Surface& base, double u, double v, double h) {
+  const SurfaceCurvature found = curvature(base, u, v);
+  if (!found.regular) return;
+  const double largest = h > 0 ? found.principal[0] : -found.principal[1];
+  if (std::abs(h) * largest >= 1)
+    throw FieldError("thickness",
+                     fmt::format("the surface is curved more than that at (u, v) = ({:.6g}, {:.6g}): its radius of "
+                                 "curvature on this side is {:.6g}",
+                                 u, v, 1 / largest),
+                     "a smaller thickness, or the other side (its negative)");
+}
+
+// At places of the face, and of its borders where it is a part of its surface.
+void check_regular(const FaceRegion& face, double h) {
+  const Surface& base = *face.surface;
+  const Rectangle d = face.region ? Rectangle{face.region->u_range(), face.region->v_range()} : base.domain();
+  const auto at = [](const Interval& range, int k) { return range.clamp(range.lo + range.width() * k / kTried); };
   for (int i = 0; i <= kTried; ++i)
     for (int j = 0; j <= kTried; ++j) {
-      const double u = d.u.clamp(d.u.lo + d.u.width() * i / kTried), v = d.v.clamp(d.v.lo + d.v.width() * j / kTried);
-      const SurfaceJet s = base.evaluate(u, v, 2);
-      const Vec3 n = glm::cross(s.du(), s.dv());
-      const double E = glm::dot(s.du(), s.du()), F = glm::dot(s.du(), s.dv()), G = glm::dot(s.dv(), s.dv());
-      const double metric = E * G - F * F;
-      if (!(metric > 1e-12 * E * G)) continue;
-      const Vec3 m = base.normal_sign() * n / std::sqrt(metric);
-      const double L = glm::dot(m, s.duu()), M = glm::dot(m, s.duv()), N = glm::dot(m, s.dvv());
-      const double mean = (E * N - 2 * F * M + G * L) / (2 * metric), gauss = (L * N - M * M) / metric;
-      const double bend = std::sqrt(std::max(0.0, mean * mean - gauss));
-      const double largest = h > 0 ? mean + bend : -(mean - bend);
-      if (std::abs(h) * largest >= 1)
-        throw FieldError("thickness",
-                         fmt::format("the surface is curved more than that at (u, v) = ({:.6g}, {:.6g}): its radius of "
-                                     "curvature on this side is {:.6g}",
-                                     u, v, 1 / largest),
-                         "a smaller thickness, or the other side (its negative)");
+      const double u = at(d.u, i), v = at(d.v, j);
+      if (!face.region || face.region->contains(u, v)) check_regular(base, u, v, h);
+    }
+  if (!face.region) return;
+  for (const Curve2Ptr& border : face.borders)
+    for (int k = 0; k <= kTried; ++k) {
+      const Vec3 place = border->point(at(border->domain(), k));
+      check_regular(base, place.x, place.y, h);
     }
 }
 
@@ -193,7 +202,8 @@ Body thickened(const Fields& f) {
   const double h = f.number("thickness");
   if (h == 0) throw FieldError("thickness", "the thickness is zero");
   const BodyPtr sheet = sheet_of(f.any("of"));
-  for (const Face& face : sheet->faces) check_regular(*face.surface, face.forward ? h : -h);
+  const std::vector<FaceRegion> faces = face_regions(*sheet);
+  for (size_t f = 0; f < faces.size(); ++f) check_regular(faces[f], sheet->faces[f].forward ? h : -h);
   return Thickening(*sheet, h).build();
 }
 
