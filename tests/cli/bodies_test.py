@@ -159,6 +159,12 @@ class Bodies(ProgramTest):
                      "void 0 is not inside of the body")
         self.refused("type: extrusion_body, of: [{ type: rectangle, size: [4, 4] }, { type: circle, radius: 1 }], along: z, draft: 50",
                      "nothing is left of the profile", "a smaller draft")
+        room = "type: hollow_body, of: { type: box, size: [9, 9, 9] }, voids"
+        ball, box = "{ type: ball, radius: 1, center: [3, 3, 3] }", "{ type: box, size: [5, 5, 5], corner: [1, 1, 1] }"
+        self.refused(f"{room}: [{box}, {ball}]", "void 1 runs into void 0")
+        self.refused(f"{room}: [{ball}, {box}]", "void 1 runs into void 0")
+        self.refused(f"{room}: {{ type: ball, radius: 1, center: [20, 3, 3] }}", "void 0 is not inside of the body")
+        self.refused(f"type: hollow_body, of: {{ {room}: {ball} }}, voids: {box}", "void 0 encloses a void of the body")
         self.refused("type: sewn_shell, solid: true, of: { type: plane, size: [1, 1] }", "it is open")
 
 

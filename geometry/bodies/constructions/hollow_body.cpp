@@ -6,35 +6,47 @@
 
 #include "geometry/body.h"
 #include "geometry/describe.h"
+#include "geometry/queries/closest/distance.h"
 #include "geometry/queries/closest/position.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-// Points of the body's edges and the middles of its faces' parameters.
-std::vector<Vec3> samples(const Body& body) {
-  constexpr int kSamples = 16;
-  std::vector<Vec3> result;
-  for (const Edge& edge : body.edges) {
-    const Interval t = edge.curve->domain();
-    for (int k = 0; k <= kSamples; ++k) result.push_back(edge.curve->point(t.lo + t.width() * k / kSamples));
-  }
-  for (const Face& face : body.faces) {
-    if (face.trimmed) continue;
-    const Rectangle d = face.surface->domain();
-    for (int i = 1; i < kSamples; ++i)
-      for (int j = 1; j < kSamples; ++j)
-        result.push_back(face.surface->point(d.u.lo + d.u.width() * i / kSamples, d.v.lo + d.v.width() * j / kSamples));
-  }
-  return result;
+void refuse(size_t number, const std::string& what, const Vec3& at) {
+  throw FieldError("voids", fmt::format("void {} {} at ({:.6g}, {:.6g}, {:.6g})", number, what, at.x, at.y, at.z),
+                   "voids lie inside of the body and apart from each other");
 }
 
-void require(const Body& void_body, size_t number, const Body& other, Containment where, const std::string& what) {
-  for (const Vec3& p : samples(void_body))
-    if (position(p, other).where != where)
-      throw FieldError("voids", fmt::format("void {} {} at ({:.6g}, {:.6g}, {:.6g})", number, what, p.x, p.y, p.z),
-                       "voids lie inside of the body and apart from each other");
+// Where the surfaces do not meet, one point of a shell tells where all of it lies.
+void require_apart(const Body& void_body, size_t number, const Body& other, const std::string& what) {
+  const Distance apart = distance(&void_body, &other, DistanceMinima::nearest);
+  if (!(apart.distance > 0)) refuse(number, what, apart.minima.front().a.point);
+}
+
+void require(const Vec3& point, size_t number, const Body& other, Containment where, const std::string& what) {
+  if (position(point, other).where != where) refuse(number, what, point);
+}
+
+const Vec3& point_of(const Body& body, const Shell& shell) {
+  const Loop& loop = body.loops[body.faces[shell.faces.front()].loops.front()];
+  return body.vertices[body.edges[body.coedges[loop.coedges.front()].edge].start].point;
+}
+
+void check_inside(const Body& void_body, size_t number, const Body& body) {
+  const char* what = "is not inside of the body";
+  require_apart(void_body, number, body, what);
+  require(point_of(void_body, void_body.shells[0]), number, body, Containment::inside, what);
+  // The body may have voids of its own.
+  for (size_t s = 1; s < body.shells.size(); ++s)
+    require(point_of(body, body.shells[s]), number, void_body, Containment::outside, "encloses a void of the body");
+}
+
+void check_apart(const Body& one, size_t number, const Body& other, size_t other_number) {
+  const std::string what = fmt::format("runs into void {}", other_number);
+  require_apart(one, number, other, what);
+  require(point_of(one, one.shells[0]), number, other, Containment::outside, what);
+  require(point_of(other, other.shells[0]), number, one, Containment::outside, what);
 }
 
 // The shells of another body, turned to look into it.
@@ -78,13 +90,13 @@ Body hollowed(const Fields& f) {
   if (!body.is_closed()) throw FieldError("of", "the body is open: it has no inside", "a closed body");
   std::vector<BodyPtr> voids;
   for (const std::any& one : f.references("voids")) voids.push_back(std::any_cast<BodyPtr>(one));
-  Body result = body;
-  for (size_t k = 0; k < voids.size(); ++k) {
+  for (size_t k = 0; k < voids.size(); ++k)
     if (!voids[k]->is_closed() || voids[k]->shells.size() != 1)
       throw FieldError("voids", fmt::format("void {} is not bounded by one closed shell", k), "a body without voids");
-    require(*voids[k], k, body, Containment::inside, "is not inside of the body");
-    for (size_t j = 0; j < voids.size(); ++j)
-      if (j != k) require(*voids[k], k, *voids[j], Containment::outside, fmt::format("runs into void {}", j));
+  Body result = body;
+  for (size_t k = 0; k < voids.size(); ++k) {
+    check_inside(*voids[k], k, body);
+    for (size_t j = 0; j < k; ++j) check_apart(*voids[k], k, *voids[j], j);
     add_turned(*voids[k], k, result);
   }
   return result;
