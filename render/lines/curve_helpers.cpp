@@ -7,7 +7,7 @@
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/measures/arc_length.h"
-#include "geometry/surfaces/triangles/bezier_triangle.h"
+#include "render/lines/control_mesh.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/mesh_figures.h"
 #include "render/lines/surface_figures.h"
@@ -156,18 +156,9 @@ std::vector<Vec3> helper_points(const Object& object) {
       for (const Frame& frame : helper_frames(**curve, helper))
         for (const Vec3& axis : {frame.x, frame.y, frame.z}) points.push_back(frame.origin + f.number("length") * axis);
     for (const SurfacePtr& surface : surfaces) {
-      const auto* spline = dynamic_cast<const TSpline*>(surface.get());
-      const bool on_surface =
-          spline && helper.type == "t_mesh" && f.text("where") == "surface";  // framed with the surface
-      if (on_surface) continue;
-      if (spline && (helper.type == "control_net" || helper.type == "t_mesh")) {
-        for (const Vec3& point : mesh_points(*spline, helper)) points.push_back(point);
-      } else if (helper.type == "control_net") {
-        if (const auto net = triangular_net(*surface))
-          add(net->points);
-        else if (const auto form = surface->as_nurbs())
-          add(form->points);
-      }
+      // Meshes on the surface are framed with it.
+      if (const auto mesh = shown_mesh(*surface, helper))
+        for (const ControlMesh::Point& point : mesh->points) points.push_back(point.at);
       if (leaves_surface(helper) && surface->bounded())
         for (const SurfaceFigure::Line& line : surface_figure(surface, helper).lines) add_places(*line.curve);
       if (helper.type == "normals" && surface->bounded()) {
@@ -180,13 +171,6 @@ std::vector<Vec3> helper_points(const Object& object) {
   }
   std::erase_if(points, [](const Vec3& p) { return !std::isfinite(p.x + p.y + p.z); });
   return points;
-}
-
-std::vector<Vec3> mesh_points(const TSpline& spline, const Helper& helper) {
-  if (helper.type == "control_net") return spline.points();
-  std::vector<Vec3> places;
-  for (size_t i = 0; i < spline.points().size(); ++i) places.emplace_back(spline.place(static_cast<int>(i)), 0);
-  return places;
 }
 
 std::vector<Vec3> normal_tips(const Surface& surface, double u, double v, const Helper& helper) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "geometry/curve.h"
-#include "geometry/surfaces/splines/t_spline.h"
 #include "render/model/model.h"
 
 namespace lekalo::render {
@@ -37,9 +36,6 @@ std::vector<geometry::Frame> rotation_minimizing_frames(const geometry::Curve& c
 
 // Those that a helper `frames` asks for.
 std::vector<geometry::Frame> helper_frames(const geometry::Curve& curve, const Helper& helper);
-
-// The points of a T-spline, or for t_mesh their places in the parameter plane.
-std::vector<geometry::Vec3> mesh_points(const geometry::TSpline& spline, const Helper& helper);
 
 // Ends of what a helper `normals` shows at a place: the normal n, and with `frames` the unit tangent t along u and t x
 // n (Grezdov, Filippenko 2010, 10).

@@ -17,8 +17,8 @@
 #include "geometry/shapes/implicit/implicit_contours.h"
 #include "geometry/shapes/tube/ball_outlines.h"
 #include "geometry/shapes/tube/tube_lines.h"
-#include "geometry/surfaces/splines/t_spline.h"
 #include "geometry/surfaces/triangles/parameter_triangle.h"
+#include "render/lines/control_mesh.h"
 #include "render/lines/strokes.h"
 
 namespace lekalo::render {
@@ -252,23 +252,22 @@ class StrokeCollector {
 
   static std::vector<Vec3> control_points(const std::vector<geometry::Vec4>& points, int first, int step, int count);
 
-  void add_net(const geometry::NurbsSurfaceForm& form, const geometry::Periods& periods, const std::string& sign,
-               const Helper& helper);
-  void add_mesh(const geometry::TSpline& spline, const std::string& sign, const Helper& helper);
-  void add_net(const geometry::TriangularNet& net, const std::string& sign, const Helper& helper);
+  void add_mesh(const ControlMesh& mesh, const std::string& sign, const Helper& helper);
   void add_triangle(geometry::TriangularNet net, const geometry::ParameterTriangle& triangle, const std::string& sign,
                     const Helper& helper);
-  void add_mesh_image(const geometry::SurfacePtr& surface, const geometry::TSpline& spline, const std::string& sign,
-                      const Helper& helper);
+  void add_mesh_image(const geometry::SurfacePtr& surface, const std::string& sign, const Helper& helper);
 
   void blossom(const Vec3& point, const geometry::NurbsCurveForm& form, size_t index, int level, double t,
                const Helper& helper);
 
   void add_figure(const geometry::CurvePtr& curve, const std::string& sign, const Helper& helper);
 
-  void add_figure(const geometry::SurfacePtr& surface, const std::string& sign, const Helper& helper);
+  std::vector<double> levels_of(const Helper& helper);
+  void add_figure(const geometry::SurfacePtr& surface, const std::vector<double>& levels, const std::string& sign,
+                  const Helper& helper);
   // On the faces of the object's body.
-  void add_figure(const geometry::Body& body, const std::string& sign, const Helper& helper);
+  void add_figure(const geometry::Body& body, const std::vector<double>& levels, const std::string& sign,
+                  const Helper& helper);
 
   void add_colored(const geometry::CurvePtr& curve, const Helper& helper);
 

@@ -6,6 +6,7 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/splines/nurbs_curve.h"
+#include "geometry/surfaces/splines/t_spline.h"
 #include "geometry/surfaces/triangles/bezier_triangle.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
@@ -72,24 +73,17 @@ void StrokeCollector::add_helper(const Helper& helper) {
     for (const CurvePtr& line : figure.lines) stroke(line, helper.style, helper.hidden);
     marks(figure.points);
   }
+  const std::vector<double> levels = levels_of(helper);
   if (const auto* body = std::get_if<BodyPtr>(&object_->shape); body && lies_on_surface(helper))
-    add_figure(**body, sign, helper);
+    add_figure(**body, levels, sign, helper);
   each_surface([&](const SurfacePtr& surface) {
-    if (const auto net = triangular_net(*surface)) {
-      if (helper.type == "control_net") add_net(*net, sign, helper);
-      if (helper.type == "de_casteljau")
-        add_triangle(*net, placed_triangle(*surface).surface->triangle(), sign, helper);
-    }
-    const auto form = surface->as_nurbs();
-    if (const auto* spline = dynamic_cast<const TSpline*>(surface.get())) {
-      if (helper.type == "t_mesh" && helper.values.text("where") == "surface")
-        add_mesh_image(surface, *spline, sign, helper);
-      else if (helper.type == "control_net" || helper.type == "t_mesh")
-        add_mesh(*spline, sign, helper);
-    } else if (helper.type == "control_net" && form && !triangular_net(*surface)) {
-      add_net(*form, surface->periods(), sign, helper);
-    }
-    if (helper.type == "knots" && form) {
+    const auto net = triangular_net(*surface);
+    if (net && helper.type == "de_casteljau")
+      add_triangle(*net, placed_triangle(*surface).surface->triangle(), sign, helper);
+    if (const auto mesh = shown_mesh(*surface, helper)) add_mesh(*mesh, sign, helper);
+    if (is_mesh_on_surface(helper)) add_mesh_image(surface, sign, helper);
+    const auto form = helper.type == "knots" ? surface->as_nurbs() : std::nullopt;
+    if (form) {
       // Of those of a period alone: others come back into it.
       const auto within = [](const std::vector<double>& knots, const Interval& domain) {
         std::set<double> values;
@@ -103,7 +97,7 @@ void StrokeCollector::add_helper(const Helper& helper) {
         add(line, helper.style, helper.hidden);
     }
     if (helper.type == "normals" && surface->bounded()) add_normals(*surface, helper);
-    if (is_surface_figure(helper.type)) add_figure(surface, sign, helper);
+    if (is_surface_figure(helper.type)) add_figure(surface, levels, sign, helper);
   });
 }
 
@@ -167,56 +161,18 @@ std::vector<Vec3> StrokeCollector::control_points(const std::vector<Vec4>& point
   return result;
 }
 
-void StrokeCollector::add_net(const NurbsSurfaceForm& form, const Periods& periods, const std::string& sign,
-                              const Helper& helper) {
-  const bool closed_u = periods.u > 0, closed_v = periods.v > 0;
-  const int rows = distinct(form.count_u(), form.degree_u, closed_u),
-            columns = distinct(form.count_v(), form.degree_v, closed_v);
-  std::vector<std::vector<Vec3>> all;
-  for (int i = 0; i < rows; ++i) {
-    all.push_back(control_points(form.points, i * form.count_v(), 1, columns));
-    polygon(all.back(), closed_v, helper.style, helper.hidden);
-  }
-  for (int j = 0; j < columns; ++j)
-    polygon(control_points(form.points, j, form.count_v(), rows), closed_u, helper.style, helper.hidden);
-  const bool corners = helper.values.text("label_points") == "corners";
-  for (size_t i = 0; i < all.size(); ++i)
-    for (size_t j = 0; j < all[i].size(); ++j) {
-      mark(all[i][j], sign, helper.style, helper.hidden);
-      const bool corner = (i == 0 || i + 1 == all.size()) && (j == 0 || j + 1 == all[i].size());
-      if (corner || !corners) label(all[i][j], {static_cast<double>(i), static_cast<double>(j), 0.0}, helper);
-    }
-}
-
-// The points of a T-spline, or their places in the parameter plane, joined as in its mesh.
-void StrokeCollector::add_mesh(const TSpline& spline, const std::string& sign, const Helper& helper) {
-  const std::vector<Vec3> points = mesh_points(spline, helper);
-  for (const auto& [a, b] : spline.edges()) polygon({points[a], points[b]}, false, helper.style, helper.hidden);
-  for (size_t i = 0; i < points.size(); ++i) {
-    mark(points[i], sign, helper.style, helper.hidden);
-    label(points[i], {static_cast<double>(i), 0.0}, helper);
-  }
-}
-
-void StrokeCollector::add_net(const TriangularNet& net, const std::string& sign, const Helper& helper) {
-  const int n = net.degree;
-  const auto at = [&](int i, int j) { return Vec3(net.at(i, j)) / net.at(i, j).w; };
-  // Rows of equal i, then j, then k.
-  for (int row = 0; row < n; ++row) {
-    std::vector<Vec3> lines[3];
-    for (int m = 0; m <= n - row; ++m) {
-      lines[0].push_back(at(row, m));
-      lines[1].push_back(at(m, row));
-      lines[2].push_back(at(m, n - row - m));
-    }
-    for (const std::vector<Vec3>& line : lines) polygon(line, false, helper.style, helper.hidden);
+void StrokeCollector::add_mesh(const ControlMesh& mesh, const std::string& sign, const Helper& helper) {
+  for (const ControlMesh::Line& line : mesh.lines) {
+    std::vector<Vec3> points;
+    for (const int k : line.points) points.push_back(mesh.points[k].at);
+    polygon(points, line.closed, helper.style, helper.hidden);
   }
   const bool all = !helper.values.has("label_points") || helper.values.text("label_points") == "all";
-  each_index(n, [&](int i, int j, int k) {
-    mark(at(i, j), sign, helper.style, helper.hidden);
-    if (all || i == n || j == n || k == n)
-      label(at(i, j), {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}, helper);
-  });
+  for (const ControlMesh::Point& point : mesh.points) {
+    mark(point.at, sign, helper.style, helper.hidden);
+    const auto& [i, j, k] = point.counters;
+    if (all || point.is_corner) label(point.at, {i, j, k}, helper);
+  }
 }
 
 // De Casteljau's points of each level at parameters of the triangle (Golovanov 2016, 3.11.7).
@@ -245,8 +201,10 @@ void StrokeCollector::add_triangle(TriangularNet net, const ParameterTriangle& t
 }
 
 // The lines of the mesh on the surface itself, as far as it goes.
-void StrokeCollector::add_mesh_image(const SurfacePtr& surface, const TSpline& spline, const std::string& sign,
-                                     const Helper& helper) {
+void StrokeCollector::add_mesh_image(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {
+  const TSpline* of = placed_t_spline(*surface).spline;
+  if (!of) return;
+  const TSpline& spline = *of;
   const Rectangle domain = spline.domain();
   for (const auto& [i, j] : spline.edges()) {
     const Vec2 a = spline.place(i), b = spline.place(j);
@@ -259,8 +217,8 @@ void StrokeCollector::add_mesh_image(const SurfacePtr& surface, const TSpline& s
   for (size_t i = 0; i < spline.points().size(); ++i) {
     const Vec2 place = spline.place(static_cast<int>(i));
     if (!domain.contains(place.x, place.y)) continue;
-    mark(spline.point(place.x, place.y), sign, helper.style, helper.hidden);
-    label(spline.point(place.x, place.y), {static_cast<double>(i), 0.0}, helper);
+    mark(surface->point(place.x, place.y), sign, helper.style, helper.hidden);
+    label(surface->point(place.x, place.y), {static_cast<double>(i), 0.0}, helper);
   }
 }
 
@@ -274,12 +232,19 @@ void StrokeCollector::add_figure(const CurvePtr& curve, const std::string& sign,
     label(figure.label_at, {static_cast<double>(figure.counts[0]), static_cast<double>(figure.counts[1])}, helper);
 }
 
-void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {
-  std::vector<SurfacePtr> all;
-  each_face([&](const SurfacePtr& one) {
-    if (one->bounded()) all.push_back(one);
-  });
-  const SurfaceFigure figure = surface_figure(surface, helper, all);
+// Of contour lines, which all surfaces of the object have at the same levels.
+std::vector<double> StrokeCollector::levels_of(const Helper& helper) {
+  std::vector<SurfacePtr> surfaces;
+  if (helper.type == "contour_lines")
+    each_face([&](const SurfacePtr& one) {
+      if (one->bounded()) surfaces.push_back(one);
+    });
+  return surfaces.empty() ? std::vector<double>() : contour_levels(helper, surfaces);
+}
+
+void StrokeCollector::add_figure(const SurfacePtr& surface, const std::vector<double>& levels, const std::string& sign,
+                                 const Helper& helper) {
+  const SurfaceFigure figure = surface_figure(surface, helper, levels);
   if (!figure.complete) is_incomplete();
   for (const SurfaceFigure::Line& line : figure.lines) {
     Style style = helper.style;
@@ -291,14 +256,15 @@ void StrokeCollector::add_figure(const SurfacePtr& surface, const std::string& s
   for (const Vec3& point : figure.points) mark(point, sign, helper.style, helper.hidden);
 }
 
-void StrokeCollector::add_figure(const Body& body, const std::string& sign, const Helper& helper) {
+void StrokeCollector::add_figure(const Body& body, const std::vector<double>& levels, const std::string& sign,
+                                 const Helper& helper) {
   for (const FaceRegion& face : face_regions(body)) {
     if (!face.surface->bounded()) {
       leave_out(helper.type + " of unbounded surfaces (" + name_of_object() + ")");
       continue;
     }
     if (face.region) cutters_.push_back(cutter_of(face, to_world_));
-    add_figure(face.surface, sign, helper);
+    add_figure(face.surface, levels, sign, helper);
     if (face.region) cutters_.pop_back();
   }
 }

@@ -46,7 +46,7 @@ constexpr const char* kLinesShown[] = {"parameter", "smooth", "sharp", "boundary
 // Those of drawings.
 constexpr const char* kLinesDrawn[] = {"parameter", "smooth",     "section",  "intersection", "self_intersection",
                                        "sharp",     "silhouette", "boundary", "curve"};
-constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "knots", "normals"};
+constexpr const char* kHelpersShown[] = {"control_polygon", "control_net", "t_mesh", "knots", "normals"};
 
 bool shows(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();

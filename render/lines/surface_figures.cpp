@@ -113,15 +113,9 @@ SurfaceFigure asymptotic_lines(const SurfacePtr& surface, const Fields& f) {
   return figure;
 }
 
-// At given levels, or at round numbers of the range on all surfaces together.
-SurfaceFigure contour_lines(const SurfacePtr& surface, const Fields& f, const std::vector<SurfacePtr>& all) {
+SurfaceFigure contour_lines(const SurfacePtr& surface, const Fields& f, const std::vector<double>& levels) {
   const Quantity quantity = quantity_of(f);
   const auto value = [&](double u, double v) { return value_on(quantity, *surface, u, v); };
-  std::vector<double> levels = f.get<ParameterValues>("levels").values;
-  if (levels.empty()) {
-    const Interval range = range_on(quantity, all.empty() ? std::vector{surface} : all);
-    levels = round_numbers(range, f.get<ParameterValues>("levels").count);
-  }
   SurfaceFigure figure;
   for (const double level : levels)
     for (const LevelLine& line : level_lines(*surface, value, level)) {
@@ -212,8 +206,7 @@ struct PlaceOfFigure {
   Vec3 point, normal;
   SurfaceCurvature curvature;
 };
-PlaceOfFigure place_of(const Surface& surface, const Fields& f) {
-  const double u = f.number("u"), v = f.number("v");
+void check_place(const Surface& surface, double u, double v) {
   const auto check = [&](const char* name, double x, const Interval& range) {
     if (!range.contains(x))
       throw FieldError(name, fmt::format("the surface has no {} = {:g}", name, x),
@@ -221,6 +214,10 @@ PlaceOfFigure place_of(const Surface& surface, const Fields& f) {
   };
   check("u", u, surface.domain().u);
   check("v", v, surface.domain().v);
+}
+PlaceOfFigure place_of(const Surface& surface, const Fields& f) {
+  const double u = f.number("u"), v = f.number("v");
+  check_place(surface, u, v);
   PlaceOfFigure at{surface.point(u, v), surface.normal(u, v), curvature(surface, u, v)};
   if (!at.curvature.regular) throw FieldError("u", "the surface has no curvature at this place", "take one beside it");
   return at;
@@ -294,6 +291,7 @@ SurfaceFigure dupin_indicatrix(const SurfacePtr& surface, const Fields& f) {
 // r_v.
 SurfaceFigure tangent_plane(const SurfacePtr& surface, const Fields& f) {
   const double u = f.number("u"), v = f.number("v"), half = 0.5 * f.number("size");
+  check_place(*surface, u, v);
   const SurfaceJet jet = surface->evaluate(u, v, 1);
   const Vec3 normal = surface->normal(u, v), point = jet.point();
   const bool has_u_line = glm::length(jet.du()) > 1e-12 * glm::length(jet.dv());
@@ -348,9 +346,15 @@ void check_surface_figure(const Surface& surface) {
   if (!surface.bounded()) throw std::invalid_argument("the surface is unbounded: give it a domain");
 }
 
-SurfaceFigure surface_figure(const SurfacePtr& surface, const Helper& helper, const std::vector<SurfacePtr>& all) {
+std::vector<double> contour_levels(const Helper& helper, const std::vector<SurfacePtr>& surfaces) {
+  const ParameterValues& asked = helper.values.get<ParameterValues>("levels");
+  return asked.values.empty() ? round_numbers(range_on(quantity_of(helper.values), surfaces), asked.count)
+                              : asked.values;
+}
+
+SurfaceFigure surface_figure(const SurfacePtr& surface, const Helper& helper, const std::vector<double>& levels) {
   check_surface_figure(*surface);
-  if (helper.type == "contour_lines") return contour_lines(surface, helper.values, all);
+  if (helper.type == "contour_lines") return contour_lines(surface, helper.values, levels);
   return figures().at(helper.type)(surface, helper.values);
 }
 

@@ -43,9 +43,12 @@ void check_surface_figure(const geometry::Surface& surface);
 // Whether all of it lies on the surface, so that faces of bodies have it too.
 bool lies_on_surface(const Helper& helper);
 
-// Throws FieldError for fields that do not fit the surface; std::invalid_argument for an unbounded one. `all`: the
-// surfaces of the object, which have their contour lines at the same levels; empty: this one alone.
+// Throws FieldError for fields that do not fit the surface; std::invalid_argument for an unbounded one. `levels`: of
+// contour_lines.
 SurfaceFigure surface_figure(const geometry::SurfacePtr& surface, const Helper& helper,
-                             const std::vector<geometry::SurfacePtr>& all = {});
+                             const std::vector<double>& levels = {});
+
+// Those that a helper contour_lines asks for, or round numbers of the range on all of the surfaces.
+std::vector<double> contour_levels(const Helper& helper, const std::vector<geometry::SurfacePtr>& surfaces);
 
 }  // namespace lekalo::render

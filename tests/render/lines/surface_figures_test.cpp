@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "render/lines/strokes.h"
 #include "render/scene/scene_text.h"
@@ -49,6 +50,30 @@ template <class Visit>
 void each_place(const CurvePtr& curve, const Visit& visit) {
   const geometry::Interval domain = curve->domain();
   for (int k = 0; k <= 20; ++k) visit(curve->point(domain.clamp(domain.lo + domain.width() * k / 20)));
+}
+
+// The mesh and net of a T-spline, and of one that is moved.
+TEST(SurfaceFigures, MovedTSplines) {
+  const std::string spline =
+      "{ type: t_spline, degree: 1, at: [[0, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]], lines: [[0, "
+      "1], [2, 4], [5, 7], [0, 5], [3, 6], [1, 7]], points: [[0, 0], [2, 0], [0, 1], [1, 1, 1], [2, 1], [0, 2], [1, "
+      "2], [2, 2]]";
+  const auto curves = [&](const std::string& more, const std::string& helper, const std::string& fields) {
+    return curves_of(spline + more + " }", helper, fields);
+  };
+  const Vec3 by(0, 0, 4);
+  const std::string moved = ", transform: { translate: [0, 0, 4] }";
+  for (const auto& [helper, fields, shift] :
+       {std::tuple("control_net", "", by), std::tuple("t_mesh", "where: surface", by),
+        std::tuple("t_mesh", "where: plane", Vec3(0))}) {
+    const std::vector<CurvePtr> there = curves("", helper, fields), here = curves(moved, helper, fields);
+    EXPECT_GT(there.size(), 5u) << helper;
+    ASSERT_EQ(here.size(), there.size()) << helper;
+    for (size_t k = 0; k < here.size(); ++k) {
+      const double t = there[k]->domain().lo;
+      EXPECT_NEAR(glm::length(here[k]->point(t) - there[k]->point(t) - shift), 0, 1e-13) << helper;
+    }
+  }
 }
 
 TEST(SurfaceFigures, LinesOfCurvatureOfATorus) {
@@ -230,6 +255,7 @@ TEST(SurfaceFigures, WrongPlaces) {
                object)
         .said;
   };
+  EXPECT_NE(said("{ shape: bowl, show: { tangent_plane: { u: 0, v: 9 } } }").find("has no v = 9"), std::string::npos);
   EXPECT_NE(said("{ shape: bowl, show: { principal_circles: { u: 3, v: 0 } } }").find("has no u = 3"),
             std::string::npos);
   EXPECT_NE(said("{ shape: flat, show: { isophotes: {} } }").find("unbounded"), std::string::npos);
