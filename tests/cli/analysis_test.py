@@ -89,6 +89,17 @@ drawing:
         self.write("bar.yaml", scene.replace("type: analysis, quantity: mean_curvature, range: [-1, 1], title: mean", "type: classic"))
         _, errors = self.run_program("draw", "bar.yaml", "-o", "bar.svg", code=3)
         self.assertIn("a colour bar needs the 'range' of its numbers", errors)
+        # Of a panel with annotations of its own too, as many as those of the scene.
+        self.write("bar.yaml", """
+lekalo: 1
+geometry: { torus: { type: torus_surface, major_radius: 3, minor_radius: 1 } }
+drawing: { annotations: { type: point, at: [0, 0, 0] } }
+panels:
+  one: { objects: { shape: torus }, drawing: { annotations: { type: color_bar, at: { page: [9 mm, 9 mm] }, height: 44 mm } } }
+image: { size: [120 mm, 70 mm] }
+""")
+        _, errors = self.run_program("draw", "bar.yaml", "-o", "bar.svg", code=3)
+        self.assertEqual(errors.count("a colour bar needs the 'range' of its numbers"), 1)
 
 
 if __name__ == "__main__":

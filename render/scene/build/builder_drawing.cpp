@@ -82,8 +82,7 @@ void Builder::check_color_bars(const Model& model) {
             "of: the curve that is coloured; or integrator: { type: analysis, quantity: mean_curvature }");
   };
   check(model.drawing);
-  for (const Panel& panel : model.panels)
-    if (panel.drawing.annotations.size() != model.drawing.annotations.size()) check(panel.drawing);
+  for (const Panel& panel : model.panels) check(panel.drawing);  // those of the scene again, which are said once
 }
 
 // Axes that a drawing asks for, of a view or views none of which is a graph.
