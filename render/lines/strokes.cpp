@@ -56,17 +56,6 @@ bool is_helper_shown(const Helper& helper, const Object& object) {
          (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
 }
 
-// Whether pictures may show lines or marks of an object.
-bool has_lines_in_pictures(const Object& object) {
-  if (std::holds_alternative<Vec3>(object.shape) || std::holds_alternative<CurvePtr>(object.shape)) return true;
-  if (!object.look) return false;
-  const Look& look = *object.look;
-  return std::any_of(look.helpers.begin(), look.helpers.end(),
-                     [&](const Helper& helper) { return is_helper_shown(helper, object); }) ||
-         (look.lines && std::any_of(look.lines->styles.begin(), look.lines->styles.end(),
-                                    [](const auto& kind) { return shows(kLinesShown, kind.first); }));
-}
-
 LineLook look_of_style(const Style& style, double pixels, double min_width) {
   LineLook look;
   const double width = style.width * pixels;
@@ -438,6 +427,16 @@ LineWork line_work(const World& world, const std::atomic<bool>* stop) {
 }
 LineWork drawing_work(const World& world, SolidLines* solids) {
   return StrokeCollector(world, true, nullptr, solids).take();
+}
+
+bool has_lines_in_pictures(const Object& object) {
+  if (std::holds_alternative<Vec3>(object.shape) || std::holds_alternative<CurvePtr>(object.shape)) return true;
+  if (!object.look) return false;
+  const Look& look = *object.look;
+  return std::any_of(look.helpers.begin(), look.helpers.end(),
+                     [&](const Helper& helper) { return is_helper_shown(helper, object); }) ||
+         (look.lines && std::any_of(look.lines->styles.begin(), look.lines->styles.end(),
+                                    [](const auto& kind) { return shows(kLinesShown, kind.first); }));
 }
 
 std::vector<std::string> left_to_drawings(const std::vector<Object>& objects) {

@@ -142,6 +142,9 @@ using SolidLines = std::map<geometry::ShapePtr, geometry::CsgLines>;
 // not. `incomplete` counts surfaces whose silhouettes are not all known.
 LineWork drawing_work(const World& world, SolidLines* solids = nullptr);
 
+// Whether pictures may show lines or marks of an object: before a perspective or parallel camera.
+bool has_lines_in_pictures(const Object& object);
+
 // What of the objects' lines, helpers and shapes pictures do not show, but drawings: "lines (silhouette)", "helpers
 // (comb)".
 std::vector<std::string> left_to_drawings(const std::vector<Object>& objects);

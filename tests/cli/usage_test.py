@@ -87,6 +87,13 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         self.assertIn("note: not in the picture, but in drawings: lines (silhouette), helpers (de_casteljau), annotations\n", notes)
         self.write("ball.yaml", BALL)
         self.assertNotIn("note:", self.run_program("render", "ball.yaml", "--size", "20x10")[1])
+        # No lines at all before a panorama, of objects in groups neither.
+        around = BALL + "camera: { type: panorama, from: [0, -5, 0], at: [0, 0, 0] }\nobjects: "
+        self.write("around.yaml", around + "{ shape: { type: group, of: { shape: ball, lines: { boundary: thin } } } }\n")
+        _, notes = self.run_program("render", "around.yaml", "--size", "20x10")
+        self.assertIn("note: not in the picture, but in drawings: lines, points and helpers", notes)
+        self.write("around.yaml", around + "{ shape: ball }\n")
+        self.assertNotIn("not in the picture", self.run_program("render", "around.yaml", "--size", "20x10")[1])
 
     def test_notes_of_what_applies(self):
         """Of panels with cameras and objects of their own no default shows, and where no picture is made none lacks."""

@@ -173,11 +173,11 @@ std::string left_to_drawings(const render::Model& model) {
                   [&](const render::Annotation& one) { return !has_bars || !render::tells_scale_of_ground(one); }))
     left.push_back("annotations");
   if (!model.panels.empty()) left.push_back("panels");
-  const bool is_bent = model.camera && !model.camera->is_linear();
-  if (is_bent && std::any_of(model.objects.begin(), model.objects.end(), [](const render::Object& one) {
-        return std::holds_alternative<geometry::CurvePtr>(one.shape);
-      }))
-    left.push_back("curves as lines (before a perspective or parallel camera; tubes are seen)");
+  bool has_lines = false;
+  render::each_object(model.objects,
+                      [&](const render::Object& one) { has_lines = has_lines || render::has_lines_in_pictures(one); });
+  if (has_lines && model.camera && !model.camera->is_linear())
+    left.push_back("lines, points and helpers (before a perspective or parallel camera; tubes are seen)");
   std::string names;
   for (const std::string& name : left) names += (names.empty() ? "" : ", ") + name;
   return names;
