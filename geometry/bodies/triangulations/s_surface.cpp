@@ -44,8 +44,7 @@ Lattice lattice_of(const Fields& f) {
 
 std::vector<Vec2> domain_of(const Fields& f, const std::vector<Vec2>& centers) {
   if (!f.has("domain")) return convex_hull(centers);
-  std::vector<Vec2> given;
-  for (const Vec3& p : f.points("domain")) given.emplace_back(p);
+  const std::vector<Vec2> given = plane_points(f.points("domain"));
   const std::vector<Vec2> hull = convex_hull(given);
   if (hull.size() != given.size())
     throw FieldError("domain", "it is no convex polygon", "corners of a convex polygon, in order");

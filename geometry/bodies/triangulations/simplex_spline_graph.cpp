@@ -9,12 +9,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-std::vector<Vec2> plane_points(const std::vector<Vec3>& points) {
-  std::vector<Vec2> result;
-  for (const Vec3& p : points) result.emplace_back(p);
-  return result;
-}
-
 SplineOnCells on_cells(const Fields& f, const SimplexSpline& spline) {
   const std::vector<Vec2>& knots = spline.knots();
   SplineOnCells result{planar_cells(convex_hull(knots), all_segments(knots)), {}};

@@ -9,6 +9,7 @@
 #include "geometry/composition.h"
 #include "geometry/mesh.h"
 #include "geometry/surfaces/triangles/parameter_triangle.h"
+#include "geometry/surfaces/triangles/planar_cells.h"
 #include "geometry/tessellation/triangulation.h"
 
 namespace lekalo::geometry {
@@ -83,12 +84,6 @@ void set_own_parameters(SpatialTriangulation& result) {
     const double x = 2.0 * static_cast<double>(k);
     result.parameters.push_back({Vec2(x + 1, 0), Vec2(x, 1), Vec2(x, 0)});
   }
-}
-
-std::vector<Vec2> plane_points(const std::vector<Vec3>& points) {
-  std::vector<Vec2> result;
-  for (const Vec3& p : points) result.emplace_back(p);
-  return result;
 }
 
 void set_given_normals(SpatialTriangulation& result, const std::vector<Vec3>& normals) {

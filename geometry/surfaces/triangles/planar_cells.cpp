@@ -156,6 +156,8 @@ PlanarCells planar_cells(std::span<const Vec2> border, std::span<const PlanarSeg
   return cutter.take();
 }
 
+std::vector<Vec2> plane_points(const std::vector<Vec3>& points) { return {points.begin(), points.end()}; }
+
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   const auto before = [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
   std::sort(points.begin(), points.end(), before);

@@ -24,6 +24,9 @@ struct PlanarCells {
 // nearer than 1e-12 of the region's size are one.
 PlanarCells planar_cells(std::span<const Vec2> border, std::span<const PlanarSegment> segments);
 
+// Their x and y.
+std::vector<Vec2> plane_points(const std::vector<Vec3>& points);
+
 // Counterclockwise, without points on the sides; fewer than three where all points lie on one line.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
