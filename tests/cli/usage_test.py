@@ -43,6 +43,16 @@ class Usage(ProgramTest):
             self.assertIn(arguments[0].replace("-o", "ball.tiff"),
                           self.run_program("render", "ball.yaml", *arguments, code=USAGE)[1])
 
+    def test_options_that_do_not_go_together(self):
+        self.write("things.yaml", "lekalo: 1\ngeometry:\n  c: { type: circle, radius: 1 }\n"
+                   "  t: { type: bezier_triangle, points: [[0, 1], [0, 0], [1, 0]] }\n")
+        self.run_program("evaluate", "things.yaml", "t", "--uv", "0.2,0.3")
+        for options in (["t", "--uv", "0.2,0.3", "--turn", "5"], ["c", "--divided-difference", "0,1", "--turn", "5"],
+                        ["c", "--divided-difference", "0,1", "--placement"]):
+            errors = self.run_program("evaluate", "things.yaml", *options, code=USAGE)[1]
+            self.assertIn(options[1], errors)
+            self.assertIn(options[3], errors)
+
     def test_slips_on_the_command_line(self):
         """The option or command that was meant, and the help of the right command."""
         self.write("ball.yaml", BALL + "materials: { red: { type: diffuse } }\n")

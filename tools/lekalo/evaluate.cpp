@@ -151,8 +151,9 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   throw UsageError(fmt::format("'{}' has no face '{}'; take {}", options.name, options.face, hint));
 }
 
-// All of them.
+// All of them, or the face that is asked for.
 std::vector<geometry::SurfacePtr> surfaces_of(const render::Entity& entity, const Options& options) {
+  if (!options.face.empty()) return {surface_of(entity, options)};
   if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) return *set;
   const auto* body = std::get_if<geometry::BodyPtr>(&entity);
   if (!body) return {surface_of(entity, options)};
@@ -249,7 +250,7 @@ int run(const Options& options) {
   const render::Entity& entity = find_geometry(scene, options.name);
   const bool is_curve = std::holds_alternative<geometry::CurvePtr>(entity);
   if (!options.along.empty() && is_curve) throw UsageError("--along belongs to surfaces");
-  if (options.divided_difference.empty() && !is_curve && (options.placement || !options.on.empty()))
+  if (!is_curve && (options.placement || !options.on.empty()))
     throw UsageError("--placement and --on belong to curves");
   ordered_json out;
   if (!options.divided_difference.empty())
@@ -297,27 +298,31 @@ void add_evaluate(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option("name", options->name, "name of the curve or surface")->required();
   sub->add_option("--at", options->at, "parameter t, or u,v; formulas without names")->type_name("T|U,V");
-  sub->add_option("--uv", options->uv,
-                  "of surfaces over triangles, one or many: the parameters of the triangles in place of the squares'")
-      ->type_name("U,V");
+  auto* uv = sub->add_option(
+                    "--uv", options->uv,
+                    "of surfaces over triangles, one or many: the parameters of the triangles in place of the squares'")
+                 ->type_name("U,V");
   sub->add_option("--table", options->table, "at each row of a table: t, or u and v")->type_name("FILE");
-  sub->add_option("--divided-difference", options->divided_difference,
-                  "of a curve its divided differences over these nodes instead")
-      ->type_name("T,T,..");
+  auto* nodes = sub->add_option("--divided-difference", options->divided_difference,
+                                "of a curve its divided differences over these nodes instead")
+                    ->type_name("T,T,..");
   sub->add_option("--face", options->face, "face of a body or patch of a set, as trace and measure --topology call it")
       ->type_name("NUMBER|NAME");
   sub->add_option("--along", options->along,
                   "of a surface its normal curvature in this direction of its parameters; of two the angle between")
       ->type_name("DU,DV")
       ->expected(1, 2);
-  sub->add_option("--turn", options->turn,
-                  "the step of the parameter over which the tangent, or along u and v the normal, turns by this angle")
-      ->type_name("DEGREES")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--order", options->order, "derivatives of a curve up to this order")
-      ->check(CLI::Range(1, geometry::kMaxCurveOrder));
-  sub->add_flag("--placement", options->placement,
-                "the matrix that places things at the point: columns tangent, normal, binormal and the point");
+  auto* turn =
+      sub->add_option(
+             "--turn", options->turn,
+             "the step of the parameter over which the tangent, or along u and v the normal, turns by this angle")
+          ->type_name("DEGREES")
+          ->check(CLI::PositiveNumber);
+  auto* order = sub->add_option("--order", options->order, "derivatives of a curve up to this order")
+                    ->check(CLI::Range(1, geometry::kMaxCurveOrder));
+  auto* placement =
+      sub->add_flag("--placement", options->placement,
+                    "the matrix that places things at the point: columns tangent, normal, binormal and the point");
   auto* on = sub->add_option("--on", options->on,
                              "the same with the normal of a surface that the curve lies on, or between those of two")
                  ->type_name("NAME")
@@ -325,6 +330,9 @@ void add_evaluate(CLI::App& app, Action& action) {
   sub->add_option("--share", options->share, "of the first of two surfaces in the direction of the normal [0.5]")
       ->check(CLI::Range(0.0, 1.0))
       ->needs(on);
+  // What these do not tell.
+  uv->excludes(turn)->excludes(order);
+  nodes->excludes(turn)->excludes(order)->excludes(placement)->excludes(on);
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });
 }

@@ -1,7 +1,8 @@
 // Bodies through plane sections (Golovanov 2016, 5.8): face i is a surface on segment i of every section. Closed ones
-// go through the first section again. With a guide g and its frame A the sections are carried along it, R_j(u, v) =
-// g(v)
-// + A(v) A^-1(v_j) (r_j(u) - g(v_j)), and neighbours blended.
+// go through the first section again. With a guide g and its frame A the sections are carried along it and neighbours
+// blended:
+//
+//   R_j(u, v) = g(v) + A(v) A^-1(v_j) (r_j(u) - g(v_j))
 #include <fmt/format.h>
 
 #include <cmath>
@@ -80,7 +81,10 @@ class Lofting {
 
  private:
   void check_guide() const {
-    if (!fields_.has("along")) return;
+    if (!fields_.has("along")) {
+      if (fields_.given("frame")) throw FieldError("frame", "there is no guide whose frame turns", "leave it out");
+      return;
+    }
     if (!fields_.has("at_v"))
       throw FieldError("at_v", "the guide's parameters at the sections are missing", "one value for each section");
     for (const char* field : {"closed", "method"})

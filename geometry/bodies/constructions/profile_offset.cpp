@@ -197,7 +197,11 @@ void declare_thickness(TypeDeclaration& type) {
 }
 
 Profile read_thick_profile(const Fields& f, const char* field, const Vec3& motion) {
-  if (!f.has("thickness")) return read_profile(f, field);
+  if (!f.has("thickness")) {
+    if (f.given("thickness_side"))
+      throw FieldError("thickness_side", "there is no wall without a thickness", "leave it out, or give a thickness");
+    return read_profile(f, field);
+  }
   std::vector<CurvePtr> curves;
   for (const std::any& one : f.references(field)) curves.push_back(std::any_cast<CurvePtr>(one));
   const std::vector<CurvePtr> segments = segments_of(curves, field);
