@@ -121,6 +121,12 @@ class Bodies(ProgramTest):
                    "  sheet: { type: thickened_sheet, of: part, thickness: 0.2 }\n")
         self.assert_near(self.json_of("measure", "part.yaml", "sheet")["volume"], 0.05 * math.pi, 1e-9)
 
+    def test_topology_in_words(self):
+        self.write("sheet.yaml", "lekalo: 1\ngeometry: { s: { type: sewn_shell, of: { type: plane, size: [1, 1] } } }\n")
+        text = self.run_program("measure", "sheet.yaml", "s", "--topology")[0]
+        self.assertIn("open shell of 1 face, 4 edges, 4 vertices, 1 loop: H 1, connectivity 1, 1 border\n", text)
+        self.assertIn("1 shell, 1 loop\n1 face\n", text)
+
     def refused(self, body, *texts):
         self.write("wrong.yaml", f"lekalo: 1\ngeometry:\n  b: {{ {body} }}\n")
         errors = self.run_program("measure", "wrong.yaml", "b", code=3)[1]
@@ -165,6 +171,9 @@ class Bodies(ProgramTest):
         self.refused(f"{room}: [{ball}, {box}]", "void 1 runs into void 0")
         self.refused(f"{room}: {{ type: ball, radius: 1, center: [20, 3, 3] }}", "void 0 is not inside of the body")
         self.refused(f"type: hollow_body, of: {{ {room}: {ball} }}, voids: {box}", "void 0 encloses a void of the body")
+        self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: z, thickness_side: left", "no wall without a thickness")
+        self.refused("type: loft_body, frame: frenet, of: [{ type: circle, radius: 1 }, { type: circle, radius: 2, center: [0, 0, 1] }]",
+                     "there is no guide whose frame turns")
         self.refused("type: sewn_shell, solid: true, of: { type: plane, size: [1, 1] }", "it is open")
 
 

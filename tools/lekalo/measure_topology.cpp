@@ -169,13 +169,18 @@ std::string loops_text(const ordered_json& loops) {
   return text;
 }
 
+std::string counted(size_t number, const char* one, const char* many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
 void print_characteristics(const ordered_json& part) {
-  fmt::print("{} shell of {} faces, {} edges, {} vertices, {} loops: H {}", part["kind"].get<std::string>(),
-             part["faces"].get<int>(), part["edges"].get<int>(), part["vertices"].get<int>(), part["loops"].get<int>(),
+  fmt::print("{} shell of {}, {}, {}, {}: H {}", part["kind"].get<std::string>(),
+             counted(part["faces"], "face", "faces"), counted(part["edges"], "edge", "edges"),
+             counted(part["vertices"], "vertex", "vertices"), counted(part["loops"], "loop", "loops"),
              part["euler_characteristic"].get<int>());
   if (!part["connectivity"].is_null()) fmt::print(", connectivity {}", part["connectivity"].get<int>());
   if (!part["genus"].is_null()) fmt::print(", genus {}", part["genus"].get<int>());
-  if (part["borders"].get<int>() > 0) fmt::print(", {} borders", part["borders"].get<int>());
+  if (part["borders"] > 0) fmt::print(", {}", counted(part["borders"], "border", "borders"));
   fmt::print("{}\n", part["orientable"].get<bool>() ? "" : ", one-sided");
 }
 
@@ -224,17 +229,17 @@ void print_topology(const ordered_json& found) {
   for (const auto& part : found["characteristics"]) print_characteristics(part);
   for (const char* kind : {"edges", "vertices"})
     for (const auto& place : found["non_manifold"][kind]) fmt::print("not manifold at {}\n", place.get<std::string>());
-  fmt::print("{} shell{}, {} loops\n{} faces\n", found["shells"].get<size_t>(),
-             found["shells"].get<size_t>() == 1 ? "" : "s", found["loops"].get<size_t>(), found["faces"].size());
+  fmt::print("{}, {}\n{}\n", counted(found["shells"], "shell", "shells"), counted(found["loops"], "loop", "loops"),
+             counted(found["faces"].size(), "face", "faces"));
   for (const auto& face : found["faces"])
     fmt::print("  {:<3} {:<16} {} {}\n", face["index"].get<int>(), name_text(face), sign(face["forward"]),
                loops_text(face["coedges"]));
-  fmt::print("{} edges\n", found["edges"].size());
+  fmt::print("{}\n", counted(found["edges"].size(), "edge", "edges"));
   for (const auto& edge : found["edges"])
     fmt::print("  {:<3} {:<16} {:<8} vertices {} {}, faces {}\n", edge["index"].get<int>(), name_text(edge),
                edge["kind"].get<std::string>(), edge["start"].get<int>(), edge["end"].get<int>(),
                numbers_text(edge["faces"]));
-  fmt::print("{} vertices\n", found["vertices"].size());
+  fmt::print("{}\n", counted(found["vertices"].size(), "vertex", "vertices"));
   for (const auto& vertex : found["vertices"]) {
     const auto& p = vertex["point"];
     fmt::print("  {:<3} {:<16} {}\n", vertex["index"].get<int>(), name_text(vertex), digits(Vec3(p[0], p[1], p[2])));
