@@ -83,6 +83,13 @@ class Figures(ProgramTest):
                 paths = tree.parse(reference / "images" / f"{name}.svg").iter("{http://www.w3.org/2000/svg}path")
                 self.assertGreater(len(list(paths)), 0)
 
+    def test_slips_on_the_command_line_of_the_script(self):
+        """An option that there is not makes no folder of its name."""
+        done = subprocess.run([ROOT / "tools/figures", "--atlas"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--atlas", done.stderr)
+        self.assertFalse((self.folder / "--atlas").exists())
+
     def test_bezier_construction(self):
         """The words of the figure can be found in its PDF."""
         self.run_program("draw", str(FIGURES / "bezier_construction.yaml"), "-o", "b.pdf", "--quiet")
