@@ -85,7 +85,7 @@ class Figures(ProgramTest):
 
     def test_slips_on_the_command_line_of_the_script(self):
         """An option that there is not makes no folder of its name."""
-        done = subprocess.run([ROOT / "tools/figures", "--atlas"], cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run([SCENES.parent / "tools/figures", "--atlas"], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("--atlas", done.stderr)
         self.assertFalse((self.folder / "--atlas").exists())
