@@ -170,6 +170,11 @@ class Bodies(ProgramTest):
         self.refused(f"{room}: [{box}, {ball}]", "void 1 runs into void 0")
         self.refused(f"{room}: [{ball}, {box}]", "void 1 runs into void 0")
         self.refused(f"{room}: {{ type: ball, radius: 1, center: [20, 3, 3] }}", "void 0 is not inside of the body")
+        # A tip, an edge and a tangent point that only touch.
+        cone = "{ type: revolution_body, axis: { through: [0, 4, 4], along: x }, of: { type: polyline, closed: true, points: [[0, 4, 4], [2, 4, 4], [2, 5, 4]] } }"
+        wedge = "{ type: extrusion_body, along: [0, 0, 1], of: { type: polyline, closed: true, points: [[0, 4, 4], [1, 3, 4], [2, 4, 4], [1, 5, 4]] } }"
+        for touching in cone, wedge, "{ type: ball, radius: 1, center: [1, 4, 4] }":
+            self.refused(f"{room}: {touching}", "void 0 is not inside of the body at (0, 4, 4)")
         self.refused(f"type: hollow_body, of: {{ {room}: {ball} }}, voids: {box}", "void 0 encloses a void of the body")
         self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: z, thickness_side: left", "no wall without a thickness")
         self.refused("type: loft_body, frame: frenet, of: [{ type: circle, radius: 1 }, { type: circle, radius: 2, center: [0, 0, 1] }]",

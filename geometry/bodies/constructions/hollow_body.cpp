@@ -8,6 +8,7 @@
 #include "geometry/describe.h"
 #include "geometry/queries/closest/distance.h"
 #include "geometry/queries/closest/position.h"
+#include "geometry/queries/contours/body_contours.h"
 
 namespace lekalo::geometry {
 
@@ -18,10 +19,25 @@ void refuse(size_t number, const std::string& what, const Vec3& at) {
                    "voids lie inside of the body and apart from each other");
 }
 
+// Edges and vertices of one on the surface of the other. Seams are smooth places of faces.
+void require_edges_apart(const Body& one, const Body& other, size_t number, const std::string& what) {
+  for (const Vertex& vertex : one.vertices)
+    if (position(vertex.point, other).where == Containment::on) refuse(number, what, vertex.point);
+  for (const Edge& edge : one.edges) {
+    if (edge.kind != EdgeKind::regular) continue;
+    const Distance apart = distance(edge.curve.get(), &other, DistanceMinima::nearest);
+    if (!(apart.distance > 0)) refuse(number, what, apart.minima.front().a.point);
+  }
+}
+
 // Where the surfaces do not meet, one point of a shell tells where all of it lies.
 void require_apart(const Body& void_body, size_t number, const Body& other, const std::string& what) {
-  const Distance apart = distance(&void_body, &other, DistanceMinima::nearest);
-  if (!(apart.distance > 0)) refuse(number, what, apart.minima.front().a.point);
+  const BodyContours found = intersect(void_body, other);
+  if (!found.branches.empty()) refuse(number, what, found.branches.front().parts.front().begin);
+  if (!found.points.empty()) refuse(number, what, found.points.front().point);
+  if (found.coincident) refuse(number, what, void_body.vertices.front().point);
+  require_edges_apart(void_body, other, number, what);
+  require_edges_apart(other, void_body, number, what);
 }
 
 void require(const Vec3& point, size_t number, const Body& other, Containment where, const std::string& what) {
