@@ -9,7 +9,7 @@ _lekalo() {
     --metric) words='flip rmse psnr ssim max' ;;
     --isa) words='sse2 avx2 avx512 native' ;;
     --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
-    --format) words='pov obj ply stl json' ;;
+    --format) words='pov obj ply stl json step' ;;
     --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --uv | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --along | --ray | --filter | --jobs | --accept | --reason)
       return ;;
     -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
@@ -28,7 +28,7 @@ _lekalo() {
         measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
         evaluate) words='--at --uv --turn --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
         trace) words='--ray --rays --set --allow-external --json' ;;
-        export) words='--format --sag --patch-steps --flatness -o --output --set --allow-external --quiet' ;;
+        export) words='--format --sag --patch-steps --flatness --tolerance -o --output --set --allow-external --quiet' ;;
         types) words='--markdown' ;;
         schema) words='--suite' ;;
       esac

@@ -49,7 +49,7 @@ case $command in
   evaluate) _arguments $scene '--at[where]:t or u,v' '--uv[parameters of a triangle]:u,v' '--turn[step over which it turns by an angle]:degrees' '--face[of a body]:number or name' '*--along[direction in the parameters of a surface]:du,dv' '--table[table of parameters]:file:_files' '*--on[with the normal of a surface]:name' '--share[of two surfaces, that of the first]:number' '--placement[the matrix that places things there]' '--divided-difference[nodes of divided differences]:t t ..' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl json)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
+  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl json step)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '--tolerance[largest distance of a fit, of its size (step)]:number' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
     '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   schema) _arguments '--suite[of regression suites]' '--help[show help]' ;;
   types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;

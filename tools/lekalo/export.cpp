@@ -1,9 +1,11 @@
 // lekalo export: what a scene shows as one triangle mesh for another program, curves as polylines or as NURBS curves,
-// or the whole scene for POV-Ray.
+// boundary representations for CAD systems, or the whole scene for POV-Ray.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "command.h"
@@ -12,9 +14,11 @@
 #include "measure.h"
 #include "picture.h"
 #include "render/image/atomic_file.h"
+#include "render/image/display.h"
 #include "render/mesh_files/mesh_files.h"
 #include "render/model/mesh_tolerance.h"
 #include "render/pov/pov_export.h"
+#include "render/step/step_export.h"
 
 namespace lekalo::command {
 
@@ -28,6 +32,7 @@ struct Options {
   std::vector<std::string> names;
   std::string format, output;
   double sag = 0;
+  double tolerance = 1e-9;
   render::PovOptions pov;
   bool quiet = false;
 };
@@ -211,21 +216,62 @@ int export_json(const Options& options, const std::string& output) {
   return kDone;
 }
 
+// Everything that is named or shown, as a boundary representation.
+int export_step(const Options& options, const std::string& output) {
+  const render::LoadedScene scene = options.scene.load();
+  check_inputs_stay(scene, {output});
+  std::vector<render::StepShape> shapes;
+  std::set<std::string> notes;
+  const auto color_of = [](const render::Object& object) -> std::optional<geometry::Vec3> {
+    if (!object.material) return std::nullopt;
+    const geometry::Vec3 linear = rgb(object.material->albedo(render::SurfacePoint(), render::Wavelengths{}));
+    geometry::Vec3 color(0);
+    for (int i = 0; i < 3; ++i) color[i] = render::srgb_encode(std::clamp(linear[i], 0.0, 1.0));
+    return color;
+  };
+  const std::function<void(const render::Object&, const Affine&)> add = [&](const render::Object& object,
+                                                                            const Affine& to_world) {
+    const Affine moved = to_world * object.transform;
+    if (!object.clips.empty())
+      notes.insert(fmt::format("'{}' is written whole: its clip planes are not applied", object.name));
+    if (const auto* group = std::get_if<render::GroupPtr>(&object.shape))
+      for (const render::Object& member : (*group)->objects) add(member, moved);
+    else
+      shapes.push_back({object.name, object.shape, moved, color_of(object)});
+  };
+  for (const std::string& name : options.names) shapes.push_back({name, find_geometry(scene, name), Affine(), {}});
+  if (options.names.empty())
+    for (const render::Object& object : scene.model->objects) add(object, Affine());
+  render::StepFile file;
+  try {
+    file = step_file(shapes, scene.model->title, scene.model->unit, options.tolerance);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("there is nothing to export: {}", error.what()));
+  }
+  notes.insert(file.notes.begin(), file.notes.end());
+  render::write_file_atomically(output, file.text);
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  if (!options.quiet) fmt::print(stderr, "{}: {} shape{}\n", output, file.products, file.products == 1 ? "" : "s");
+  return kDone;
+}
+
 int run(const Options& options) {
   std::string output = options.output;
   if (output.empty()) {
-    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|json|pov");
+    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|json|step|pov");
     output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
   }
   if (options.format == "json" || (options.format.empty() && output.ends_with(".json")))
     return export_json(options, output);
   if (options.format == "pov" || (options.format.empty() && output.ends_with(".pov")))
     return export_pov(options, output);
+  if (options.format == "step" || (options.format.empty() && (output.ends_with(".step") || output.ends_with(".stp"))))
+    return export_step(options, output);
   render::MeshFormat format;
   try {
     format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
-    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|json|pov", error.what()));
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|json|step|pov", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
   check_inputs_stay(scene, {output});
@@ -255,12 +301,13 @@ void add_export(CLI::App& app, Action& action) {
   auto* sub =
       app.add_subcommand("export",
                          "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and "
-                         "surfaces as NURBS (JSON), or the scene for POV-Ray");
+                         "surfaces as NURBS (JSON), boundary representations (STEP), or the scene for POV-Ray");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
       "  lekalo export plate.yaml plate --format stl\n"
       "  lekalo export curves.yaml rim -o rim.json\n"
+      "  lekalo export plate.yaml -o plate.step\n"
       "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
       "Without names everything that the scene's objects show is written, moved as they are. Triangles and "
       "the\n"
@@ -268,18 +315,23 @@ void add_export(CLI::App& app, Action& action) {
       "shape's size. PLY has double\n"
       "precision; OBJ has shared points and a group for every face; STL has corners in single precision. JSON has\n"
       "curves and surfaces as NURBS and Bezier pieces, as 'lekalo measure --nurbs --json' prints them: exactly, or\n"
-      "fitted to a billionth of a curve's size, to 1e-12 of a surface's.");
+      "fitted to a billionth of a curve's size, to 1e-12 of a surface's. STEP has bodies, surfaces, curves and points\n"
+      "exactly where it has such (planes, cylinders, cones, spheres, tori, lines, circles, ellipses, NURBS), else\n"
+      "fitted to --tolerance; lengths in info.unit.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
   sub->add_option("--format", options->format, "what to write; else the output's extension decides")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"obj", "ply", "stl", "json", "pov"}));
+      ->check(CLI::IsMember({"obj", "ply", "stl", "json", "step", "pov"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")
       ->check(CLI::PositiveNumber)
       ->check(not_finite);
+  sub->add_option("--tolerance", options->tolerance, "step: largest distance of a fit, of the size of each")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(1e-12, 1e-2));
   sub->add_option("--flatness", options->pov.flatness, "pov: flatness of Bezier patches, in scene units")
       ->type_name("LENGTH")
       ->check(CLI::NonNegativeNumber)

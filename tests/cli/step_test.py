@@ -1,0 +1,66 @@
+"""lekalo export --format step: entities, names, units, fits and what is left out."""
+
+import re
+import unittest
+
+from program import ProgramTest
+
+SCENE = """
+lekalo: 1
+info: { title: 'Ring ''A''', unit: cm }
+geometry:
+  block: { type: box, size: [1, 2, 3] }
+  pin: { type: cylinder_body, radius: 1, height: 2 }
+  wave: { type: formula_surface, point: [u, v, sin(u)*cos(v)], domain: { u: [0, 2], v: [0, 2] } }
+  rim: { type: circle, radius: 2 }
+  blob: { type: implicit, formula: x^2 + y^4 + z^2 - 1, ball: { radius: 2 } }
+objects:
+  - { shape: [block, pin], material: { type: diffuse, color: red } }
+  - { shape: rim, transform: { translate: [10, 0, 0] } }
+"""
+
+
+class Step(ProgramTest):
+    def exported(self, *arguments):
+        self.write("scene.yaml", SCENE)
+        _, errors = self.run_program("export", "scene.yaml", *arguments, "-o", "x.step")
+        text = (self.folder / "x.step").read_text()
+        entities = dict(re.findall(r"^#(\d+)=(.*);$", text, re.M))
+        for line in entities.values():
+            for number in re.findall(r"#(\d+)", line):
+                self.assertIn(number, entities)
+        return text, errors
+
+    def test_solids(self):
+        text, errors = self.exported()
+        self.assertTrue(text.startswith("ISO-10303-21;\n"))
+        self.assertTrue(text.endswith("END-ISO-10303-21;\n"))
+        self.assertIn("FILE_NAME('Ring ''A'''", text)
+        self.assertIn("SI_UNIT(.CENTI.,.METRE.)", text)
+        self.assertEqual(text.count("=MANIFOLD_SOLID_BREP("), 2)
+        self.assertEqual(text.count("=ADVANCED_FACE("), 6 + 3)
+        self.assertEqual(text.count("=CYLINDRICAL_SURFACE("), 1)
+        self.assertIn("ADVANCED_FACE('x_min'", text)
+        self.assertIn("COLOUR_RGB('',1.,0.,0.)", text)
+        self.assertEqual(len(re.findall(r"=CIRCLE\(", text)), 2 + 1)
+        self.assertIn("3 shapes", errors)
+        self.assertNotIn("fitted", errors)
+
+    def test_fits_are_told(self):
+        text, errors = self.exported("wave")
+        self.assertIn("=SHELL_BASED_SURFACE_MODEL(", text)
+        self.assertIn("B_SPLINE_SURFACE_WITH_KNOTS", text)
+        found = re.search(r"note: 'wave': \d+ of its curves and surfaces are fitted, (\S+) away", errors)
+        self.assertTrue(found, errors)
+        self.assertLess(float(found[1]), 1e-8)
+
+    def test_what_is_left_out(self):
+        _, errors = self.exported("block", "blob")
+        self.assertIn("note: 'blob' is left out: it is met by rays only", errors)
+        _, errors = self.run_program("export", "scene.yaml", "blob", "-o", "y.step", code=2)
+        self.assertIn("there is nothing to export: 'blob' is left out", errors)
+        self.assertFalse((self.folder / "y.step").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
