@@ -219,6 +219,16 @@ camera: { view: top }
             self.write("filled.yaml", (self.folder / "scene.yaml").read_text() + "drawing: { ground: fill }\n")
             self.assertNotIn("warning", self.run_program("draw", "filled.yaml", "-o", "x.svg")[1])
 
+    def test_sides_are_filled_with_their_own_materials(self):
+        """A bowl shows its outside in front and its inside behind."""
+        self.scene("s: { type: formula_surface, z: '0.9*x^2 + 0.9*y^2', domain: { u: [-1, 1], v: [-1, 1] } }",
+                   "{ shape: s, material: { type: diffuse, color: red }, back_material: { type: diffuse, color: blue } }")
+        self.write("filled.yaml", (self.folder / "scene.yaml").read_text() + "drawing: { ground: fill }\n")
+        self.run_program("draw", "filled.yaml", "-o", "x.svg")
+        text = (self.folder / "x.svg").read_text()
+        for color in ("#ff0000", "#0000ff"):
+            self.assertEqual(text.count(f'fill="{color}"'), 1, color)
+
     def test_stages_add_up(self):
         """To what all of it takes; edges of a solid are found once for all panels."""
         part = ("a: { type: box, size: [6, 2.4, 2], corner: [-3, -1.2, 0] }, b: { type: box, size: [4.4, 4, 2], corner: "

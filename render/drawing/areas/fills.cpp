@@ -143,6 +143,7 @@ class Filling {
     const double cosine =
         (front ? 1 : -1) * glm::dot(point.geometric_normal, lights_[static_cast<size_t>(point.object)]);
     seen.label.object = point.object;
+    seen.label.back = !front && world_.objects()[static_cast<size_t>(point.object)]->back_material;
     if (fill.shading == Fill::Shading::gradient) seen.label.face = one_faces_.first(point.object, point.face);
     if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only))
       seen.label.shade = cosine < 0;
@@ -152,14 +153,15 @@ class Filling {
   }
   RegionLabel label_at(const Vec2& place) const {
     const Interaction seen = seen_at(place);
-    if (seen.label.object >= 0) colors_.emplace(seen.label.object, seen.color);
+    if (seen.label.object >= 0) colors_.emplace(std::pair(seen.label.object, seen.label.back), seen.color);
     return seen.label;
   }
   static Vec3 rgb_of(const Spectrum& s) { return {s[0], s[1], s[2]}; }
 
-  Vec3 color_of(int object) const {
-    if (fills_[static_cast<size_t>(object)]->color) return *fills_[static_cast<size_t>(object)]->color;
-    const Vec3 color = colors_.at(object);
+  Vec3 color_of(const RegionLabel& label) const {
+    const Fill& fill = *fills_[static_cast<size_t>(label.object)];
+    if (fill.color) return *fill.color;
+    const Vec3 color = colors_.at({label.object, label.back});
     return std::max({color.x, color.y, color.z}) < kMinColor ? kPlainColor : glm::clamp(color, 0.0, 1.0);
   }
 
@@ -172,15 +174,23 @@ class Filling {
   void fill(int object, const std::vector<RegionLabel>& labels) {
     const Fill& fill = *fills_[static_cast<size_t>(object)];
     SheetGroup group{"fill", world_.objects()[static_cast<size_t>(object)]->name, {}, {}, {}};
-    const auto whole = loops([&](const RegionLabel& label) { return label.object == object; });
-    const auto shade = loops([&](const RegionLabel& label) { return label.object == object && label.shade; });
-    if (fill.shading != Fill::Shading::none) {
-      const Vec3 color = color_of(object);
-      group.items.emplace_back(SheetPath{whole, {}, Brush{rgb(color), 1}, {}});
-      if (fill.shading == Fill::Shading::two_tone && !shade.empty())
-        group.items.emplace_back(SheetPath{shade, {}, Brush{rgb(fill.shade * color), 1}, {}});
+    const auto part = [&](const std::function<bool(const RegionLabel&)>& belongs) {
+      return loops([&](const RegionLabel& label) { return label.object == object && belongs(label); });
+    };
+    std::map<bool, RegionLabel> sides;
+    for (const RegionLabel& label : labels) sides.emplace(label.back, label);
+    for (const auto& [back, side] : sides) {
+      if (fill.shading == Fill::Shading::none) break;
+      const Vec3 color = color_of(side);
+      const auto lit = part([&](const RegionLabel& label) { return label.back == back; });
+      group.items.emplace_back(SheetPath{lit, {}, Brush{rgb(color), 1}, {}});
+      if (fill.shading == Fill::Shading::two_tone)
+        if (const auto shade = part([&](const RegionLabel& label) { return label.back == back && label.shade; });
+            !shade.empty())
+          group.items.emplace_back(SheetPath{shade, {}, Brush{rgb(fill.shade * color), 1}, {}});
       if (fill.shading == Fill::Shading::gradient)
         for (const RegionLabel& label : labels) {
+          if (label.back != back) continue;
           SheetPath area{loops([&](const RegionLabel& one) { return one == label; }), {}, {}, {}};
           area.gradient = gradient_of(label, area.parts, color, fill.shade);
           if (area.gradient) group.items.emplace_back(std::move(area));
@@ -189,7 +199,8 @@ class Filling {
     if (fill.hatching) {
       const Hatching& hatching = *fill.hatching;
       const LineLook pen = drawn_look(hatching.style);
-      const std::vector<Path>& area = hatching.shade_only ? shade : whole;
+      const std::vector<Path> area =
+          part([&](const RegionLabel& label) { return label.shade || !hatching.shade_only; });
       SheetGroup lines{"hatching", "", {}, {}, {}};
       add_hatching(area, hatching.angle, hatching.spacing, pen, lines.items);
       if (hatching.crossed) add_hatching(area, hatching.angle + kPi / 2, hatching.spacing, pen, lines.items);
@@ -281,7 +292,7 @@ class Filling {
   double tolerance_;
   std::vector<const Fill*> fills_;  // of objects
   std::vector<Vec3> lights_;
-  mutable std::map<int, Vec3> colors_;
+  mutable std::map<std::pair<int, bool>, Vec3> colors_;  // of objects and their sides
   std::unique_ptr<Regions> regions_;
   Fills result_;
 };

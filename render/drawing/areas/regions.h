@@ -22,6 +22,7 @@ namespace lekalo::render {
 struct RegionLabel {
   int object = -1;  // -1: none
   int face = 0;
+  bool back = false;   // the side with a material of its own that the normal turns away from
   bool shade = false;  // turned away from the light
   auto operator<=>(const RegionLabel&) const = default;
 };
