@@ -181,7 +181,9 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   if (given.invalid) return std::nullopt;
   if (!given.is_map()) {
     const bool implicit = is_implicit(wanted.front()) || !default_type(wanted.front(), given).empty();
-    const std::string meant = given.is_scalar() ? maps_with_word(given.text, wanted) : "";
+    const std::string meant = !given.is_scalar()                   ? ""
+                              : wanted.front() == Category::object ? fmt::format("{{ shape: {} }}", given.text)
+                                                                   : maps_with_word(given.text, wanted);
     diagnostics_.error(given.place,
                        fmt::format("expected {} as a map{}, found {}", describe(wanted),
                                    implicit ? " of fields" : " with a type", kind_name(given)),
