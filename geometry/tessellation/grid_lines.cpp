@@ -131,6 +131,32 @@ Demand demand_of(const SurfaceJet& s, const TessellationTolerance& tolerance) {
   return demand;
 }
 
+// What the sides of the rectangle ask for that are borders of the surface: a chord's square of the parameter is at most
+// 8 d / |s_uu x t|, t the unit tangent, since a side that bends within the surface leaves the triangles as well.
+std::vector<double> side_demand(const Surface& surface, const Rectangle& box, bool along_u,
+                                const std::vector<double>& middles, const TessellationTolerance& tolerance) {
+  const Interval& across = along_u ? box.v : box.u;
+  const auto at = [&](double t, double held, int order) {
+    return along_u ? surface.evaluate(t, held, order) : surface.evaluate(held, t, order);
+  };
+  std::vector<double> result(middles.size(), 0.0);
+  bool is_seam = true;
+  for (const double t : middles) {
+    const Vec3 a = at(t, across.lo, 0).point(), b = at(t, across.hi, 0).point();
+    is_seam = is_seam && glm::length(a - b) <= 1e-9 * (glm::length(a) + glm::length(b));
+  }
+  if (is_seam) return result;
+  for (size_t i = 0; i < middles.size(); ++i)
+    for (const double held : {across.lo, across.hi}) {
+      const SurfaceJet s = at(middles[i], held, 2);
+      const Vec3 first = along_u ? s.du() : s.dv(), second = along_u ? s.duu() : s.dvv();
+      const double speed = glm::length(first);
+      const double bend = speed > 0 ? glm::length(glm::cross(second, first)) / speed : 0;
+      if (std::isfinite(bend)) result[i] = std::max(result[i], bend / (8 * 0.99 * tolerance.sag_near(s.point())));
+    }
+  return result;
+}
+
 struct Densities {
   Direction u, v;
   // What the densities are made from.
@@ -174,20 +200,22 @@ Densities make_densities(const Surface& surface, const Rectangle& box, const Tes
       turn_v[j] = std::max(turn_v[j], demand.turn_v);
     }
   }
+  const std::vector<double> side_u = side_demand(surface, box, true, middle_u, tolerance),
+                            side_v = side_demand(surface, box, false, middle_v, tolerance);
   const auto set = [](Direction& direction, const std::vector<double>& sag, const std::vector<double>& turn,
-                      double share) {
+                      const std::vector<double>& side, double share) {
     direction.each([&](int index, LineDensity& s, size_t k) {
-      s.value[k] = std::max(std::sqrt(sag[index] / share), turn[index]);
+      s.value[k] = std::max({std::sqrt(sag[index] / share), turn[index], std::sqrt(side[index])});
     });
   };
-  set(result.u, sag_u, turn_u, 0.5);
-  set(result.v, sag_v, turn_v, 0.5);
+  set(result.u, sag_u, turn_u, side_u, 0.5);
+  set(result.v, sag_v, turn_v, side_v, 0.5);
   const double used_u = std::min(0.5, used_share(result.u, sag_u, fewest_u));
   const double used_v = std::min(0.5, used_share(result.v, sag_v, fewest_v));
   if (used_v <= used_u)
-    set(result.u, sag_u, turn_u, 1 - used_v);
+    set(result.u, sag_u, turn_u, side_u, 1 - used_v);
   else
-    set(result.v, sag_v, turn_v, 1 - used_u);
+    set(result.v, sag_v, turn_v, side_v, 1 - used_u);
   return result;
 }
 

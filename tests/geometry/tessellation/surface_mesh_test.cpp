@@ -15,6 +15,7 @@
 #include "geometry/surfaces/splines/nurbs_surface.h"
 #include "geometry/tessellation/mesh_checks.h"
 #include "geometry/tessellation/tessellate.h"
+#include "support/surface_of_formula.h"
 
 namespace lekalo::geometry::surface_mesh_test {
 namespace {
@@ -270,6 +271,22 @@ TEST(SurfaceMesh, SagAsAFunctionOfPlace) {
     const Vec3 m = (mesh.points[t.point[0]] + mesh.points[t.point[1]] + mesh.points[t.point[2]]) / 3.0;
     EXPECT_LE(1 - glm::length(m), m.z > 0.1 ? 1.02e-3 : 1.02e-2);
   }
+}
+
+// A plane ring, and a part of it: no triangle leaves the plane, but chords leave out what lies behind the borders.
+TEST(SurfaceMesh, BordersOfPlaneSurfacesKeepTheSag) {
+  const auto polar = [](const auto& u, const auto& v) {
+    using std::cos;
+    using std::sin;
+    return Triple{v * cos(u), v * sin(u), 0.0 * v};
+  };
+  for (const double turn : {kTwoPi, 3.0})
+    for (const double inner : {0.0, 0.5})
+      for (const double sag : {0.1, 1e-3, 1e-5}) {
+        const tests::SurfaceOfFormula ring(polar, Rectangle{{0, turn}, {inner, 1}});
+        const double missing = turn / 2 * (1 - inner * inner) - measure(tessellate(ring, sag_only(sag))).area.value;
+        EXPECT_LE(std::abs(missing), turn * sag);
+      }
 }
 
 TEST(SurfaceMesh, RefusesWhatCannotBeDone) {
