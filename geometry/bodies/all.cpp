@@ -26,7 +26,10 @@
   X(sewn_shell_type)           \
   X(exploded_body_type)        \
   X(face_loop_type)            \
-  X(hollow_body_type)
+  X(hollow_body_type)          \
+  X(offset_body_type)          \
+  X(moved_faces_type)          \
+  X(drafted_faces_type)
 
 namespace lekalo::geometry {
 

@@ -16,7 +16,9 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
+#include "geometry/surfaces/derived/extended.h"
 #include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -130,7 +132,30 @@ SurfacePtr by_law(const SurfacePtr& of, const Rectangle& domain) {
     if (const CurvePtr more = e->curve()->continued(domain.u))
       return std::make_shared<ExtrusionSurface>(more, e->along(), domain);
   }
+  if (const auto* r = as((RevolutionSurface*)nullptr)) {
+    const Interval own = r->curve()->domain();
+    if (own.contains(domain.u)) return std::make_shared<RevolutionSurface>(r->curve(), r->axis(), domain);
+    if (const CurvePtr more = r->curve()->continued(domain.u))
+      return std::make_shared<RevolutionSurface>(more, r->axis(), domain);
+  }
   return nullptr;
+}
+
+std::shared_ptr<Surface> along_tangents(const SurfacePtr& of, const Rectangle& domain) {
+  SurfaceProperties properties = properties_of(*of, 1);
+  const auto cut = [](const Interval& whole, std::vector<double>& breaks) {
+    std::vector<double> inside{whole.lo};
+    for (const double x : breaks)
+      if (x > whole.lo && x < whole.hi) inside.push_back(x);
+    inside.push_back(whole.hi);
+    breaks = inside;
+  };
+  const bool same_u = domain.u == properties.domain.u, same_v = domain.v == properties.domain.v;
+  cut(domain.u, properties.breaks_u), cut(domain.v, properties.breaks_v);
+  properties.domain = domain;
+  if (!same_u) properties.periods.u = 0;
+  if (!same_v) properties.periods.v = 0;
+  return std::make_shared<ExtendedSurface>(Extended{of, domain}, properties);
 }
 
 // Both limits moved, those of a direction that is closed already not.
@@ -167,20 +192,7 @@ std::any extended(const Fields& f) {
     }
   if (!result) {
     if (!of->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
-    SurfaceProperties properties = properties_of(*of, 1);
-    const auto cut = [](const Interval& whole, std::vector<double>& breaks) {
-      std::vector<double> inside{whole.lo};
-      for (const double x : breaks)
-        if (x > whole.lo && x < whole.hi) inside.push_back(x);
-      inside.push_back(whole.hi);
-      breaks = inside;
-    };
-    const bool same_u = domain.u == properties.domain.u, same_v = domain.v == properties.domain.v;
-    cut(domain.u, properties.breaks_u), cut(domain.v, properties.breaks_v);
-    properties.domain = domain;
-    if (!same_u) properties.periods.u = 0;
-    if (!same_v) properties.periods.v = 0;
-    result = std::make_shared<ExtendedSurface>(Extended{of, domain}, properties);
+    result = along_tangents(of, domain);
   }
   result->set_reversed(was_reversed);
   return std::any(SurfacePtr(result));
@@ -188,10 +200,20 @@ std::any extended(const Fields& f) {
 
 }  // namespace
 
+SurfacePtr extended_to(const SurfacePtr& given, const Rectangle& domain) {
+  SurfacePtr of = given;
+  if (const auto* inner = dynamic_cast<const ExtendedSurface*>(of.get())) of = inner->formula().of;
+  std::shared_ptr<Surface> result = std::const_pointer_cast<Surface>(by_law(of, domain));
+  if (!result) result = along_tangents(of, domain);
+  result->set_reversed(given->reversed());
+  return result;
+}
+
 TypeDeclaration extended_surface_type() {
   return declare(Category::surface, "extended_surface",
-                 "A surface with more, or less, of it at each border: planes, spheres, cones, tori, formulas and "
-                 "extrusions go on by their own law, others along their tangents. The parameters are the surface's, "
+                 "A surface with more, or less, of it at each border: planes, spheres, cones, tori, formulas, "
+                 "extrusions and revolutions go on by their own law, others along their tangents. The parameters are "
+                 "the surface's, "
                  "beyond its domain.")
       .example("of: { type: cylinder_surface, radius: 1, height: 2, domain: { u: [0, 2], v: [0, 1] } }, after: 0.5")
       .field("of", reference({Category::surface}), "the surface")

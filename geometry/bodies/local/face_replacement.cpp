@@ -1,0 +1,548 @@
+#include "geometry/bodies/local/face_replacement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bodies/constructions/swept_body.h"
+#include "geometry/bodies/local/edge_curve.h"
+#include "geometry/bodies/primitives/construct.h"
+#include "geometry/curves/operations/surface_curve.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/derived/extended.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Normals that differ by less are those of a smooth edge.
+constexpr double kSmooth = 1e-6;
+constexpr int kGuide = 8;
+
+class Replacing {
+ public:
+  Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field)
+      : old_(body), field_(field), size_(bounds(body).diameter()), surfaces_(surfaces) {}
+
+  FaceReplacement build() {
+    if (!old_.is_closed()) throw FieldError(field_, "the body is open: it has no inside", "a closed body");
+    prepare_faces();
+    carriers_.resize(old_.edges.size(), -1);
+    for (size_t e = 0; e < old_.edges.size(); ++e) carriers_[e] = carrier(static_cast<int>(e));
+    edges_.resize(old_.edges.size());
+    joints_.resize(old_.coedges.size());
+    for (const Corner& corner : corners_of(old_, removed_)) add_corner(corner);
+    add_edges();
+    add_faces();
+    add_shells();
+    measure_tolerances(made_.body);
+    return std::move(made_);
+  }
+
+ private:
+  struct NewEdge {
+    int start = -1, end = -1;  // new vertices
+  };
+  // An edge to which a corner has opened.
+  struct Joint {
+    int from, to;    // new vertices
+    int coedges[2];  // that arrive at the corner in the faces beside it
+    std::vector<Vec3> guide;
+    int edge = -1;  // the new edge, with its images in these faces
+    Curve2Ptr images[2];
+  };
+  struct JointUse {
+    int joint;
+    int side;
+    bool forward;
+  };
+
+  void prepare_faces() {
+    made_.polyhedral = true;
+    for (size_t f = 0; f < old_.faces.size(); ++f) {
+      const SurfacePtr& surface = surfaces_[f];
+      removed_.push_back(surface == nullptr);
+      changed_.push_back(surface != old_.faces[f].surface);
+      planes_.push_back(surface ? plane_of(surface) : std::nullopt);
+      if (!surface) {
+        supports_.push_back(nullptr);
+        continue;
+      }
+      supports_.push_back(planes_[f] ? std::make_shared<Plane>(*planes_[f]) : surface);
+      made_.polyhedral = made_.polyhedral && planes_[f];
+    }
+  }
+
+  int face_of(int coedge) const { return face_of_coedge(old_, coedge); }
+  const Coedge& use(int coedge) const { return old_.coedges[coedge]; }
+
+  // Parameters of the support near to an old point on it.
+  Vec2 near(int coedge, bool at_end, bool along_loop = true) const {
+    const int face = face_of(coedge);
+    const Coedge& c = use(coedge);
+    const Interval t = c.image->domain();
+    const bool hi = (c.forward || !along_loop) == at_end;
+    if (planes_[face]) return Vec2(planes_[face]->to_local_point(old_.edges[c.edge].curve->point(hi ? t.hi : t.lo)));
+    return Vec2(c.image->point(hi ? t.hi : t.lo));
+  }
+
+  SurfaceNear near_surface(const Sector& s) const { return {supports_[s.face], planes_[s.face], near(s.out, false)}; }
+
+  // The coedge whose image carries over an edge that is a seam, or smooth and stays so; -1 for other edges.
+  int carrier(int e) const {
+    const Edge& edge = old_.edges[e];
+    if (edge.kind == EdgeKind::pole || edge.coedges.size() != 2) return -1;
+    int a = edge.coedges[0], b = edge.coedges[1];
+    if (removed_[face_of(a)] || removed_[face_of(b)]) return -1;
+    if (face_of(a) == face_of(b)) return a;
+    if (planes_[face_of(a)]) std::swap(a, b);
+    if (planes_[face_of(a)]) return -1;
+    const Interval t = edge.curve->domain();
+    for (int k = 0; k <= 4; ++k) {
+      const double at = t.lo + t.width() * k / 4;
+      const Vec3 p = use(a).image->point(at), q = use(b).image->point(at);
+      const Vec3 m = old_.normal(face_of(a), p.x, p.y), n = old_.normal(face_of(b), q.x, q.y);
+      if (!(glm::length(glm::cross(m, n)) < kSmooth && glm::dot(m, n) > 0)) return -1;
+      const int other = face_of(b);
+      const Vec3 point = supports_[face_of(a)]->point(p.x, p.y);
+      const Vec2 at_other = planes_[other] ? Vec2(planes_[other]->to_local_point(point)) : Vec2(q);
+      if (distance_from({supports_[other], planes_[other], at_other}, point) > 1e-9 * size_) return -1;
+    }
+    return a;
+  }
+
+  Vec3 normal_at(const Sector& s) const {
+    const Face& face = old_.faces[s.face];
+    const Vec2 at = near(s.out, false);
+    const Vec3 n =
+        planes_[s.face] ? planes_[s.face]->z : supports_[s.face]->normal_sign() * supports_[s.face]->normal(at.x, at.y);
+    return face.forward == (face.surface->normal_sign() > 0) ? n : -n;
+  }
+
+  bool is_changed(const Corner& corner) const {
+    return std::any_of(corner.sectors.begin(), corner.sectors.end(), [&](const Sector& s) { return changed_[s.face]; });
+  }
+
+  std::string names_of(const Corner& corner) const {
+    std::string text;
+    std::vector<int> told;
+    for (const Sector& s : corner.sectors) {
+      if (std::find(told.begin(), told.end(), s.face) != told.end()) continue;
+      told.push_back(s.face);
+      text += (text.empty() ? "" : ", ") + name_of_face(old_, s.face);
+    }
+    return text;
+  }
+
+  // A vertex at an end of a smooth edge or seam, where that meets another face; or a pole.
+  std::optional<Vec3> carried_point(const Corner& corner) const {
+    for (const Sector& s : corner.sectors)
+      if (old_.edges[use(s.in).edge].kind == EdgeKind::pole) return point_on(s, s.in);
+    int best = -1;
+    const Sector* other = nullptr;
+    double widest = 1e-3;
+    std::optional<Vec3> touching;
+    for (const Sector& s : corner.sectors) {
+      const int carried = carriers_[use(s.in).edge];
+      if (carried < 0) continue;
+      const int a = face_of(carried), b = face_of(coedge_partner(old_, carried));
+      const Sector& of = s.face == a ? s
+                                     : *std::find_if(corner.sectors.begin(), corner.sectors.end(),
+                                                     [&](const Sector& x) { return x.face == a; });
+      if (!touching) touching = point_on(of, s.face == a ? s.in : coedge_partner(old_, s.in), s.face != a);
+      for (const Sector& x : corner.sectors) {
+        if (x.face == a || x.face == b) continue;
+        const double angle = glm::length(glm::cross(normal_at(of), normal_at(x)));
+        if (angle > widest) widest = angle, best = s.face == a ? s.in : coedge_partner(old_, s.in), other = &x;
+      }
+    }
+    if (best < 0) return touching;
+    const Coedge& c = use(best);
+    // Of the carrier's use that ends here.
+    const bool arrives =
+        std::any_of(corner.sectors.begin(), corner.sectors.end(), [&](const Sector& s) { return s.in == best; });
+    const Interval t = c.image->domain();
+    return piercing_point(*supports_[face_of(best)], *c.image, c.forward == arrives ? t.hi : t.lo, near_surface(*other),
+                          size_);
+  }
+
+  Vec3 point_on(const Sector& s, int coedge, bool at_begin = false) const {
+    const Vec2 at = near(coedge, !at_begin);
+    return supports_[s.face]->point(at.x, at.y);
+  }
+
+  CornerTree tree_of(const Corner& corner) const {
+    const size_t count = corner.sectors.size();
+    CornerTree one{{}, std::vector<int>(count, 0), {}};
+    if (corner.vertex >= 0 && !is_changed(corner)) {
+      one.points = {old_.vertices[corner.vertex].point};
+      return one;
+    }
+    std::optional<Vec3> point = carried_point(corner);
+    const bool is_carried = point || std::any_of(corner.sectors.begin(), corner.sectors.end(),
+                                                 [&](const Sector& s) { return carriers_[use(s.in).edge] >= 0; });
+    if (!is_carried && count == 2)
+      point = nearest_common_point(near_surface(corner.sectors[0]), near_surface(corner.sectors[1]), size_);
+    if (point) {
+      one.points = {*point};
+      return one;
+    }
+    std::vector<SectorSurface> sectors;
+    for (const Sector& s : corner.sectors)
+      sectors.push_back({s.face, near_surface(s), normal_at(s), old_.vertices[vertex_before(old_, s.in)].point});
+    std::optional<CornerTree> tree = is_carried ? std::nullopt : corner_tree(sectors, size_);
+    if (!tree)
+      throw FieldError(field_, fmt::format("the faces {} do not come together in a corner any more", names_of(corner)),
+                       "a smaller change, or one of the neighbours too");
+    return *tree;
+  }
+
+  void add_corner(const Corner& corner) {
+    const CornerTree tree = tree_of(corner);
+    std::vector<int> vertices;
+    const bool one = tree.joints.empty();
+    for (size_t k = 0; k < tree.points.size(); ++k) {
+      Origin origin = corner.vertex >= 0 ? old_.vertices[corner.vertex].origin : Origin{};
+      if (!one) origin = {};
+      const bool used = !one || k == static_cast<size_t>(tree.of_spoke[0]);
+      vertices.push_back(used ? made_.body.add_vertex(tree.points[k], origin) : -1);
+      if (used && corner.vertex >= 0 && !is_changed(corner))
+        made_.body.vertices.back().tolerance = old_.vertices[corner.vertex].tolerance;
+    }
+    const size_t count = corner.sectors.size();
+    for (size_t k = 0; k < count; ++k) {
+      const Coedge& in = use(corner.sectors[k].in);
+      const int vertex = vertices[tree.of_spoke[k]];
+      (in.forward ? edges_[in.edge].end : edges_[in.edge].start) = vertex;
+      if (old_.edges[in.edge].kind == EdgeKind::pole) edges_[in.edge] = {vertex, vertex};
+    }
+    const size_t first = all_joints_.size();
+    for (const CornerTree::Joint& j : tree.joints)
+      all_joints_.push_back({vertices[j.from],
+                             vertices[j.to],
+                             {corner.sectors[j.sectors[0]].in, corner.sectors[j.sectors[1]].in},
+                             {tree.points[j.from], tree.points[j.to]}});
+    // Along each sector's border, from the spoke after it to the one before it.
+    for (size_t i = 0; i < count; ++i) {
+      int at = tree.of_spoke[i];
+      const int last = tree.of_spoke[(i + count - 1) % count];
+      std::vector<char> used(tree.joints.size(), 0);
+      while (at != last) {
+        size_t k = 0;
+        const auto fits = [&](const CornerTree::Joint& j) {
+          return (j.sectors[0] == static_cast<int>(i) || j.sectors[1] == static_cast<int>(i)) &&
+                 (j.from == at || j.to == at);
+        };
+        while (k < used.size() && (used[k] || !fits(tree.joints[k]))) ++k;
+        if (k == used.size()) throw std::logic_error("the tree of a corner is broken");
+        used[k] = 1;
+        const CornerTree::Joint& j = tree.joints[k];
+        const bool forward = j.from == at;
+        joints_[corner.sectors[i].in].push_back(
+            {static_cast<int>(first + k), j.sectors[0] == static_cast<int>(i) ? 0 : 1, forward});
+        at = forward ? j.to : j.from;
+      }
+    }
+  }
+
+  bool is_kept(int e) const {
+    const Edge& edge = old_.edges[e];
+    for (const int c : edge.coedges)
+      if (changed_[face_of(c)]) return false;
+    const Body& body = made_.body;
+    return body.vertices[edges_[e].start].point == old_.vertices[edge.start].point &&
+           body.vertices[edges_[e].end].point == old_.vertices[edge.end].point;
+  }
+
+  EdgeSide side_of(int coedge) const {
+    const int face = face_of(coedge);
+    return {supports_[face], planes_[face], {near(coedge, false, false), near(coedge, true, false)}};
+  }
+
+  void add_edges() {
+    images_.resize(old_.coedges.size());
+    numbers_.assign(old_.edges.size(), -1);
+    for (size_t e = 0; e < old_.edges.size(); ++e)
+      if (stays(static_cast<int>(e))) add_edge(static_cast<int>(e));
+    for (Joint& joint : all_joints_) add_joint(joint);
+  }
+
+  bool stays(int e) const {
+    for (const int c : old_.edges[e].coedges)
+      if (removed_[face_of(c)]) return false;
+    return true;
+  }
+
+  void add_edge(int e) {
+    const Edge& old = old_.edges[e];
+    const auto [start, end] = edges_[e];
+    const Vec3 from = made_.body.vertices[start].point, to = made_.body.vertices[end].point;
+    std::vector<Curve2Ptr> images;
+    CurvePtr curve;
+    bool is_old = false;
+    if (old.kind == EdgeKind::pole) {
+      curve = point_curve(old.curve->domain(), from);
+      images = {use(old.coedges[0]).image};
+    } else if (is_kept(e)) {
+      curve = old.curve;
+      is_old = true;
+      for (const int c : old.coedges) images.push_back(kept_image(c));
+    } else {
+      const EdgeCurve found = curve_between(e, from, to);
+      curve = found.curve;
+      images = {found.images[0], found.images[1]};
+      note_turn(e, *curve);
+    }
+    numbers_[e] = made_.body.add_edge(curve, start, end, old.origin, old.kind);
+    if (is_old) made_.body.edges.back().tolerance = old.tolerance;
+    for (size_t k = 0; k < old.coedges.size(); ++k) images_[old.coedges[k]] = images[k];
+  }
+
+  Curve2Ptr kept_image(int c) const {
+    const int face = face_of(c);
+    const bool same = dynamic_cast<const Plane*>(old_.faces[face].surface.get()) || !planes_[face];
+    return same ? use(c).image : image_in(*planes_[face], old_.edges[use(c).edge].curve);
+  }
+
+  EdgeCurve curve_between(int e, const Vec3& from, const Vec3& to) const {
+    const Edge& old = old_.edges[e];
+    const int a = old.coedges[0], b = old.coedges[1];
+    if (carriers_[e] >= 0)
+      if (auto edge = carried_edge(e, from, to)) return *edge;
+    std::vector<Vec3> guide;
+    const Interval t = old.curve->domain();
+    for (int k = 0; k <= kGuide; ++k) guide.push_back(old.curve->point(t.lo + t.width() * k / kGuide));
+    std::string why;
+    try {
+      if (auto edge = intersection_edge({side_of(a), side_of(b)}, from, to, guide, size_)) return *edge;
+    } catch (const FieldError&) {
+      throw;
+    } catch (const std::invalid_argument& error) {
+      why = fmt::format(" ({})", error.what());
+    }
+    throw FieldError(field_,
+                     fmt::format("the faces {} and {} do not meet along an edge any more{}",
+                                 name_of_face(old_, face_of(a)), name_of_face(old_, face_of(b)), why),
+                     "a smaller change, or one of the neighbours too");
+  }
+
+  // Along the image that the edge has, or the straight line of the parameter plane between its new ends.
+  std::optional<EdgeCurve> carried_edge(int e, const Vec3& from, const Vec3& to) const {
+    const Edge& old = old_.edges[e];
+    const int a = carriers_[e], b = coedge_partner(old_, a);
+    const bool swapped = a != old.coedges[0];
+    std::optional<EdgeCurve> edge;
+    if (old_.edges[e].kind == EdgeKind::seam || is_line(*use(a).image))
+      edge = parameter_edge({side_of(a), side_of(b)}, from, to, size_);
+    if (!edge) {
+      const SurfacePtr& surface = supports_[face_of(a)];
+      const auto curve = std::make_shared<SurfaceCurve>(surface, use(a).image);
+      const Interval t = curve->domain();
+      if (glm::length(curve->point(t.lo) - from) > 1e-10 * size_ ||
+          glm::length(curve->point(t.hi) - to) > 1e-10 * size_)
+        return std::nullopt;
+      const int other = face_of(b);
+      edge = EdgeCurve{curve, {use(a).image, planes_[other] ? image_in(*planes_[other], curve) : use(b).image}};
+    }
+    if (swapped) std::swap(edge->images[0], edge->images[1]);
+    return edge;
+  }
+
+  static bool is_line(const Curve& image) {
+    const Interval t = image.domain();
+    const Vec3 a = image.point(t.lo), b = image.point(t.hi);
+    for (int k = 1; k < kGuide; ++k)
+      if (glm::length(image.point(t.lo + t.width() * k / kGuide) - (a + (b - a) * (double(k) / kGuide))) >
+          1e-12 * glm::length(b - a))
+        return false;
+    return true;
+  }
+
+  void note_turn(int e, const Curve& curve) {
+    const Curve& old = *old_.edges[e].curve;
+    const Vec3 before = old.point(old.domain().middle()) - old.point(old.domain().lo),
+               after = curve.point(curve.domain().middle()) - curve.point(curve.domain().lo);
+    if (!(glm::dot(before, after) > 0)) made_.turned_edges.push_back(e);
+  }
+
+  void add_joint(Joint& joint) {
+    std::array<EdgeSide, 2> sides;
+    for (int k = 0; k < 2; ++k) {
+      const int c = joint.coedges[k];
+      const Vec2 at = near(c, true);
+      sides[k] = {supports_[face_of(c)], planes_[face_of(c)], {at, at}};
+    }
+    const auto edge = intersection_edge(sides, joint.guide[0], joint.guide[1], joint.guide, size_);
+    if (!edge)
+      throw FieldError(
+          field_,
+          fmt::format("the faces {} and {} do not meet along an edge", name_of_face(old_, face_of(joint.coedges[0])),
+                      name_of_face(old_, face_of(joint.coedges[1]))),
+          "a smaller change");
+    joint.edge = made_.body.add_edge(edge->curve, joint.from, joint.to, {"", "joint", joints_made_++});
+    for (int k = 0; k < 2; ++k) joint.images[k] = edge->images[k];
+  }
+
+  void add_faces() {
+    for (size_t f = 0; f < old_.faces.size(); ++f)
+      if (!removed_[f]) add_face(static_cast<int>(f));
+  }
+
+  void add_face(int f) {
+    const Face& old = old_.faces[f];
+    std::vector<std::vector<Body::Use>> loops;
+    bool same = !changed_[f];
+    for (size_t l = 0; l < old.loops.size(); ++l) {
+      std::vector<Body::Use> uses;
+      for (const int c : old_.loops[old.loops[l]].coedges) {
+        const int e = use(c).edge;
+        if (numbers_[e] < 0) continue;
+        uses.push_back({numbers_[e], use(c).forward, images_[c]});
+        same = same && images_[c] == use(c).image;
+        for (const JointUse& j : joints_[c]) {
+          const Joint& joint = all_joints_[j.joint];
+          uses.push_back({joint.edge, j.forward, joint.images[j.side]});
+          same = false;
+        }
+      }
+      if (uses.empty()) {
+        if (l == 0)
+          throw FieldError(field_, fmt::format("the face {} is left without its outer border", name_of_face(old_, f)),
+                           "take it away too");
+        continue;
+      }
+      loops.push_back(std::move(uses));
+    }
+    const int face =
+        same ? made_.body.add_face(old.surface, old.forward, old.origin, old.trimmed) : add_face_on(f, loops);
+    for (const std::vector<Body::Use>& uses : loops) made_.body.add_loop(face, uses);
+    made_.faces.push_back(f);
+  }
+
+  int add_face_on(int f, const std::vector<std::vector<Body::Use>>& loops) {
+    const Face& old = old_.faces[f];
+    std::vector<CurvePtr> images;
+    Box3 box;
+    for (const auto& uses : loops)
+      for (const Body::Use& u : uses) images.push_back(u.image), box.include(bounds(*u.image));
+    // Rounding of the boxes of images is not to move a border.
+    const bool untrimmed = !old.trimmed && loops.size() == 1 && fills(loops[0], box);
+    if (planes_[f]) {
+      if (!untrimmed) {
+        const int face = add_plane_face(made_.body, *planes_[f], old.forward, old.origin, images);
+        return turned_as(face, old);
+      }
+      return turned_as(
+          made_.body.add_face(std::make_shared<Plane>(*planes_[f], rectangle(box)), old.forward, old.origin, false),
+          old);
+    }
+    const Rectangle d = supports_[f]->domain();
+    SurfacePtr surface = supports_[f];
+    const Rectangle asked = untrimmed ? rectangle(box) : widened(d, box, surface->periods());
+    if (!(asked.u == d.u && asked.v == d.v)) {
+      try {
+        surface = extended_to(surface, asked);
+      } catch (const FieldError&) {
+        throw;
+      } catch (const std::invalid_argument& error) {
+        throw FieldError(field_,
+                         fmt::format("the face {} cannot be continued: {}", name_of_face(old_, f), error.what()),
+                         "a smaller change");
+      }
+    }
+    return made_.body.add_face(surface, old.forward, old.origin, !untrimmed);
+  }
+
+  // A surface keeps its side; the plane that stands for one of another kind has it by its frame.
+  int turned_as(int face, const Face& old) {
+    if (!old.surface->reversed()) return face;
+    auto plane = std::make_shared<Plane>(*dynamic_cast<const Plane*>(made_.body.faces[face].surface.get()));
+    plane->set_reversed(true);
+    made_.body.faces[face].surface = plane;
+    return face;
+  }
+
+  static Rectangle rectangle(const Box3& box) { return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}}; }
+
+  // Whether a loop runs along the border of its box.
+  static bool fills(const std::vector<Body::Use>& uses, const Box3& box) {
+    const Vec3 size = box.size();
+    for (const Body::Use& u : uses) {
+      const Interval t = u.image->domain();
+      bool on_side[4] = {true, true, true, true};
+      for (int k = 0; k <= 4; ++k) {
+        const Vec3 p = u.image->point(t.lo + t.width() * k / 4);
+        on_side[0] = on_side[0] && p.x - box.lo.x <= 1e-13 * size.x;
+        on_side[1] = on_side[1] && box.hi.x - p.x <= 1e-13 * size.x;
+        on_side[2] = on_side[2] && p.y - box.lo.y <= 1e-13 * size.y;
+        on_side[3] = on_side[3] && box.hi.y - p.y <= 1e-13 * size.y;
+      }
+      if (!(on_side[0] || on_side[1] || on_side[2] || on_side[3])) return false;
+    }
+    return true;
+  }
+
+  static Rectangle widened(const Rectangle& d, const Box3& box, const Periods& periods) {
+    const auto along = [](const Interval& own, double lo, double hi, double period) {
+      if (own.lo <= lo && hi <= own.hi) return own;
+      if (period > 0 && hi - lo >= period * (1 - 1e-9)) return Interval(lo, lo + period);
+      const double more = 0.02 * (hi - lo);
+      return Interval(lo < own.lo ? lo - more : own.lo, hi > own.hi ? hi + more : own.hi);
+    };
+    return {along(d.u, box.lo.x, box.hi.x, periods.u), along(d.v, box.lo.y, box.hi.y, periods.v)};
+  }
+
+  void add_shells() {
+    Body& body = made_.body;
+    for (const Shell& old : old_.shells) {
+      Shell shell{{}, true};
+      for (size_t f = 0; f < made_.faces.size(); ++f)
+        if (std::find(old.faces.begin(), old.faces.end(), made_.faces[f]) != old.faces.end()) {
+          body.faces[f].shell = static_cast<int>(body.shells.size());
+          shell.faces.push_back(static_cast<int>(f));
+        }
+      if (!shell.faces.empty()) body.shells.push_back(std::move(shell));
+    }
+  }
+
+  const Body& old_;
+  const char* field_;
+  double size_;
+  const std::vector<SurfacePtr>& surfaces_;
+  std::vector<char> removed_, changed_;
+  std::vector<SurfacePtr> supports_;
+  std::vector<std::optional<Frame>> planes_;
+  std::vector<int> carriers_;
+  std::vector<NewEdge> edges_;                 // of each old edge
+  std::vector<std::vector<JointUse>> joints_;  // that follow each old coedge in its loop
+  std::vector<Joint> all_joints_;
+  std::vector<Curve2Ptr> images_;  // of each old coedge
+  std::vector<int> numbers_;       // of each old edge, its new number
+  int joints_made_ = 0;
+  FaceReplacement made_;
+};
+
+}  // namespace
+
+FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field) {
+  return Replacing(body, surfaces, field).build();
+}
+
+void check_replacement(const Body& old, const FaceReplacement& made, const char* field, const char* hint) {
+  if (!made.turned_edges.empty()) {
+    const Origin& origin = old.edges[made.turned_edges.front()].origin;
+    throw FieldError(field,
+                     fmt::format("the edge {} vanishes: the faces at its ends run into each other",
+                                 origin.text().empty() ? std::to_string(made.turned_edges.front()) : origin.text()),
+                     hint);
+  }
+  const std::vector<Violation> found = made.body.violations();
+  if (!found.empty())
+    throw FieldError(
+        field,
+        fmt::format("the faces make no body: not met is '{}' ({})", found.front().condition, found.front().entity),
+        hint);
+}
+
+}  // namespace lekalo::geometry

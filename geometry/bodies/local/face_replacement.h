@@ -1,0 +1,59 @@
+// A body whose faces get other surfaces, or go, while everything else follows (Golovanov 2016, 6.7, 6.12): the one
+// mechanism of offsets, shells, drafts, moved and deleted faces.
+//
+// Each vertex is the common point of its faces' new surfaces; where more than three faces meet and have no point in
+// common any more, it becomes several vertices with edges between them. Each edge runs along the intersection of its
+// two surfaces; a smooth edge, or a seam, keeps its image. A group of faces that goes leaves a wound, which closes to
+// a point or such a tree of edges where the faces around it come together.
+#pragma once
+
+#include <vector>
+
+#include "geometry/bodies/local/common_point.h"
+#include "geometry/bodies/local/corners.h"
+#include "geometry/bodies/local/support.h"
+
+namespace lekalo::geometry {
+
+struct FaceReplacement {
+  Body body;
+  std::vector<int> faces;  // the old number of each face
+  // Old edges of finite length that run the other way now: the body passes through itself there.
+  std::vector<int> turned_edges;
+  bool polyhedral = false;  // all faces are plane
+};
+
+// `surfaces`: of each face its new surface, the same pointer where it stays, null where the face goes. A new surface
+// has nearly the parameters of the old one (a plane need not). Throws FieldError (that field) where surfaces do not
+// meet, for an open body, and where a face would be left without a border. The result may pass through itself: see
+// turned_edges and check_replacement.
+FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field);
+
+// Throws FieldError (that field, with the hint) where edges have turned or the body is not valid.
+void check_replacement(const Body& old, const FaceReplacement& made, const char* field, const char* hint);
+
+// The tree of edges to which a corner opens that has no common point: points, the one where each spoke ends, and the
+// joints between them, each between two of the sectors' faces.
+struct CornerTree {
+  struct Joint {
+    int sectors[2];
+    int from, to;  // points
+  };
+  std::vector<Vec3> points;
+  std::vector<int> of_spoke;  // spoke k follows sector k
+  std::vector<Joint> joints;
+};
+
+// What is known of a sector for it.
+struct SectorSurface {
+  int face;
+  SurfaceNear on;
+  Vec3 normal;    // of the new surface near the corner
+  Vec3 spoke_to;  // the other end of the spoke that follows, before
+};
+
+// A tree without joints where one point will do; else a triangulation of the cycle of sectors whose edges do not cross
+// (Aurenhammer, Walzl 2016: there is one for plane faces). Nothing where there is none, or more than 8 sectors.
+std::optional<CornerTree> corner_tree(const std::vector<SectorSurface>& sectors, double size);
+
+}  // namespace lekalo::geometry

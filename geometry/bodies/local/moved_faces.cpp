@@ -1,0 +1,154 @@
+// Faces of a body moved, set off or leant while their neighbours follow (Golovanov 2016, 6.12). The draft of a plane
+// with the outward normal m turns it about its trace in the neutral plane,
+//
+//   m' = cos(a) (m - (m.d) d)/|m - (m.d) d| + sin(a) d
+//
+// a cylinder along d becomes a cone with R(z) = R_0 - (z - z_0) tan(a) where the material lies inside, a cone another.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geometry/bodies/constructions/profile.h"
+#include "geometry/bodies/local/face_replacement.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/transformed.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+std::vector<SurfacePtr> surfaces_of(const Body& body) {
+  std::vector<SurfacePtr> surfaces;
+  for (const Face& face : body.faces) surfaces.push_back(face.surface);
+  return surfaces;
+}
+
+Body moved(const Fields& f) {
+  const Body& body = *f.body("of");
+  if (f.has("by") == f.has("distance"))
+    throw FieldError("by", "faces are moved by a transformation, or each along its normals by a distance",
+                     "give one of 'by' and 'distance'");
+  const char* field = f.has("by") ? "by" : "distance";
+  std::vector<SurfacePtr> surfaces = surfaces_of(body);
+  for (const int k : faces_named(body, f, "faces")) {
+    const Face& face = body.faces[k];
+    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    surfaces[k] = f.has("by") ? transformed(face.surface, f.transform("by"))
+                              : offset_support(face.surface, side * f.number("distance"), field);
+  }
+  FaceReplacement made = replace_faces(body, surfaces, field);
+  check_replacement(body, made, field, "move them by less");
+  return std::move(made.body);
+}
+
+struct Draft {
+  Vec3 direction, origin;
+  double angle;
+
+  SurfacePtr plane(const Frame& frame, double side, const std::string& name) const {
+    const Vec3 m = side * frame.z, across = m - glm::dot(m, direction) * direction;
+    if (!(glm::length(across) > 1e-9))
+      throw FieldError("faces", fmt::format("the face {} lies across the direction", name), "faces beside it");
+    const Vec3 leant = std::cos(angle) * glm::normalize(across) + std::sin(angle) * direction;
+    // A point of the trace: in both planes, nearest to the frame's origin.
+    const Vec3 in_plane = glm::normalize(direction - glm::dot(direction, m) * m);
+    const Vec3 on =
+        frame.origin + glm::dot(origin - frame.origin, direction) / glm::dot(in_plane, direction) * in_plane;
+    return std::make_shared<Plane>(frame_from(on, side * leant, glm::cross(direction, leant)));
+  }
+
+  // The meridian of a surface of revolution about d: `radius` at the neutral plane and how much it grows along d.
+  SurfacePtr cone(const ConeSurface& cone, double side, const std::string& name) const {
+    const Frame& frame = cone.frame();
+    const double up = glm::dot(frame.z, direction);
+    if (!(std::abs(std::abs(up) - 1) < 1e-12))
+      throw FieldError("faces", fmt::format("the axis of the face {} does not run along the direction", name),
+                       "a plane face, or a cylinder or cone along it");
+    const double h = cone.height(), w = cone.top_radius() - cone.radius();
+    const double outward = side * (h > 0 ? 1 : -1);  // +1: the material lies inside
+    // v of the neutral plane, and the radius there.
+    const double neutral = glm::dot(origin - frame.origin, frame.z) / h;
+    const double radius = cone.radius() + w * neutral;
+    const double growth = -std::tan(angle) * outward * up * h;  // for v from 0 to 1
+    const double base = radius - neutral * growth;
+    if (growth == 0) return std::make_shared<CylinderSurface>(frame, radius, h, cone.domain());
+    return std::make_shared<ConeSurface>(frame, base, base + growth, h, cone.domain());
+  }
+};
+
+// The extrusion of a circle along its axis as the cylinder that has its parameters; null for another surface.
+std::shared_ptr<const ConeSurface> cylinder_of(const Surface& surface) {
+  const auto* e = dynamic_cast<const ExtrusionSurface*>(&surface);
+  if (!e) return nullptr;
+  const auto circle = circle_of(*e->curve());
+  const Interval t = e->curve()->domain();
+  if (!circle || std::abs(circle->domain().width() - t.width()) > 1e-12) return nullptr;
+  const double height = glm::dot(e->along(), circle->frame().z);
+  if (glm::length(e->along() - height * circle->frame().z) > 1e-12 * std::abs(height)) return nullptr;
+  // Its angles begin at 0 where the curve does.
+  const Affine turn = Affine::rotation(-t.lo, circle->frame().z);
+  const Frame frame = frame_from(circle->frame().origin, circle->frame().z, turn.direction(circle->frame().x));
+  return std::make_shared<CylinderSurface>(frame, circle->radius(), height, e->domain());
+}
+
+Body leant(const Fields& f) {
+  const Body& body = *f.body("of");
+  const Vec3 d = f.has("direction") ? f.vec3("direction") : f.frame("neutral").z;
+  const Draft draft{d, f.frame("neutral").origin, f.number("angle")};
+  if (!(std::abs(glm::dot(d, f.frame("neutral").z)) > 1e-9))
+    throw FieldError("direction", "the direction lies in the neutral plane", "one across it");
+  std::vector<SurfacePtr> surfaces = surfaces_of(body);
+  for (const int k : faces_named(body, f, "faces")) {
+    const Face& face = body.faces[k];
+    const std::string name = name_of_face(body, k);
+    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    std::shared_ptr<Surface> made;
+    if (const auto frame = plane_of(face.surface))
+      made = std::const_pointer_cast<Surface>(draft.plane(*frame, side, name));
+    else if (const auto* cone = dynamic_cast<const ConeSurface*>(face.surface.get()))
+      made = std::const_pointer_cast<Surface>(draft.cone(*cone, side, name));
+    else if (const auto cylinder = cylinder_of(*face.surface))
+      made = std::const_pointer_cast<Surface>(draft.cone(*cylinder, side, name));
+    else
+      throw FieldError("faces", fmt::format("the face {} is neither plane, nor a cylinder or a cone", name),
+                       "leave it out");
+    made->set_reversed(face.surface->reversed());
+    surfaces[k] = made;
+  }
+  FaceReplacement made = replace_faces(body, surfaces, "angle");
+  check_replacement(body, made, "angle", "a smaller angle");
+  return std::move(made.body);
+}
+
+}  // namespace
+
+TypeDeclaration moved_faces_type() {
+  return declare(Category::body, "moved_faces",
+                 "A body some of whose faces are moved, by a transformation or along their normals, while the others "
+                 "stay on their surfaces and follow: they grow and shrink.")
+      .example("of: { type: box, size: [3, 2, 1] }, faces: z_max, distance: 0.5")
+      .field("of", reference({Category::body}), "the body; closed")
+      .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")
+      .optional("by", transform(), "what moves them: steps as of 'transform'")
+      .optional("distance", length(),
+                "in place of it: how far each goes along its outward normal; a hole gets wider by a negative one")
+      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(moved(f)); });
+}
+
+TypeDeclaration drafted_faces_type() {
+  return declare(Category::body, "drafted_faces",
+                 "A body some of whose faces lean: plane ones turn about the line in which they meet the neutral "
+                 "plane, cylinders and cones become cones with the same circle in it. The neighbours follow.")
+      .example("of: { type: box, size: [3, 2, 1] }, faces: [x_min, x_max, y_min, y_max], angle: 10")
+      .field("of", reference({Category::body}), "the body; closed")
+      .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")
+      .field("angle", angle().between(-1.5, 1.5),
+             "angle by which the faces lean towards the material along the direction; negative: away from it")
+      .field("neutral", frame(), "the neutral plane, across z of this frame: nothing changes in it", "{}")
+      .optional("direction", direction(), "the direction of the draft; z of the neutral plane where left out")
+      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(leant(f)); });
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,194 @@
+// Offsets that keep the parameters (Golovanov 2016, 6.7): plane to plane, cylinder and sphere R + d, a cone moved along
+// its axis by -d/sin(half-angle), a torus with the minor radius b + d; extrusion and revolution of c(u) to those of the
+// offset of c in its plane.
+#include "geometry/bodies/local/support.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bodies/constructions/profile_offset.h"
+#include "geometry/surfaces/analytic/cone.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/derived/offset.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
+#include "geometry/transformed.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Rounding of control points that are meant to lie in one plane, relative to their box.
+constexpr double kFlat = 1e-13;
+
+// The mean of r_u x r_v of a patch whose control points lie in one plane.
+std::optional<Frame> plane_of_form(const NurbsSurfaceForm& form) {
+  Box3 box;
+  for (const Vec4& p : form.points) {
+    if (!(p.w > 0)) return std::nullopt;
+    box.include(Vec3(p) / p.w);
+  }
+  const int m = form.count_u(), n = form.count_v();
+  const auto at = [&](int i, int j) { return Vec3(form.points[i * n + j]) / form.points[i * n + j].w; };
+  Vec3 area(0);
+  for (int i = 0; i + 1 < m; ++i)
+    for (int j = 0; j + 1 < n; ++j) area += glm::cross(at(i + 1, j + 1) - at(i, j), at(i, j + 1) - at(i + 1, j));
+  const double size = box.diameter();
+  if (!(glm::length(area) > 1e-9 * size * size)) return std::nullopt;
+  const Vec3 z = glm::normalize(area), origin = at(0, 0);
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < n; ++j)
+      if (std::abs(glm::dot(z, at(i, j) - origin)) > kFlat * (size + glm::length(origin))) return std::nullopt;
+  const Vec3 along = at(m - 1, 0) - origin;
+  return glm::length(along) > 1e-9 * size ? frame_from(origin, z, along) : frame_about(origin, z);
+}
+
+Vec3 parametric_normal_at(const Surface& surface, const Vec2& at) {
+  return surface.normal_sign() * surface.normal(at.x, at.y);
+}
+
+Vec2 middle_of(const Rectangle& d) { return {d.u.middle(), d.v.middle()}; }
+
+SurfacePtr offset_cone(const ConeSurface& cone, double d) {
+  const double w = cone.top_radius() - cone.radius(), h = cone.height();
+  if (w == 0) return nullptr;
+  Frame frame = cone.frame();
+  frame.origin -= d * std::hypot(w, h) / w * frame.z;
+  return std::make_shared<ConeSurface>(frame, cone.radius(), cone.top_radius(), h, cone.domain());
+}
+
+// The curve at a distance in its plane, the side of the normal; null where it is no offset in a plane.
+CurvePtr offset_in_plane(const CurvePtr& curve, const Vec3& normal, double d, const char* field) {
+  return mitred_offset({curve}, normal, d, curve->is_closed(), field).front();
+}
+
+SurfacePtr offset_extrusion(const ExtrusionSurface& e, double d, const char* field) {
+  const Vec3 along = glm::normalize(e.along());
+  const Interval domain = e.curve()->domain();
+  for (int k = 0; k <= 16; ++k) {
+    const Vec3 chord = e.curve()->point(domain.lo + domain.width() * k / 16) - e.curve()->point(domain.lo);
+    if (std::abs(glm::dot(chord, along)) > 1e-12 * bounds(*e.curve()).diameter()) return nullptr;
+  }
+  // r_u x r_v = c' x d is to the right of c', seen against d.
+  return std::make_shared<ExtrusionSurface>(offset_in_plane(e.curve(), along, -d, field), e.along(), e.domain());
+}
+
+SurfacePtr offset_revolution(const RevolutionSurface& r, double d, const char* field) {
+  const DegenerateEdges poles = r.degenerate_edges();
+  if (poles.u_min || poles.u_max) return nullptr;
+  // At v = 0 the curve lies in a plane through the axis, and r_v = axis x (c - p).
+  const Interval domain = r.curve()->domain();
+  const Axis axis = r.axis();
+  const Vec3 around = glm::cross(axis.along, r.curve()->point(domain.middle()) - axis.through);
+  if (!(glm::length(around) > 0)) return nullptr;
+  const Vec3 normal = glm::normalize(around);
+  for (int k = 0; k <= 16; ++k) {
+    const Vec3 p = r.curve()->point(domain.lo + domain.width() * k / 16) - axis.through;
+    if (std::abs(glm::dot(p, normal)) > 1e-12 * (bounds(*r.curve()).diameter() + glm::length(p))) return nullptr;
+  }
+  // c' x (direction of r_v) = c' x normal is to the right of c', seen against the normal.
+  return std::make_shared<RevolutionSurface>(offset_in_plane(r.curve(), normal, -d, field), axis, r.domain());
+}
+
+SurfacePtr offset_by_kind(const SurfacePtr& surface, double d, const char* field) {
+  if (const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get())) {
+    const Mat3& a = moved->map().linear;
+    const double scale = std::cbrt(moved->map().determinant());
+    const Mat3 square = glm::transpose(a) * a;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (std::abs(square[i][j] - (i == j ? scale * scale : 0)) > 1e-14 * scale * scale) return nullptr;
+    const SurfacePtr inner = offset_by_kind(moved->original(), d / scale, field);
+    return inner ? transformed(inner, moved->map()) : nullptr;
+  }
+  if (const auto* cone = dynamic_cast<const ConeSurface*>(surface.get())) return offset_cone(*cone, d);
+  if (const auto* e = dynamic_cast<const ExtrusionSurface*>(surface.get())) return offset_extrusion(*e, d, field);
+  if (const auto* r = dynamic_cast<const RevolutionSurface*>(surface.get())) return offset_revolution(*r, d, field);
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Frame> plane_of(const SurfacePtr& surface) {
+  if (const auto* plane = dynamic_cast<const Plane*>(surface.get())) return plane->frame();
+  if (!surface->bounded()) return std::nullopt;
+  const auto form = surface->as_nurbs();
+  if (!form) return std::nullopt;
+  std::optional<Frame> frame = plane_of_form(*form);
+  if (frame && glm::dot(frame->z, parametric_normal_at(*surface, middle_of(surface->domain()))) < 0)
+    frame = Frame{frame->origin, frame->y, frame->x, -frame->z};
+  return frame;
+}
+
+SurfacePtr offset_support(const SurfacePtr& surface, double d, const char* field) {
+  if (d == 0) return surface;
+  std::shared_ptr<Surface> result;
+  if (const auto frame = plane_of(surface)) {
+    Frame moved = *frame;
+    moved.origin += d * frame->z;
+    result = std::make_shared<Plane>(moved);
+  } else {
+    try {
+      result = std::const_pointer_cast<Surface>(offset_by_kind(surface, d, field));
+      if (!result) result = std::const_pointer_cast<Surface>(offset_surface(surface, surface->normal_sign() * d));
+    } catch (const FieldError& error) {
+      throw FieldError(field, error.what(), error.hint);
+    }
+  }
+  result->set_reversed(surface->reversed());
+  return result;
+}
+
+Vec2 located(const Surface& surface, const Vec3& point, Vec2 at) {
+  for (int step = 0; step < 40; ++step) {
+    const SurfaceJet s = surface.evaluate(at.x, at.y, 1);
+    const Vec3 gap = point - s.point();
+    const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
+    const double det = e * g - f * f;
+    if (!(det > 0)) return at;
+    const double p = glm::dot(gap, s.du()), q = glm::dot(gap, s.dv());
+    const Vec2 by((g * p - f * q) / det, (e * q - f * p) / det);
+    at += by;
+    if (!(std::abs(by.x) * std::sqrt(e) + std::abs(by.y) * std::sqrt(g) > 1e-15 * glm::length(point))) break;
+  }
+  return at;
+}
+
+Vec2 middle_of_face(const Body& body, int face) {
+  Box3 box;
+  for (const int c : body.loops[body.faces[face].loops.front()].coedges) {
+    const Curve& image = *body.coedges[c].image;
+    for (int k = 0; k <= 4; ++k) box.include(image.point(image.domain().lo + image.domain().width() * k / 4));
+  }
+  return Vec2(box.center());
+}
+
+std::string name_of_face(const Body& body, int face) {
+  const std::string text = body.faces[face].origin.text();
+  return text.empty() ? std::to_string(face) : text;
+}
+
+int face_named(const Body& body, const std::string& name, const char* field) {
+  std::string known;
+  for (size_t k = 0; k < body.faces.size(); ++k) {
+    const std::string text = name_of_face(body, static_cast<int>(k));
+    if (text == name || std::to_string(k) == name) return static_cast<int>(k);
+    known += (known.empty() ? "" : ", ") + text;
+  }
+  throw FieldError(field, fmt::format("the body has no face '{}'", name), "it has " + known);
+}
+
+std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field) {
+  std::vector<int> result;
+  for (const std::string& name : fields.get<std::vector<std::string>>(field)) {
+    const int face = face_named(body, name, field);
+    if (std::find(result.begin(), result.end(), face) != result.end())
+      throw FieldError(field, fmt::format("the face '{}' is given twice", name), "leave one out");
+    result.push_back(face);
+  }
+  return result;
+}
+
+}  // namespace lekalo::geometry

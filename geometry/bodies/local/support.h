@@ -1,0 +1,34 @@
+// The surfaces that the faces of a body lie on, seen beyond the faces' borders.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "geometry/body.h"
+#include "geometry/describe.h"
+
+namespace lekalo::geometry {
+
+// Of a surface that is plane: a frame of the plane with z along r_u x r_v, a Plane's own; of others nothing.
+std::optional<Frame> plane_of(const SurfacePtr& surface);
+
+// The surface at a distance along r_u x r_v with the parameters of the old one. The offset of a cone is the cone moved
+// along its axis, that of an extrusion or a revolution the one of its curve's offset; else as offset_surface, to which
+// conditions and errors belong. A mitred offset of a curve may throw FieldError (that field).
+SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char* field);
+
+// The parameters of the surface's point nearest to a point close by, by Newton's method from parameters that are near.
+Vec2 located(const Surface& surface, const Vec3& point, Vec2 near);
+
+// Half the way between the ends of a face's loops in its parameter plane.
+Vec2 middle_of_face(const Body& body, int face);
+
+// What messages call a face: its name, or its number.
+std::string name_of_face(const Body& body, int face);
+
+// The number of the face that is called so, by its name or number; FieldError (that field) with those that there are.
+int face_named(const Body& body, const std::string& name, const char* field);
+// Those of a field of texts; FieldError for one that is given twice.
+std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field);
+
+}  // namespace lekalo::geometry
