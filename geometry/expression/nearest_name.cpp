@@ -1,7 +1,7 @@
 #include "geometry/expression/nearest_name.h"
 
 #include <algorithm>
-#include <vector>
+#include <utility>
 
 namespace lekalo::geometry {
 namespace {
@@ -30,6 +30,16 @@ int edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return current[n];
+}
+
+std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates, size_t most) {
+  if (candidates.size() <= most) return candidates;
+  std::vector<std::pair<int, std::string>> ranked;
+  for (std::string& candidate : candidates) ranked.emplace_back(edit_distance(name, candidate), std::move(candidate));
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> nearest;
+  for (size_t k = 0; k < most; ++k) nearest.push_back(std::move(ranked[k].second));
+  return nearest;
 }
 
 }  // namespace lekalo::geometry

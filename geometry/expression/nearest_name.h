@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lekalo::geometry {
 
@@ -29,5 +30,8 @@ std::optional<std::string> nearest_name(std::string_view name, const Candidates&
   }
   return best;
 }
+
+// At most so many of the candidates, the nearest first; all in their order if there are no more.
+std::vector<std::string> nearest_names(std::string_view name, std::vector<std::string> candidates, size_t most);
 
 }  // namespace lekalo::geometry

@@ -25,6 +25,7 @@ constexpr double kTail = 2;            // in arrow lengths: from there lines lea
 constexpr double kBesideText = 0.5;    // between a text upon a line and the line's ends
 constexpr double kNumberBorder = 0.2;  // around a number: it may be so near to the arrow heads of its line
 constexpr double kLean = 0.6;          // of leaders to numbers, for each of their height
+constexpr double kSameHeight = 1e-6;   // millimetres: the points of one edge seen from its side
 constexpr double kStraight = 1e-9;     // radians: sides of an angle that are one line
 
 // The plane of an angle, x along its first side. The sides of 180 degrees are one line, which lies in many planes: it
@@ -170,6 +171,20 @@ void add_number(AnnotationWork& work, const std::string& words, const Vec2& from
   work.add(std::move(label));
 }
 
+// Of a face or the end of a body any point will do: the one nearest to the dimension line.
+Vec3 begin_of_dimension(const AnnotationWork& work, const char* field, const Vec2& out) {
+  const Fields& f = work.fields();
+  const std::string spots = std::string(field) + ".spots";
+  Vec3 best = f.get<Anchor>(field).point;
+  if (!f.has(spots)) return best;
+  double farthest = -kInfinity;
+  for (const Vec3& point : f.get<std::vector<Vec3>>(spots)) {
+    const double height = glm::dot(work.view().place(point), out);
+    if (height > farthest + kSameHeight) farthest = height, best = point;
+  }
+  return best;
+}
+
 }  // namespace
 
 void add_angle(AnnotationWork& work) {
@@ -207,19 +222,21 @@ void add_angle_dimension(AnnotationWork& work) {
 
 void add_linear_dimension(AnnotationWork& work) {
   const Fields& f = work.fields();
-  const Vec3 a = f.get<Anchor>("from").point, b = f.get<Anchor>("to").point;
+  Vec3 a = f.get<Anchor>("from").point, b = f.get<Anchor>("to").point;
   const Vec3 along = f.has("along") ? f.vec3("along") : b - a;
   const double value = f.has("along") ? std::abs(glm::dot(b - a, along)) : glm::length(b - a);
   if (!(value > 0)) return;
-  const Vec2 p = work.place(f.get<Anchor>("from")), q = work.place(f.get<Anchor>("to"));
   const Vec3 beyond = f.has("along") ? a + value * along : b;
-  if (!work.is_seen(beyond)) return work.leave_out_behind();
-  const Vec2 shown = work.view().place(beyond) - p;
-  if (!(glm::length(shown) > 1e-6)) return;  // seen along itself
-  Vec2 way = glm::normalize(shown);
-  if (glm::dot(q - p, way) < 0) way = -way;
+  if (!work.is_seen(a) || !work.is_seen(beyond)) return work.leave_out_behind();
+  const Vec2 shown = work.view().place(beyond) - work.view().place(a);
+  if (!(glm::length(shown) > 1e-6)) return;                                // seen along itself
   const Vec2 forward = glm::normalize(shown), out(forward.y, -forward.x);  // to the left, as seen
   const double offset = f.number("offset");
+  a = begin_of_dimension(work, "from", offset >= 0 ? out : -out);
+  b = begin_of_dimension(work, "to", offset >= 0 ? out : -out);
+  const Vec2 p = work.place({a, false}), q = work.place({b, false});
+  Vec2 way = forward;
+  if (glm::dot(q - p, way) < 0) way = -way;
   const double hp = glm::dot(p, out), hq = glm::dot(q, out);
   const double level = (offset >= 0 ? std::max(hp, hq) : std::min(hp, hq)) + offset;
   const Vec2 from = p + (level - hp) * out, to = q + (level - hq) * out;

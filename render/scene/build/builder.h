@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/describe.h"
 #include "render/cameras/cameras.h"
 #include "render/model/model.h"
@@ -49,6 +50,7 @@ struct NamedThing {
     Scoped scoped;
     enum class State { unknown, in_work, known, wrong } state = State::unknown;
     Built built;
+    std::optional<Built> as_operand;  // of bodies: the entities carry its name
   };
   std::vector<Member> members;
   bool used = false;  // by another thing, an object or a camera
@@ -132,6 +134,21 @@ class Builder {
   std::optional<Vec3> read_vector(const Value& value, const Counters& counters, bool unit);
   std::optional<Vec3> read_vector_on(const Value& map, const Counters& counters);
 
+  // --- builder_selectors.cpp: faces, edges and vertices of bodies by conditions.
+  std::optional<geometry::Selector> read_selector(const Value& map, const Counters& counters);
+  std::optional<std::vector<std::string>> read_element_names(const Value& value, const Counters& counters,
+                                                             const char* number_of);
+  std::optional<std::vector<geometry::BodyPtr>> read_operands(const Value& value, const Counters& counters);
+  void note_operands(const std::any& made, const std::vector<Field>& declared, const Fields& fields,
+                     const Affine& placed);
+  std::optional<std::vector<Built>> selected(const Value& map, const Counters& counters,
+                                             std::span<const Category> wanted);
+  std::optional<std::vector<Built>> elements_called(const geometry::Body& body, std::string_view name,
+                                                    const Value& asked, std::span<const Category> wanted);
+  std::optional<Built> select_one(const Value& map, const Counters& counters, std::span<const Category> wanted);
+  std::optional<Vec3> read_selected_place(const Value& map, const Counters& counters);
+  std::vector<Vec3> spots_of(const Value& map, const Counters& counters);
+
   // --- builder_frames.cpp: axes, frames, points in lists and nets, transforms.
   std::optional<Axis> read_axis(const Value& value, const Counters& counters);
   std::optional<Frame> read_frame(const Value& value, const Counters& counters);
@@ -200,7 +217,10 @@ class Builder {
                                                std::span<const Category> wanted);
   std::optional<std::vector<Built>> named(const Value& value, std::span<const Category> wanted);
   const Built* member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted);
-  std::optional<Built> part_of(const Built& whole, std::string_view part, const Value& asked);
+  // A member of a set, or the faces, edges or vertices of a body that a name stands for.
+  std::optional<std::vector<Built>> part_of(const Built& whole, std::string_view part, const Value& asked,
+                                            std::span<const Category> wanted);
+  const Built& operand_of(const NamedThing& thing, NamedThing::Member& member);
   const Value* with_like(const Value& map, const Value* section);
   std::map<std::string, NamedThing, std::less<>>* things_of(Category category);
   const Value* section(const char* name) const;
@@ -263,8 +283,14 @@ class Builder {
   std::vector<std::filesystem::path> files_named_;
   MaterialPtr default_material_;
   std::set<std::string> like_in_work_;
+  bool in_geometry_ = false;  // what is being read is a field of geometry
+  std::map<const geometry::Body*, std::vector<geometry::BodyPtr>> operands_;  // of what was made of bodies
+  std::vector<geometry::BodyPtr> kept_bodies_;                                // so that no address is used again
   int depth_ = 0;
 };
+
+// Whether a map says by conditions which faces, edges or vertices of a body are meant.
+bool is_selector(const Value& map);
 
 // Checks of one value by its field's type, with the words for messages.
 bool is_outside(const FieldType& type, double x);

@@ -74,6 +74,8 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
       }
     }
     fields.set(field.name, *std::move(result));
+    if (field.type.kind == Kind::anchor && is_selector(value))
+      fields.set(field.name + ".spots", spots_of(value, counters));
     return true;
   }
   // One value for both directions, or { u:, v: }.

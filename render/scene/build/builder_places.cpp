@@ -253,6 +253,7 @@ std::optional<Vec3> Builder::read_place_on(const Value& map, const Counters& cou
     return std::nullopt;
   }
   if (map.find("point")) return read_control_point(map, counters);
+  if (is_selector(map)) return read_selected_place(map, counters);
   if (const Value* vector = map.find("vector")) {
     diagnostics_.error(vector->place, "a place has no 'vector'", "this would be a direction");
     return std::nullopt;

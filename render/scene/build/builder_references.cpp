@@ -28,6 +28,8 @@ bool is_place(const Value& map) {
                      [](const Entry& entry) { return known.contains(entry.key.name); });
 }
 
+bool starts_with_number(std::string_view name) { return name.front() >= '0' && name.front() <= '9'; }
+
 // { of: c, member: i }: a member of a family, [i, j] of one in rows.
 bool is_member(const Value& map) {
   const Value* of = map.is_map() && map.entries.size() == 2 ? map.find("of") : nullptr;
@@ -142,6 +144,13 @@ const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std:
     std::optional<Built> built;
     if (is_geometry(wanted.front()) && value.is_sequence()) {
       if (const auto point = read_coordinates(value, member.scoped.counters)) built = Built{Category::point, *point};
+    } else if (is_geometry(wanted.front()) && is_selector(value)) {
+      if (value.find("extreme") && value.entries.size() == 2u + (value.find("repeat") ? 1u : 0u)) {
+        if (const auto point = read_selected_place(value, member.scoped.counters))
+          built = Built{Category::point, *point};
+      } else {
+        built = select_one(value, member.scoped.counters, geometry_categories());
+      }
     } else if (is_geometry(wanted.front()) && is_place(value)) {
       names_use_ = false;
       if (const auto point = read_place_on(value, member.scoped.counters)) built = Built{Category::point, *point};
@@ -161,29 +170,31 @@ const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std:
   return member.state == State::known ? &member.built : nullptr;
 }
 
-std::optional<Built> Builder::part_of(const Built& whole, std::string_view part, const Value& asked) {
+std::optional<std::vector<Built>> Builder::part_of(const Built& whole, std::string_view part, const Value& asked,
+                                                   std::span<const Category> wanted) {
   if (const auto* set = std::any_cast<SurfaceSet>(&whole.value)) {
     const auto index = render::read_number(part);
     if (index && *index >= 0 && *index < static_cast<double>(set->size()) && *index == std::floor(*index))
-      return Built{Category::surface, (*set)[static_cast<size_t>(*index)]};
+      return std::vector{Built{Category::surface, (*set)[static_cast<size_t>(*index)]}};
     diagnostics_.error(asked.place, fmt::format("'{}' has no member '{}'", asked.text, part),
                        fmt::format("its members are numbered 0 to {}", set->size() - 1));
     return std::nullopt;
   }
-  if (const auto* body = std::any_cast<BodyPtr>(&whole.value)) {
-    std::vector<std::string> names;
-    for (const geometry::Face& face : (*body)->faces) {
-      names.push_back(face.origin.text());
-      if (face.origin.text() == part) return Built{Category::surface, face.surface};
-    }
-    diagnostics_.error(asked.place,
-                       fmt::format("'{}' has no face '{}'{}", asked.text.substr(0, asked.text.size() - part.size() - 1),
-                                   part, suggestion(part, names)),
-                       "its faces are " + listed(names, 30));
-    return std::nullopt;
-  }
+  if (const auto* body = std::any_cast<BodyPtr>(&whole.value)) return elements_called(**body, part, asked, wanted);
   diagnostics_.error(asked.place, fmt::format("'{}' has no member '{}'", asked.text, part));
   return std::nullopt;
+}
+
+// A body as operations take it: what it consists of is called by its name too, blank.end.
+const Built& Builder::operand_of(const NamedThing& thing, NamedThing::Member& member) {
+  const auto* body = std::any_cast<BodyPtr>(&member.built.value);
+  if (!body || !in_geometry_) return member.built;
+  if (!member.as_operand) {
+    const std::string& name = thing.entry->key.name;
+    const std::string full = member.name.empty() ? name : name + "." + member.name;
+    member.as_operand = Built{Category::body, BodyPtr(std::make_shared<geometry::Body>(with_feature(**body, full)))};
+  }
+  return *member.as_operand;
 }
 
 // The things that a name stands for: one, or all members of a family.
@@ -230,33 +241,28 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   std::vector<Built> result;
   std::string_view rest = found.member;
   bool matched = thing.is_family && rest.empty();  // a family may be empty
+  const auto is_of_member = [&](const NamedThing::Member& one) {
+    return rest == one.name || one.name.starts_with(std::string(rest) + ".") || rest.starts_with(one.name + ".");
+  };
+  // hole.side: of each member.
+  const bool of_each = thing.is_family && !rest.empty() &&
+                       std::none_of(thing.members.begin(), thing.members.end(), is_of_member) &&
+                       !starts_with_number(rest);
   for (NamedThing::Member& one : thing.members) {
-    if (thing.is_family && !rest.empty()) {
-      const bool exact = rest == one.name;
-      const bool below = one.name.starts_with(std::string(rest) + ".");
-      const bool part = rest.starts_with(one.name + ".");
-      if (!exact && !below && !part) continue;
-      matched = true;
-      const Built* built = member(thing, one, wanted);
-      if (!built) return std::nullopt;
-      if (part) {
-        const auto inner = part_of(*built, rest.substr(one.name.size() + 1), value);
-        if (!inner) return std::nullopt;
-        result.push_back(*inner);
-      } else {
-        result.push_back(*built);
-      }
-      continue;
+    std::string_view part = rest;
+    if (thing.is_family && !rest.empty() && !of_each) {
+      if (!is_of_member(one)) continue;
+      part = rest.starts_with(one.name + ".") ? rest.substr(one.name.size() + 1) : std::string_view();
     }
     matched = true;
     const Built* built = member(thing, one, wanted);
     if (!built) return std::nullopt;
-    if (rest.empty()) {
-      result.push_back(*built);
+    if (part.empty()) {
+      result.push_back(operand_of(thing, one));
     } else {
-      const auto inner = part_of(*built, rest, value);
+      const auto inner = part_of(*built, part, value, wanted);
       if (!inner) return std::nullopt;
-      result.push_back(*inner);
+      result.insert(result.end(), inner->begin(), inner->end());
     }
   }
   if (!matched) {
@@ -300,6 +306,7 @@ const Value& Builder::with_counters(const Value& value, const Counters& counters
 std::optional<Built> Builder::refer(const Value& written, const Counters& counters, std::span<const Category> wanted) {
   const Value& value = with_counters(written, counters);
   if (value.invalid) return std::nullopt;
+  if (is_selector(value) && is_geometry(wanted.front())) return select_one(value, counters, wanted);
   if (value.is_map() || !section_of(wanted.front())) return build_typed(value, counters, wanted);
   if (value.is_sequence()) {
     if (contains(wanted, Category::point)) {
@@ -335,8 +342,9 @@ bool Builder::refer_each(const Value& value, const Counters& counters, std::span
     const Value& item = with_counters(written, inner);
     if (item.invalid) {
       good = false;
-    } else if (item.is_scalar() && section_of(wanted.front())) {
-      auto some = named(item, wanted);
+    } else if (const bool by_conditions = is_selector(item) && is_geometry(wanted.front());
+               by_conditions || (item.is_scalar() && section_of(wanted.front()))) {
+      auto some = by_conditions ? selected(item, inner, wanted) : named(item, wanted);
       good = good && some;
       if (some)
         for (Built& built : *some) take(std::move(built.value));
@@ -356,7 +364,9 @@ std::vector<std::string> Builder::names_of_references(const Value& value, const 
   for (const Scoped& item : items(value, counters)) {
     const Value& name = with_counters(*item.value, item.counters);
     const bool is_name = name.is_scalar() && section_of(wanted.front());
-    const auto some = is_name ? named(name, wanted) : std::nullopt;
+    const auto some = is_name                                            ? named(name, wanted)
+                      : is_selector(name) && is_geometry(wanted.front()) ? selected(name, item.counters, wanted)
+                                                                         : std::nullopt;
     names.insert(names.end(), some ? some->size() : 1, is_name ? name.text : std::string());
   }
   return names;

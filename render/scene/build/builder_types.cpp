@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "geometry/external/external_curve.h"
 #include "geometry/external/external_surface.h"
@@ -140,7 +141,9 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   std::vector<std::string> also = {"repeat"};
   if (!is_implicit(type.category) && type.category != Category::helper) also.insert(also.begin(), "type");
   Fields fields;
+  const bool outer = std::exchange(in_geometry_, is_geometry(type.category));
   bool good = read_fields_into(fields, declared_fields(type), map, counters, what, also);
+  in_geometry_ = outer;
   good = (type.category != Category::object || check_helpers(map, fields)) && good;
   good = (type.category != Category::object || !good || check_lines(map, fields)) && good;
   if (!good || !check(type, fields, map)) return std::nullopt;
@@ -156,9 +159,10 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   if (type.runs_foreign_code) note_external(*value, map);
   if (type.category == Category::surface && fields.has("reversed") && fields.boolean("reversed")) reverse(*value);
   if (alike) alike_groups_[&map] = std::any_cast<GroupPtr>(*value);
-  const auto built = placed({type.category, *std::move(value)},
-                            fields.has("transform") ? fields.transform("transform") : Affine(), map);
+  const Affine transform = fields.has("transform") ? fields.transform("transform") : Affine();
+  const auto built = placed({type.category, *std::move(value)}, transform, map);
   if (!built) return std::nullopt;
+  note_operands(built->value, declared_fields(type), fields, transform);
   if (const void* shape = identity(entity_of(built->value))) types_[shape] = &type;
   return built->value;
 }
