@@ -73,6 +73,7 @@ TypeDeclaration distant_light_type() {
              "of the source as seen from the scene; 0: parallel rays, sharp shadows", "0");
   declare_area_sampling(type);
   declare_lamp(type, false);
+  type.example("direction: [-3, 4, -5], angular_diameter: 5");
   return type.built_by([](const Fields& f) {
     DistantLight light;
     light.direction = f.vec3("direction");

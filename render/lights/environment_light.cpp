@@ -162,7 +162,7 @@ TypeDeclaration environment_light_type() {
       .field("visible", boolean(), "false: the background stays as it is", "true")
       .field("shadows", boolean(), "false: the light passes through everything", "true");
   declare_area_sampling(type);
-  type.example("file: studio/environments/studio.exr");
+  type.example("file: studio/environments/studio.exr, intensity: 2");
   return type.built_by([](const Fields& f) {
     EnvironmentLight light;
     try {

@@ -138,6 +138,7 @@ TypeDeclaration rectangle_light_type() {
   type.field("frame", frame(), "the rectangle lies in its xy plane, centred at the origin", "{}")
       .field("size", numbers().positive().count(2, 2), "along x and y of the frame");
   declare_area(type);
+  type.example("frame: { origin: [3, -4, 5], z: [-3, 4, -5] }, size: [2, 2]");
   return type.built_by([](const Fields& f) {
     const std::vector<double>& size = f.numbers("size");
     return make_light(RectangleLight{f.frame(), {size[0], size[1]}, f.boolean("one_sided"), area_sampling(f), lamp(f)});
@@ -149,6 +150,7 @@ TypeDeclaration disc_light_type() {
   type.field("frame", frame(), "the disc lies in its xy plane, centred at the origin", "{}")
       .field("radius", length().positive(), "of the disc");
   declare_area(type);
+  type.example("frame: { origin: [3, -4, 5], z: [-3, 4, -5] }, radius: 1");
   return type.built_by([](const Fields& f) {
     return make_light(DiscLight{f.frame(), f.number("radius"), f.boolean("one_sided"), area_sampling(f), lamp(f)});
   });

@@ -32,6 +32,7 @@ TypeDeclaration point_light_type() {
   TypeDeclaration type = declare(Category::light, "point_light", "Light from one point: sharp shadows.");
   type.field("position", point(), "where it stands");
   declare_lamp(type);
+  type.example("position: [3, -4, 5]");
   return type.built_by([](const Fields& f) { return make_light(PointLight{f.vec3("position"), lamp(f)}); });
 }
 

@@ -85,6 +85,7 @@ TypeDeclaration sphere_light_type() {
   type.field("center", point(), "of the ball").field("radius", length().positive(), "of the ball");
   declare_area_sampling(type);
   declare_lamp(type);
+  type.example("center: [3, -4, 5], radius: 1");
   return type.built_by([](const Fields& f) {
     return make_light(SphereLight{f.vec3("center"), f.number("radius"), area_sampling(f), lamp(f)});
   });

@@ -97,6 +97,7 @@ TypeDeclaration classic_look_type() {
       .field("emission", textured_color(), "radiance added whatever the light", "0")
       .field("two_sided", boolean(), "false: the back shows only ambient light and emission", "true");
   declare_normal_deviation(type);
+  type.example("color: [0.75, 0.25, 0.2], specular: 0.5, exponent: 40");
   return type.built_by([](const Fields& f) {
     ClassicLook look;
     look.color = color_texture(f, "color");

@@ -52,6 +52,7 @@ TypeDeclaration cloth_type() {
       .field("sheen_color", textured_share(), "of the nap", "1")
       .field("sheen_roughness", number().between(0, 1), "how untidy the nap is", "0.4");
   declare_normal_deviation(type);
+  type.example("color: [0.3, 0.05, 0.1], sheen_color: [1, 0.8, 0.8]");
   return type.built_by([](const Fields& f) {
     return make_material(Cloth{color_texture(f, "color"), f.number("roughness"), f.number("sheen"),
                                color_texture(f, "sheen_color"), f.number("sheen_roughness"), normal_deviation(f)});

@@ -74,6 +74,7 @@ TypeDeclaration dielectric_type() {
       .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0");
   declare_roughness(type, "roughness", "0: clear; more: frosted, and wider highlights", "0");
   declare_normal_deviation(type);
+  type.example("glass: N-BK7");
   return type.built_by([](const Fields& f) {
     if (f.has("glass") && f.has("index"))
       throw FieldError("index", "both 'glass' and 'index' are given", "the glass has its own index: leave one out");

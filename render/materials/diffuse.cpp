@@ -47,6 +47,7 @@ TypeDeclaration diffuse_type() {
   type.field("color", textured_share(), "share of the light that is reflected", "0.8");
   declare_roughness(type, "roughness", "0: Lambert's; up to 1: brighter towards the light, as clay and the moon", "0");
   declare_normal_deviation(type);
+  type.example("color: [0.65, 0.35, 0.2]");
   return type.built_by([](const Fields& f) {
     return make_material(Diffuse{color_texture(f, "color"), roughness(f, "roughness"), normal_deviation(f)});
   });

@@ -35,6 +35,7 @@ TypeDeclaration emission_type() {
                  "does not light other objects (area lights do). By paths it does.")
       .field("color", textured_color(), "of the light", "white")
       .field("strength", number().non_negative(), "multiplies the colour", "1")
+      .example("color: [1, 0.8, 0.5]")
       .built_by([](const Fields& f) {
         return make_material(Emission{color_texture(f, "color"), f.number("strength")});
       });

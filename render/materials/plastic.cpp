@@ -56,6 +56,7 @@ TypeDeclaration plastic_type() {
       .field("index", number().at_least(1), "refractive index of the coat", "1.5");
   declare_roughness(type, "roughness", "0: glossy; 1: a wide, faint highlight", "0.4");
   declare_normal_deviation(type);
+  type.example("color: [0.1, 0.3, 0.6], roughness: 0.15");
   return type.built_by([](const Fields& f) {
     return make_material(
         Plastic{color_texture(f, "color"), roughness(f, "roughness"), f.number("index"), normal_deviation(f)});

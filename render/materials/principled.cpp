@@ -140,6 +140,7 @@ TypeDeclaration principled_type() {
       .field("emission_luminance", number().non_negative(), "radiance, multiplies emission_color", "0")
       .field("emission_color", textured_color(), "of the glow", "1");
   declare_normal_deviation(type);
+  type.example("base_color: [0.7, 0.15, 0.1], coat_weight: 1");
   return type.built_by([](const Fields& f) {
     Principled p;
     p.base_weight = f.number("base_weight");

@@ -49,6 +49,7 @@ TypeDeclaration translucent_sheet_type() {
   type.field("color", textured_share(), "share of the light that is reflected", "0.5")
       .field("transmission", textured_share(), "share that comes through; with `color` at most 1", "0.3");
   declare_normal_deviation(type);
+  type.example("color: [0.5, 0.45, 0.3], transmission: [0.4, 0.35, 0.2]");
   return type.built_by([](const Fields& f) {
     const TranslucentSheet sheet{color_texture(f, "color"), color_texture(f, "transmission"), normal_deviation(f)};
     if (!sheet.color.texture() && !sheet.transmission.texture() &&

@@ -158,14 +158,20 @@ std::string lines_of(const std::vector<Field>& fields, const std::string& indent
   return text;
 }
 
-// Whether tools/figures draws its example: not of what comes from outside, nor of what has no end.
-bool is_pictured(const TypeDeclaration& type) {
+// The file of the picture that tools/figures makes of its example, drawn or rendered; empty of what comes from outside,
+// and of what has no end.
+std::string picture_of(const TypeDeclaration& type) {
   using enum Category;
-  static constexpr std::array kPictured = {curve, surface, body, shape, mesh};
-  return std::ranges::count(kPictured, type.category) != 0 && type.name != "half_space" &&
-         !type.name.starts_with("external_") && std::ranges::none_of(type.fields, [](const Field& field) {
-           return field.type.kind == geometry::Kind::file && field.required;
-         });
+  static constexpr std::array kDrawn = {curve, surface, body, shape, mesh};
+  static constexpr std::array kRendered = {material, texture, light, camera, integrator};
+  if (std::ranges::count(kRendered, type.category) != 0)
+    return type.name == "graph" ? "" : fmt::format("{}_{}.png", geometry::name(type.category), type.name);
+  const bool is_drawn = std::ranges::count(kDrawn, type.category) != 0 && type.name != "half_space" &&
+                        !type.name.starts_with("external_") &&
+                        std::ranges::none_of(type.fields, [](const Field& field) {
+                          return field.type.kind == geometry::Kind::file && field.required;
+                        });
+  return is_drawn ? type.name + ".svg" : std::string();
 }
 
 std::string page_of(Category category) {
@@ -178,7 +184,8 @@ std::string page_of(Category category) {
   for (const TypeDeclaration& type : all_types()) {
     if (type.category != category) continue;
     text += fmt::format("\n## {}\n\n{}\n\n    {}\n\n", type.name, type.description, example_of(type));
-    if (is_pictured(type)) text += fmt::format("![{0}](images/{0}.svg)\n\n", type.name);
+    if (const std::string picture = picture_of(type); !picture.empty())
+      text += fmt::format("![{}](images/{})\n\n", type.name, picture);
     text += table(type.fields);
     if (takes_abbreviations(type.fields)) text += fmt::format("| `let` | map of formulas |  | {} |\n", kLetDescription);
     if (!type.checks.empty()) text += "\n";
