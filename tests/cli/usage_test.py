@@ -181,7 +181,7 @@ drawing: { annotations: [{ type: label, at: [0, 0, 0], text: a }] }
         """What is wrong in a value given on the command line has no file: the option says where."""
         self.write("ball.yaml", "lekalo: 1\nparameters: { width: 1 }\ngeometry: { ball: { type: ball, radius: width } }\n")
         for option, value, said in [("--set", "widht=2", "--set widht=2: the scene has no parameter 'widht' (did you mean 'width'?)\n    widht=2\n    ^~~~~\n"),
-                                    ("--set", "width=foo(1)", "--set width=foo(1): unknown function 'foo'\n    width=foo(1)\n          ^\n"),
+                                    ("--set", "width=foo(1)", "--set width=foo(1): unknown function 'foo'\n    width=foo(1)\n          ^~~\n"),
                                     ("--set", "width=", "--set width=: 'width' is set to nothing"),
                                     ("--frames", "widht=1..2:3", "--frames widht=1..2:3: the scene has no parameter 'widht'"),
                                     ("--frames", "width=x..2:3", "--frames width=x..2:3: unknown name 'x'\n    width=x\n          ^\n")]:

@@ -29,7 +29,7 @@ complete -c lekalo -n $picture -l stamp -d 'put date, machine and path into outp
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw export' -s o -l output -r -d 'output file'
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export' -l set -x -d 'name=value'
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export test' -l allow-external -d 'let the scene run foreign code'
-complete -c lekalo -n '__fish_seen_subcommand_from compare test measure evaluate trace' -l json -d 'print JSON'
+complete -c lekalo -n '__fish_seen_subcommand_from check compare test measure evaluate trace' -l json -d 'print JSON'
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw compare test export' -l quiet -d 'print errors only'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l metric -x -a 'flip rmse psnr ssim max' -d 'what to measure'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l threshold -x -d 'largest difference'

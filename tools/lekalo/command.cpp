@@ -46,8 +46,9 @@ void add_allow_external(CLI::App& app, bool& allow_external) {
 
 void print_external_notes(const render::LoadedScene& scene, bool all) {
   for (const render::ExternalNote& note : scene.external_notes) {
-    if (all) fmt::print(stderr, "note: {}: {}\n", note.place, note.text);
-    for (const std::string& doubt : note.doubts) fmt::print(stderr, "warning: {}: {}\n", note.place, doubt);
+    const std::string place = render::where(note.place);
+    if (all) fmt::print(stderr, "note: {}: {}\n", place, note.text);
+    for (const std::string& doubt : note.doubts) fmt::print(stderr, "warning: {}: {}\n", place, doubt);
   }
 }
 

@@ -149,7 +149,7 @@ void check_table_name(const render::LoadedScene& scene, const std::string& again
 ordered_json as_json(const std::vector<render::ExternalNote>& notes) {
   ordered_json list = ordered_json::array();
   for (const render::ExternalNote& note : notes)
-    list.push_back({{"place", note.place}, {"fit", note.text}, {"doubts", note.doubts}});
+    list.push_back({{"place", render::where(note.place)}, {"fit", note.text}, {"doubts", note.doubts}});
   return list;
 }
 

@@ -173,7 +173,7 @@ void Builder::note_external(const std::any& value, const Value& map) {
     report = &dynamic_cast<const geometry::ExternalCurve&>(**curve).report();
   else
     report = &dynamic_cast<const geometry::ExternalSurface&>(*std::any_cast<const SurfacePtr&>(value)).report();
-  external_notes_.push_back({where(map.place), report->text(), report->doubts});
+  external_notes_.push_back({map.place, report->text(), report->doubts});
 }
 
 std::optional<Built> Builder::placed(Built built, const Affine& transform, const Value& place) {

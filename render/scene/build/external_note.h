@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/values/source.h"
+
 namespace lekalo::render {
 
 // One such curve or surface, as it was found to be (geometry::FitReport).
 struct ExternalNote {
-  std::string place;                // "scene.yaml:7"
+  Place place;                      // of the entity
   std::string text;                 // how rays meet it, and how near that is
   std::vector<std::string> doubts;  // derivatives that contradict the points
 };

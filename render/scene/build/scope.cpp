@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -16,6 +17,17 @@ namespace lekalo::render {
 
 using geometry::ExpressionError;
 using geometry::Measure;
+
+namespace {
+
+// Bytes of the word that begins there, 1 if it is none: a misspelt name is marked as a whole.
+std::size_t word_length(std::string_view text, std::size_t offset) {
+  std::size_t end = offset;
+  while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_')) ++end;
+  return std::max<std::size_t>(end - std::min(offset, end), 1);
+}
+
+}  // namespace
 
 Counters Counters::with(std::string name, double value, Measure measure) const {
   Counters inner = *this;
@@ -72,7 +84,8 @@ std::optional<Expression> Parameters::bind(const Value& value, std::string_view 
   if (counters.abbreviations && !variables.empty())
     return bind_with_abbreviations(value, text, start, counters, variables);
   const auto report = [&](const ExpressionError& error) {
-    diagnostics_.error(value.place_of(start + error.offset, 1), error.message, error.hint);
+    diagnostics_.error(value.place_of(start + error.offset, word_length(text, error.offset)), error.message,
+                       error.hint);
   };
   if (const std::optional<Slip> slip = number_slip(text)) {
     diagnostics_.error(value.place, slip->message, slip->hint);

@@ -139,6 +139,18 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
   return unique;
 }
 
+std::string replacement_of(const Diagnostic& diagnostic) {
+  constexpr std::string_view begin = "did you mean '", end = "'?";
+  for (const std::string* text : {&diagnostic.message, &diagnostic.hint}) {
+    const std::size_t found = text->rfind(begin);
+    if (found == std::string::npos) continue;
+    const std::string word = text->substr(found + begin.size());
+    const std::size_t length = word.find('\'');
+    if (length != std::string::npos && word.compare(length, end.size(), end) == 0) return word.substr(0, length);
+  }
+  return {};
+}
+
 std::string Diagnostics::text() const {
   const std::vector<Diagnostic> all = sorted();
   std::string out;

@@ -40,6 +40,8 @@ class Diagnostics {
   bool has_errors() const { return error_count_ > 0; }
   bool cannot_read() const { return cannot_read_; }
   std::size_t error_count() const { return error_count_; }
+  /// Findings that were counted but not kept.
+  std::size_t dropped() const { return dropped_; }
 
   /// Without repetitions, in the order of the files' first appearance, then by line and column.
   std::vector<Diagnostic> sorted() const;
@@ -54,6 +56,10 @@ class Diagnostics {
   std::size_t dropped_ = 0;
   bool cannot_read_ = false;
 };
+
+/// The word that a message or its hint proposes in place of what stands there ("did you mean 'axis'?"); empty if none
+/// or several are.
+std::string replacement_of(const Diagnostic& diagnostic);
 
 /// What a function throws that cannot go on: carries everything found so far.
 class SceneError : public std::exception {
