@@ -6,6 +6,7 @@ _lekalo() {
 
   case $previous in
     --representation) words='direct mesh' ;;
+    --kind) words='picture drawing graph plate suite' ;;
     --metric) words='flip rmse psnr ssim max' ;;
     --isa) words='sse2 avx2 avx512 native' ;;
     --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
@@ -17,13 +18,14 @@ _lekalo() {
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render make draw compare test check measure evaluate trace export schema types --help --version'
+      words='render make draw compare test new check measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
         render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
         draw) words='-o --output --set --allow-external --latex --outlines --quiet --stats' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
+        new) words='--kind' ;;
         check) words='--set --allow-external --json' ;;
         measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
         evaluate) words='--at --uv --turn --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;

@@ -1,9 +1,9 @@
 # fish completion for lekalo(1)
 
-set -l commands render make draw compare test check measure evaluate trace export schema types
+set -l commands render make draw compare test new check measure evaluate trace export schema types
 complete -c lekalo -n "not __fish_seen_subcommand_from $commands" -f
 for line in 'render:render the pictures of a scene' 'make:write all outputs of a scene' 'draw:draw a scene as lines' \
-        'compare:compare two images' 'test:run a regression suite' 'check:report all errors of a scene file' \
+        'compare:compare two images' 'test:run a regression suite' 'new:write a scene to start from' 'check:report all errors of a scene file' \
         'measure:lengths, areas, volumes, topology' 'evaluate:a point with derivatives and curvatures' 'trace:all hits of rays' \
         'export:write a scene for another program' 'schema:print the JSON Schema of scene files' 'types:list or describe types'
     set -l parts (string split -m 1 : $line)
@@ -88,3 +88,4 @@ complete -c lekalo -n '__fish_seen_subcommand_from export' -l flatness -x -d 'fl
 complete -c lekalo -n '__fish_seen_subcommand_from export' -l tolerance -x -d 'largest distance of a fit, of its size (step)'
 complete -c lekalo -n '__fish_seen_subcommand_from draw' -l outlines -d 'texts of svg files as outlines'
 complete -c lekalo -n '__fish_seen_subcommand_from draw' -l latex -d 'texts in a file for LaTeX'
+complete -c lekalo -n '__fish_seen_subcommand_from new' -l kind -x -a 'picture drawing graph plate suite' -d 'what it makes'

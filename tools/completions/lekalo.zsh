@@ -8,6 +8,7 @@ commands=(
   'draw:draw a scene as lines'
   'compare:compare two images'
   'test:run a regression suite'
+  'new:write a commented scene to start from'
   'check:report all errors of a scene file'
   'measure:lengths, areas, volumes, topology'
   'evaluate:a point with derivatives and curvatures'
@@ -43,6 +44,7 @@ case $command in
   test) _arguments '--allow-external[let scenes run foreign code]' '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)' '--accept[new golden image]:name' \
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
+  new) _arguments '--kind[what it makes]:kind:(picture drawing graph plate suite)' '--help[show help]' '1:name' ;;
   check) _arguments $scene '--json[print JSON]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point, curve, surface or body]:name or x,y,z' '--nearest[only the nearest place]' '--frechet[Frechet distance from a curve]:name' '--hausdorff[Hausdorff distance from a curve]:name' '--at-length[parameter at a length]:length' '--arc[length between two parameters]:t t' '--features[inflections, vertices, cusps, total curvature, area]' '--nurbs[the curve or surface as NURBS]' '--cubature[by a rule on triangles]:points' '--turn[of --cubature, angle over a cell]:degrees' '--rim[whether it is the rim of a sheet]' '--chord[of --rim, two parameters]:t t' '--stretch[how much it stretches on another surface]:name' '--regularity[whether it is regular, with bounds]' '--cells[bounds of the diameters of cells]:nu,nv' '--line[of --cells, a line]:x,y,z,dx,dy,dz' '--position[a point]:name, x,y,z or u,v' '--continuity[how smoothly it joins]:name' '*--intersect[a curve, surface or body]:name' '--self-intersection[where it meets itself]' '--section[a plane]:x,y,z,nx,ny,nz' '--silhouette[a view]:camera, dx,dy,dz or eye\:x,y,z' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;

@@ -52,6 +52,7 @@ using Action = std::function<int()>;
 void add_render(CLI::App& app, Action& action);
 void add_make(CLI::App& app, Action& action);
 void add_test(CLI::App& app, Action& action);
+void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);

@@ -101,6 +101,7 @@ int run(int argc, char** argv) {
   command::Action action;
   command::add_render(app, action);
   command::add_make(app, action);
+  command::add_new(app, action);
   command::add_check(app, action);
   command::add_evaluate(app, action);
   command::add_compare(app, action);
