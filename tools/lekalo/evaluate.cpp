@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "evaluate.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/differential/curvature.h"
 #include "geometry/queries/differential/divided_difference.h"
@@ -140,10 +141,13 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   if (!surface && !set && !body) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
   if (surface) return *surface;
   const size_t count = set ? set->size() : (*body)->faces.size();
-  for (size_t i = 0; i < count; ++i)
-    if (options.face == std::to_string(i) || (count == 1 && options.face.empty()) ||
-        (body && options.face == (*body)->faces[i].origin.text()))
-      return set ? (*set)[i] : (*body)->faces[i].surface;
+  if (count == 1 && options.face.empty()) return set ? set->front() : (*body)->faces.front().surface;
+  for (size_t i = 0; set && i < count; ++i)
+    if (options.face == std::to_string(i)) return (*set)[i];
+  if (body) {
+    const std::vector<int> called = geometry::called(**body, geometry::Element::face, options.face);
+    if (called.size() == 1) return (*body)->faces[called.front()].surface;
+  }
   const std::string hint =
       fmt::format("--face 0 to {}{}", count - 1, body ? ", or a name of 'lekalo measure --topology'" : "");
   if (options.face.empty())

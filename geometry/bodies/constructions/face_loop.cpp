@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/bodies/constructions/profile_offset.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/body.h"
 #include "geometry/curves/derived/composite_curve.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
@@ -18,19 +19,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-int face_named(const Body& body, const std::string& name) {
-  std::string known;
-  for (size_t k = 0; k < body.faces.size(); ++k) {
-    const std::string text = body.faces[k].origin.text();
-    if (text == name || std::to_string(k) == name) return static_cast<int>(k);
-    known += (known.empty() ? "" : ", ") + (text.empty() ? std::to_string(k) : text);
-  }
-  throw FieldError("face", fmt::format("the body has no face '{}'", name), "it has " + known);
-}
-
 CurvePtr line_along(const Fields& f) {
   const Body& body = *f.body("of");
-  const int number = face_named(body, f.text("face"));
+  const int number = face_called(body, f.text("face"), "face");
   const Face& face = body.faces[number];
   const size_t loop = static_cast<size_t>(f.integer("loop"));
   if (loop >= face.loops.size())

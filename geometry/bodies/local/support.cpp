@@ -3,6 +3,8 @@
 // offset of c in its plane.
 #include "geometry/bodies/local/support.h"
 
+#include "geometry/bodies/topology/selection.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -170,25 +172,9 @@ std::string name_of_face(const Body& body, int face) {
   return text.empty() ? std::to_string(face) : text;
 }
 
-int face_named(const Body& body, const std::string& name, const char* field) {
-  std::string known;
-  for (size_t k = 0; k < body.faces.size(); ++k) {
-    const std::string text = name_of_face(body, static_cast<int>(k));
-    if (text == name || std::to_string(k) == name) return static_cast<int>(k);
-    known += (known.empty() ? "" : ", ") + text;
-  }
-  throw FieldError(field, fmt::format("the body has no face '{}'", name), "it has " + known);
-}
-
 std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field) {
-  std::vector<int> result;
-  for (const std::string& name : fields.get<std::vector<std::string>>(field)) {
-    const int face = face_named(body, name, field);
-    if (std::find(result.begin(), result.end(), face) != result.end())
-      throw FieldError(field, fmt::format("the face '{}' is given twice", name), "leave one out");
-    result.push_back(face);
-  }
-  return result;
+  const std::set<int> faces = faces_called(body, fields.get<std::vector<std::string>>(field), field);
+  return {faces.begin(), faces.end()};
 }
 
 }  // namespace lekalo::geometry

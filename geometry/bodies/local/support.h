@@ -26,9 +26,8 @@ Vec2 middle_of_face(const Body& body, int face);
 // What messages call a face: its name, or its number.
 std::string name_of_face(const Body& body, int face);
 
-// The number of the face that is called so, by its name or number; FieldError (that field) with those that there are.
-int face_named(const Body& body, const std::string& name, const char* field);
-// Those of a field of texts; FieldError for one that is given twice.
+// The faces called by a field of texts, by their names (those of families too) or numbers; FieldError with those that
+// there are.
 std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field);
 
 }  // namespace lekalo::geometry

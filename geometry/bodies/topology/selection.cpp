@@ -77,22 +77,6 @@ std::vector<Vec3> samples(const Body& body, Element element, int index) {
   return points;
 }
 
-// Of each of the names; a name that no face has is an error.
-std::set<int> faces_called(const Body& body, const std::vector<std::string>& names, const char* field) {
-  std::set<int> faces;
-  for (const std::string& name : names) {
-    const std::vector<int> some = called(body, Element::face, name);
-    if (some.empty()) {
-      const std::vector<std::string> known = nearest_names(name, names_of(body, Element::face), kMostNames);
-      throw FieldError(
-          field, fmt::format("the body has no face '{}'", name),
-          fmt::format("its faces are {}{}", fmt::join(known, ", "), body.faces.size() > known.size() ? ", ..." : ""));
-    }
-    faces.insert(some.begin(), some.end());
-  }
-  return faces;
-}
-
 bool is_between(const Body& body, int edge, const std::set<int>& one, const std::set<int>& other) {
   const std::vector<int> beside = faces_beside(body, edge);
   if (beside.size() != 2) return false;
@@ -238,8 +222,36 @@ std::vector<int> called(const Body& body, Element element, std::string_view name
         if (stands_for(name, std::string_view(full).substr(dot + 1))) return true;
       return false;
     });
-  if (chosen.empty()) chosen = where([&](int k) { return name == fmt::format("{}.{}", word(element), k); });
+  if (chosen.empty())
+    chosen = where([&](int k) {
+      return name == fmt::format("{}.{}", word(element), k) || (element == Element::face && name == std::to_string(k));
+    });
   return chosen;
+}
+
+std::set<int> faces_called(const Body& body, const std::vector<std::string>& names, const char* field) {
+  std::set<int> faces;
+  for (const std::string& name : names) {
+    const std::vector<int> some = called(body, Element::face, name);
+    if (some.empty()) {
+      const std::vector<std::string> known = nearest_names(name, names_of(body, Element::face), kMostNames);
+      throw FieldError(
+          field, fmt::format("the body has no face '{}'", name),
+          fmt::format("its faces are {}{}", fmt::join(known, ", "), body.faces.size() > known.size() ? ", ..." : ""));
+    }
+    faces.insert(some.begin(), some.end());
+  }
+  return faces;
+}
+
+int face_called(const Body& body, const std::string& name, const char* field) {
+  const std::set<int> found = faces_called(body, {name}, field);
+  if (found.size() == 1) return *found.begin();
+  std::vector<std::string> names;
+  for (const int face : found) names.push_back(name_of(body, Element::face, face));
+  if (names.size() > kMostNames) names.resize(kMostNames), names.emplace_back("...");
+  throw FieldError(field, fmt::format("the body has {} faces '{}'", found.size(), name),
+                   fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 std::vector<int> faces_beside(const Body& body, int edge) {
