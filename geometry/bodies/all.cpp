@@ -29,7 +29,9 @@
   X(hollow_body_type)          \
   X(offset_body_type)          \
   X(moved_faces_type)          \
-  X(drafted_faces_type)
+  X(drafted_faces_type)        \
+  X(deleted_faces_type)        \
+  X(detached_faces_type)
 
 namespace lekalo::geometry {
 

@@ -7,6 +7,7 @@
 
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/edge_curve.h"
+#include "geometry/bodies/local/plane_seams.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -22,8 +23,13 @@ constexpr int kGuide = 8;
 
 class Replacing {
  public:
-  Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field)
-      : old_(body), field_(field), size_(bounds(body).diameter()), surfaces_(surfaces) {}
+  Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, bool cut_off)
+      : old_(without_plane_seams(body)),
+        field_(field),
+        size_(bounds(body).diameter()),
+        surfaces_(surfaces),
+        given_(body),
+        cut_off_(cut_off) {}
 
   FaceReplacement build() {
     if (!old_.is_closed()) throw FieldError(field_, "the body is open: it has no inside", "a closed body");
@@ -63,7 +69,7 @@ class Replacing {
     for (size_t f = 0; f < old_.faces.size(); ++f) {
       const SurfacePtr& surface = surfaces_[f];
       removed_.push_back(surface == nullptr);
-      changed_.push_back(surface != old_.faces[f].surface);
+      changed_.push_back(surface != given_.faces[f].surface);
       planes_.push_back(surface ? plane_of(surface) : std::nullopt);
       if (!surface) {
         supports_.push_back(nullptr);
@@ -363,7 +369,10 @@ class Replacing {
     const Curve& old = *old_.edges[e].curve;
     const Vec3 before = old.point(old.domain().middle()) - old.point(old.domain().lo),
                after = curve.point(curve.domain().middle()) - curve.point(curve.domain().lo);
-    if (!(glm::dot(before, after) > 0)) made_.turned_edges.push_back(e);
+    if (!(glm::dot(before, after) > 0)) {
+      const std::string name = old_.edges[e].origin.text();
+      made_.turned_edges.push_back(name.empty() ? std::to_string(e) : name);
+    }
   }
 
   void add_joint(Joint& joint) {
@@ -407,7 +416,7 @@ class Replacing {
         }
       }
       if (uses.empty()) {
-        if (l == 0)
+        if (l == 0 && !cut_off_)
           throw FieldError(field_, fmt::format("the face {} is left without its outer border", name_of_face(old_, f)),
                            "take it away too");
         continue;
@@ -418,6 +427,29 @@ class Replacing {
         same ? made_.body.add_face(old.surface, old.forward, old.origin, old.trimmed) : add_face_on(f, loops);
     for (const std::vector<Body::Use>& uses : loops) made_.body.add_loop(face, uses);
     made_.faces.push_back(f);
+    if (cut_off_) turn_to_loop(face);
+  }
+
+  // The face lies to the left of its loop.
+  void turn_to_loop(int f) {
+    Face& face = made_.body.faces[f];
+    double area = 0;
+    Vec2 last(0), first(0);
+    bool begun = false;
+    for (const int c : made_.body.loops[face.loops[0]].coedges) {
+      const Coedge& u = made_.body.coedges[c];
+      const Interval t = u.image->domain();
+      for (int k = 0; k <= 64; ++k) {
+        const double at = double(u.forward ? k : 64 - k) / 64;
+        const Vec2 p(u.image->point(t.lo + at * t.width()));
+        if (!begun)
+          first = p, begun = true;
+        else
+          area += (last.x - first.x) * (p.y - first.y) - (last.y - first.y) * (p.x - first.x);
+        last = p;
+      }
+    }
+    face.forward = (area > 0) == (face.surface->normal_sign() > 0);
   }
 
   int add_face_on(int f, const std::vector<std::vector<Body::Use>>& loops) {
@@ -506,10 +538,12 @@ class Replacing {
     }
   }
 
-  const Body& old_;
+  const Body old_;
   const char* field_;
   double size_;
   const std::vector<SurfacePtr>& surfaces_;
+  const Body& given_;
+  bool cut_off_;
   std::vector<char> removed_, changed_;
   std::vector<SurfacePtr> supports_;
   std::vector<std::optional<Frame>> planes_;
@@ -525,18 +559,17 @@ class Replacing {
 
 }  // namespace
 
-FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field) {
-  return Replacing(body, surfaces, field).build();
+FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field,
+                              bool cut_off) {
+  return Replacing(body, surfaces, field, cut_off).build();
 }
 
-void check_replacement(const Body& old, const FaceReplacement& made, const char* field, const char* hint) {
-  if (!made.turned_edges.empty()) {
-    const Origin& origin = old.edges[made.turned_edges.front()].origin;
-    throw FieldError(field,
-                     fmt::format("the edge {} vanishes: the faces at its ends run into each other",
-                                 origin.text().empty() ? std::to_string(made.turned_edges.front()) : origin.text()),
-                     hint);
-  }
+void check_replacement(const FaceReplacement& made, const char* field, const char* hint) {
+  if (!made.turned_edges.empty())
+    throw FieldError(
+        field,
+        fmt::format("the edge {} vanishes: the faces at its ends run into each other", made.turned_edges.front()),
+        hint);
   const std::vector<Violation> found = made.body.violations();
   if (!found.empty())
     throw FieldError(

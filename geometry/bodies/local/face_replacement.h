@@ -18,8 +18,8 @@ namespace lekalo::geometry {
 struct FaceReplacement {
   Body body;
   std::vector<int> faces;  // the old number of each face
-  // Old edges of finite length that run the other way now: the body passes through itself there.
-  std::vector<int> turned_edges;
+  // Names of edges that run the other way now: the body passes through itself there.
+  std::vector<std::string> turned_edges;
   bool polyhedral = false;  // all faces are plane
 };
 
@@ -27,10 +27,14 @@ struct FaceReplacement {
 // has nearly the parameters of the old one (a plane need not). Throws FieldError (that field) where surfaces do not
 // meet, for an open body, and where a face would be left without a border. The result may pass through itself: see
 // turned_edges and check_replacement.
-FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field);
+//
+// With `cut_off` the faces that stay are a group and all its neighbours, which close it to a body of its own: each
+// neighbour keeps the loops along the group, and looks to the side where these leave it.
+FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field,
+                              bool cut_off = false);
 
 // Throws FieldError (that field, with the hint) where edges have turned or the body is not valid.
-void check_replacement(const Body& old, const FaceReplacement& made, const char* field, const char* hint);
+void check_replacement(const FaceReplacement& made, const char* field, const char* hint);
 
 // The tree of edges to which a corner opens that has no common point: points, the one where each spoke ends, and the
 // joints between them, each between two of the sectors' faces.

@@ -39,7 +39,7 @@ Body moved(const Fields& f) {
                               : offset_support(face.surface, side * f.number("distance"), field);
   }
   FaceReplacement made = replace_faces(body, surfaces, field);
-  check_replacement(body, made, field, "move them by less");
+  check_replacement(made, field, "move them by less");
   return std::move(made.body);
 }
 
@@ -118,7 +118,7 @@ Body leant(const Fields& f) {
     surfaces[k] = made;
   }
   FaceReplacement made = replace_faces(body, surfaces, "angle");
-  check_replacement(body, made, "angle", "a smaller angle");
+  check_replacement(made, "angle", "a smaller angle");
   return std::move(made.body);
 }
 

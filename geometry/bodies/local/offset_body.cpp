@@ -23,7 +23,7 @@ FaceReplacement offset(const Body& body, double h) {
 Body offset_body(const Fields& f) {
   const Body& body = *f.body("of");
   FaceReplacement made = offset(body, f.number("distance"));
-  check_replacement(body, made, "distance", "a smaller distance");
+  check_replacement(made, "distance", "a smaller distance");
   return std::move(made.body);
 }
 
