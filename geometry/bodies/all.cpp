@@ -31,7 +31,9 @@
   X(moved_faces_type)          \
   X(drafted_faces_type)        \
   X(deleted_faces_type)        \
-  X(detached_faces_type)
+  X(detached_faces_type)       \
+  X(fillet_body_type)          \
+  X(chamfer_body_type)
 
 namespace lekalo::geometry {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/bodies/local/common_point.h"
+#include "geometry/bodies/topology/line_on_surface.h"
 
 namespace lekalo::geometry {
 
@@ -34,10 +35,6 @@ std::optional<EdgeCurve> parameter_edge(const std::array<EdgeSide, 2>& sides, co
 
 // The image of a line of the parameter plane on a surface: a segment or an arc of a circle where it is one, with the
 // line that has the same parameter.
-struct LineOnSurface {
-  CurvePtr curve;
-  Curve2Ptr image;
-};
 LineOnSurface line_on_surface(const SurfacePtr& surface, const Vec2& from, const Vec2& to, double size);
 
 }  // namespace lekalo::geometry

@@ -167,11 +167,6 @@ Vec2 middle_of_face(const Body& body, int face) {
   return Vec2(box.center());
 }
 
-std::string name_of_face(const Body& body, int face) {
-  const std::string text = body.faces[face].origin.text();
-  return text.empty() ? std::to_string(face) : text;
-}
-
 std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field) {
   const std::set<int> faces = faces_called(body, fields.get<std::vector<std::string>>(field), field);
   return {faces.begin(), faces.end()};

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/body.h"
 #include "geometry/describe.h"
 
@@ -22,9 +23,6 @@ Vec2 located(const Surface& surface, const Vec3& point, Vec2 near);
 
 // Half the way between the ends of a face's loops in its parameter plane.
 Vec2 middle_of_face(const Body& body, int face);
-
-// What messages call a face: its name, or its number.
-std::string name_of_face(const Body& body, int face);
 
 // The faces called by a field of texts, by their names (those of families too) or numbers; FieldError with those that
 // there are.

@@ -103,8 +103,9 @@ struct Extended {
 
 using ExtendedSurface = ComposedSurface<Extended>;
 
-// The same law over another rectangle; null where none is known. Beyond a pole there is nothing.
-SurfacePtr by_law(const SurfacePtr& of, const Rectangle& domain) {
+}  // namespace
+
+SurfacePtr continued_by_law(const SurfacePtr& of, const Rectangle& domain) {
   const auto as = [&]<class S>(const S*) { return dynamic_cast<const S*>(of.get()); };
   if (const auto* plane = as((Plane*)nullptr)) return std::make_shared<Plane>(plane->frame(), domain);
   if (const auto* s = as((SphereSurface*)nullptr))
@@ -123,7 +124,7 @@ SurfacePtr by_law(const SurfacePtr& of, const Rectangle& domain) {
         FormulaSurface::Closed{periods.u > 0 && domain.u == own.u, periods.v > 0 && domain.v == own.v});
   }
   if (const auto* moved = as((TransformedSurface*)nullptr)) {
-    const SurfacePtr more = by_law(moved->original(), domain);
+    const SurfacePtr more = continued_by_law(moved->original(), domain);
     return more ? transformed(more, moved->map()) : nullptr;
   }
   if (const auto* e = as((ExtrusionSurface*)nullptr)) {
@@ -140,6 +141,8 @@ SurfacePtr by_law(const SurfacePtr& of, const Rectangle& domain) {
   }
   return nullptr;
 }
+
+namespace {
 
 std::shared_ptr<Surface> along_tangents(const SurfacePtr& of, const Rectangle& domain) {
   SurfaceProperties properties = properties_of(*of, 1);
@@ -184,7 +187,7 @@ std::any extended(const Fields& f) {
   domain.v = moved(domain.v, periods.v, f.v<double>("before"), f.v<double>("after"), "v");
   std::shared_ptr<Surface> result;
   if (f.text("mode") == "law") try {
-      result = std::const_pointer_cast<Surface>(by_law(of, domain));
+      result = std::const_pointer_cast<Surface>(continued_by_law(of, domain));
     } catch (const FieldError&) {
       throw;
     } catch (const std::invalid_argument& error) {
@@ -203,7 +206,7 @@ std::any extended(const Fields& f) {
 SurfacePtr extended_to(const SurfacePtr& given, const Rectangle& domain) {
   SurfacePtr of = given;
   if (const auto* inner = dynamic_cast<const ExtendedSurface*>(of.get())) of = inner->formula().of;
-  std::shared_ptr<Surface> result = std::const_pointer_cast<Surface>(by_law(of, domain));
+  std::shared_ptr<Surface> result = std::const_pointer_cast<Surface>(continued_by_law(of, domain));
   if (!result) result = along_tangents(of, domain);
   result->set_reversed(given->reversed());
   return result;

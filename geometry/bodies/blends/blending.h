@@ -1,0 +1,16 @@
+// Fillets and chamfers of edges of bodies (Golovanov 2016, 6.9 to 6.11).
+#pragma once
+
+#include <vector>
+
+#include "geometry/bodies/blends/blend_edges.h"
+#include "geometry/body.h"
+
+namespace lekalo::geometry {
+
+// The body with a blend in place of each edge of the requests. Faces keep their surfaces and names; the new ones are
+// called by the role of their rule, with a number where there are several. The result is valid. Throws BlendError for
+// an edge that cannot be blended, with the reason.
+Body blended(const Body& body, const std::vector<BlendRequest>& requests);
+
+}  // namespace lekalo::geometry

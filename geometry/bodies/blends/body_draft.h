@@ -1,0 +1,33 @@
+// A body while its faces and edges are replaced: loops are lists of uses, and what no loop uses any more is left out of
+// the body that is made of it.
+#pragma once
+
+#include "geometry/body.h"
+
+namespace lekalo::geometry {
+
+struct DraftFace {
+  SurfacePtr surface;
+  bool forward = true;
+  bool trimmed = true;
+  Origin origin;
+  int shell = 0;
+  std::vector<std::vector<Body::Use>> loops;  // the outer one first
+};
+
+struct BodyDraft {
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;  // their coedges mean nothing
+  std::vector<DraftFace> faces;
+  std::vector<bool> closed_shells;
+
+  explicit BodyDraft(const Body& body);
+
+  int add_vertex(const Vec3& point, Origin origin = {});
+  int add_edge(CurvePtr curve, int start, int end, Origin origin = {}, EdgeKind kind = EdgeKind::regular);
+
+  // Faces keep their numbers but those without loops, edges and vertices that are used their order.
+  Body body() const;
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,264 @@
+// The types of bodies with blended edges (Golovanov 2016, 6.9, 6.11).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/bodies/blends/blending.h"
+#include "geometry/bodies/topology/edge_selection.h"
+#include "geometry/bodies/topology/entity_names.h"
+#include "geometry/bodies/topology/selection.h"
+#include "geometry/describe.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// The largest share of the sizes of a request with which the body can be made.
+double largest_share(const Body& body, const std::vector<BlendRequest>& requests, size_t which) {
+  const auto works = [&](double share) {
+    std::vector<BlendRequest> smaller = requests;
+    for (ScalarLaw& size : smaller[which].rule.sizes) size = ScalarLaw(share * size(0.0));
+    try {
+      blended(body, smaller);
+      return true;
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
+  };
+  double lo = 0, hi = 1;
+  constexpr int kHalvings = 24;
+  for (int k = 0; k < kHalvings; ++k) (works(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
+  return lo;
+}
+
+// A formula of parameters alone is a constant.
+ScalarLaw law_of(const Expression& size) {
+  const auto& names = size.names();
+  const bool varies = std::find(names.begin(), names.end(), "s") != names.end();
+  return varies ? ScalarLaw(size) : ScalarLaw(size(0.0));
+}
+
+// To five digits.
+double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 4);
+  return std::floor(x / unit) * unit;
+}
+
+// The edges that an item of the list means.
+std::vector<int> edges_of(const Body& body, const Fields& item, const char* list, size_t number) {
+  try {
+    return selected_edges(body, item.group("edges"));
+  } catch (const FieldError& error) {
+    throw FieldError(list, fmt::format("item {}: {}", number, error.what()), error.hint);
+  }
+}
+
+void require_positive(const BlendRule& rule, const char* list, size_t number) {
+  for (const ScalarLaw& size : rule.sizes)
+    if (size.is_constant() && !(size(0.0) > 0))
+      throw FieldError(list, fmt::format("item {}: the {} is {:.6g}", number, rule.field, size(0.0)),
+                       "a positive number");
+}
+
+BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, const char* list) {
+  try {
+    return std::make_shared<Body>(blended(body, requests));
+  } catch (const BlendError& error) {
+    std::string message = fmt::format("{}: {}", name_of_edge(body, error.edge), error.what());
+    std::string hint = "a smaller size, or other edges with it";
+    for (size_t r = 0; r < requests.size() && error.too_large; ++r) {
+      const BlendRule& rule = requests[r].rule;
+      if (!rule.is_constant()) continue;
+      const double share = largest_share(body, requests, r);
+      if (!(share > 0)) continue;
+      hint = fmt::format("the largest {} that fits is {:.5g} ({})", rule.field,
+                         rounded_down(share * rule.sizes[0](0.0)), rule.role);
+      break;
+    }
+    throw FieldError(list, message, hint);
+  }
+}
+
+std::set<int> faces_of_first(const Body& body, const Fields& selector) {
+  std::set<int> faces;
+  if (selector.has("between"))
+    for (const int f : faces_called(body, {selector.get<std::vector<std::string>>("between")[0]}, "edges"))
+      faces.insert(f);
+  return faces;
+}
+
+BlendRequest fillet_request(const Body& body, const Fields& f, size_t number) {
+  BlendRequest request;
+  request.edges = edges_of(body, f, "fillets", number);
+  request.first_faces = faces_of_first(body, f.group("edges"));
+  request.goes_on = f.boolean("chain");
+  BlendRule& rule = request.rule;
+  rule.role = fmt::format("fillets.{}", number);
+  if (f.has("radius") == f.has("chord"))
+    throw FieldError("fillets", fmt::format("item {}: a fillet has a radius, or a chord instead", number),
+                     "give one of them");
+  rule.field = f.has("radius") ? "radius" : "chord";
+  if (f.has("chord")) {
+    rule.kind = BlendKind::chord;
+    rule.sizes[0] = rule.sizes[1] = law_of(f.get<Expression>("chord"));
+  } else {
+    const auto& given = f.get<std::vector<Expression>>("radius");
+    rule.sizes = {law_of(given.front()), law_of(given.back())};
+  }
+  const std::string word = f.word("section");
+  require_positive(rule, "fillets", number);
+  rule.weight = word == "circle" ? 0 : word == "parabola" ? 1 : f.number("section");
+  return request;
+}
+
+BodyPtr filleted(const Fields& f) {
+  const Body& body = *f.body("of");
+  std::vector<BlendRequest> requests;
+  for (const Fields& one : f.groups("fillets")) requests.push_back(fillet_request(body, one, requests.size()));
+  return made(body, requests, "fillets");
+}
+
+// Between the faces of an edge, in the sector that is cut off or filled, all along it.
+double sector_angle(const Body& body, int edge) {
+  const Edge& e = body.edges[edge];
+  const Interval t = e.curve->domain();
+  double least = kInfinity, most = -kInfinity;
+  for (const double share : {0.0, 0.2, 0.5, 0.7, 1.0}) {
+    std::array<Vec3, 2> normals;
+    for (int k = 0; k < 2; ++k) {
+      const Vec2 at(body.coedges[e.coedges[k]].image->point(t.lo + share * t.width()));
+      normals[k] = body.normal(face_of(body, e.coedges[k]), at.x, at.y);
+    }
+    const double angle =
+        kPi - std::atan2(glm::length(glm::cross(normals[0], normals[1])), glm::dot(normals[0], normals[1]));
+    least = std::min(least, angle), most = std::max(most, angle);
+  }
+  if (most - least > 1e-9)
+    throw FieldError("chamfers",
+                     fmt::format("{}: the angle between its faces changes from {:.5g} to {:.5g} degrees",
+                                 name_of_edge(body, edge), least * 180 / kPi, most * 180 / kPi),
+                     "give two `lengths` instead of `length` and `angle`");
+  return 0.5 * (least + most);
+}
+
+// The second length of a triangle with the first, the angle at its end and that of the sector (Golovanov 2016, 6.11).
+double second_length(const Body& body, int edge, double length, double angle) {
+  const double sector = sector_angle(body, edge);
+  if (!(angle + sector < kPi))
+    throw FieldError(
+        "chamfers",
+        fmt::format("{}: under this angle the chamfer never meets the second face", name_of_edge(body, edge)),
+        fmt::format("less than {:.5g} degrees", (kPi - sector) * 180 / kPi));
+  return length * std::sin(angle) / std::sin(sector + angle);
+}
+
+// One for each second length: edges between other angles have others.
+void add_chamfers(const Body& body, const Fields& f, size_t number, std::vector<BlendRequest>& requests) {
+  BlendRequest request;
+  request.edges = edges_of(body, f, "chamfers", number);
+  request.first_faces = faces_of_first(body, f.group("edges"));
+  if (f.has("face")) {
+    request.first_faces.clear();
+    for (const int face : faces_called(body, {f.text("face")}, "face")) request.first_faces.insert(face);
+    if (request.first_faces.empty())
+      throw FieldError("chamfers", fmt::format("item {}: the body has no face '{}'", number, f.text("face")));
+  }
+  request.goes_on = f.boolean("chain");
+  BlendRule& rule = request.rule;
+  rule.kind = BlendKind::chamfer, rule.role = fmt::format("chamfers.{}", number), rule.field = "length";
+  if (f.has("lengths") == f.has("length"))
+    throw FieldError("chamfers", fmt::format("item {}: a chamfer has lengths, or a length and an angle", number),
+                     "give one of lengths: [a, b] and length: a, angle: 30");
+  if (f.has("lengths")) {
+    const auto& given = f.get<std::vector<Expression>>("lengths");
+    rule.sizes = {law_of(given.front()), law_of(given.back())};
+    require_positive(rule, "chamfers", number);
+    requests.push_back(std::move(request));
+    return;
+  }
+  const double length = f.number("length");
+  std::map<double, std::vector<int>> by_second;
+  for (const int edge : request.edges) {
+    const double second = second_length(body, edge, length, f.number("angle"));
+    auto near = by_second.lower_bound(second * (1 - 1e-12));
+    if (near == by_second.end() || near->first > second * (1 + 1e-12))
+      near = by_second.emplace(second, std::vector<int>()).first;
+    near->second.push_back(edge);
+  }
+  for (auto& [second, edges] : by_second) {
+    request.edges = std::move(edges);
+    request.rule.sizes = {ScalarLaw(length), ScalarLaw(second)};
+    requests.push_back(request);
+  }
+}
+
+BodyPtr chamfered(const Fields& f) {
+  const Body& body = *f.body("of");
+  std::vector<BlendRequest> requests;
+  size_t number = 0;
+  for (const Fields& one : f.groups("chamfers")) add_chamfers(body, one, number++, requests);
+  return made(body, requests, "chamfers");
+}
+
+const char* kWhichEdges =
+    "the edges: by the faces between which they are; all that meet every condition given, all sharp edges where none "
+    "is";
+const char* kChain = "go on along edges that continue the given ones smoothly";
+
+}  // namespace
+
+TypeDeclaration chamfer_body_type() {
+  return declare(
+             Category::body, "chamfer_body",
+             "A body with bevelled edges, convex ones cut off and concave ones filled. Lengths are measured from the "
+             "edge, on curved faces along their tangent planes. Faces keep their names; those of item k of the list "
+             "are called chamfers.k.")
+      .example("of: { type: box, size: [3, 2, 1] }, chamfers: { edges: { between: [x_max, z_max] }, lengths: 0.3 }")
+      .field("of", reference({Category::body}), "the body")
+      .field("chamfers",
+             groups({{"edges", edge_selector(), kWhichEdges, false, "{}"},
+                     {"lengths",
+                      formulas({"s"}, 1, 2),
+                      "how much is taken off: a number, a formula of the fraction s of each edge's length, or two for "
+                      "the faces named first and second",
+                      false,
+                      {}},
+                     {"length", length().positive(), "in place of lengths: that on the first face", false, {}},
+                     {"angle", angle().above(0).below(kPi), "with length: between the first face and the chamfer",
+                      false, "45"},
+                     {"face", text(), "the face, or family of faces, on which the first length counts", false, {}},
+                     {"chain", boolean(), kChain, false, "true"}})
+                 .count(1),
+             "which edges, and how")
+      .built_by(chamfered);
+}
+
+TypeDeclaration fillet_body_type() {
+  return declare(Category::body, "fillet_body",
+                 "A body with rounded edges: the surface that a ball leaves as it rolls along both faces, inside of "
+                 "convex edges and outside of concave ones. Faces keep their names; those of item k of the list are "
+                 "called fillets.k.")
+      .example("of: { type: box, size: [3, 2, 1] }, fillets: { edges: { between: [x_max, z_max] }, radius: 0.3 }")
+      .field("of", reference({Category::body}), "the body")
+      .field("fillets",
+             groups({{"edges", edge_selector(), kWhichEdges, false, "{}"},
+                     {"radius",
+                      formulas({"s"}, 1, 2),
+                      "of the ball: a number, a formula of the fraction s of each edge's length, or two for the faces "
+                      "named first and second, which make ellipses",
+                      false,
+                      {}},
+                     {"chord", formula({"s"}), "in place of a radius: the distance of the borders", false, {}},
+                     {"section", number().positive().or_word({"circle", "parabola"}),
+                      "a circle (with two radii, an ellipse), or the middle weight of another conic: below 1 an "
+                      "ellipse, 1 a parabola, above a hyperbola",
+                      false, "circle"},
+                     {"chain", boolean(), kChain, false, "true"}})
+                 .count(1),
+             "which edges, and how")
+      .built_by(filleted);
+}
+
+}  // namespace lekalo::geometry

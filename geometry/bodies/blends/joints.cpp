@@ -1,0 +1,176 @@
+// Where bands meet at a vertex: two that continue each other in a common section, all of a corner in a sphere
+// (Golovanov 2016, 6.9: three equal radii at the corner of a box leave the octant of a ball).
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geometry/bodies/blends/supports.h"
+#include "geometry/bodies/blends/surgery.h"
+#include "geometry/bodies/topology/entity_names.h"
+#include "geometry/queries/closest/closest_point.h"
+#include "geometry/surfaces/analytic/sphere.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+constexpr double kTogether = 1e-9;  // of the size
+
+// The smooth edges between two half-edges of a fan end where the borders on either side of them do.
+void trim_between(Surgery& surgery, const Fan& fan, size_t from, size_t to, const Vec3& point, int vertex) {
+  for (size_t i = fan.next(from); i != to; i = fan.next(i)) {
+    const HalfEdge half = fan.edges[i];
+    const CurvePtr& curve = surgery.body.edges[half.edge].curve;
+    const CurveProjector projector(curve);
+    double best = kInfinity, t = 0;
+    for (const auto& foot : projector.foot_points(point).foot_points)
+      if (foot.distance < best) best = foot.distance, t = foot.t;
+    if (!(best <= kTogether * surgery.size))
+      throw BlendError(fan.edges[from].edge, "its blend does not end on the smooth edge beside it");
+    surgery.trim(half, t, vertex, fan.edges[from].edge);
+  }
+}
+
+// One section as an edge from the right to the left side of a blend; the same seen from another.
+int add_section(Surgery& surgery, const HalfEdge& half, double s) {
+  EdgeBlend& one = surgery.blend(half);
+  const LineOnSurface line = one.band.section(s, true);
+  const std::array<int, 2>& ends = one.vertices[half.at_end];
+  const int edge = surgery.draft.add_edge(line.curve, ends[0], ends[1], surgery.origin(one, "section"));
+  one.sections[half.at_end] = {{edge, true, line.image}};
+  return edge;
+}
+
+void share_section(Surgery& surgery, const HalfEdge& half, int edge, double s) {
+  EdgeBlend& other = surgery.blend(half);
+  const Edge& made = surgery.draft.edges[edge];
+  const bool forward = made.start == other.vertices[half.at_end][0];
+  if (other.band.is_closed()) surgery.draft.edges[edge].kind = EdgeKind::seam;
+  const Curve2Ptr image = image_on(other.band.surface(), made.curve, other.band.place(s, 0.5));
+  if (!image) throw BlendError(half.edge, "its blend does not end in the section of the next one");
+  other.sections[half.at_end] = {{edge, forward, image}};
+}
+
+// Where the center of the ball is as far from a face as from those of its band, on the same side.
+std::optional<double> center_beside(const Body& body, const EdgeBlend& blend, int face, double s) {
+  const BlendBand& band = blend.band;
+  const SurfacePtr support = support_of(body.faces[face].surface);
+  const Coedge& coedge = body.coedges[body.loops[body.faces[face].loops[0]].coedges[0]];
+  const Vec2 somewhere(coedge.image->point(coedge.image->domain().middle()));
+  const Vec3 there = body.faces[face].surface->point(somewhere.x, somewhere.y);
+  Vec2 near = foot_place_anywhere(support, there, somewhere);
+  const double side =
+      (glm::dot(support->normal(near.x, near.y), body.normal(face, somewhere.x, somewhere.y)) > 0) == blend.edge.convex
+          ? -1
+          : 1;
+  const auto excess = [&](double at) {
+    const Vec3 c = band.center(at);
+    near = foot_place_anywhere(support, c, near);
+    return side * glm::dot(c - support->point(near.x, near.y), support->normal(near.x, near.y)) - band.radius();
+  };
+  const double step = 1e-4 * band.range().width();
+  // The secant method.
+  double a = s, b = s + step, fa = excess(a), fb = excess(b);
+  for (int i = 0; i < 60; ++i) {
+    if (fb == fa) return std::nullopt;
+    const double c = b - fb * (b - a) / (fb - fa);
+    a = b, fa = fb, b = c, fb = excess(c);
+    if (std::abs(b - a) <= 1e-15 * (std::abs(b) + band.range().width())) return b;
+  }
+  return std::abs(fb) < 1e-12 * band.radius() ? std::optional(b) : std::nullopt;
+}
+
+// A frame in which the directions stay away from the poles and the seam.
+Frame frame_for(const Vec3& center, const std::vector<Vec3>& directions) {
+  Vec3 middle(0);
+  for (const Vec3& d : directions) middle += d;
+  Frame best;
+  double least = 2;
+  constexpr int kTurns = 12;
+  const Frame about = frame_about(center, glm::normalize(middle));
+  for (int k = 0; k < kTurns; ++k) {
+    const double angle = kPi * k / kTurns;
+    const Vec3 z = std::cos(angle) * about.x + std::sin(angle) * about.y;
+    double nearest = 0;
+    for (const Vec3& d : directions) nearest = std::max(nearest, std::abs(glm::dot(d, z)));
+    if (nearest < least) least = nearest, best = frame_from(center, z, -about.z);
+  }
+  return best;
+}
+
+}  // namespace
+
+void join(Surgery& surgery, const Fan& fan, size_t other) {
+  const HalfEdge &one = fan.edges[0], &two = fan.edges[other];
+  const BlendBand &a = surgery.blend(one).band, &b = surgery.blend(two).band;
+  const double s = a.ends()[one.at_end], t = b.ends()[two.at_end];
+  const std::array<std::array<int, 2>, 2> sides{
+      {{side_after(one), side_before(two)}, {side_before(one), side_after(two)}}};
+  for (int k = 0; k < 2; ++k) {
+    const auto [mine, its] = sides[k];
+    const Vec3 p = a.at(s, mine).point;
+    if (glm::length(p - b.at(t, its).point) > kTogether * surgery.size)
+      throw BlendError(one.edge,
+                       fmt::format("it goes on smoothly in {}, but their blends have no section in common",
+                                   name_of_edge(surgery.body, two.edge)),
+                       false);
+    const int vertex = surgery.draft.add_vertex(p);
+    surgery.end_border(one, mine, s, vertex);
+    surgery.end_border(two, its, t, vertex);
+    if (k == 0)
+      trim_between(surgery, fan, 0, other, p, vertex);
+    else
+      trim_between(surgery, fan, other, 0, p, vertex);
+  }
+  const int edge = add_section(surgery, one, s);
+  share_section(surgery, two, edge, t);
+}
+
+void round_corner(Surgery& surgery, const Fan& fan) {
+  const size_t n = fan.edges.size();
+  const EdgeBlend& first = surgery.blend(fan.edges[0]);
+  const double radius = first.band.radius();
+  // A face that the first band does not touch.
+  const auto found = center_beside(surgery.body, first, fan.faces[1], first.band.ends()[fan.edges[0].at_end]);
+  if (!found) throw BlendError(fan.edges[0].edge, "no ball touches all faces of the corner at its end");
+  const Vec3 center = first.band.center(*found);
+  std::vector<double> s(n);
+  for (size_t i = 0; i < n; ++i) {
+    const BlendBand& band = surgery.blend(fan.edges[i]).band;
+    s[i] = band.section_at(center, band.ends()[fan.edges[i].at_end]);
+    if (glm::length(band.center(s[i]) - center) > kTogether * surgery.size)
+      throw BlendError(fan.edges[i].edge, "one ball does not touch all faces of the corner at its end", false);
+  }
+  std::vector<Vec3> directions;
+  for (size_t i = 0; i < n; ++i) {
+    const HalfEdge &half = fan.edges[i], &next = fan.edges[fan.next(i)];
+    const Vec3 p = surgery.blend(half).band.at(s[i], side_after(half)).point;
+    const int vertex = surgery.draft.add_vertex(p);
+    directions.push_back((p - center) / radius);
+    surgery.end_border(half, side_after(half), s[i], vertex);
+    surgery.end_border(next, side_before(next), s[fan.next(i)], vertex);
+  }
+  std::vector<Vec3> seen = directions;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3 middle = surgery.blend(fan.edges[i]).band.at(s[i], 0.5).point;
+    seen.push_back((middle - center) / radius);
+  }
+  const auto sphere = std::make_shared<SphereSurface>(frame_for(center, seen), radius);
+  DraftFace face;
+  face.surface = sphere, face.forward = first.edge.convex;
+  face.origin = {"", surgery.rule_of(first).role, -1};
+  face.shell = surgery.draft.faces[fan.faces[0]].shell;
+  std::vector<Body::Use> loop;
+  for (size_t i = 0; i < n; ++i) {
+    const HalfEdge& half = fan.edges[i];
+    const int edge = add_section(surgery, half, s[i]);
+    const Curve2Ptr image = image_on(sphere, surgery.draft.edges[edge].curve, Vec2(kPi, 0));
+    if (!image) throw BlendError(half.edge, "the ball at its end has no piece between the faces");
+    // Counterclockwise about the corner: from the side before the edge to the side after it.
+    loop.push_back({edge, side_before(half) == 0, image});
+  }
+  face.loops = {loop};
+  surgery.draft.faces.push_back(std::move(face));
+}
+
+}  // namespace lekalo::geometry
