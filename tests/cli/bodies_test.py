@@ -104,6 +104,18 @@ class Bodies(ProgramTest):
         self.assert_near(self.json_of("evaluate", "apart.yaml", "apart", "--face", "x_max", "--at", "0,0")["point"][0], 3.5, 1e-15)
         self.assert_near(self.json_of("measure", "apart.yaml", "loop")["length"], 8, 1e-12)
 
+    def test_parts_by_name(self):
+        self.write("parts.yaml", "lekalo: 1\ngeometry:\n  box: { type: box, size: [3, 2, 1] }\n"
+                   "  apart: { type: exploded_body, of: box, distance: 0.5 }\n")
+        self.assert_near(self.json_of("measure", "parts.yaml", "box.z_max")["area"], 6, 1e-13)
+        self.assert_near(self.json_of("measure", "parts.yaml", "apart.box.x_max")["area"], 2, 1e-13)
+        edges = self.json_of("measure", "parts.yaml", "box", "--topology")["edges"]
+        lengths = sorted(self.json_of("measure", "parts.yaml", f"box.edge.{edge['index']}")["length"] for edge in edges)
+        for length, expected in zip(lengths, [1] * 4 + [2] * 4 + [3] * 4):
+            self.assert_near(length, expected, 1e-12)
+        self.assertIn("no face 'z_mox'", self.run_program("measure", "parts.yaml", "box.z_mox", code=2)[1])
+        self.assertIn("stands for 6 things", self.run_program("measure", "parts.yaml", "apart.box", code=2)[1])
+
     def test_walls_of_uneven_arcs(self):
         # The same arc, its angle the parameter and not.
         walls = [f"{{ type: extrusion_body, along: z, thickness: 0.2, of: {{ type: composite_curve, of: [{{ type: segment, from: [0, 0], to: [1, 0] }}, "

@@ -7,8 +7,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <string_view>
 
+#include "geometry/bodies/topology/copied_face.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/expression/expression.h"
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/yaml/include.h"
@@ -63,10 +66,40 @@ std::string shell_word(const std::string& text) {
   return quoted + "'";
 }
 
+namespace {
+
+// part.end, part.edge.3, part.vertex.0: what of a body is called so; null where there is no such body.
+const render::Entity* find_part(const render::LoadedScene& scene, const std::string& name) {
+  static std::deque<render::Entity> parts;  // for as long as the command runs
+  for (size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
+    const auto whole = scene.model->geometry.find(name.substr(0, dot));
+    if (whole == scene.model->geometry.end()) continue;
+    const auto* shared = std::get_if<geometry::BodyPtr>(&whole->second);
+    if (!shared) return nullptr;
+    const geometry::Body& body = **shared;
+    const std::string rest = name.substr(dot + 1);
+    using geometry::Element;
+    try {
+      if (!called(body, Element::edge, rest).empty() && called(body, Element::face, rest).empty())
+        return &parts.emplace_back(body.edges[one_called(body, Element::edge, rest, "")].curve);
+      if (!called(body, Element::vertex, rest).empty() && called(body, Element::face, rest).empty())
+        return &parts.emplace_back(body.vertices[one_called(body, Element::vertex, rest, "")].point);
+      const int face = one_called(body, Element::face, rest, "");
+      return &parts.emplace_back(std::make_shared<const geometry::Body>(face_alone(body, face)));
+    } catch (const geometry::FieldError& error) {
+      throw UsageError(fmt::format("'{}': {}; {}", name, error.what(), error.hint));
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name) {
   const auto& geometry = scene.model->geometry;
   const auto found = geometry.find(name);
   if (found != geometry.end()) return found->second;
+  if (const render::Entity* part = find_part(scene, name)) return *part;
   std::vector<std::string> names;
   for (const auto& [known, entity] : geometry) names.push_back(known);
   const auto nearest = geometry::nearest_name(name, names);

@@ -141,13 +141,12 @@ geometry::SurfacePtr surface_of(const render::Entity& entity, const Options& opt
   if (!surface && !set && !body) throw UsageError(fmt::format("'{}' is neither a curve nor a surface", options.name));
   if (surface) return *surface;
   const size_t count = set ? set->size() : (*body)->faces.size();
-  if (count == 1 && options.face.empty()) return set ? set->front() : (*body)->faces.front().surface;
-  for (size_t i = 0; set && i < count; ++i)
-    if (options.face == std::to_string(i)) return (*set)[i];
-  if (body) {
-    const std::vector<int> called = geometry::called(**body, geometry::Element::face, options.face);
-    if (called.size() == 1) return (*body)->faces[called.front()].surface;
-  }
+  const std::vector<int> called =
+      body ? geometry::called(**body, geometry::Element::face, options.face) : std::vector<int>{};
+  for (size_t i = 0; i < count; ++i)
+    if (options.face == std::to_string(i) || (count == 1 && options.face.empty()) ||
+        (called.size() == 1 && called.front() == static_cast<int>(i)))
+      return set ? (*set)[i] : (*body)->faces[i].surface;
   const std::string hint =
       fmt::format("--face 0 to {}{}", count - 1, body ? ", or a name of 'lekalo measure --topology'" : "");
   if (options.face.empty())

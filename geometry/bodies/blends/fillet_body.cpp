@@ -84,7 +84,7 @@ BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, const 
 std::set<int> faces_of_first(const Body& body, const Fields& selector) {
   std::set<int> faces;
   if (selector.has("between"))
-    for (const int f : faces_called(body, {selector.get<std::vector<std::string>>("between")[0]}, "edges"))
+    for (const int f : all_called(body, Element::face, {selector.get<std::vector<std::string>>("between")[0]}, "edges"))
       faces.insert(f);
   return faces;
 }
@@ -161,7 +161,7 @@ void add_chamfers(const Body& body, const Fields& f, size_t number, std::vector<
   request.first_faces = faces_of_first(body, f.group("edges"));
   if (f.has("face")) {
     request.first_faces.clear();
-    for (const int face : faces_called(body, {f.text("face")}, "face")) request.first_faces.insert(face);
+    for (const int face : all_called(body, Element::face, {f.text("face")}, "face")) request.first_faces.insert(face);
     if (request.first_faces.empty())
       throw FieldError("chamfers", fmt::format("item {}: the body has no face '{}'", number, f.text("face")));
   }

@@ -2,10 +2,9 @@
 // middle of the body, with its own copies of its edges.
 #include <vector>
 
-#include "geometry/body.h"
+#include "geometry/bodies/topology/copied_face.h"
 #include "geometry/describe.h"
 #include "geometry/queries/measures/mass_properties.h"
-#include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
@@ -31,32 +30,6 @@ Vec3 mean_normal(const Body& body, int f) {
   return whole > 0 ? sum / whole : Vec3(0);
 }
 
-void add_moved(const Body& body, int f, const Vec3& by, Body& result) {
-  const Affine move = Affine::translation(by);
-  const Face& face = body.faces[f];
-  std::vector<int> vertices(body.vertices.size(), -1), edges(body.edges.size(), -1);
-  const auto vertex = [&](int v) {
-    if (vertices[v] < 0) vertices[v] = result.add_vertex(body.vertices[v].point + by, body.vertices[v].origin);
-    return vertices[v];
-  };
-  const auto edge = [&](int e) {
-    const Edge& old = body.edges[e];
-    if (edges[e] >= 0) return edges[e];
-    edges[e] = result.add_edge(transformed(old.curve, move), vertex(old.start), vertex(old.end), old.origin, old.kind);
-    result.edges[edges[e]].tolerance = old.tolerance;
-    return edges[e];
-  };
-  const int copy = result.add_face(transformed(face.surface, move), face.forward, face.origin, face.trimmed);
-  for (const int loop : face.loops) {
-    std::vector<Body::Use> uses;
-    for (const int c : body.loops[loop].coedges)
-      uses.push_back({edge(body.coedges[c].edge), body.coedges[c].forward, body.coedges[c].image});
-    result.add_loop(copy, uses);
-  }
-  result.faces[copy].shell = static_cast<int>(result.shells.size());
-  result.shells.push_back({{copy}, false});
-}
-
 Body exploded(const Fields& f) {
   const Body& body = *f.body("of");
   if (f.has("distance") == f.has("factor"))
@@ -74,7 +47,7 @@ Body exploded(const Fields& f) {
     } else {
       by = f.number("factor") * (measure_face(body, face).centroid - middle);
     }
-    add_moved(body, face, by, result);
+    copy_face(body, face, Affine::translation(by), result);
   }
   return result;
 }

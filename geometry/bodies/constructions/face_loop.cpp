@@ -21,7 +21,7 @@ namespace {
 
 CurvePtr line_along(const Fields& f) {
   const Body& body = *f.body("of");
-  const int number = face_called(body, f.text("face"), "face");
+  const int number = one_called(body, Element::face, f.text("face"), "face");
   const Face& face = body.faces[number];
   const size_t loop = static_cast<size_t>(f.integer("loop"));
   if (loop >= face.loops.size())

@@ -168,8 +168,7 @@ Vec2 middle_of_face(const Body& body, int face) {
 }
 
 std::vector<int> faces_named(const Body& body, const Fields& fields, const char* field) {
-  const std::set<int> faces = faces_called(body, fields.get<std::vector<std::string>>(field), field);
-  return {faces.begin(), faces.end()};
+  return all_called(body, Element::face, fields.get<std::vector<std::string>>(field), field);
 }
 
 }  // namespace lekalo::geometry

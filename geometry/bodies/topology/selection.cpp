@@ -164,18 +164,9 @@ void check(Element element, const Selector& selector) {
     throw FieldError("between", "an edge lies between two faces", "between: [end, side]");
 }
 
-std::set<int> called_by_any(const Body& body, Element element, const std::vector<std::string>& names) {
-  std::set<int> chosen;
-  for (const std::string& name : names) {
-    const std::vector<int> some = called(body, element, name);
-    if (some.empty()) {
-      const std::vector<std::string> known = nearest_names(name, names_of(body, element), kMostNames);
-      throw FieldError(word(element), fmt::format("the body has no {} '{}'", word(element), name),
-                       fmt::format("the nearest are {}", fmt::join(known, ", ")));
-    }
-    chosen.insert(some.begin(), some.end());
-  }
-  return chosen;
+std::set<int> set_called(const Body& body, Element element, const std::vector<std::string>& names, const char* field) {
+  const std::vector<int> all = all_called(body, element, names, field);
+  return {all.begin(), all.end()};
 }
 
 }  // namespace
@@ -222,36 +213,36 @@ std::vector<int> called(const Body& body, Element element, std::string_view name
         if (stands_for(name, std::string_view(full).substr(dot + 1))) return true;
       return false;
     });
-  if (chosen.empty())
-    chosen = where([&](int k) {
-      return name == fmt::format("{}.{}", word(element), k) || (element == Element::face && name == std::to_string(k));
-    });
+  if (chosen.empty()) chosen = where([&](int k) { return name == fmt::format("{}.{}", word(element), k); });
+  if (chosen.empty()) chosen = where([&](int k) { return name == std::to_string(k); });
   return chosen;
 }
 
-std::set<int> faces_called(const Body& body, const std::vector<std::string>& names, const char* field) {
-  std::set<int> faces;
+std::vector<int> all_called(const Body& body, Element element, const std::vector<std::string>& names,
+                            const std::string& field) {
+  std::set<int> chosen;
   for (const std::string& name : names) {
-    const std::vector<int> some = called(body, Element::face, name);
+    const std::vector<int> some = called(body, element, name);
     if (some.empty()) {
-      const std::vector<std::string> known = nearest_names(name, names_of(body, Element::face), kMostNames);
-      throw FieldError(
-          field, fmt::format("the body has no face '{}'", name),
-          fmt::format("its faces are {}{}", fmt::join(known, ", "), body.faces.size() > known.size() ? ", ..." : ""));
+      const std::vector<std::string> known = names_of(body, element), nearest = nearest_names(name, known, kMostNames);
+      throw FieldError(field, fmt::format("the body has no {} '{}'", word(element), name),
+                       known.empty()
+                           ? "it has none"
+                           : fmt::format("{} {}", known.size() > nearest.size() ? "the nearest are" : "it has",
+                                         fmt::join(nearest, ", ")));
     }
-    faces.insert(some.begin(), some.end());
+    chosen.insert(some.begin(), some.end());
   }
-  return faces;
+  return {chosen.begin(), chosen.end()};
 }
 
-int face_called(const Body& body, const std::string& name, const char* field) {
-  const std::set<int> found = faces_called(body, {name}, field);
-  if (found.size() == 1) return *found.begin();
+int one_called(const Body& body, Element element, const std::string& name, const std::string& field) {
+  const std::vector<int> all = all_called(body, element, {name}, field);
+  if (all.size() == 1) return all.front();
   std::vector<std::string> names;
-  for (const int face : found) names.push_back(name_of(body, Element::face, face));
-  if (names.size() > kMostNames) names.resize(kMostNames), names.emplace_back("...");
-  throw FieldError(field, fmt::format("the body has {} faces '{}'", found.size(), name),
-                   fmt::format("one of {}", fmt::join(names, ", ")));
+  for (size_t k = 0; k < all.size() && k < kMostNames; ++k) names.push_back(described(body, element, all[k]));
+  throw FieldError(field, fmt::format("'{}' stands for {} things; one is wanted here", name, all.size()),
+                   fmt::format("they are {}{}", fmt::join(names, ", "), all.size() > kMostNames ? ", ..." : ""));
 }
 
 std::vector<int> faces_beside(const Body& body, int edge) {
@@ -272,16 +263,16 @@ std::vector<int> select(const Body& body, Element element, const Selector& selec
   std::vector<int> chosen = candidates(body, element);
   const auto keep = [&](const auto& holds) { std::erase_if(chosen, [&](int k) { return !holds(k); }); };
   if (!selector.names.empty()) {
-    const std::set<int> named = called_by_any(body, element, selector.names);
+    const std::set<int> named = set_called(body, element, selector.names, word(element));
     keep([&](int k) { return named.count(k) > 0; });
   }
   if (!selector.between.empty()) {
-    const std::set<int> one = faces_called(body, {selector.between[0]}, "between"),
-                        other = faces_called(body, {selector.between[1]}, "between");
+    const std::set<int> one = set_called(body, Element::face, {selector.between[0]}, "between"),
+                        other = set_called(body, Element::face, {selector.between[1]}, "between");
     keep([&](int k) { return is_between(body, k, one, other); });
   }
   if (!selector.of_face.empty()) {
-    const std::set<int> faces = faces_called(body, selector.of_face, "of_face");
+    const std::set<int> faces = set_called(body, Element::face, selector.of_face, "of_face");
     keep([&](int k) {
       const std::set<int> around = faces_around(body, element, k);
       return std::any_of(around.begin(), around.end(), [&](int face) { return faces.count(face) > 0; });

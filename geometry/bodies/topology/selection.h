@@ -2,12 +2,10 @@
 //
 // A name is that of the entity's origin, as blank.side.2. Shorter ones stand for families: blank.side for all of its
 // sides, hole.side for the sides of hole.0, hole.1, ..., side for those of every operand. An entity without a name, or
-// with one that several have, is edge.3, the fourth of the body's edges; a face may be its number alone. Seams and
-// poles are not among the edges.
+// with one that several have, is edge.3, the fourth of the body's edges. Seams and poles are not among the edges.
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,10 +37,11 @@ std::vector<std::string> names_of(const Body& body, Element element);
 // The numbers of the entities called so, ascending; none for a name that nothing has.
 std::vector<int> called(const Body& body, Element element, std::string_view name);
 
-// The faces called by any of the names, or by their numbers. Throws FieldError (that field) for a name that none has.
-std::set<int> faces_called(const Body& body, const std::vector<std::string>& names, const char* field);
-// Likewise the one face called so; FieldError also where there are several.
-int face_called(const Body& body, const std::string& name, const char* field);
+// Of several names; throws FieldError with the field for a name that nothing has. one_called: of one name, and exactly
+// one entity.
+std::vector<int> all_called(const Body& body, Element element, const std::vector<std::string>& names,
+                            const std::string& field);
+int one_called(const Body& body, Element element, const std::string& name, const std::string& field);
 
 // Likewise of those that a selector means. Throws FieldError with the field of the selector for a name that nothing
 // has, or what does not go with the kind of element.
