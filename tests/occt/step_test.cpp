@@ -115,6 +115,24 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"hollow",
              "  outer: { type: ball, radius: 2 }\n  inner: { type: box, size: [1, 1, 1] }\n"
              "  b: { type: hollow_body, of: outer, voids: [inner] }\n"},
+        Case{"fillets",
+             "  o: { type: rectangle, size: [6, 4], corner_radius: 0.8 }\n"
+             "  p: { type: extrusion_body, of: o, along: [0, 0, 1.2] }\n"
+             "  b: { type: fillet_body, of: p, fillets: { edges: { between: [end, side] }, radius: 0.3 } }\n"},
+        Case{"rounded_corner",
+             "  p: { type: box, size: [1, 1, 1] }\n"
+             "  b: { type: fillet_body, of: p, fillets: { edges: {}, radius: 0.1 } }\n"},
+        Case{"chamfer",
+             "  p: { type: cylinder_body, radius: 1, height: 1 }\n"
+             "  b: { type: chamfer_body, of: p, chamfers: { edges: { between: [end, side] }, lengths: "
+             "[0.2, 0.3] } }\n"},
+        Case{"offset",
+             "  o: { type: polygon, points: [[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]] }\n"
+             "  p: { type: extrusion_body, of: o, along: [0, 0, 2] }\n"
+             "  b: { type: offset_body, of: p, distance: 0.2 }\n"},
+        Case{"drafted_faces",
+             "  p: { type: box, size: [2, 2, 1] }\n"
+             "  b: { type: drafted_faces, of: p, faces: [x_max, y_max], angle: 10 }\n"},
         Case{"window",
              "  b: { type: trimmed_surface, of: { type: cylinder_surface, radius: 1, height: 2 }, loops: { type: "
              "circle, center: [3, 0.5], radius: 0.3 }, keep: outside }\n",
