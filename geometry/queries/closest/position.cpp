@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "geometry/queries/closest/closest_point.h"
-#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
 
 namespace lekalo::geometry {
@@ -177,10 +176,14 @@ BodyPosition position(const Vec3& point, const Body& body) {
   }
   if (result.by_lines) {
     const LineIntersector intersector(body);
-    inside = vote_inside(point, [&](const Line& line) { return count_sides(intersector.all_hits(line)); });
+    inside = is_inside(point, intersector);
   }
   result.where = inside ? Containment::inside : Containment::outside;
   return result;
+}
+
+bool is_inside(const Vec3& point, const LineIntersector& body) {
+  return vote_inside(point, [&](const Line& line) { return count_sides(body.all_hits(line)); });
 }
 
 bool is_inside(const Vec3& point, const Shape& shape) {

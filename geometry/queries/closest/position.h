@@ -5,6 +5,7 @@
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/body.h"
 #include "geometry/queries/closest/distance.h"
+#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/shape.h"
 #include "geometry/surface.h"
 
@@ -54,6 +55,9 @@ struct BodyPosition {
 // face: the point is inside if the way to it runs against the outward normal. On edges and vertices several lines
 // through the point vote by the number of crossings.
 BodyPosition position(const Vec3& point, const Body& body);
+
+// Inside of a closed body that is prepared for lines, by the vote alone: for points off its boundary.
+bool is_inside(const Vec3& point, const LineIntersector& body);
 
 // Inside of a closed shape, by the same vote; throws std::invalid_argument for an open one.
 bool is_inside(const Vec3& point, const Shape& shape);
