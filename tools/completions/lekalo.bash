@@ -18,7 +18,7 @@ _lekalo() {
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render make draw compare test new check measure evaluate trace export schema types --help --version'
+      words='render make draw compare test new check solve measure evaluate trace export schema types --help --version'
     elif [[ $current == -* ]]; then
       case $command in
         render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
@@ -26,7 +26,7 @@ _lekalo() {
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         new) words='--kind' ;;
-        check) words='--set --allow-external --json' ;;
+        check|solve) words='--set --allow-external --json' ;;
         measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
         evaluate) words='--at --uv --turn --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
         trace) words='--ray --rays --set --allow-external --json' ;;

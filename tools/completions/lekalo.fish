@@ -1,9 +1,9 @@
 # fish completion for lekalo(1)
 
-set -l commands render make draw compare test new check measure evaluate trace export schema types
+set -l commands render make draw compare test new check solve measure evaluate trace export schema types
 complete -c lekalo -n "not __fish_seen_subcommand_from $commands" -f
 for line in 'render:render the pictures of a scene' 'make:write all outputs of a scene' 'draw:draw a scene as lines' \
-        'compare:compare two images' 'test:run a regression suite' 'new:write a scene to start from' 'check:report all errors of a scene file' \
+        'compare:compare two images' 'test:run a regression suite' 'new:write a scene to start from' 'check:report all errors of a scene file' 'solve:tell what the constraints came to' \
         'measure:lengths, areas, volumes, topology' 'evaluate:a point with derivatives and curvatures' 'trace:all hits of rays' \
         'export:write a scene for another program' 'schema:print the JSON Schema of scene files' 'types:list or describe types'
     set -l parts (string split -m 1 : $line)
@@ -27,9 +27,9 @@ complete -c lekalo -n $picture -l resume -r -d 'go on with an interrupted render
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw' -l stats -d 'print what was done, times, memory'
 complete -c lekalo -n $picture -l stamp -d 'put date, machine and path into outputs'
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw export' -s o -l output -r -d 'output file'
-complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export' -l set -x -d 'name=value'
-complete -c lekalo -n '__fish_seen_subcommand_from render make draw check measure evaluate trace export test' -l allow-external -d 'let the scene run foreign code'
-complete -c lekalo -n '__fish_seen_subcommand_from check compare test measure evaluate trace' -l json -d 'print JSON'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw check solve measure evaluate trace export' -l set -x -d 'name=value'
+complete -c lekalo -n '__fish_seen_subcommand_from render make draw check solve measure evaluate trace export test' -l allow-external -d 'let the scene run foreign code'
+complete -c lekalo -n '__fish_seen_subcommand_from check solve compare test measure evaluate trace' -l json -d 'print JSON'
 complete -c lekalo -n '__fish_seen_subcommand_from render make draw compare test export' -l quiet -d 'print errors only'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l metric -x -a 'flip rmse psnr ssim max' -d 'what to measure'
 complete -c lekalo -n '__fish_seen_subcommand_from compare' -l threshold -x -d 'largest difference'

@@ -10,6 +10,7 @@ commands=(
   'test:run a regression suite'
   'new:write a commented scene to start from'
   'check:report all errors of a scene file'
+  'solve:tell what the constraints of a scene came to'
   'measure:lengths, areas, volumes, topology'
   'evaluate:a point with derivatives and curvatures'
   'trace:all hits of rays'
@@ -45,7 +46,7 @@ case $command in
     '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
     '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
   new) _arguments '--kind[what it makes]:kind:(picture drawing graph plate suite)' '--help[show help]' '1:name' ;;
-  check) _arguments $scene '--json[print JSON]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
+  check|solve) _arguments $scene '--json[print JSON]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point, curve, surface or body]:name or x,y,z' '--nearest[only the nearest place]' '--frechet[Frechet distance from a curve]:name' '--hausdorff[Hausdorff distance from a curve]:name' '--at-length[parameter at a length]:length' '--arc[length between two parameters]:t t' '--features[inflections, vertices, cusps, total curvature, area]' '--nurbs[the curve or surface as NURBS]' '--cubature[by a rule on triangles]:points' '--turn[of --cubature, angle over a cell]:degrees' '--rim[whether it is the rim of a sheet]' '--chord[of --rim, two parameters]:t t' '--stretch[how much it stretches on another surface]:name' '--regularity[whether it is regular, with bounds]' '--cells[bounds of the diameters of cells]:nu,nv' '--line[of --cells, a line]:x,y,z,dx,dy,dz' '--position[a point]:name, x,y,z or u,v' '--continuity[how smoothly it joins]:name' '*--intersect[a curve, surface or body]:name' '--self-intersection[where it meets itself]' '--section[a plane]:x,y,z,nx,ny,nz' '--silhouette[a view]:camera, dx,dy,dz or eye\:x,y,z' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
     '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
   evaluate) _arguments $scene '--at[where]:t or u,v' '--uv[parameters of a triangle]:u,v' '--turn[step over which it turns by an angle]:degrees' '--face[of a body]:number or name' '*--along[direction in the parameters of a surface]:du,dv' '--table[table of parameters]:file:_files' '*--on[with the normal of a surface]:name' '--share[of two surfaces, that of the first]:number' '--placement[the matrix that places things there]' '--divided-difference[nodes of divided differences]:t t ..' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;

@@ -54,6 +54,7 @@ void add_make(CLI::App& app, Action& action);
 void add_test(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_solve(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);

@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   command::add_make(app, action);
   command::add_new(app, action);
   command::add_check(app, action);
+  command::add_solve(app, action);
   command::add_evaluate(app, action);
   command::add_compare(app, action);
   command::add_test(app, action);

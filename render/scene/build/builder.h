@@ -15,6 +15,7 @@
 #include "render/cameras/cameras.h"
 #include "render/model/model.h"
 #include "render/model/objects.h"
+#include "render/scene/build/constraint_report.h"
 #include "render/scene/build/external_note.h"
 #include "render/scene/build/scope.h"
 #include "render/scene/values/types.h"
@@ -73,6 +74,9 @@ class Builder {
 
   // What is known of things whose points come from outside.
   const std::vector<ExternalNote>& external_notes() const { return external_notes_; }
+
+  // Of the section `constraints`; null without one.
+  const std::shared_ptr<const ConstraintReport>& constraints() const { return constraints_; }
 
   // Every file that a field named, in the order of reading.
   const std::vector<std::filesystem::path>& files_named() const { return files_named_; }
@@ -229,6 +233,9 @@ class Builder {
               const std::function<void(const Counters&, const std::string&)>& visit);
   std::optional<std::vector<double>> read_whole_numbers(const Value& range, const Counters& counters);
 
+  // --- builder_constraints.cpp
+  void solve_constraints();
+
   // --- builder_scene.cpp: sections to model.
   void check_sections();
   void build_named(Model& model);
@@ -266,7 +273,8 @@ class Builder {
   Diagnostics& diagnostics_;
   std::map<std::string, const Value*, std::less<>> misspelt_sections_;  // by the name that is meant
   Parameters parameters_;
-  Value styles_;  // the built-in ones with the scene's changes
+  Value styles_;    // the built-in ones with the scene's changes
+  Value geometry_;  // the section with the points of constraints
   std::map<std::string, std::map<std::string, NamedThing, std::less<>>> sections_;
   std::map<std::string, Value> default_values_;
   std::map<const TypeDeclaration*, std::vector<Field>> declared_;
@@ -274,7 +282,8 @@ class Builder {
   std::map<std::pair<const Group*, const Material*>, GroupPtr> groups_in_material_;
   std::map<const Value*, GroupPtr> alike_groups_;  // of families, before their transforms
   std::vector<GroupPtr> kept_groups_;              // so that no address of theirs is used again
-  std::deque<Value> made_;                         // maps that `like` made
+  std::shared_ptr<const ConstraintReport> constraints_;
+  std::deque<Value> made_;  // maps that `like` made
   std::map<const Value*, const Value*> liked_;
   bool names_use_ = true;  // not those by which a named place says where it is: what it stands on is shown
   std::vector<DefaultTaken> defaults_;

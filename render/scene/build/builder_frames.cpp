@@ -197,7 +197,7 @@ std::optional<Affine> Builder::read_transform(const Value& value, const Counters
 }
 
 std::optional<Affine> Builder::read_transform_step(const Value& step, const Counters& counters) {
-  static const std::vector<std::string> kinds = {"translate", "rotate", "scale", "mirror", "matrix"};
+  static const std::vector<std::string> kinds = {"translate", "rotate", "scale", "mirror", "matrix", "pose"};
   if (!step.is_map()) {
     diagnostics_.error(step.place, fmt::format("expected a step of a transform, found {}", kind_name(step)),
                        "for example { rotate: 30, axis: z } or { translate: [1, 0, 0] }");
@@ -216,7 +216,7 @@ std::optional<Affine> Builder::read_transform_step(const Value& step, const Coun
     } else if (name != "axis" && name != "about" && name != "repeat") {
       diagnostics_.error(entry.key.place,
                          fmt::format("unknown step '{}' of a transform{}", name, suggestion(name, kinds)),
-                         "translate, rotate (with axis), scale, mirror or matrix; about: the point that stays");
+                         "translate, rotate (with axis), scale, mirror, matrix or pose; about: the point that stays");
       return std::nullopt;
     }
   }
@@ -235,6 +235,15 @@ std::optional<Affine> Builder::read_transform_step(const Value& step, const Coun
     const auto point = read_point(*value, counters);
     if (!point) return std::nullopt;
     about = *point;
+  }
+  if (name == "pose") {
+    const auto* poses = constraints_ ? &constraints_->poses : nullptr;
+    if (const auto found = poses ? poses->find(kind->value.text) : decltype(poses->find(""))();
+        poses && found != poses->end())
+      return found->second;
+    diagnostics_.error(kind->value.place, fmt::format("the constraints have no body '{}'", kind->value.text),
+                       "a name of 'constraints: bodies'");
+    return std::nullopt;
   }
   if (name == "translate") {
     const auto by = read_vector(kind->value, counters, false);

@@ -55,6 +55,7 @@ const Scoped* Builder::named_place(const Value& name) {
 
 const Value* Builder::section(const char* name) const {
   if (std::string_view(name) == "styles" && styles_.is_map()) return &styles_;
+  if (std::string_view(name) == "geometry" && geometry_.is_map()) return &geometry_;
   if (const Value* written = scene_.root.find(name)) return written;
   const auto meant = misspelt_sections_.find(name);
   return meant == misspelt_sections_.end() ? nullptr : meant->second;

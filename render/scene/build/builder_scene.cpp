@@ -63,9 +63,10 @@ Model Builder::build() {
   Model model;
   if (!scene_.files.empty()) model.source = scene_.files.front()->name;
   check_sections();
-  model.parameters = parameters_.all();
   for (const SectionDeclaration& declared : sections())
     if (declared.shape == Shape::named) declare_section(declared.name.c_str());
+  solve_constraints();
+  model.parameters = parameters_.all();
   if (const Value* info = section("info"); info && info->is_map()) {
     const auto fields = read_fields(section_declaration("info").fields, *info, {}, "'info'");
     if (fields && fields->has("title")) model.title = fields->text("title");

@@ -59,6 +59,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
       mix(result.hash, *bytes);
   }
   result.external_notes = builder.external_notes();
+  result.constraints = builder.constraints();
   result.defaults_taken = builder.defaults_taken();
   return result;
 }

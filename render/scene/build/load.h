@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/model/model.h"
+#include "render/scene/build/constraint_report.h"
 #include "render/scene/build/external_note.h"
 #include "render/scene/values/diagnostics.h"
 #include "render/scene/yaml/include.h"
@@ -25,8 +26,9 @@ struct LoadedScene {
   std::shared_ptr<Model> model;
   std::vector<DefaultTaken> defaults_taken;
   std::vector<ExternalNote> external_notes;
-  std::vector<std::filesystem::path> files;  // all that were read
-  uint64_t hash = 0;                         // of all texts, data files and --set values
+  std::shared_ptr<const ConstraintReport> constraints;  // null without the section
+  std::vector<std::filesystem::path> files;             // all that were read
+  uint64_t hash = 0;                                    // of all texts, data files and --set values
 };
 
 // Throws SceneError with all errors of the scene.

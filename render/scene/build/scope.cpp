@@ -41,7 +41,13 @@ Parameters::Parameters(const Value* section, Diagnostics& diagnostics) : section
   for (const Entry& entry : section_->entries) parameters_[entry.key.name].entry = &entry;
 }
 
+void Parameters::define(const std::string& name, double value) {
+  parameters_[name] = {nullptr, State::known, {name, value, Measure::plain, false}};
+}
+
 const Expression::Constant* Parameters::lookup(const std::string& name, std::string_view scope, const Value& asked) {
+  if (const auto defined = parameters_.find(name); defined != parameters_.end() && !defined->second.entry)
+    return &defined->second.constant;
   if (!section_) return nullptr;
   const Named named = find_named(*section_, name, scope);
   if (!named.entry || !named.member.empty()) return nullptr;
@@ -239,6 +245,10 @@ bool Parameters::may_be_called(std::string_view name) {
 std::map<std::string, double> Parameters::all() {
   std::map<std::string, double> values;
   for (auto& [name, parameter] : parameters_) {
+    if (!parameter.entry) {
+      values[name] = parameter.constant.value;
+      continue;
+    }
     if (!may_be_called(name)) {
       diagnostics_.error(parameter.entry->key.place, fmt::format("a parameter may not be called '{}'", name),
                          "it is a variable, function or unit of formulas");

@@ -45,6 +45,9 @@ class Parameters {
   // Variables, functions and units of formulas are no names of parameters and counters.
   static bool may_be_called(std::string_view name);
 
+  // One more, with a value that is no formula.
+  void define(const std::string& name, double value);
+
   // Evaluates all, so that errors in unused parameters are reported too.
   std::map<std::string, double> all();
 

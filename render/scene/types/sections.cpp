@@ -5,6 +5,7 @@
 #include "render/film/filter.h"
 #include "render/film/render.h"
 #include "render/model/page.h"
+#include "render/scene/types/constraint_fields.h"
 #include "render/scene/types/panels.h"
 #include "render/scene/values/types.h"
 
@@ -74,6 +75,11 @@ const std::vector<SectionDeclaration>& sections() {
        {},
        {}},
       {"parameters", "named numbers and angles that every formula may use", Shape::numbers, {}, {}},
+      {"constraints",
+       "points, numbers and poses that are found so that conditions hold, before anything else is made",
+       Shape::fields,
+       constraint_fields(),
+       {}},
       {"geometry",
        "named points (coordinates, or a place { of: curve, t: ... }), curves, surfaces, bodies and meshes, in any "
        "order",

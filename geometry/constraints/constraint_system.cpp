@@ -1,0 +1,254 @@
+#include "geometry/constraints/constraint_system.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace lekalo::geometry {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostSteps = 60, kMostHalvings = 30;
+constexpr double kMet = 1e-11;        // of a residual, relative to the size
+constexpr double kStep = 1e-13;       // of the last step, relative to the size
+constexpr double kRank = 1e-9;        // of singular values
+constexpr double kDifference = 1e-6;  // of the unknowns, for second derivatives: they only steer the steps
+
+struct Values {
+  VectorXd f;
+  MatrixXd jacobian;
+};
+
+class Solving {
+ public:
+  explicit Solving(const ConstraintSystem& system) : system_(system), n_(static_cast<int>(system.start.size())) {
+    start_ = Eigen::Map<const VectorXd>(system.start.data(), n_);
+    weights_ = Eigen::Map<const VectorXd>(system.weights.data(), n_);
+    for (size_t i = 0; i < system.constraints.size(); ++i)
+      if (!system.constraints[i].is_inequality) active_.push_back(static_cast<int>(i));
+  }
+
+  ConstraintSolution run() {
+    VectorXd p = start_;
+    // Each round one inequality begins or ceases to be an equation.
+    const size_t rounds = 2 * system_.constraints.size() + 2;
+    for (size_t round = 0; round < rounds; ++round) {
+      p = least_change();
+      if (!change_active(p)) return finish(p);
+    }
+    throw ConstraintError("no set of inequalities was found that holds with equality", names_of(active_));
+  }
+
+  Values values(const VectorXd& p, const std::vector<int>& which) const {
+    int count = 0;
+    for (const int i : which) count += system_.constraints[i].count;
+    Values result{VectorXd::Zero(count), MatrixXd::Zero(count, n_)};
+    int row = 0;
+    for (const int i : which) {
+      const Constraint& one = system_.constraints[i];
+      one.evaluate(std::span(p.data(), n_), result.f.segment(row, one.count),
+                   result.jacobian.middleRows(row, one.count));
+      row += one.count;
+    }
+    return result;
+  }
+
+ private:
+  bool is_met(const VectorXd& f) const { return f.size() == 0 || f.lpNorm<Eigen::Infinity>() <= kMet * system_.size; }
+
+  std::vector<std::string> names_of(const std::vector<int>& which) const {
+    std::vector<std::string> names;
+    for (const int i : which) names.push_back(system_.constraints[i].name);
+    return names;
+  }
+
+  VectorXd least_change() {
+    if (auto found = lagrange(start_)) return *found;
+    const VectorXd feasible = least_norm();
+    if (auto found = lagrange(feasible)) return *found;
+    // A solution, if not the nearest.
+    multipliers_ = VectorXd::Zero(values(feasible, active_).f.size());
+    return feasible;
+  }
+
+  // Sum of the multipliers times second derivatives, by differences of the gradients.
+  MatrixXd curvature(const VectorXd& p, const VectorXd& multipliers) const {
+    MatrixXd result(n_, n_);
+    for (int i = 0; i < n_; ++i) {
+      const double h = kDifference * std::max(system_.size, std::abs(p[i]));
+      VectorXd after = p, before = p;
+      after[i] += h, before[i] -= h;
+      result.col(i) =
+          (values(after, active_).jacobian - values(before, active_).jacobian).transpose() * multipliers / (2 * h);
+    }
+    return 0.5 * (result + result.transpose());
+  }
+
+  // Newton's method for p and the multipliers: W (p - start) + J^T l = 0, f(p) = 0.
+  std::optional<VectorXd> lagrange(VectorXd p) {
+    Values at = values(p, active_);
+    const int m = static_cast<int>(at.f.size());
+    VectorXd multipliers = VectorXd::Zero(m);
+    if (m > 0 && p != start_)
+      multipliers = at.jacobian.transpose().completeOrthogonalDecomposition().solve(
+          VectorXd(-(weights_.cwiseProduct(p - start_))));
+    for (int step = 0; step < kMostSteps; ++step) {
+      MatrixXd matrix = MatrixXd::Zero(n_ + m, n_ + m);
+      matrix.topLeftCorner(n_, n_) = curvature(p, multipliers);
+      matrix.topLeftCorner(n_, n_).diagonal() += weights_;
+      matrix.topRightCorner(n_, m) = at.jacobian.transpose();
+      matrix.bottomLeftCorner(m, n_) = at.jacobian;
+      VectorXd right(n_ + m);
+      right.head(n_) = -(weights_.cwiseProduct(p - start_) + at.jacobian.transpose() * multipliers);
+      right.tail(m) = -at.f;
+      Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(matrix);
+      solver.setThreshold(kRank);
+      const VectorXd by = solver.solve(right);
+      if (!by.allFinite()) return std::nullopt;
+      p += by.head(n_), multipliers += by.tail(m);
+      at = values(p, active_);
+      if (!at.f.allFinite() || by.head(n_).norm() > 1e3 * (system_.size + start_.norm())) return std::nullopt;
+      if (is_met(at.f) && by.head(n_).lpNorm<Eigen::Infinity>() <= kStep * (system_.size + p.norm())) {
+        multipliers_ = multipliers;
+        return p;
+      }
+    }
+    // Where second derivatives by differences leave the last digits to a slow end.
+    if (!is_met(at.f)) return std::nullopt;
+    multipliers_ = multipliers;
+    return p;
+  }
+
+  // Steps of least norm, each halved until the residual falls.
+  VectorXd least_norm() const {
+    VectorXd p = start_;
+    Values at = values(p, active_);
+    const VectorXd inverse = weights_.cwiseInverse();
+    for (int step = 0; step < kMostSteps && !is_met(at.f); ++step) {
+      const MatrixXd scaled = at.jacobian * inverse.cwiseSqrt().asDiagonal();
+      Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(scaled);
+      solver.setThreshold(kRank);
+      const VectorXd by = inverse.cwiseSqrt().cwiseProduct(VectorXd(solver.solve(VectorXd(-at.f))));
+      double share = 1;
+      Values next = values(p + by, active_);
+      for (int k = 0; k < kMostHalvings && !(next.f.norm() < at.f.norm()); ++k) {
+        share /= 2;
+        next = values(p + share * by, active_);
+      }
+      if (!(next.f.norm() < at.f.norm() * (1 - 1e-12))) break;
+      p += share * by, at = std::move(next);
+    }
+    if (!is_met(at.f)) refuse(at);
+    return p;
+  }
+
+  [[noreturn]] void refuse(const Values& at) const {
+    std::vector<std::pair<double, std::string>> unmet;
+    int row = 0;
+    for (const int i : active_) {
+      const Constraint& one = system_.constraints[i];
+      const double worst = at.f.segment(row, one.count).lpNorm<Eigen::Infinity>();
+      if (worst > kMet * system_.size) unmet.emplace_back(worst, one.name);
+      row += one.count;
+    }
+    std::stable_sort(unmet.begin(), unmet.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::string> names;
+    for (const auto& [worst, name] : unmet) names.push_back(name);
+    const bool conflict = (at.jacobian.transpose() * at.f).norm() <= 1e-6 * at.f.norm() * at.jacobian.norm();
+    throw ConstraintError(
+        fmt::format("{} ({:.3g} is left of {})",
+                    conflict ? "the conditions contradict each other" : "no solution was found",
+                    unmet.empty() ? 0.0 : unmet.front().first, names.empty() ? "them" : "'" + names.front() + "'"),
+        names);
+  }
+
+  // True if an inequality began to be an equation, or ceased to.
+  bool change_active(const VectorXd& p) {
+    int worst = -1;
+    double least = -kMet * system_.size;
+    for (size_t i = 0; i < system_.constraints.size(); ++i) {
+      if (!system_.constraints[i].is_inequality ||
+          std::find(active_.begin(), active_.end(), static_cast<int>(i)) != active_.end())
+        continue;
+      const double f = values(p, {static_cast<int>(i)}).f[0];
+      if (f < least) least = f, worst = static_cast<int>(i);
+    }
+    if (worst >= 0) {
+      active_.push_back(worst);
+      return true;
+    }
+    // W dp = -J^T l: an inequality f >= 0 pushes along its gradient, l < 0.
+    int row = 0;
+    for (size_t k = 0; k < active_.size(); ++k) {
+      const Constraint& one = system_.constraints[active_[k]];
+      if (one.is_inequality && multipliers_[row] > 1e-9 * system_.size && !left_[active_[k]]) {
+        left_[active_[k]] = true;
+        active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
+        return true;
+      }
+      row += one.count;
+    }
+    return false;
+  }
+
+  ConstraintSolution finish(const VectorXd& p) const {
+    const Values at = values(p, active_);
+    ConstraintSolution result;
+    result.unknowns.assign(p.data(), p.data() + n_);
+    result.change = 0.5 * weights_.dot((p - start_).cwiseAbs2());
+    result.equations = static_cast<int>(at.f.size());
+    result.rank = rank_of(at.jacobian);
+    result.freedom = n_ - result.rank;
+    result.redundant = result.equations - result.rank;
+    result.residual = at.f.size() > 0 ? at.f.lpNorm<Eigen::Infinity>() : 0;
+    result.multipliers.assign(multipliers_.data(), multipliers_.data() + multipliers_.size());
+    return result;
+  }
+
+ public:
+  static int rank_of(const MatrixXd& jacobian) {
+    if (jacobian.size() == 0) return 0;
+    const VectorXd values = Eigen::BDCSVD<MatrixXd>(jacobian).singularValues();
+    return static_cast<int>((values.array() > kRank * std::max(values[0], 1e-300)).count());
+  }
+
+ private:
+  const ConstraintSystem& system_;
+  int n_;
+  VectorXd start_, weights_, multipliers_;
+  std::vector<int> active_;
+  std::map<int, bool> left_;  // inequalities that ceased to be equations once: each does so once, or it might go round
+};
+
+}  // namespace
+
+ConstraintSolution solve(const ConstraintSystem& system) { return Solving(system).run(); }
+
+int jacobian_rank(const ConstraintSystem& system, std::span<const double> unknowns) {
+  std::vector<int> equations;
+  for (size_t i = 0; i < system.constraints.size(); ++i)
+    if (!system.constraints[i].is_inequality) equations.push_back(static_cast<int>(i));
+  const VectorXd p = Eigen::Map<const VectorXd>(unknowns.data(), static_cast<int>(unknowns.size()));
+  return Solving::rank_of(Solving(system).values(p, equations).jacobian);
+}
+
+Eigen::MatrixXd allowed_velocities(const ConstraintSystem& system, std::span<const double> unknowns) {
+  std::vector<int> equations;
+  for (size_t i = 0; i < system.constraints.size(); ++i)
+    if (!system.constraints[i].is_inequality) equations.push_back(static_cast<int>(i));
+  const auto n = static_cast<int>(unknowns.size());
+  const VectorXd p = Eigen::Map<const VectorXd>(unknowns.data(), n);
+  const MatrixXd jacobian = Solving(system).values(p, equations).jacobian;
+  if (jacobian.rows() == 0) return MatrixXd::Identity(n, n);
+  const Eigen::JacobiSVD<MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+  return svd.matrixV().rightCols(n - Solving::rank_of(jacobian));
+}
+
+}  // namespace lekalo::geometry
