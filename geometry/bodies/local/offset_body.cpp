@@ -3,28 +3,111 @@
 //   r(u, v) = b(u, v) + h m(u, v),   m the outward normal,
 //
 // joined by extension. Mitred, so that no face is rounded.
+#include "geometry/bodies/local/offset_of_body.h"
+
 #include <fmt/format.h>
 
-#include "geometry/bodies/local/face_replacement.h"
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bodies/local/plane_polygons.h"
+#include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/local/untangled.h"
 
 namespace lekalo::geometry {
 
 namespace {
 
-FaceReplacement offset(const Body& body, double h) {
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) {
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
-    surfaces.push_back(offset_support(face.surface, side * h, "distance"));
-  }
-  return replace_faces(body, surfaces, "distance");
+// What comes nearer to a face than its distance is a part of the body turned inside out twice.
+void check_distances(const Body& body, const std::vector<double>& distances, const Body& made, const char* field,
+                     const char* hint) {
+  const double small = 1e-9 * bounds(body).diameter();
+  for (const PlanePolygon& polygon : polygons_of(without_plane_seams(body)))
+    for (const Vertex& v : made.vertices)
+      if (distance_from(polygon, v.point) < std::abs(distances[polygon.face]) - small)
+        throw FieldError(field,
+                         fmt::format("something is left that is nearer to the face {} than the distance",
+                                     name_of_face(body, polygon.face)),
+                         hint);
 }
+
+void untangle(const Body& body, const std::vector<double>& distances, FaceReplacement& made, const char* field,
+              const char* hint) {
+  Untangled result;
+  try {
+    result = untangled(made.body);
+  } catch (const FieldError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw FieldError(field, fmt::format("the faces run into each other: {}", error.what()), hint);
+  }
+  if (!result.changed) return;
+  if (result.body.faces.empty()) throw FieldError(field, "nothing is left of the body", hint);
+  check_distances(body, distances, result.body, field, hint);
+  std::vector<int> faces;
+  for (const int k : result.faces) faces.push_back(made.faces[k]);
+  made.body = std::move(result.body);
+  made.faces = std::move(faces);
+  made.turned_edges.clear();
+}
+
+}  // namespace
+
+namespace {
+
+FaceReplacement plain_offset(const Body& body, const std::vector<double>& distances, double share, const char* field,
+                             const char* hint) {
+  std::vector<SurfacePtr> surfaces;
+  std::vector<double> shares;
+  for (size_t k = 0; k < body.faces.size(); ++k) {
+    const Face& face = body.faces[k];
+    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    shares.push_back(share * distances[k]);
+    surfaces.push_back(offset_support(face.surface, side * shares[k], field));
+  }
+  FaceReplacement made = replace_faces(body, surfaces, field);
+  if (made.polyhedral) untangle(body, shares, made, field, hint);
+  check_replacement(made, field, hint);
+  return made;
+}
+
+// The largest share of the distances with which a body is made, found by halving; 0 where none is known.
+double largest_share(const Body& body, const std::vector<double>& distances, const char* field) {
+  double works = 0, fails = 1;
+  for (int step = 0; step < 12; ++step) {
+    const double share = 0.5 * (works + fails);
+    try {
+      plain_offset(body, distances, share, field, "");
+      works = share;
+    } catch (const std::invalid_argument&) {
+      fails = share;
+    }
+  }
+  return works;
+}
+
+}  // namespace
+
+FaceReplacement offset_of_body(const Body& body, const std::vector<double>& distances, const char* field,
+                               const char* hint) {
+  try {
+    return plain_offset(body, distances, 1, field, hint);
+  } catch (const FieldError& error) {
+    if (!body.is_closed()) throw;
+    double distance = 0;
+    for (const double d : distances) distance = std::max(distance, std::abs(d));
+    const double share = largest_share(body, distances, field);
+    if (!(share > 0)) throw;
+    throw FieldError(field, error.what(), fmt::format("{}: up to {:.3g} works", hint, share * distance));
+  }
+}
+
+namespace {
 
 Body offset_body(const Fields& f) {
   const Body& body = *f.body("of");
-  FaceReplacement made = offset(body, f.number("distance"));
-  check_replacement(made, "distance", "a smaller distance");
-  return std::move(made.body);
+  const std::vector<double> distances(body.faces.size(), f.number("distance"));
+  return offset_of_body(body, distances, "distance", "a smaller distance").body;
 }
 
 }  // namespace
