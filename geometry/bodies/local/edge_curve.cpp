@@ -26,23 +26,6 @@ constexpr double kSame = 1e-12;
 
 double at_sample(const Interval& t, int k) { return k == kSamples ? t.hi : t.lo + t.width() * k / kSamples; }
 
-// The circle that a curve runs along evenly.
-std::shared_ptr<const Circle> even_circle(const Curve& curve, double size) {
-  const Interval t = curve.domain();
-  const CurveJet c = curve.evaluate(t.lo, 2);
-  const double speed = glm::length(c.d[1]), bend = glm::length(c.d[2]);
-  if (!(speed > 0 && bend > 0) || std::abs(glm::dot(c.d[1], c.d[2])) > 1e-10 * speed * bend) return nullptr;
-  const double radius = speed * speed / bend, angle = speed / radius * t.width();
-  if (!(radius < 1e6 * size) || !(angle <= kTwoPi * (1 + 1e-12))) return nullptr;
-  const Vec3 x = -c.d[2] / bend, z = glm::cross(x, c.d[1] / speed);
-  const Frame frame = frame_from(c.d[0] - radius * x, z, x);
-  const auto circle = std::make_shared<Circle>(frame, radius, Interval(0, std::min(angle, kTwoPi)));
-  for (int k = 0; k <= kSamples; ++k)
-    if (glm::length(circle->point(at_sample(circle->domain(), k)) - curve.point(at_sample(t, k))) > kSame * size)
-      return nullptr;
-  return circle;
-}
-
 bool is_straight(const Curve& curve, double size) {
   const Interval t = curve.domain();
   const Vec3 a = curve.point(t.lo), b = curve.point(t.hi);
@@ -228,6 +211,22 @@ std::optional<EdgeCurve> searched_edge(const std::array<EdgeSide, 2>& sides, con
 }
 
 }  // namespace
+
+std::shared_ptr<const Circle> even_circle(const Curve& curve, double size) {
+  const Interval t = curve.domain();
+  const CurveJet c = curve.evaluate(t.lo, 2);
+  const double speed = glm::length(c.d[1]), bend = glm::length(c.d[2]);
+  if (!(speed > 0 && bend > 0) || std::abs(glm::dot(c.d[1], c.d[2])) > 1e-10 * speed * bend) return nullptr;
+  const double radius = speed * speed / bend, angle = speed / radius * t.width();
+  if (!(radius < 1e6 * size) || !(angle <= kTwoPi * (1 + 1e-12))) return nullptr;
+  const Vec3 x = -c.d[2] / bend, z = glm::cross(x, c.d[1] / speed);
+  const Frame frame = frame_from(c.d[0] - radius * x, z, x);
+  const auto circle = std::make_shared<Circle>(frame, radius, Interval(0, std::min(angle, kTwoPi)));
+  for (int k = 0; k <= kSamples; ++k)
+    if (glm::length(circle->point(at_sample(circle->domain(), k)) - curve.point(at_sample(t, k))) > kSame * size)
+      return nullptr;
+  return circle;
+}
 
 LineOnSurface line_on_surface(const SurfacePtr& surface, const Vec2& from, const Vec2& to, double size) {
   const Interval unit(0, 1);

@@ -6,6 +6,7 @@
 
 #include "geometry/bodies/local/common_point.h"
 #include "geometry/bodies/topology/line_on_surface.h"
+#include "geometry/curves/analytic/circle.h"
 
 namespace lekalo::geometry {
 
@@ -36,5 +37,9 @@ std::optional<EdgeCurve> parameter_edge(const std::array<EdgeSide, 2>& sides, co
 // The image of a line of the parameter plane on a surface: a segment or an arc of a circle where it is one, with the
 // line that has the same parameter.
 LineOnSurface line_on_surface(const SurfacePtr& surface, const Vec2& from, const Vec2& to, double size);
+
+// The circle that a curve runs along evenly, to rounding of things of that size: from the angle 0, counterclockwise.
+// Null for another curve.
+std::shared_ptr<const Circle> even_circle(const Curve& curve, double size);
 
 }  // namespace lekalo::geometry

@@ -471,6 +471,7 @@ class Replacing {
     }
     const Rectangle d = supports_[f]->domain();
     SurfacePtr surface = supports_[f];
+    snap(box.lo.x, d.u), snap(box.hi.x, d.u), snap(box.lo.y, d.v), snap(box.hi.y, d.v);
     const Rectangle asked = untrimmed ? rectangle(box) : widened(d, box, surface->periods());
     if (!(asked.u == d.u && asked.v == d.v)) {
       try {
@@ -493,6 +494,11 @@ class Replacing {
     plane->set_reversed(true);
     made_.body.faces[face].surface = plane;
     return face;
+  }
+
+  static void snap(double& x, const Interval& own) {
+    for (const double border : {own.lo, own.hi})
+      if (std::abs(x - border) <= 1e-12 * own.width()) x = border;
   }
 
   static Rectangle rectangle(const Box3& box) { return {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}}; }

@@ -8,8 +8,9 @@
 
 #include <cmath>
 
-#include "geometry/bodies/constructions/profile.h"
+#include "geometry/bodies/local/edge_curve.h"
 #include "geometry/bodies/local/face_replacement.h"
+#include "geometry/bodies/local/plane_fillets.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/swept/extrusion.h"
@@ -35,9 +36,10 @@ Body moved(const Fields& f) {
   for (const int k : faces_named(body, f, "faces")) {
     const Face& face = body.faces[k];
     const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
-    surfaces[k] = f.has("by") ? transformed(face.surface, f.transform("by"))
+    surfaces[k] = f.has("by") ? moved_support(unwrapped(face.surface), f.transform("by"))
                               : offset_support(face.surface, side * f.number("distance"), field);
   }
+  let_fillets_follow(body, surfaces, field);
   FaceReplacement made = replace_faces(body, surfaces, field);
   check_replacement(made, field, "move them by less");
   return std::move(made.body);
@@ -82,7 +84,7 @@ struct Draft {
 std::shared_ptr<const ConeSurface> cylinder_of(const Surface& surface) {
   const auto* e = dynamic_cast<const ExtrusionSurface*>(&surface);
   if (!e) return nullptr;
-  const auto circle = circle_of(*e->curve());
+  const auto circle = even_circle(*e->curve(), bounds(*e->curve()).diameter());
   const Interval t = e->curve()->domain();
   if (!circle || std::abs(circle->domain().width() - t.width()) > 1e-12) return nullptr;
   const double height = glm::dot(e->along(), circle->frame().z);
@@ -104,12 +106,13 @@ Body leant(const Fields& f) {
     const Face& face = body.faces[k];
     const std::string name = name_of_face(body, k);
     const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const SurfacePtr plain = unwrapped(face.surface);
     std::shared_ptr<Surface> made;
     if (const auto frame = plane_of(face.surface))
       made = std::const_pointer_cast<Surface>(draft.plane(*frame, side, name));
-    else if (const auto* cone = dynamic_cast<const ConeSurface*>(face.surface.get()))
+    else if (const auto* cone = dynamic_cast<const ConeSurface*>(plain.get()))
       made = std::const_pointer_cast<Surface>(draft.cone(*cone, side, name));
-    else if (const auto cylinder = cylinder_of(*face.surface))
+    else if (const auto cylinder = cylinder_of(*plain))
       made = std::const_pointer_cast<Surface>(draft.cone(*cylinder, side, name));
     else
       throw FieldError("faces", fmt::format("the face {} is neither plane, nor a cylinder or a cone", name),
@@ -122,12 +125,47 @@ Body leant(const Fields& f) {
   return std::move(made.body);
 }
 
+Body refilleted(const Fields& f) {
+  const Body& body = *f.body("of");
+  std::vector<PlaneFillet> fillets;
+  if (f.has("faces")) {
+    for (const int k : faces_named(body, f, "faces")) {
+      const auto fillet = plane_fillet(body, k);
+      if (!fillet)
+        throw FieldError("faces", fmt::format("the face {} is no fillet between two planes", name_of_face(body, k)),
+                         "a cylinder that is smooth with a plane on both sides");
+      fillets.push_back(*fillet);
+    }
+  } else {
+    fillets = plane_fillets(body);
+    if (fillets.empty()) throw FieldError("of", "the body has no fillets between planes");
+  }
+  std::vector<SurfacePtr> surfaces = surfaces_of(body);
+  for (const PlaneFillet& fillet : fillets) surfaces[fillet.face] = with_radius(body, fillet, f.number("radius"));
+  FaceReplacement made = replace_faces(body, surfaces, "radius");
+  check_replacement(made, "radius", "a smaller radius");
+  return std::move(made.body);
+}
+
 }  // namespace
+
+TypeDeclaration refilleted_body_type() {
+  return declare(Category::body, "refilleted_body",
+                 "A body whose fillets between plane faces get another radius: cylinders that are smooth with a plane "
+                 "on both sides are recognised as fillets. (deleted_faces removes them.)")
+      .example(
+          "of: { type: extrusion_body, of: { type: rectangle, size: [3, 2], corner_radius: 0.5 }, along: [0, 0, "
+          "1] }, radius: 0.2")
+      .field("of", reference({Category::body}), "the body; closed")
+      .optional("faces", texts().count(1), "names or numbers of the fillets; all that there are where left out")
+      .field("radius", length().positive(), "their radius")
+      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(refilleted(f)); });
+}
 
 TypeDeclaration moved_faces_type() {
   return declare(Category::body, "moved_faces",
                  "A body some of whose faces are moved, by a transformation or along their normals, while the others "
-                 "stay on their surfaces and follow: they grow and shrink.")
+                 "stay on their surfaces and follow: they grow and shrink. Fillets between planes go along.")
       .example("of: { type: box, size: [3, 2, 1] }, faces: z_max, distance: 0.5")
       .field("of", reference({Category::body}), "the body; closed")
       .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")

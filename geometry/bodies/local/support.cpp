@@ -94,6 +94,14 @@ SurfacePtr offset_revolution(const RevolutionSurface& r, double d, const char* f
   return std::make_shared<RevolutionSurface>(offset_in_plane(r.curve(), normal, -d, field), axis, r.domain());
 }
 
+bool is_rigid(const Affine& map) {
+  const Mat3 square = glm::transpose(map.linear) * map.linear;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(square[i][j] - (i == j ? 1 : 0)) > 1e-14) return false;
+  return map.determinant() > 0;
+}
+
 SurfacePtr offset_by_kind(const SurfacePtr& surface, double d, const char* field) {
   if (const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get())) {
     const Mat3& a = moved->map().linear;
@@ -141,6 +149,32 @@ SurfacePtr offset_support(const SurfacePtr& surface, double d, const char* field
   }
   result->set_reversed(surface->reversed());
   return result;
+}
+
+SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map) {
+  if (map.is_identity()) return surface;
+  if (!is_rigid(map)) return transformed(surface, map);
+  const auto moved = [&](const Frame& f) {
+    return Frame{map.point(f.origin), map.direction(f.x), map.direction(f.y), map.direction(f.z)};
+  };
+  std::shared_ptr<Surface> result;
+  if (const auto* plane = dynamic_cast<const Plane*>(surface.get()))
+    result = std::make_shared<Plane>(moved(plane->frame()), plane->domain());
+  else if (const auto* e = dynamic_cast<const ExtrusionSurface*>(surface.get()))
+    result = std::make_shared<ExtrusionSurface>(transformed(e->curve(), map), map.direction(e->along()), e->domain());
+  else if (const auto* c = dynamic_cast<const ConeSurface*>(surface.get()); c && c->radius() == c->top_radius())
+    result = std::make_shared<CylinderSurface>(moved(c->frame()), c->radius(), c->height(), c->domain());
+  else if (c)
+    result = std::make_shared<ConeSurface>(moved(c->frame()), c->radius(), c->top_radius(), c->height(), c->domain());
+  else
+    return transformed(surface, map);
+  result->set_reversed(surface->reversed());
+  return result;
+}
+
+SurfacePtr unwrapped(const SurfacePtr& surface) {
+  const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get());
+  return moved && is_rigid(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
 }
 
 Vec2 located(const Surface& surface, const Vec3& point, Vec2 at) {

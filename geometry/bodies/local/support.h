@@ -18,6 +18,11 @@ std::optional<Frame> plane_of(const SurfacePtr& surface);
 // conditions and errors belong. A mitred offset of a curve may throw FieldError (that field).
 SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char* field);
 
+// The surface under a map; one that is rigid makes a plane, a cylinder, a cone or an extrusion of one of them.
+SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map);
+// A surface that has been moved rigidly, as one of its own kind likewise; others as they are.
+SurfacePtr unwrapped(const SurfacePtr& surface);
+
 // The parameters of the surface's point nearest to a point close by, by Newton's method from parameters that are near.
 Vec2 located(const Surface& surface, const Vec3& point, Vec2 near);
 
