@@ -29,6 +29,7 @@
   X(hollow_body_type)          \
   X(offset_body_type)          \
   X(moved_faces_type)          \
+  X(deformed_face_type)        \
   X(refilleted_body_type)      \
   X(drafted_faces_type)        \
   X(deleted_faces_type)        \

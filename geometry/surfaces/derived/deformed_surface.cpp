@@ -13,6 +13,8 @@
 #include "geometry/composition.h"
 #include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/describe.h"
+#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/derived/deformed.h"
 #include "geometry/surfaces/derived/normals.h"
 #include "geometry/surfaces/splines/nurbs_surface.h"
 
@@ -135,9 +137,23 @@ void add_lines(std::vector<double>& breaks, const SplineAxis& axis) {
   breaks.erase(std::unique(breaks.begin(), breaks.end(), same), breaks.end());
 }
 
-std::any deformed(const Fields& f) {
-  const SurfacePtr of = f.surface("of");
-  if (!of->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
+// A plane's own B-spline with the same knots has its points at the Greville abscissae: the sum is one B-spline.
+SurfacePtr deformed_plane(const Plane& plane, const Controls& controls) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < controls.u.distinct(); ++i)
+    for (int j = 0; j < controls.v.distinct(); ++j) {
+      const double u = greville(controls.u, i), v = greville(controls.v, j);
+      const Vec3& by = controls.values[static_cast<size_t>(i) * controls.v.distinct() + j];
+      points.push_back(plane.point(u, v) + (controls.are_vectors ? by : by.x * plane.normal(u, v)));
+    }
+  auto result = std::make_shared<NurbsSurface>(controls.u, controls.v, points, std::vector<double>());
+  result->set_reversed(plane.reversed());
+  return result;
+}
+
+}  // namespace
+
+SurfacePtr deformed_by(const SurfacePtr& of, const Fields& f, bool plane_as_spline) {
   if (f.has("heights") && f.has("vectors"))
     throw FieldError("vectors", "heights and vectors do not mix", "give one of them");
   const Rectangle domain = of->domain();
@@ -150,6 +166,8 @@ std::any deformed(const Fields& f) {
   read_table(f, controls);
   read_moves(f, controls);
   if (controls.are_vectors && f.text("axes") == "local") to_space(*of, controls);
+  if (const auto* plane = dynamic_cast<const Plane*>(of.get()); plane && plane_as_spline)
+    return deformed_plane(*plane, controls);
   const auto field = std::make_shared<NurbsSurface>(controls.u, controls.v, controls.values, std::vector<double>());
   SurfaceProperties properties = properties_of(*of, controls.are_vectors ? 0 : 1);
   properties.enclosure_order = std::min(properties.enclosure_order, field->enclosure_order());
@@ -162,20 +180,11 @@ std::any deformed(const Fields& f) {
     result = std::make_shared<ComposedSurface<AlongNormals>>(AlongNormals{of, field, of->normal_sign()}, properties);
   }
   result->set_reversed(of->reversed());
-  return std::any(SurfacePtr(result));
+  return result;
 }
 
-}  // namespace
-
-TypeDeclaration deformed_surface_type() {
-  return declare(Category::surface, "deformed_surface",
-                 "A surface with dents and bulges: moved along its normals by heights, or by vectors, that a B-spline "
-                 "over its parameters blends. Where a height is beyond a radius of curvature it folds over.")
-      .example(
-          "of: { type: cylinder_surface, radius: 1, height: 3 }, count: { u: 12, v: 8 }, moves: [{ at: [0, 4], height: "
-          "0.3 }, { at: [9, 3], height: -0.3 }]")
-      .field("of", reference({Category::surface}), "the surface; bounded")
-      .field("count", integer().at_least(2).for_each_direction(), "of control values along u and v")
+void declare_deformation(TypeDeclaration& type) {
+  type.field("count", integer().at_least(2).for_each_direction(), "of control values along u and v")
       .field("degree", integer().between(1, kMaxDegree).for_each_direction(), "of the B-splines", "3")
       .field("knots", knots().for_each_direction(),
              "a full knot vector, which is stretched over the domain, or a rule: clamped, uniform", "clamped")
@@ -187,8 +196,26 @@ TypeDeclaration deformed_surface_type() {
                         {"vector", vector(), "by which vector, instead", false, {}}}),
                 "single control values; all others are those of the table, or zero")
       .field("axes", choice({"local", "world"}),
-             "of vectors: the derivatives by u and v and the normal at the value's node, or x, y, z", "local")
-      .built_by(deformed);
+             "of vectors: the derivatives by u and v and the normal at the value's node, or x, y, z", "local");
+}
+
+TypeDeclaration deformed_surface_type() {
+  TypeDeclaration type =
+      declare(Category::surface, "deformed_surface",
+              "A surface with dents and bulges: moved along its normals by heights, or by vectors, that a B-spline "
+              "over its parameters blends. Where a height is beyond a radius of curvature it folds over.")
+          .example(
+              "of: { type: cylinder_surface, radius: 1, height: 3 }, count: { u: 12, v: 8 }, moves: [{ at: [0, 4], "
+              "height: "
+              "0.3 }, { at: [9, 3], height: -0.3 }]")
+          .field("of", reference({Category::surface}), "the surface; bounded");
+  declare_deformation(type);
+  type.built_by([](const Fields& f) {
+    const SurfacePtr of = f.surface("of");
+    if (!of->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
+    return std::any(deformed_by(of, f, false));
+  });
+  return type;
 }
 
 }  // namespace lekalo::geometry
