@@ -77,6 +77,7 @@ BlendBand::BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& r
   is_closed_ = old.start == old.end && is_closed_smoothly(*old.curve);
   const Interval domain = old.curve->domain();
   law.guide = is_closed_ ? old.curve : guide_beyond(old.curve, reach);
+  law.measured = old.curve;
   law.period = is_closed_ ? domain.width() : 0;
   if (rule.is_plain_ball()) radius_ = rule.sizes[0](0.0);
   const double middle = domain.middle();

@@ -32,9 +32,10 @@ Box3 sampled_box(const Curve& image) {
 
 class Blending {
  public:
-  Blending(const Body& body, const std::vector<BlendRequest>& requests)
+  Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners)
       : body_(body),
         rules_(rules_of(requests)),
+        corners_(corners),
         surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {}, {}} {
     const std::vector<BlendEdge> edges = blend_edges(body, requests);
     for (size_t i = 0; i < edges.size(); ++i) surgery_.blend_of[edges[i].edge] = i;
@@ -96,8 +97,16 @@ class Blending {
     if (count == 1) return run_out(surgery_, fan);
     const size_t next = continuation(body_, fan);
     if (count == 2 && next > 0 && surgery_.is_blended(fan.edges[next])) return join(surgery_, fan, next);
-    if (count == fan.edges.size() && is_one_ball(fan)) return round_corner(surgery_, fan);
+    if (count == fan.edges.size() && corners_ == Corners::round && is_one_ball(fan)) return round_corner(surgery_, fan);
+    if (fan.edges.size() == 3 && is_of_one_side(fan)) return mitre(surgery_, fan);
     throw BlendError(fan.edges[0].edge, "blends that meet at its end in this way are not known", false);
+  }
+
+  bool is_of_one_side(const Fan& fan) {
+    bool convex = false, concave = false;
+    for (const HalfEdge& half : fan.edges)
+      if (surgery_.is_blended(half)) (surgery_.blend(half).edge.convex ? convex : concave) = true;
+    return convex != concave;
   }
 
   bool is_one_ball(const Fan& fan) {
@@ -284,6 +293,7 @@ class Blending {
 
   const Body& body_;
   std::vector<BlendRule> rules_;
+  Corners corners_;
   Surgery surgery_;
   std::map<int, CurvePtr> whole_;
   std::vector<std::array<Body::Use, 2>> borders_;
@@ -291,6 +301,8 @@ class Blending {
 
 }  // namespace
 
-Body blended(const Body& body, const std::vector<BlendRequest>& requests) { return Blending(body, requests).run(); }
+Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
+  return Blending(body, requests, corners).run();
+}
 
 }  // namespace lekalo::geometry

@@ -8,9 +8,13 @@
 
 namespace lekalo::geometry {
 
+// What is made of a corner whose edges are all filleted with one radius: a piece of a sphere, or edges in which the
+// fillets meet.
+enum class Corners { round, mitred };
+
 // The body with a blend in place of each edge of the requests. Faces keep their surfaces and names; the new ones are
 // called by the role of their rule, with a number where there are several. The result is valid. Throws BlendError for
 // an edge that cannot be blended, with the reason.
-Body blended(const Body& body, const std::vector<BlendRequest>& requests);
+Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners = Corners::round);
 
 }  // namespace lekalo::geometry

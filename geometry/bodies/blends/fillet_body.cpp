@@ -16,12 +16,12 @@ namespace lekalo::geometry {
 namespace {
 
 // The largest share of the sizes of a request with which the body can be made.
-double largest_share(const Body& body, const std::vector<BlendRequest>& requests, size_t which) {
+double largest_share(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, size_t which) {
   const auto works = [&](double share) {
     std::vector<BlendRequest> smaller = requests;
     for (ScalarLaw& size : smaller[which].rule.sizes) size = ScalarLaw(share * size(0.0));
     try {
-      blended(body, smaller);
+      blended(body, smaller, corners);
       return true;
     } catch (const std::invalid_argument&) {
       return false;
@@ -62,16 +62,16 @@ void require_positive(const BlendRule& rule, const char* list, size_t number) {
                        "a positive number");
 }
 
-BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, const char* list) {
+BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, const char* list) {
   try {
-    return std::make_shared<Body>(blended(body, requests));
+    return std::make_shared<Body>(blended(body, requests, corners));
   } catch (const BlendError& error) {
     std::string message = fmt::format("{}: {}", name_of_edge(body, error.edge), error.what());
     std::string hint = "a smaller size, or other edges with it";
     for (size_t r = 0; r < requests.size() && error.too_large; ++r) {
       const BlendRule& rule = requests[r].rule;
       if (!rule.is_constant()) continue;
-      const double share = largest_share(body, requests, r);
+      const double share = largest_share(body, requests, corners, r);
       if (!(share > 0)) continue;
       hint = fmt::format("the largest {} that fits is {:.5g} ({})", rule.field,
                          rounded_down(share * rule.sizes[0](0.0)), rule.role);
@@ -117,7 +117,7 @@ BodyPtr filleted(const Fields& f) {
   const Body& body = *f.body("of");
   std::vector<BlendRequest> requests;
   for (const Fields& one : f.groups("fillets")) requests.push_back(fillet_request(body, one, requests.size()));
-  return made(body, requests, "fillets");
+  return made(body, requests, f.text("corners") == "round" ? Corners::round : Corners::mitred, "fillets");
 }
 
 // Between the faces of an edge, in the sector that is cut off or filled, all along it.
@@ -199,7 +199,7 @@ BodyPtr chamfered(const Fields& f) {
   std::vector<BlendRequest> requests;
   size_t number = 0;
   for (const Fields& one : f.groups("chamfers")) add_chamfers(body, one, number++, requests);
-  return made(body, requests, "chamfers");
+  return made(body, requests, Corners::mitred, "chamfers");
 }
 
 const char* kWhichEdges =
@@ -258,6 +258,10 @@ TypeDeclaration fillet_body_type() {
                      {"chain", boolean(), kChain, false, "true"}})
                  .count(1),
              "which edges, and how")
+      .field("corners", choice({"round", "mitred"}),
+             "where all edges of a corner are filleted with one radius: a piece of a sphere, or edges in which the "
+             "fillets meet",
+             "round")
       .built_by(filleted);
 }
 

@@ -46,8 +46,15 @@ struct Surgery {
   Origin origin(const EdgeBlend& blend, const char* what) const { return {"", rule_of(blend).role + "." + what, -1}; }
   // The border of a side ends at s, in a vertex.
   void end_border(const HalfEdge& half, int side, double s, int vertex);
+  // The edges in which the band of a half-edge ends, from the side before it to the side after it.
+  void end_section(const HalfEdge& half, std::vector<Body::Use> path);
   void trim(const HalfEdge& half, double t, int vertex, int by);
 };
+
+// The parameters of a point of an edge in one of its faces.
+Vec2 place_on(const Body& body, int face, const HalfEdge& half, double t);
+// About where the border z of a band meets an edge near to its section s.
+double start_on(const Body& body, const HalfEdge& half, const BlendBand& band, double s, double z);
 
 // The ends of the blended edges of a fan whose first edge is blended. All throw BlendError.
 
@@ -55,6 +62,8 @@ struct Surgery {
 void run_out(Surgery& surgery, const Fan& fan);
 // Two that continue each other: they have a section in common.
 void join(Surgery& surgery, const Fan& fan, size_t other);
+// Two of three edges, or all three, that meet in a corner: their bands meet in edges.
+void mitre(Surgery& surgery, const Fan& fan);
 // All edges of the vertex, with one ball that touches all faces: a piece of a sphere.
 void round_corner(Surgery& surgery, const Fan& fan);
 

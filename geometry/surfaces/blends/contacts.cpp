@@ -48,7 +48,7 @@ Triple<Jet<double, 1>> varied(const std::array<Vec3, 3>& of, int axis) {
 }  // namespace
 
 Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts) : law_(std::move(law)) {
-  if (!(law_.sizes[0].is_constant() && law_.sizes[1].is_constant())) fraction_ = ArcFraction(*law_.guide);
+  if (!(law_.sizes[0].is_constant() && law_.sizes[1].is_constant())) fraction_ = ArcFraction(measured());
   const Interval all = law_.guide->domain();
   const Place start = place_at(start_t);
   size_ = bounds(*law_.guide).diameter() + std::max(start.sizes[0], start.sizes[1]);
@@ -78,7 +78,7 @@ int Contacts::count() const { return law_.kind == BlendKind::edge ? 2 : law_.kin
 Contacts::Place Contacts::place_at(double t) const {
   const CurveJet jet = law_.guide->evaluate(t, 1);
   Place place{t, jet.d[0], glm::normalize(jet.d[1]), {0, 0}};
-  const double s = fraction_.length() > 0 ? fraction_.at(law_.guide->domain().clamp(t)) : 0;
+  const double s = fraction_.length() > 0 ? fraction_.at(measured().domain().clamp(t)) : 0;
   for (int k = 0; k < 2; ++k) {
     place.sizes[k] = law_.sizes[k](s);
     if (!(place.sizes[k] > 0 && place.sizes[k] < kInfinity))

@@ -27,7 +27,9 @@ struct BlendLaw {
   std::array<double, 2> sides{1, 1};  // towards r_u x r_v, or against it
   CurvePtr guide;
   double period = 0;  // of the guide, 0 where it is not closed
-  // Radii, legs, or the chord (the first), as formulas of the fraction s of the guide's length.
+  // Radii, legs, or the chord (the first), as formulas of the fraction s of the length of the guide, or of `measured`,
+  // a part of it with its parameter, beyond whose ends they stay as they are there.
+  CurvePtr measured;
   std::array<ScalarLaw, 2> sizes{ScalarLaw(1.0), ScalarLaw(1.0)};
   const char* size_field = "radius";  // which errors name
 };
@@ -74,6 +76,7 @@ class Contacts {
   };
 
   int count() const;
+  const Curve& measured() const { return law_.measured ? *law_.measured : *law_.guide; }
   Place place_at(double t) const;
   Solution solve(const Place& place, Unknowns x) const;
   Solution enlarged(Place place, Unknowns x) const;
