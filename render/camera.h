@@ -29,6 +29,10 @@ class Camera {
   virtual ~Camera() = default;
   // Ray through the picture point (x, y) in pixels from the upper left corner of the full picture.
   virtual Ray ray(double x, double y) const = 0;
+  // True if the rays of a picture point come from all of a lens: things out of focus are blurred. Then ray() goes
+  // through the lens's middle, and lens_ray() through the place of it that belongs to a place of the unit square.
+  virtual bool has_lens() const { return false; }
+  virtual Ray lens_ray(double x, double y, const Vec2& /*lens*/) const { return ray(x, y); }
   virtual PicturePoint project(const Vec3& point) const = 0;
   // Whether straight lines have straight pictures; of other cameras picture_map() throws std::logic_error.
   virtual bool is_linear() const { return true; }

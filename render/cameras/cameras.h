@@ -12,12 +12,21 @@
 
 namespace lekalo::render {
 
+// A thin lens, across the view: things at the distance `focus` along the view are sharp, others blurred.
+struct Lens {
+  double radius = 0;    // scene units, >= 0; 0: a pinhole, everything is sharp
+  double focus = 1;     // > 0
+  int blades = 0;       // of the aperture: 3 and more make a regular polygon with its corners at the radius; 0: a disc
+  double rotation = 0;  // radians, of a corner of the polygon, from the picture's right upwards
+};
+
 // Central projection (Golovanov 2016, 8.5).
 struct PerspectiveView {
   Vec3 from{0, -10, 0};
   Vec3 at{0};
   Vec3 up{0, 0, 1};  // need not be at right angles to the view; parallel to it: the y axis takes its place
   double field_of_view = 40 * geometry::kPi / 180;  // radians, of the picture's shorter side, in (0, pi)
+  Lens lens;
 };
 
 // Parallel projection on the plane through `from` across the view from->at. A point stands where the line through it

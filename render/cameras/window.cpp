@@ -10,6 +10,10 @@ class WindowCamera final : public Camera {
       : camera_(std::move(camera)), x_(x), y_(y), zoom_(zoom), width_(width), height_(height) {}
 
   Ray ray(double px, double py) const override { return camera_->ray(x_ + px / zoom_, y_ + py / zoom_); }
+  bool has_lens() const override { return camera_->has_lens(); }
+  Ray lens_ray(double px, double py, const Vec2& lens) const override {
+    return camera_->lens_ray(x_ + px / zoom_, y_ + py / zoom_, lens);
+  }
   PicturePoint project(const Vec3& point) const override {
     PicturePoint picture = camera_->project(point);
     picture.x = (picture.x - x_) * zoom_;

@@ -184,6 +184,13 @@ class TileTracer {
     shot.number = number;
   }
 
+  // Its place on the lens is the first pair of its random numbers.
+  Ray camera_ray(const Shot& shot) const {
+    const double x = shot.x + shot.place.x, y = shot.y + shot.place.y;
+    if (!has_lens_) return camera_.ray(x, y);
+    return camera_.lens_ray(x, y, sampler_->stream(shot.x, shot.y, shot.number).next_sobol_pair());
+  }
+
   // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample and whether
   // that is finite. Once the tile is given up no more of them.
   template <class Use>
@@ -195,15 +202,16 @@ class TileTracer {
       if (exposure.given_up) return;
       const std::span<const Shot> some = shots.subspan(begin, std::min(kTogether, shots.size() - begin));
       // Made where they stay: a copy of what was just written waits for the writing.
-      for (size_t i = 0; i < some.size(); ++i)
-        ::new (&rays[i]) Ray(camera_.ray(some[i].x + some[i].place.x, some[i].y + some[i].place.y));
+      for (size_t i = 0; i < some.size(); ++i) ::new (&rays[i]) Ray(camera_ray(some[i]));
       const std::span<Hit> hits(exposure.hits.data(), some.size());
       world_.nearest(std::span(rays.data(), some.size()), hits);
       for (size_t i = 0; i < some.size(); ++i) {
         const Shot& shot = some[i];
         SampleStream random = sampler_->stream(shot.x, shot.y, shot.number);
+        if (has_lens_) random.skip_pairs(1);
         RaySample sample = colors_only_ ? integrator_.trace_color(world_, rays[i], hits[i], random)
                                         : integrator_.trace(world_, rays[i], hits[i], random);
+        sample.noisy = sample.noisy || has_lens_;
         if (!lines_.empty()) lines_.draw(Vec2(shot.x, shot.y) + shot.place, sample);
         ++tally.camera_rays;
         tally.shadow_rays += sample.shadow_rays;
@@ -374,6 +382,7 @@ class TileTracer {
   SamplerPtr sampler_;
   MaterialNumbers materials_;
   bool colors_only_;  // of samples
+  bool has_lens_ = camera_.has_lens();
   const std::atomic<bool>* stop_;
 };
 
