@@ -19,6 +19,10 @@ struct Medium {
   float index = 1;      // refractive index at the first of the wavelengths asked for
   Spectrum absorption;  // mu of Bouguer's law, 1/length
   int priority = 0;     // of overlapping media the highest one counts; of equal ones the one entered last
+  Spectrum scattering;  // mu_s, 1/length: light is scattered on its way; the classic model leaves it out
+  float forward = 0;    // mean cosine g of the angle by which it is turned (Henyey and Greenstein 1941), in (-1, 1)
+
+  Spectrum extinction() const { return absorption + scattering; }
 };
 
 class Material {

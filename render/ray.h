@@ -6,6 +6,10 @@
 #include "geometry/surface.h"
 #include "render/spectrum.h"
 
+namespace lekalo::geometry {
+struct SurfaceCurvature;
+}
+
 namespace lekalo::render {
 
 // Which rays see an object (`visible_to` of scene files).
@@ -39,6 +43,18 @@ struct Hit {
   double c = 0;
 };
 
+struct SurfacePoint;
+
+// Who can tell how the surface of a point curves: the World.
+class CurvatureSource {
+ public:
+  // Signed by point.normal, in world space; not regular where nothing is known.
+  virtual geometry::SurfaceCurvature curvature(const SurfacePoint& point) const = 0;
+
+ protected:
+  ~CurvatureSource() = default;
+};
+
 // The differential geometry and identity of a hit, in world space.
 struct SurfacePoint {
   Vec3 position{0};
@@ -57,6 +73,7 @@ struct SurfacePoint {
   int32_t face = 0;
   int32_t piece = 0;
   geometry::Sides convex_sides;  // of the face that was hit; front is where geometric_normal points to
+  const CurvatureSource* curvature_source = nullptr;  // where pixel_size is known
 };
 
 }  // namespace lekalo::render

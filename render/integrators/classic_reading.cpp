@@ -45,7 +45,7 @@ class Reader {
     c_.diffuse += weight_ * (static_cast<float>(lobe.roughness) * ambient);
     c_.specular += weight_ * (static_cast<float>(phong_height(c_.exponent, 1 - share)) * reflectance);
     const Spectrum mirror(static_cast<float>(share));
-    if (lobe.reflectance.measured()) {
+    if (lobe.reflectance.measured() && !lobe.reflectance.film) {
       c_.mirror += weight_ * mirror;
       c_.fresnel = Fresnel::conductor;
       c_.index = lobe.reflectance.n;

@@ -20,6 +20,8 @@ constexpr int kMaxPasses = 1000;
 // Paths live at least so many bounces, and then by chance (Russian roulette).
 constexpr int kSafeBounces = 4;
 constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
+// Walks in milky substances live whole until their share is the inverse of this.
+constexpr double kDimWalk = 5;
 // Share of the choice of lamps that does not look at how bright they seem.
 constexpr double kBlindChoice = 0.1;
 
@@ -59,10 +61,10 @@ Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& ar
   Spectrum share = kWhite;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     Hit hit;
-    if (!world.nearest(ray, hit)) return share * transmittance(media.current().absorption, ray.t_max);
+    if (!world.nearest(ray, hit)) return share * transmittance(media.current().extinction(), ray.t_max);
     const Boundary met(world, ray, hit, kYellow, media);
     if (!met.material->transmits()) return {};
-    share *= transmittance(media.current().absorption, hit.t);
+    share *= transmittance(media.current().extinction(), hit.t);
     if (met.changes_filling) {
       const Sides sides{media.current().index, met.behind.current().index};
       const double cosine = std::fabs(glm::dot(ray.direction, met.shading_normal(ray.direction)));
@@ -107,6 +109,8 @@ class PathTracer {
   void add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media);
   void record(const Boundary& seen);
   void take_one_wavelength();
+  bool is_scattered(Ray& ray, double end, const Medium& medium, const Media& media);
+  void add_lamp_in_medium(const Vec3& place, const Vec3& along, const Medium& medium, const Media& media);
 
   const World& world_;
   SampleStream& random_;
@@ -149,7 +153,7 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
     if (!here) continue;
     const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
     const Spectrum light = static_cast<float>(weight * lamp->density) * lamp->irradiance *
-                           transmittance(medium.absorption, lamp->distance - origin_.gone);
+                           transmittance(medium.extinction(), lamp->distance - origin_.gone);
     if (bounces_ == 1 && !origin_.sharp) sample_.direct += share_ * light;
     add(light);
   }
@@ -232,7 +236,7 @@ void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf,
   const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
   const double weight = power_heuristic(density, bsdf.density(direction));
   const Spectrum light =
-      static_cast<float>(weight / density) * (reflected * emission * transmittance(media.current().absorption, hit.t));
+      static_cast<float>(weight / density) * (reflected * emission * transmittance(media.current().extinction(), hit.t));
   if (bounces_ == 0) sample_.direct += share_ * light;
   ++bounces_;
   add(light);
@@ -295,14 +299,100 @@ void PathTracer::take_one_wavelength() {
   one_wavelength_ = true;
 }
 
+// Henyey and Greenstein's phase function, 1/sr, by the cosine of the angle that light is turned by.
+double phase(double cosine, double g) {
+  const double width = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (4 * kPi * width * std::sqrt(width));
+}
+
+// A direction of that density about `along`.
+Vec3 phase_direction(const Vec3& along, double g, const Vec2& square) {
+  const double part = (1 - g * g) / (1 - g + 2 * g * square.x);
+  const double cosine = std::fabs(g) < 1e-3 ? 1 - 2 * square.x : (1 + g * g - part * part) / (2 * g);
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), angle = geometry::kTwoPi * square.y;
+  return geometry::frame_about(Vec3(0), along).direction({sine * std::cos(angle), sine * std::sin(angle), cosine});
+}
+
+// A random walk in a substance that scatters. The way to the next scattering is drawn for one of the colours, by their
+// shares, and weighted by its density for all of them; false: it lies behind `end`, and the light that gets there is
+// counted. Lamps are asked where they are seen straight through the substance's boundary.
+bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const Media& media) {
+  const Spectrum loss = medium.extinction();
+  const double sum = static_cast<double>(share_[0]) + share_[1] + share_[2];
+  const auto chance = [&](int lane) { return sum > 0 ? share_[lane] / sum : 1.0 / 3; };
+  const Vec2 choice = random_.next_pair(), square = random_.next_pair();
+  int lane = 0;
+  double place = choice.x;
+  while (lane < 2 && place >= chance(lane)) place -= chance(lane++);
+  const double way = loss[lane] > 0 ? -std::log1p(-choice.y) / loss[lane] : kInfinity;
+  const Spectrum kept = transmittance(loss, std::min(way, end));
+  double density = 0;
+  for (int i = 0; i < 3; ++i) density += chance(i) * kept[i] * (way < end ? loss[i] : 1);
+  if (!(density > 0)) {
+    share_ = Spectrum();
+    return false;
+  }
+  share_ *= static_cast<float>(1 / density) * kept;
+  if (way >= end) return false;
+  share_ *= medium.scattering;
+  const Vec3 at = ray.at(way);
+  const Vec3 direction = phase_direction(ray.direction, medium.forward, square);
+  ++bounces_;
+  const bool asks = medium.index == 1;
+  if (asks) add_lamp_in_medium(at, ray.direction, medium, media);
+  ++scatterings_;
+  shown_ = false;
+  origin_.eye = false;
+  origin_.sharp = !asks;
+  origin_.point = at;
+  origin_.density = phase(glm::dot(direction, ray.direction), medium.forward);
+  origin_.gone = 0;
+  origin_.choices.swap(choices_);
+  ray = Ray();
+  ray.kind = RayKind::reflection;
+  ray.origin = at;
+  ray.direction = direction;
+  return true;
+}
+
+void PathTracer::add_lamp_in_medium(const Vec3& place, const Vec3& along, const Medium& medium, const Media& media) {
+  const Vec2 choice = random_.next_pair(), square = random_.next_pair();
+  choose_lamps(place);
+  double rest = choice.x;
+  size_t i = 0;
+  while (i + 1 < choices_.size() && rest >= choices_[i]) rest -= choices_[i++];
+  if (i >= world_.lamps().size()) return;  // what glows is left to drawn directions
+  const Light& lamp = *world_.lamps()[i];
+  const LightSample sample = lamp.sample_all(place, square);
+  if (sample.irradiance.is_zero()) return;
+  Ray ray;
+  ray.kind = RayKind::shadow;
+  ray.origin = place;
+  ray.direction = sample.direction;
+  ray.t_max = sample.distance;
+  const Spectrum visible = lamp.casts_shadows() ? unobstructed(world_, ray, media, sample_) : kWhite;
+  const double turned = phase(glm::dot(sample.direction, along), medium.forward);
+  const double weight = sample.density > 0 ? power_heuristic(choices_[i] * sample.density, turned) : 1;
+  add(static_cast<float>(weight * turned / choices_[i]) * (visible * sample.irradiance));
+}
+
 void PathTracer::trace(Ray ray, Hit hit, Media media) {
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0 && !world_.nearest(ray, hit)) hit.instance = -1;
     const Medium medium = media.current();
     const double end = hit.instance < 0 ? kInfinity : hit.t;
     add_lamps_along(ray, end, medium);
+    const bool scatters = !medium.scattering.is_zero();
+    if (scatters && is_scattered(ray, end, medium, media)) {
+      if (scatterings_ > options_.max_scatterings) return;
+      const double life = std::clamp(kDimWalk * static_cast<double>(share_.largest()), kLeastLife, 1.0);
+      if (random_.next_pair().x >= life) return;
+      share_ *= static_cast<float>(1 / life);
+      continue;
+    }
+    if (share_.is_zero()) return;
     if (hit.instance < 0) {
-      share_ *= transmittance(medium.absorption, kInfinity);
+      if (!scatters) share_ *= transmittance(medium.absorption, kInfinity);
       add(surroundings());
       return;
     }
@@ -314,7 +404,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       met.emplace(world_, ray, hit, wavelengths_, media);
     }
     const Boundary& seen = *met;
-    share_ *= transmittance(media.current().absorption, hit.t);
+    if (!scatters) share_ *= transmittance(media.current().absorption, hit.t);
     way_ += hit.t;
     const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
     if (seen.changes_filling && scattering.catches_shadows && seen.front && shown_) {

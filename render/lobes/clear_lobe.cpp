@@ -1,5 +1,6 @@
 #include "render/lobes/clear_lobe.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/lobes/classic_lobes.h"
@@ -22,6 +23,12 @@ std::optional<Vec3> facet(const Vec3& out, const Vec3& in, double eta) {
   return h;
 }
 
+// What the lobe chooses to reflect.
+double chosen(const Spectrum& reflectance) {
+  return std::clamp((reflectance[0] + reflectance[1] + reflectance[2]) / 3.0, 0.0, 1.0);
+}
+Spectrum rest(const Spectrum& share) { return Spectrum(1.0f) - share; }
+
 Vec3 flipped(const Vec3& w) { return {w.x, w.y, -w.z}; }
 
 }  // namespace
@@ -35,6 +42,25 @@ double ClearLobe::pane_reflectance(double cosine, const Sides& sides) const {
   return f < 1 ? 2 * f / (1 + f) : 1;
 }
 
+Spectrum ClearLobe::reflectance(double cosine, const Sides& sides) const {
+  if (!film) {
+    const double f = thin ? pane_reflectance(cosine, sides) : fresnel_dielectric(cosine, sides.near, sides.behind);
+    return Spectrum(static_cast<float>(f));
+  }
+  if (thin) {  // all bounces between the face with the film and the other one
+    const Spectrum coated = film->reflectance(thickness, cosine);
+    const auto bare = static_cast<float>(fresnel_dielectric(cosine, sides.near, index));
+    Spectrum sum = coated;
+    for (int i = 0; i < 4; ++i)
+      sum.set(i, std::min(1.0f, coated[i] + (1 - coated[i]) * (1 - coated[i]) * bare / (1 - coated[i] * bare + 1e-9f)));
+    return sum;
+  }
+  if (sides.near <= sides.behind) return film->reflectance(thickness, cosine);
+  // From within: the same as for the light that comes the other way.
+  const double ratio = sides.near / sides.behind, sine = ratio * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  return sine >= 1 ? Spectrum(1.0f) : film->reflectance(thickness, std::sqrt(1 - sine * sine));
+}
+
 Spectrum ClearLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const {
   if (smooth(sides) || in.z == 0) return {};
   const Microfacets facets = microfacets(roughness, 0);
@@ -45,12 +71,12 @@ Spectrum ClearLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides
   const std::optional<Vec3> h = facet(out, to, eta);
   if (!h) return {};
   const double along = glm::dot(out, *h);
-  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  const Spectrum f = reflectance(along, sides);
   const double share = facets.facets(*h) * facets.seen_and_lit(out, to) / out.z;
-  if (!passes) return Spectrum(static_cast<float>(f * share / 4));
-  if (thin) return static_cast<float>((1 - f) * share / 4) * tint;
+  if (!passes) return static_cast<float>(share / 4) * f;
+  if (thin) return static_cast<float>(share / 4) * (rest(f) * tint);
   const double across = glm::dot(in, *h), width = across + along / eta;
-  return static_cast<float>((1 - f) * share * std::fabs(across * along) / (width * width)) * tint;
+  return static_cast<float>(share * std::fabs(across * along) / (width * width)) * (rest(f) * tint);
 }
 
 double ClearLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) const {
@@ -61,7 +87,7 @@ double ClearLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) c
   const std::optional<Vec3> h = facet(out, thin && passes ? flipped(in) : in, eta);
   if (!h) return 0;
   const double along = glm::dot(out, *h), visible = facets.visible_facets(out, *h);
-  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  const double f = chosen(reflectance(along, sides));
   if (!passes || thin) return (passes ? 1 - f : f) * visible / (4 * along);
   const double across = glm::dot(in, *h), width = across + along / eta;
   return (1 - f) * visible * std::fabs(across) / (width * width);
@@ -69,23 +95,24 @@ double ClearLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) c
 
 Spectrum ClearLobe::straight_share(const Vec3& out, const Sides& sides) const {
   if (!smooth(sides)) return {};
-  if (thin) return static_cast<float>(1 - pane_reflectance(out.z, sides)) * tint;
+  if (thin) return rest(reflectance(out.z, sides)) * tint;
   return sides.near == sides.behind ? tint : Spectrum();
 }
 
 LobeSample ClearLobe::smooth_sample(const Vec3& out, double choice, const Sides& sides) const {
-  const double f = thin ? pane_reflectance(out.z, sides) : fresnel_dielectric(out.z, sides.near, sides.behind);
-  if (choice < f) return {mirrored(out), true, f, Spectrum(static_cast<float>(f))};
+  const Spectrum reflected = reflectance(out.z, sides);
+  const double f = chosen(reflected);
+  if (choice < f) return {mirrored(out), true, f, reflected};
   const std::optional<Vec3> behind = thin ? -out : refracted_behind(out, sides);
   if (!behind) return {};
-  return {*behind, true, 1 - f, static_cast<float>(1 - f) * tint};
+  return {*behind, true, 1 - f, rest(reflected) * tint};
 }
 
 LobeSample ClearLobe::sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const {
   if (smooth(sides)) return smooth_sample(out, choice.x, sides);
   const Vec3 h = microfacets(roughness, 0).visible_facet(out, square);
   const double along = glm::dot(out, h);
-  const double f = thin ? pane_reflectance(along, sides) : fresnel_dielectric(along, sides.near, sides.behind);
+  const double f = chosen(reflectance(along, sides));
   Vec3 in = 2 * along * h - out;
   if (choice.x < f) {
     if (in.z <= 0) return {};

@@ -1,6 +1,7 @@
 // Lobe of a clear boundary: glass, water, a soap bubble's skin.
 #pragma once
 
+#include "render/lobes/film.h"
 #include "render/lobes/lobe.h"
 
 namespace lekalo::render {
@@ -17,6 +18,9 @@ struct ClearLobe {
   double facing = 0.04;  // reflectance at right angles against air, at the yellow line d
   bool thin = false;
   Spectrum tint{1.0f};  // of what passes
+  const FilmTable* film =
+      nullptr;           // over the body, of panes over one face; it takes the place of Fresnel's reflectance
+  double thickness = 0;  // of the film, nanometres
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
   double density(const Vec3& out, const Vec3& in, const Sides& sides) const;
@@ -27,6 +31,8 @@ struct ClearLobe {
 
  private:
   double pane_reflectance(double cosine, const Sides& sides) const;
+  // Of the whole; `cosine` of the angle to the facet's normal on the viewer's side.
+  Spectrum reflectance(double cosine, const Sides& sides) const;
   LobeSample smooth_sample(const Vec3& out, double choice, const Sides& sides) const;
 };
 

@@ -12,6 +12,7 @@ using geometry::kPi;
 
 Spectrum MetalReflectance::at(double cosine, double near) const {
   const double c = std::clamp(cosine, 0.0, 1.0);
+  if (film) return film->reflectance(thickness, c);
   if (measured()) return fresnel_conductor(c, static_cast<float>(1 / near) * n, static_cast<float>(1 / near) * k);
   const double x = 1 - c, x5 = x * x * x * x * x;
   return tinted(x5, c * x5 * x);
@@ -31,7 +32,7 @@ Spectrum MetalReflectance::tinted(double schlick, double dip) const {
 
 Spectrum MetalReflectance::mean() const {
   // Euler's B(2, 6) = 1/42 and B(3, 7) = 1/252.
-  if (!measured()) return tinted(1.0 / 21, 1.0 / 126);
+  if (!measured() && !film) return tinted(1.0 / 21, 1.0 / 126);
   constexpr int kParts = 16;
   Spectrum sum;
   for (int i = 0; i < kParts; ++i) {

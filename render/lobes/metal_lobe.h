@@ -1,6 +1,7 @@
 // Lobes of metals, smooth or rough.
 #pragma once
 
+#include "render/lobes/film.h"
 #include "render/lobes/lobe.h"
 #include "render/lobes/lobe_albedo.h"
 #include "render/lobes/microfacet.h"
@@ -14,6 +15,8 @@ namespace lekalo::render {
 struct MetalReflectance {
   Spectrum n, k;
   Spectrum color, edge_tint{1.0f};
+  const FilmTable* film = nullptr;  // over the metal, in place of all these
+  double thickness = 0;             // of the film, nanometres
 
   bool measured() const { return !n.is_zero(); }
   // From a side of the given index.

@@ -18,12 +18,18 @@ class ConductorMaterial final : public Material {
         rgb_index_(conductor.metal.empty() ? ComplexIndex{} : metal_index(conductor.metal, Wavelengths{})),
         rgb_mean_(MetalReflectance{rgb_index_.n, rgb_index_.k}.mean()),
         roughness_(conductor.roughness,
-                   [stretch = conductor.anisotropy](double roughness) { return mirror_albedo(roughness, stretch); }) {}
+                   [stretch = conductor.anisotropy](double roughness) { return mirror_albedo(roughness, stretch); }),
+        film_(conductor.film.table([metal = conductor.metal](double nanometres) {
+          Wavelengths wavelengths;
+          wavelengths.nanometres.fill(static_cast<float>(nanometres));
+          const ComplexIndex index = metal_index(metal, wavelengths);
+          return std::complex<double>(index.n[0], -index.k[0]);
+        })) {}
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     MetalLobe lobe;
     lobe.reflectance = reflectance(point, wavelengths);
-    lobe.mean = lobe.reflectance.measured() && is_usual(wavelengths) ? rgb_mean_ : lobe.reflectance.mean();
+    lobe.mean = lobe.reflectance.measured() && !film_ && is_usual(wavelengths) ? rgb_mean_ : lobe.reflectance.mean();
     lobe.anisotropy = conductor_.anisotropy;
     lobe.rotation = conductor_.rotation;
     const TabledRoughness::Value rough = roughness_.at(point);
@@ -38,7 +44,7 @@ class ConductorMaterial final : public Material {
   }
   bool uses_parameters() const override {
     return conductor_.color.texture() || conductor_.edge_tint.texture() || conductor_.roughness.texture ||
-           conductor_.anisotropy > 0 || conductor_.normal_deviation.amplitude != 0;
+           conductor_.anisotropy > 0 || conductor_.film.texture || conductor_.normal_deviation.amplitude != 0;
   }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, conductor_.normal_deviation);
@@ -58,6 +64,10 @@ class ConductorMaterial final : public Material {
     const ComplexIndex index = is_usual(wavelengths) ? rgb_index_ : metal_index(conductor_.metal, wavelengths);
     f.n = index.n;
     f.k = index.k;
+    if (film_) {
+      f.film = film_.get();
+      f.thickness = conductor_.film.thickness(point);
+    }
     return f;
   }
 
@@ -65,6 +75,7 @@ class ConductorMaterial final : public Material {
   ComplexIndex rgb_index_;  // looked up once for the usual wavelengths
   Spectrum rgb_mean_;       // of the measured reflectance there
   TabledRoughness roughness_;
+  FilmTablePtr film_;
 };
 
 }  // namespace
@@ -86,6 +97,7 @@ TypeDeclaration conductor_type() {
       .field("rotation", angle(), "of the long direction of highlights, from the direction in which u grows", "0");
   type.example_fields = "metal: Cu";
   declare_roughness(type, "roughness", "0: mirror; 0.5 and more: no mirror images, only highlights", "0.2");
+  declare_thin_film(type);
   declare_normal_deviation(type);
   return type.built_by([](const Fields& f) {
     if (f.has("metal") == f.has("color"))
@@ -98,6 +110,9 @@ TypeDeclaration conductor_type() {
     conductor.rotation = f.number("rotation");
     if (f.has("color")) conductor.color = color_texture(f, "color");
     conductor.edge_tint = color_texture(f, "edge_tint");
+    conductor.film = thin_film(f);
+    if (conductor.film.exists() && conductor.metal.empty())
+      throw FieldError("film", "what a film does depends on the metal below it", "take a measured one: metal: Fe");
     conductor.normal_deviation = normal_deviation(f);
     return make_material(conductor);
   });

@@ -17,12 +17,15 @@ class DielectricMaterial final : public Material {
     lobe_.index = index_d_;
     lobe_.facing = fresnel_dielectric(1, 1, index_d_);
     lobe_.thin = dielectric.thin;
+    film_ = dielectric.film.table([this](double nanometres) { return std::complex<double>(index(nanometres)); });
+    lobe_.film = film_.get();
   }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
     Scattering s;
     ClearLobe lobe = lobe_;
     lobe.roughness = dielectric_.roughness.at(point);
+    if (film_) lobe.thickness = dielectric_.film.thickness(point);
     s.lobes.add(lobe);
     return s;
   }
@@ -31,11 +34,11 @@ class DielectricMaterial final : public Material {
     if (dielectric_.thin) return std::nullopt;
     const float nanometres = wavelengths.nanometres[0];
     return Medium{static_cast<float>(nanometres == kLineD ? index_d_ : index(nanometres)), rgb(dielectric_.absorption),
-                  dielectric_.priority};
+                  dielectric_.priority, rgb(dielectric_.scattering), static_cast<float>(dielectric_.forward)};
   }
   bool transmits() const override { return true; }
   bool uses_parameters() const override {
-    return dielectric_.roughness.texture || dielectric_.normal_deviation.amplitude != 0;
+    return dielectric_.roughness.texture || dielectric_.film.texture || dielectric_.normal_deviation.amplitude != 0;
   }
   Vec3 shading_normal(const SurfacePoint& point) const override {
     return deviated_normal(point, dielectric_.normal_deviation);
@@ -53,6 +56,7 @@ class DielectricMaterial final : public Material {
   Dielectric dielectric_;
   double index_d_;  // computed once for the usual wavelength
   ClearLobe lobe_;  // without its roughness
+  FilmTablePtr film_;
 };
 
 }  // namespace
@@ -70,9 +74,17 @@ TypeDeclaration dielectric_type() {
   type.optional("glass", choice(dielectric_names()), "substance; gives the index for every wavelength")
       .optional("index", number().positive(), "refractive index, the same for all wavelengths; 1.5 without `glass`")
       .field("absorption", color().non_negative(), "mu per unit of length: light falls by e^(-mu l)", "0")
+      .field(
+          "scattering", color().non_negative(),
+          "mu_s per unit of length: how often light is scattered on its way, in milk, wax, marble; the classic model "
+          "leaves it out",
+          "0")
+      .field("forward", number().above(-1).below(1),
+             "mean cosine of the angle by which scattered light is turned; 0: evenly to all sides", "0")
       .field("thin", boolean(), "true: a pane, both its faces in one surface; light goes straight through", "false")
       .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0");
   declare_roughness(type, "roughness", "0: clear; more: frosted, and wider highlights", "0");
+  declare_thin_film(type);
   declare_normal_deviation(type);
   type.example("glass: N-BK7");
   return type.built_by([](const Fields& f) {
@@ -84,6 +96,12 @@ TypeDeclaration dielectric_type() {
     dielectric.absorption = f.vec3("absorption");
     dielectric.roughness = roughness(f, "roughness");
     dielectric.thin = f.boolean("thin");
+    dielectric.scattering = f.vec3("scattering");
+    dielectric.forward = f.number("forward");
+    if (dielectric.thin && dielectric.scattering != Vec3(0))
+      throw FieldError("scattering", "a thin pane has no substance that could scatter",
+                       "thin: false, or the material translucent_sheet");
+    dielectric.film = thin_film(f);
     dielectric.priority = f.integer("priority");
     dielectric.normal_deviation = normal_deviation(f);
     return make_material(dielectric);

@@ -7,6 +7,7 @@
 #include "render/materials/normal_deviation.h"
 #include "render/materials/roughness.h"
 #include "render/materials/textured_color.h"
+#include "render/materials/thin_film.h"
 
 namespace lekalo::render {
 
@@ -50,6 +51,7 @@ struct Conductor {
   double rotation = 0;            // radians, of the long direction of highlights, from r_u towards r_v
   TexturedColor color = 0.9;      // reflectance at right angles
   TexturedColor edge_tint = 1.0;  // its factor at 82 degrees
+  ThinFilm film;                  // over a measured metal
   NormalDeviation normal_deviation;
 };
 
@@ -60,7 +62,10 @@ struct Dielectric {
   Vec3 absorption{0};       // 1/length
   Roughness roughness = 0;  // in [0, 1]
   int priority = 0;
-  bool thin = false;  // a pane: both its faces in one, no substance behind
+  bool thin = false;   // a pane: both its faces in one, no substance behind
+  Vec3 scattering{0};  // mu_s, 1/length: milky; needs the path tracer
+  double forward = 0;  // mean cosine of its angles, in (-1, 1)
+  ThinFilm film;       // of a pane: over one of its faces
   NormalDeviation normal_deviation;
 };
 
@@ -88,23 +93,24 @@ struct Mix {
 };
 
 // A surface of layers by the parameters of OpenPBR 1.1 (Academy Software Foundation 2024), those of them that are here.
+// Weights and roughnesses may come from textures.
 struct Principled {
   double base_weight = 1;
   TexturedColor base_color = 0.8;
-  double base_metalness = 0;
+  Roughness base_metalness = 0;
   double specular_weight = 1;
   TexturedColor specular_color = 1.0;  // of metals: the tint at the edge
   Roughness specular_roughness = 0.3;
   double specular_roughness_anisotropy = 0;
   double specular_ior = 1.5;
-  double transmission_weight = 0;
+  Roughness transmission_weight = 0;
   Vec3 transmission_color{1};
   double transmission_depth = 0;  // where transmission_color is reached; 0: at the surface
-  double coat_weight = 0;
+  Roughness coat_weight = 0;
   TexturedColor coat_color = 1.0;
   double coat_roughness = 0;
   double coat_ior = 1.6;
-  double fuzz_weight = 0;
+  Roughness fuzz_weight = 0;
   TexturedColor fuzz_color = 1.0;
   double fuzz_roughness = 0.5;
   double emission_luminance = 0;  // radiance, multiplies the colour

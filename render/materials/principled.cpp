@@ -38,12 +38,13 @@ class PrincipledMaterial final : public Material {
     Scattering s;
     const Spectrum base = static_cast<float>(p_.base_weight) * p_.base_color.at(point);
     // What passes the coat is coloured by it.
-    const auto coated = static_cast<float>(p_.coat_weight);
+    const auto coated = static_cast<float>(p_.coat_weight.at(point));
     const Spectrum tint = Spectrum(1 - coated) + coated * p_.coat_color.at(point);
-    const double opaque = 1 - p_.base_metalness;
-    s.lobes.add(metal(point, base), part(p_.base_metalness) * tint);
-    s.lobes.add(matt(point, base), part(opaque * (1 - p_.transmission_weight)) * tint);
-    s.lobes.add(clear(point), part(opaque * p_.transmission_weight) * tint);
+    const double metalness = p_.base_metalness.at(point), opaque = 1 - metalness;
+    const double passing = p_.transmission_weight.at(point);
+    s.lobes.add(metal(point, base), part(metalness) * tint);
+    s.lobes.add(matt(point, base), part(opaque * (1 - passing)) * tint);
+    s.lobes.add(clear(point), part(opaque * passing) * tint);
     CoatLobe coat = coat_lobe(p_.coat_ior);
     coat.roughness = p_.coat_roughness;
     coat.albedo = coat_.get();
@@ -52,7 +53,7 @@ class PrincipledMaterial final : public Material {
     nap.color = p_.fuzz_color.at(point);
     nap.roughness = p_.fuzz_roughness;
     nap.albedo = fuzz_.get();
-    s.lobes.cover(nap, Spectrum(static_cast<float>(p_.fuzz_weight)), *fuzz_);
+    s.lobes.cover(nap, Spectrum(static_cast<float>(p_.fuzz_weight.at(point))), *fuzz_);
     s.emission = static_cast<float>(p_.emission_luminance) * p_.emission_color.at(point);
     return s;
   }
@@ -61,11 +62,15 @@ class PrincipledMaterial final : public Material {
     if (!transmits()) return std::nullopt;
     return Medium{static_cast<float>(p_.specular_ior), rgb(absorption_), 0};
   }
-  bool transmits() const override { return p_.transmission_weight > 0 && p_.base_metalness < 1; }
+  bool transmits() const override {
+    const Roughness &passing = p_.transmission_weight, &metalness = p_.base_metalness;
+    return (passing.texture || passing.value > 0) && (metalness.texture || metalness.value < 1);
+  }
   bool uses_parameters() const override {
     return p_.base_color.texture() || p_.specular_color.texture() || p_.coat_color.texture() ||
            p_.fuzz_color.texture() || p_.emission_color.texture() || p_.specular_roughness.texture ||
-           p_.specular_roughness_anisotropy > 0 || p_.normal_deviation.amplitude != 0;
+           p_.base_metalness.texture || p_.transmission_weight.texture || p_.coat_weight.texture ||
+           p_.fuzz_weight.texture || p_.specular_roughness_anisotropy > 0 || p_.normal_deviation.amplitude != 0;
   }
   Vec3 shading_normal(const SurfacePoint& point) const override { return deviated_normal(point, p_.normal_deviation); }
   uint64_t cell(const SurfacePoint& point) const override {
@@ -120,22 +125,22 @@ TypeDeclaration principled_type() {
       "in any mixture; a clear coat over it; a nap over all. Classic reading: that of conductor, plastic, "
       "dielectric by their shares, highlight and mirror of the last one that there is.");
   type.field("base_weight", number().between(0, 1), "multiplies base_color", "1")
-      .field("base_color", textured_share(), "of the matt base, of metals the reflectance at right angles", "0.8")
-      .field("base_metalness", number().between(0, 1), "share of the base that is metal", "0")
-      .field("specular_weight", number().between(0, 1), "multiplies the reflectance of metal and skin", "1")
+      .field("base_color", textured_share(), "of the matt base, of metals the reflectance at right angles", "0.8");
+  declare_roughness(type, "base_metalness", "share of the base that is metal", "0");
+  type.field("specular_weight", number().between(0, 1), "multiplies the reflectance of metal and skin", "1")
       .field("specular_color", textured_share(), "of metals, the tint at the edge", "1");
   declare_roughness(type, "specular_roughness", "0: sharp mirror images", "0.3");
   type.field("specular_roughness_anisotropy", number().non_negative().below(1), "of metals: stretched highlights", "0")
-      .field("specular_ior", number().at_least(1), "refractive index of skin and glass", "1.5")
-      .field("transmission_weight", number().between(0, 1), "share of what is no metal that is clear", "0")
-      .field("transmission_color", color().between(0, 1), "of light that passes", "white")
-      .field("transmission_depth", number().non_negative(), "way after which it has that colour; 0: at once", "0")
-      .field("coat_weight", number().between(0, 1), "share of the surface that is under a coat", "0")
-      .field("coat_color", textured_share(), "of light that comes back through the coat", "1")
+      .field("specular_ior", number().at_least(1), "refractive index of skin and glass", "1.5");
+  declare_roughness(type, "transmission_weight", "share of what is no metal that is clear", "0");
+  type.field("transmission_color", color().between(0, 1), "of light that passes", "white")
+      .field("transmission_depth", number().non_negative(), "way after which it has that colour; 0: at once", "0");
+  declare_roughness(type, "coat_weight", "share of the surface that is under a coat", "0");
+  type.field("coat_color", textured_share(), "of light that comes back through the coat", "1")
       .field("coat_roughness", number().between(0, 1), "of the coat", "0")
-      .field("coat_ior", number().at_least(1), "refractive index of the coat", "1.6")
-      .field("fuzz_weight", number().between(0, 1), "how dense the nap is", "0")
-      .field("fuzz_color", textured_share(), "of the nap", "1")
+      .field("coat_ior", number().at_least(1), "refractive index of the coat", "1.6");
+  declare_roughness(type, "fuzz_weight", "how dense the nap is", "0");
+  type.field("fuzz_color", textured_share(), "of the nap", "1")
       .field("fuzz_roughness", number().between(0, 1), "of the nap", "0.5")
       .field("emission_luminance", number().non_negative(), "radiance, multiplies emission_color", "0")
       .field("emission_color", textured_color(), "of the glow", "1");
@@ -145,20 +150,20 @@ TypeDeclaration principled_type() {
     Principled p;
     p.base_weight = f.number("base_weight");
     p.base_color = color_texture(f, "base_color");
-    p.base_metalness = f.number("base_metalness");
+    p.base_metalness = roughness(f, "base_metalness");
     p.specular_weight = f.number("specular_weight");
     p.specular_color = color_texture(f, "specular_color");
     p.specular_roughness = roughness(f, "specular_roughness");
     p.specular_roughness_anisotropy = f.number("specular_roughness_anisotropy");
     p.specular_ior = f.number("specular_ior");
-    p.transmission_weight = f.number("transmission_weight");
+    p.transmission_weight = roughness(f, "transmission_weight");
     p.transmission_color = f.vec3("transmission_color");
     p.transmission_depth = f.number("transmission_depth");
-    p.coat_weight = f.number("coat_weight");
+    p.coat_weight = roughness(f, "coat_weight");
     p.coat_color = color_texture(f, "coat_color");
     p.coat_roughness = f.number("coat_roughness");
     p.coat_ior = f.number("coat_ior");
-    p.fuzz_weight = f.number("fuzz_weight");
+    p.fuzz_weight = roughness(f, "fuzz_weight");
     p.fuzz_color = color_texture(f, "fuzz_color");
     p.fuzz_roughness = f.number("fuzz_roughness");
     p.emission_luminance = f.number("emission_luminance");

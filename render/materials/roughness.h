@@ -1,4 +1,4 @@
-// Roughness of a surface: a number, or a texture whose red lane is the number.
+// Numbers in [0, 1] of a surface, roughness and the weights of layers: a number, or a texture whose red lane is it.
 #pragma once
 
 #include <array>

@@ -43,6 +43,7 @@ struct ImageTexture {
   double rotation = 0;  // radians, of the picture about its lower left corner, from u towards v
   Wrap wrap = Wrap::repeat;
   bool smooth = true;              // bilinear between pixel centres; false: the nearest pixel
+  bool filtered = false;           // the mean over what a pixel of the rendered picture covers of it
   TexturedColor background = 1.0;  // outside the picture with Wrap::background, and behind transparent pixels
 };
 

@@ -22,6 +22,7 @@
 #include "render/trace/clipped_body.h"
 #include "render/trace/device.h"
 #include "render/trace/hierarchy.h"
+#include "render/trace/hit_curvature.h"
 #include "render/trace/leaf_point.h"
 
 namespace lekalo::render {
@@ -98,6 +99,7 @@ bool is_drawn_only(const Entity& entity) {
 }  // namespace
 
 struct World::Compiled {
+  const CurvatureSource* curvatures = nullptr;
   Hierarchy top;
   // Hierarchy::place of all hits where nothing is in an instance; else empty.
   struct Place {
@@ -162,6 +164,7 @@ struct World::Compiled {
     const Vec3 sizes = size(point.position) + size(point.position - ray.origin);
     point.error += geometry::kHitRounding * (sizes.x + sizes.y + sizes.z);
     if (leaf.parameters && camera) point.pixel_size = camera->pixel_size(point.position);
+    if (leaf.parameters) point.curvature_source = curvatures;
   }
 
   // The area below which cells of a surface with these bounds are not cut, in the space of its leaf.
@@ -346,6 +349,7 @@ struct World::Compiled {
 
 World::World(std::shared_ptr<const Model> model, bool parameters)
     : model_(std::move(model)), compiled_(std::make_unique<Compiled>()) {
+  compiled_->curvatures = this;
   const auto begin = std::chrono::steady_clock::now();
   const size_t embree_before = device_memory();
   Compiled& c = *compiled_;
@@ -482,6 +486,16 @@ HitTarget World::target(const Hit& hit) const {
   else
     target.surface = &leaf.targets[face]->surface();
   return target;
+}
+
+geometry::SurfaceCurvature World::curvature(const SurfacePoint& point) const {
+  Hit hit;
+  hit.u = point.u;
+  hit.v = point.v;
+  hit.instance = point.instance;
+  hit.face = point.face;
+  hit.piece = point.piece;
+  return curvature_at(*this, hit, point);
 }
 
 void World::leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const {

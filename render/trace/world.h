@@ -43,7 +43,7 @@ struct HitTarget {
   geometry::Affine to_world;
 };
 
-class World {
+class World final : public CurvatureSource {
  public:
   // Compiles the model's objects. Meshes for pixel tolerances are made for the model's camera. Without `parameters` the
   // points of nearest hits may have none (u, v, du and dv zero) where neither a material nor the integrator asks for
@@ -77,6 +77,7 @@ class World {
   // Position, normals and derivatives at a hit; `ray` is the one that found it.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   HitTarget target(const Hit& hit) const;
+  geometry::SurfaceCurvature curvature(const SurfacePoint& point) const override;
   // Lets the ray begin at the point, on the given side of it, clear of the point's error bound: at `clearance`.
   void leave(const SurfacePoint& point, const Vec3& side, Ray& ray) const;
   static double clearance(const SurfacePoint& point) { return 4 * point.error; }

@@ -53,10 +53,10 @@ TEST(Declarations, FamiliesAreWhole) {
   check(material_types(), Category::material,
         {"classic", "diffuse", "plastic", "conductor", "dielectric", "principled", "cloth", "translucent_sheet", "mix",
          "emission", "shadow_catcher"});
-  check(texture_types(), Category::texture, {"checker", "grid", "parameter_lines", "image"});
+  check(texture_types(), Category::texture, {"checker", "grid", "parameter_lines", "image", "noise", "ramp"});
   check(light_types(), Category::light,
         {"point_light", "spot_light", "distant_light", "rectangle_light", "disc_light", "sphere_light",
-         "environment_light", "profile_light", "ambient_light"});
+         "environment_light", "sky_light", "sun_light", "profile_light", "ambient_light"});
   check(camera_types(), Category::camera, {"graph", "perspective", "parallel", "panorama"});
   check(integrator_types(), Category::integrator,
         {"analysis", "classic", "path", "direct_lighting", "ambient_occlusion"});
