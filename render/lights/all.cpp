@@ -9,6 +9,8 @@
   X(disc_light_type)          \
   X(sphere_light_type)        \
   X(environment_light_type)   \
+  X(sky_light_type)           \
+  X(sun_light_type)           \
   X(profile_light_type)       \
   X(ambient_light_type)
 
