@@ -1,10 +1,7 @@
 #include "render/image/read_image.h"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <mutex>
@@ -13,6 +10,7 @@
 #include "render/image/display.h"
 #include "render/image/exr.h"
 #include "render/image/image_error.h"
+#include "render/image/module.h"
 #include "render/image/oiio_module.h"
 
 namespace lekalo::render {
@@ -23,40 +21,15 @@ using namespace std::string_view_literals;
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01"sv;
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n"sv;
 
-// Where the module may be, best first.
-std::vector<fs::path> module_files() {
-  std::vector<fs::path> files;
-  if (const char* folder = std::getenv("LEKALO_MODULE_PATH")) files.push_back(fs::path(folder) / kOiioModuleFile);
-  std::error_code error;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error) {
-    files.push_back(program.parent_path() / kOiioModuleFile);
-    files.push_back(program.parent_path().parent_path() / "lib" / "lekalo" / kOiioModuleFile);
-  }
-  return files;
-}
-
 // Loads the module once; it stays loaded, because OpenImageIO keeps threads and caches of its own.
 OiioRead& oiio_read(const fs::path& path) {
   static std::mutex mutex;
   static OiioRead* function = nullptr;
   const std::lock_guard lock(mutex);
-  if (function != nullptr) return *function;
   std::string tried;
-  for (const fs::path& file : module_files()) {
-    std::error_code error;
-    if (!fs::exists(file, error)) {
-      tried += "; no " + file.string();
-      continue;
-    }
-    void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void* symbol = library == nullptr ? nullptr : ::dlsym(library, kOiioReadName);
-    if (symbol != nullptr) {
-      function = reinterpret_cast<OiioRead*>(symbol);
-      return *function;
-    }
-    const char* reason = ::dlerror();
-    tried += std::string("; ") + (reason != nullptr ? reason : file.c_str());
-  }
+  if (function == nullptr)
+    function = reinterpret_cast<OiioRead*>(module_function(kOiioModuleFile, kOiioReadName, tried));
+  if (function != nullptr) return *function;
   throw ImageError(path, "is neither OpenEXR nor PNG, and the module for other formats cannot be loaded" + tried,
                    "install libopenimageio2.4 and keep the module lekalo_oiio.so with the program, or convert the "
                    "picture to PNG or OpenEXR");

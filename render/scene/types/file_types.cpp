@@ -10,6 +10,7 @@
   X(mesh_type)               \
   X(triangulation_type)      \
   X(frame_net_type)          \
+  X(model_type)              \
   X(control_triangles_type)
 
 namespace lekalo::geometry {
@@ -40,6 +41,7 @@ TypeDeclaration patches_type() {
 TypeDeclaration mesh_type();
 TypeDeclaration triangulation_type();
 TypeDeclaration frame_net_type();
+TypeDeclaration model_type();
 
 #define CALL(type) type(),
 std::vector<TypeDeclaration> file_types() { return {LEKALO_FILE_TYPES(CALL)}; }

@@ -1,0 +1,134 @@
+// Built as the module lekalo_assimp, never into the library: the only file that includes assimp.
+#include <assimp/GltfMaterial.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <exception>
+
+#include "render/mesh_files/model_file.h"
+
+namespace {
+
+using namespace lekalo::render;
+using lekalo::geometry::Vec2;
+using lekalo::geometry::Vec3;
+
+ModelPicture picture(const aiScene& scene, const aiMaterial& material, aiTextureType type) {
+  aiString path;
+  ModelPicture found;
+  if (material.GetTexture(type, 0, &path) != AI_SUCCESS) return found;
+  found.file = path.C_Str();
+  if (const aiTexture* within = scene.GetEmbeddedTexture(path.C_Str())) {
+    if (within->mHeight != 0) return {};  // bare pixels: no format that we read stores them
+    found.file = std::string("picture.") + within->achFormatHint;
+    found.bytes.assign(reinterpret_cast<const char*>(within->pcData), within->mWidth);
+  }
+  return found;
+}
+
+Vec3 color(const aiMaterial& material, const char* key, unsigned type, unsigned index, const Vec3& standard) {
+  aiColor3D value;
+  return material.Get(key, type, index, value) == AI_SUCCESS ? Vec3(value.r, value.g, value.b) : standard;
+}
+
+double number(const aiMaterial& material, const char* key, unsigned type, unsigned index, double standard) {
+  ai_real value;
+  return material.Get(key, type, index, value) == AI_SUCCESS ? static_cast<double>(value) : standard;
+}
+
+ModelPicture first(const ModelPicture& a, const ModelPicture& b) { return a.exists() ? a : b; }
+
+ModelMaterial material_of(const aiScene& scene, const aiMaterial& from) {
+  ModelMaterial to;
+  to.name = from.GetName().C_Str();
+  aiColor4D base;
+  const bool is_metal_rough = from.Get(AI_MATKEY_BASE_COLOR, base) == AI_SUCCESS;
+  to.base_color = is_metal_rough ? Vec3(base.r, base.g, base.b) : color(from, AI_MATKEY_COLOR_DIFFUSE, Vec3(0.8));
+  to.opacity = is_metal_rough ? static_cast<double>(base.a) : number(from, AI_MATKEY_OPACITY, 1);
+  to.metalness = number(from, AI_MATKEY_METALLIC_FACTOR, is_metal_rough ? 1 : 0);
+  // Of Phong's exponent n: a width of sqrt(2 / (n + 2)), which is the square of the roughness.
+  const double shininess = number(from, AI_MATKEY_SHININESS, 10);
+  to.roughness = number(from, AI_MATKEY_ROUGHNESS_FACTOR,
+                        is_metal_rough ? 1 : std::sqrt(std::sqrt(2 / (std::fmax(0, shininess) + 2))));
+  to.transmission = number(from, AI_MATKEY_TRANSMISSION_FACTOR, 0);
+  to.index = number(from, AI_MATKEY_REFRACTI, 1.5);
+  to.emission = color(from, AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
+  int two_sided = 0;
+  to.two_sided = from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
+  aiString alpha;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha) == AI_SUCCESS) {
+    to.has_holes = std::string(alpha.C_Str()) != "OPAQUE";
+    if (!to.has_holes) to.opacity = 1;
+  }
+  to.base_picture = first(picture(scene, from, aiTextureType_BASE_COLOR), picture(scene, from, aiTextureType_DIFFUSE));
+  to.normal_picture = picture(scene, from, aiTextureType_NORMALS);
+  to.emission_picture = picture(scene, from, aiTextureType_EMISSIVE);
+  to.opacity_picture = picture(scene, from, aiTextureType_OPACITY);
+  if (is_metal_rough) to.metal_rough_picture = picture(scene, from, aiTextureType_UNKNOWN);
+  return to;
+}
+
+FileModel::Part part_of(const aiMesh& from) {
+  FileModel::Part part;
+  part.name = from.mName.C_Str();
+  part.material = static_cast<int>(from.mMaterialIndex);
+  for (unsigned i = 0; i < from.mNumVertices; ++i) {
+    part.mesh.points.emplace_back(from.mVertices[i].x, from.mVertices[i].y, from.mVertices[i].z);
+    if (from.HasNormals()) {
+      const Vec3 n(from.mNormals[i].x, from.mNormals[i].y, from.mNormals[i].z);
+      const double length = glm::length(n);
+      part.mesh.normals.push_back(length > 0 ? n / length : Vec3(0, 0, 1));
+    }
+    if (from.HasTextureCoords(0))
+      part.mesh.parameters.emplace_back(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y);
+  }
+  for (unsigned i = 0; i < from.mNumFaces; ++i) {
+    if (from.mFaces[i].mNumIndices != 3) continue;
+    lekalo::geometry::Mesh::Triangle triangle;
+    for (size_t k = 0; k < 3; ++k) triangle.point[k] = static_cast<int32_t>(from.mFaces[i].mIndices[k]);
+    if (from.HasNormals()) triangle.normal = triangle.point;
+    if (from.HasTextureCoords(0)) triangle.parameter = triangle.point;
+    part.mesh.triangles.push_back(triangle);
+  }
+  return part;
+}
+
+void place(const aiNode& node, const aiMatrix4x4& above, FileModel& model) {
+  const aiMatrix4x4 here = above * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const auto part = static_cast<int>(node.mMeshes[i]);
+    if (model.parts[static_cast<size_t>(part)].mesh.triangles.empty()) continue;
+    FileModel::Placed placed{part, {}};
+    for (unsigned row = 0; row < 4; ++row)
+      for (unsigned column = 0; column < 4; ++column)
+        placed.matrix[4 * column + row] = static_cast<double>(here[row][column]);
+    model.placed.push_back(placed);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) place(*node.mChildren[i], here, model);
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) bool lekalo_assimp_read(const char* path, FileModel& model,
+                                                                          std::string& error) {
+  try {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                                       aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+    if (!scene || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) || !scene->mRootNode) {
+      error = importer.GetErrorString();
+      if (error.empty()) error = "the file is not complete";
+      return false;
+    }
+    for (unsigned i = 0; i < scene->mNumMaterials; ++i)
+      model.materials.push_back(material_of(*scene, *scene->mMaterials[i]));
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) model.parts.push_back(part_of(*scene->mMeshes[i]));
+    place(*scene->mRootNode, aiMatrix4x4(), model);
+    return true;
+  } catch (const std::exception& caught) {
+    error = caught.what();
+    return false;
+  }
+}
