@@ -22,7 +22,7 @@ _lekalo() {
     elif [[ $current == -* ]]; then
       case $command in
         render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
-        draw) words='-o --output --set --allow-external --latex --outlines --quiet --stats' ;;
+        draw) words='-o --output --set --allow-external --latex --standalone --outlines --quiet --stats' ;;
         compare) words='--metric --threshold --layer --report --json --quiet' ;;
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         new) words='--kind' ;;

@@ -89,3 +89,4 @@ complete -c lekalo -n '__fish_seen_subcommand_from export' -l tolerance -x -d 'l
 complete -c lekalo -n '__fish_seen_subcommand_from draw' -l outlines -d 'texts of svg files as outlines'
 complete -c lekalo -n '__fish_seen_subcommand_from draw' -l latex -d 'texts in a file for LaTeX'
 complete -c lekalo -n '__fish_seen_subcommand_from new' -l kind -x -a 'picture drawing graph plate suite' -d 'what it makes'
+complete -c lekalo -n '__fish_seen_subcommand_from draw' -l standalone -d 'TikZ pictures as documents'

@@ -38,7 +38,7 @@ shift words
 (( CURRENT-- ))
 case $command in
   render | make) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  draw) _arguments $scene '*'{-o,--output}'[output file]:file:_files' '--latex[texts in a file for LaTeX]' '--outlines[texts of svg files as outlines]' '--quiet[print errors only]' '--stats[print lines, pieces, times]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
+  draw) _arguments $scene '*'{-o,--output}'[output file]:file:_files' '--latex[texts in a file for LaTeX]' '--standalone[TikZ pictures as documents]' '--outlines[texts of svg files as outlines]' '--quiet[print errors only]' '--stats[print lines, pieces, times]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
   compare) _arguments '--metric[what to measure]:metric:(flip rmse psnr ssim max)' '--threshold[largest difference]:number' \
     '--layer[layer of EXR files]:name' '--report[HTML report]:folder:_files -/' '--json[print JSON]' '--quiet[print errors only]' \
     '--help[show help]' '*:image:_files -g "*.(exr|png)"' ;;

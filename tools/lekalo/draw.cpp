@@ -18,6 +18,7 @@
 #include "render/drawing/output/cairo_output.h"
 #include "render/drawing/output/latex.h"
 #include "render/drawing/output/svg.h"
+#include "render/drawing/output/tikz.h"
 #include "render/image/atomic_file.h"
 
 namespace lekalo::command {
@@ -45,17 +46,33 @@ std::filesystem::path overlay_of(const std::string& drawing) {
   return std::filesystem::path(drawing).replace_extension(".tex");
 }
 
+bool is_tikz(const std::string& path) { return path.ends_with(".tikz") || path.ends_with(".tex"); }
+
+void check_name_for_latex(const std::string& path) {
+  if (!render::latex_takes_file(std::filesystem::path(path).filename().string()))
+    throw UsageError(fmt::format("'{}': LaTeX takes no file with # % $ \\ {{ }} \" in its name", path));
+}
+
 void check_overwriting(const render::LoadedScene& scene, const std::vector<render::OutputFile>& outputs, bool latex) {
   std::vector<std::string> written;
   for (const render::OutputFile& file : outputs) {
     written.push_back(file.path);
+    if (latex || is_tikz(file.path)) check_name_for_latex(file.path);
+    // A .tex file may be somebody's document.
+    if (file.path.ends_with(".tex")) check_is_ours(file.path, render::kTikzMagic, "TikZ picture");
     if (!latex) continue;
-    if (!render::latex_takes_file(std::filesystem::path(file.path).filename().string()))
-      throw UsageError(fmt::format("'{}': LaTeX takes no file with # % $ \\ {{ }} \" in its name", file.path));
     written.push_back(overlay_of(file.path).string());
     check_is_ours(overlay_of(file.path), render::kOverlayMagic, "LaTeX file");
   }
   check_inputs_stay(scene, written);
+}
+
+void check_kind(const std::string& path, const DrawSettings& settings) {
+  if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf, png, tikz and tex", path));
+  if (settings.latex && !path.ends_with(".pdf") && !path.ends_with(".png"))
+    throw UsageError(fmt::format("'{}': --latex is for pdf and png files", path));
+  if (path.ends_with(".tex") && !settings.standalone)
+    throw UsageError(fmt::format("'{}': a .tex file is a document: add --standalone, or write a .tikz file", path));
 }
 
 int draw(const Options& options) {
@@ -64,14 +81,13 @@ int draw(const Options& options) {
   if (!options.settings.quiet) print_defaults(scene, false, true);
   std::vector<render::OutputFile> outputs;
   for (const std::string& path : options.outputs) {
-    if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf and png", path));
-    if (options.settings.latex && path.ends_with(".svg"))
-      throw UsageError(fmt::format("'{}': LaTeX takes pdf and png files", path));
+    check_kind(path, options.settings);
     outputs.push_back({path, "drawing"});
   }
   if (options.outputs.empty())
     for (const render::OutputFile& file : scene.model->outputs)
-      if (file.kind == "drawing" && !(options.settings.latex && file.path.ends_with(".svg"))) outputs.push_back(file);
+      if (file.kind == "drawing" && !(options.settings.latex && (file.path.ends_with(".svg") || is_tikz(file.path))))
+        outputs.push_back(file);
   if (outputs.empty())
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
@@ -91,6 +107,18 @@ void write_pixels(const std::string& path, const render::Sheet& sheet, const ren
   const double scale = 1 / render::millimetres_of_pixel(model);
   const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length * scale))); };
   render::write_png(path, render::pixels_of(sheet, pixels(sheet.width), pixels(sheet.height)));
+}
+
+// Its pictures, if it has any, stand in PNG files beside it.
+void write_tikz(const std::string& path, const render::Sheet& sheet, const DrawSettings& settings) {
+  const std::filesystem::path file(path);
+  const render::TikzDrawing drawing = render::tikz_of(sheet, file.stem().string(), settings.standalone);
+  for (const render::TikzDrawing::Picture& picture : drawing.pictures) {
+    const std::filesystem::path beside = file.parent_path() / picture.file;
+    render::write_file_atomically(beside, picture.bytes);
+    if (!settings.quiet) fmt::print(stderr, "{}\n", beside.string());
+  }
+  render::write_file_atomically(path, drawing.text);
 }
 
 // What files of the same panel and width share.
@@ -117,7 +145,7 @@ void print_statistics(const render::Figure& figure, double seconds) {
 
 bool is_drawn(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".svg" || ending == ".pdf" || ending == ".png";
+  return ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".tikz" || ending == ".tex";
 }
 
 void draw_files(const std::shared_ptr<const render::Model>& model, const std::vector<render::OutputFile>& outputs,
@@ -159,6 +187,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
     const std::string ending = std::filesystem::path(file.path).extension().string();
     if (ending == ".svg")
       render::write_file_atomically(file.path, render::svg_of(sheet, {settings.outlines}));
+    else if (is_tikz(file.path))
+      write_tikz(file.path, sheet, settings);
     else if (ending == ".pdf")
       render::write_file_atomically(file.path, render::pdf_of(sheet));
     else
@@ -172,24 +202,28 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
 }
 
 void add_draw(CLI::App& app, Action& action) {
-  auto* sub = app.add_subcommand("draw", "Draw a scene as lines (SVG, PDF, PNG), visible and hidden ones told apart");
+  auto* sub =
+      app.add_subcommand("draw", "Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart");
   sub->footer(
       "Examples:\n"
       "  lekalo draw ring.yaml -o ring.svg -o ring.pdf\n"
+      "  lekalo draw ring.yaml -o ring.tikz\n"
       "  lekalo draw plate.yaml --stats\n\n"
       "Which lines are drawn and what becomes of hidden ones the objects' `lines` say, else the drawing's. Without -o "
       "the\n"
       "scene's drawings are made, or SCENE.svg.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
-  sub->add_option("-o,--output", options->outputs,
-                  "file to write (svg, pdf, png) in place of the scene's outputs; repeatable")
+  sub->add_option(
+         "-o,--output", options->outputs,
+         "file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene's outputs; repeatable")
       ->type_name("FILE");
   sub->add_option("--size", options->size, "pixels of the page, which keeps its width: of png files, of the ground")
       ->type_name("WxH");
   sub->add_option("--crop", options->crop, "only this part of the page, in pixels")->type_name("X0,Y0,X1,Y1");
   options->engine.add_to(*sub);
   sub->add_flag("--latex", options->settings.latex, "texts in FILE.tex, for LaTeX to set over the drawing (pdf, png)");
+  sub->add_flag("--standalone", options->settings.standalone, "tikz and tex files as documents of their own");
   sub->add_flag("--outlines", options->settings.outlines, "texts of svg files as outlines in place of text and fonts");
   sub->add_flag("--quiet", options->settings.quiet, "no progress and no notes");
   sub->add_flag("--stats", options->settings.stats, "print how many lines and pieces there are, and times");

@@ -8,12 +8,13 @@ namespace lekalo::command {
 struct DrawSettings {
   bool quiet = false;
   bool stats = false;
-  bool latex = false;     // texts in a file of their own, for LaTeX
-  bool outlines = false;  // texts of svg files as outlines
-  int threads = 0;        // 0: all cores
+  bool latex = false;       // texts in a file of their own, for LaTeX
+  bool outlines = false;    // texts of svg files as outlines
+  bool standalone = false;  // TikZ pictures as documents of their own
+  int threads = 0;          // 0: all cores
 };
 
-// Whether drawings of this kind of file are made.
+// Whether drawings of this kind of file are made: svg, pdf, png, tikz, tex.
 bool is_drawn(const std::string& path);
 
 // Writes the drawing of the model; `outputs` all satisfy is_drawn(). Throws ImageError, and

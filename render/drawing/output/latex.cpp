@@ -179,16 +179,6 @@ constexpr std::string_view kLettersMacro =
     "{A drawing has letters of the font encoding #1: say \\string\\usepackage[#1,T1]{fontenc}}{In the preamble.}"
     "\\fi\\fi#2}}%\n";
 
-// A name of a file between braces, in a form that TeX reads as it is.
-std::string file_for_latex(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    if (std::string_view("~^&").find(c) != std::string_view::npos) result += "\\string";
-    result += c;
-  }
-  return result;
-}
-
 void add_texts(const std::vector<SheetItem>& items, const Sheet& sheet, std::string& result) {
   for (const SheetItem& item : items) {
     if (const auto* group = std::get_if<SheetGroup>(&item)) add_texts(group->items, sheet, result);
@@ -202,19 +192,42 @@ void add_texts(const std::vector<SheetItem>& items, const Sheet& sheet, std::str
       return std::clamp(1 + text->brush.opacity * (srgb_encode(text->brush.color[k]) - 1), 0.0, 1.0);
     };
     const char* side = text->alignment < 0.25 ? "lb" : text->alignment > 0.75 ? "rb" : "b";
-    std::string box = fmt::format("\\makebox(0,0)[{}]{{\\smash{{{}}}}}", side, LatexText(text->tex).run());
+    std::string box = fmt::format("\\makebox(0,0)[{}]{{\\smash{{{}}}}}", side, latex_text(text->tex));
     if (text->angle != 0) box = fmt::format("\\rotatebox{{{:.4f}}}{{{}}}", text->angle * 180 / geometry::kPi, box);
-    // The points of scenes are those of PostScript; LaTeX has its fonts at whole ones of its own, by a 270th smaller.
-    const double points = std::round(text->size / 25.4 * 72 * 100) / 100;
     result += fmt::format(
-        "  \\put({:.6f},{:.6f}){{\\color[rgb]{{{:.4f},{:.4f},{:.4f}}}\\fontsize{{{:.3f}}}{{{:.3f}}}\\selectfont "
+        "  \\put({:.6f},{:.6f}){{\\color[rgb]{{{:.4f},{:.4f},{:.4f}}}{}"
         "{}}}%\n",
-        at.x / sheet.width, (sheet.height - at.y) / sheet.width, encoded(0), encoded(1), encoded(2), points,
-        1.2 * points, box);
+        at.x / sheet.width, (sheet.height - at.y) / sheet.width, encoded(0), encoded(1), encoded(2),
+        latex_font_size(*text), box);
   }
 }
 
 }  // namespace
+
+std::string latex_text(std::string_view label) { return LatexText(label).run(); }
+
+std::string letters_macro(std::string_view texts) {
+  return texts.find("\\lekaloletters") == std::string_view::npos ? std::string() : std::string(kLettersMacro);
+}
+
+std::string letters_packages(std::string_view texts) {
+  return texts.find("\\lekaloletters{T2A}") == std::string_view::npos ? "" : "\\usepackage[T2A,T1]{fontenc}";
+}
+
+std::string latex_font_size(const SheetText& text) {
+  // The points of scenes are those of PostScript; LaTeX has its fonts at whole ones of its own, by a 270th smaller.
+  const double points = std::round(text.size / 25.4 * 72 * 100) / 100;
+  return fmt::format("\\fontsize{{{:.3f}}}{{{:.3f}}}\\selectfont ", points, 1.2 * points);
+}
+
+std::string file_for_latex(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    if (std::string_view("~^&").find(c) != std::string_view::npos) result += "\\string";
+    result += c;
+  }
+  return result;
+}
 
 Sheet without_texts(const Sheet& sheet) {
   Sheet result = sheet;
@@ -233,15 +246,14 @@ std::string latex_overlay(const Sheet& sheet, const std::string& drawing) {
   if (!latex_takes_file(drawing)) throw std::invalid_argument(fmt::format("LaTeX takes no file called '{}'", drawing));
   std::string texts;
   add_texts(sheet.items, sheet, texts);
-  const bool letters = texts.find("\\lekaloletters") != std::string::npos;
-  const bool cyrillic = texts.find("\\lekaloletters{T2A}") != std::string::npos;
+  const std::string packages = letters_packages(texts);
   std::string text = fmt::format(
       "{0}{1}, set by LaTeX. In the document: \\usepackage{{graphicx,color,amsmath,amssymb}}{2}, then \\input this "
       "file.\n"
       "% \\def\\lekalowidth{{120mm}} before it makes the drawing, not its texts, larger or smaller.\n"
       "\\begingroup%\n",
-      kOverlayMagic, drawing, cyrillic ? " and \\usepackage[T2A,T1]{fontenc}" : "");
-  if (letters) text += kLettersMacro;
+      kOverlayMagic, drawing, packages.empty() ? "" : " and " + packages);
+  text += letters_macro(texts);
   text += fmt::format(
       "\\ifx\\lekalowidth\\undefined\\setlength{{\\unitlength}}{{{0:.4f}mm}}%\n"
       "\\else\\setlength{{\\unitlength}}{{\\lekalowidth}}\\fi%\n"

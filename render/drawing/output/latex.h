@@ -13,6 +13,17 @@ namespace lekalo::render {
 // What the file begins with.
 inline constexpr std::string_view kOverlayMagic = "% Texts of ";
 
+// A label as LaTeX sets it alike, by the rules of latex_overlay().
+std::string latex_text(std::string_view label);
+// The macro that latex_text() uses for letters that only some encodings of fonts have, and the preamble's line for
+// them; empty where the texts have no such letters.
+std::string letters_macro(std::string_view texts);
+std::string letters_packages(std::string_view texts);
+// The points of a text's size in LaTeX: a font size and, with it, a distance of lines.
+std::string latex_font_size(const SheetText& text);
+// A name of a file between braces, in a form that TeX reads as it is.
+std::string file_for_latex(const std::string& name);
+
 Sheet without_texts(const Sheet& sheet);
 
 // Whether LaTeX can be told of a file with this name: without control characters and # % $ \ { } ".

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "render/drawing/output/cairo_output.h"
+#include "render/drawing/output/element_names.h"
 #include "render/drawing/text/fonts.h"
 #include "render/image/display.h"
 #include "render/scene/values/characters.h"
@@ -65,19 +65,6 @@ std::string step_text(const PathStep& step) {
   return {};
 }
 
-// As XML has it for an id: letters, digits, - and ., the first a letter. All beyond ASCII are taken for letters.
-std::string name_token(std::string_view name) {
-  std::string result;
-  for (const char c : name) {
-    const bool letter =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
-    const bool other = (c >= '0' && c <= '9') || c == '-' || c == '.';
-    if (result.empty() && !letter) result += '_';
-    result += letter || other ? c : '_';
-  }
-  return result;
-}
-
 // Behind what is there already.
 void append(std::string& data, const Path& path) {
   data += fmt::format("{}M{}", data.empty() ? "" : " ", point(path.from));
@@ -118,39 +105,19 @@ class Writer {
     return at == Vec2(0) ? std::string() : fmt::format(" x=\"{}\" y=\"{}\"", number(at.x), number(at.y));
   }
 
-  // A name that no other element has.
-  std::string unique(const std::string& name) {
-    const std::string token = name_token(name);
-    int& number = last_number_[token];
-    std::string id = token;
-    while (!ids_.insert(id).second) id = fmt::format("{}_{}", token, number = std::max(number, 1) + 1);
-    return id;
-  }
   // Of what stands in a group without being one.
   std::string next_id() {
-    if (within_.empty()) return {};
-    return fmt::format(" id=\"{}\"", unique(fmt::format("{}-{}", within_, ++number_)));
-  }
-
-  // Objects have their names, their lines name and kind: block, block-sharp, block-hidden, block-sharp-hidden-layers-1.
-  std::string id_of(const SheetGroup& group) {
-    std::string classes = group.kind;
-    std::replace(classes.begin(), classes.end(), ' ', '-');
-    if (group.object.empty()) return unique(panel_ + classes);
-    for (const std::string_view whole : {"object", "panel"})
-      if (group.kind.starts_with(whole)) return unique(panel_ + group.object + classes.substr(whole.size()));
-    return unique(panel_ + group.object + "-" + classes);
+    const std::string id = names_.next();
+    return id.empty() ? id : fmt::format(" id=\"{}\"", id);
   }
 
   void write(const SheetGroup& group) {
     if (group.items.empty()) return;
-    const std::string id = id_of(group), within = std::exchange(within_, id), panel = panel_;
-    const int before = std::exchange(number_, 0);
-    if (group.kind == "panel") panel_ = id + "-";
-    text_ += fmt::format("<g id=\"{}\" class=\"{}\"", id, xml_text(group.kind));
+    const ElementNames::Within within(names_, group);
+    text_ += fmt::format("<g id=\"{}\" class=\"{}\"", within.name(), xml_text(group.kind));
     if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", xml_text(group.object));
     if (group.clip_at) {
-      const std::string clip = unique("clip");
+      const std::string clip = names_.unique("clip");
       definitions_ += fmt::format(
           "<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", clip,
           number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x), number(group.clip_size.y));
@@ -159,7 +126,6 @@ class Writer {
     text_ += ">\n";
     items(group.items);
     text_ += "</g>\n";
-    within_ = within, number_ = before, panel_ = panel;
   }
 
   void write(const SheetPath& path) {
@@ -178,7 +144,7 @@ class Writer {
   }
 
   std::string define(const Gradient& gradient) {
-    const std::string id = unique("gradient");
+    const std::string id = names_.unique("gradient");
     const char* const kind = gradient.radial ? "radialGradient" : "linearGradient";
     definitions_ += fmt::format("<{} id=\"{}\" gradientUnits=\"userSpaceOnUse\"", kind, id);
     const Vec2 &a = gradient.from, &b = gradient.to;
@@ -264,10 +230,7 @@ class Writer {
   const SvgOptions& options_;
   std::string text_, definitions_;
   std::map<Font, std::string> used_;  // characters
-  std::set<std::string> ids_;
-  std::map<std::string, int> last_number_;  // behind names that were taken
-  std::string within_, panel_;              // id of the group that is written; how ids in its panel begin
-  int number_ = 0;                          // of elements so far in the group
+  ElementNames names_;
 };
 
 }  // namespace
