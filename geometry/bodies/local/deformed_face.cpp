@@ -49,7 +49,7 @@ double gap_at_border(const Body& body, int number, const Surface& surface) {
 
 Body deformed(const Fields& f) {
   const Body& body = *f.body("of");
-  const int number = face_named(body, f.text("face"), "face");
+  const int number = one_called(body, Element::face, f.text("face"), "face");
   const SurfacePtr surface = deformed_by(base_of(body, number), f, true);
   if (gap_at_border(body, number, *surface) <= 1e-12 * bounds(body).diameter()) {
     Body result = body;

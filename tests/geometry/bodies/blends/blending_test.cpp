@@ -15,7 +15,7 @@ using blend_checks::violations_of;
 
 BlendRequest fillet(const Body& body, const std::string& a, const std::string& b, double radius) {
   BlendRequest request;
-  request.edges = edges_between(body, a, b);
+  request.edges = edges_of(body, a, b);
   request.rule.sizes = {ScalarLaw(radius), ScalarLaw(radius)};
   request.rule.role = "fillets.0", request.rule.field = "radius";
   return request;
@@ -111,7 +111,7 @@ TEST(Blending, RefusesWithTheEdge) {
     blended(body, {fillet(body, "x_max", "z_max", 1.5)});
     FAIL();
   } catch (const BlendError& error) {
-    EXPECT_EQ(error.edge, edges_between(body, "x_max", "z_max")[0]);
+    EXPECT_EQ(error.edge, edges_of(body, "x_max", "z_max")[0]);
     EXPECT_TRUE(error.too_large);
   }
   const Body round = cylinder_body(Frame{}, 1, 2);
