@@ -28,6 +28,7 @@
   X(face_loop_type)            \
   X(hollow_body_type)          \
   X(offset_body_type)          \
+  X(shell_body_type)           \
   X(moved_faces_type)          \
   X(deformed_face_type)        \
   X(refilleted_body_type)      \

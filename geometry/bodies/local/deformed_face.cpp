@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "geometry/bodies/local/face_replacement.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/surfaces/derived/deformed.h"
 #include "geometry/surfaces/derived/extended.h"
 
