@@ -59,6 +59,37 @@ BlendEdge blend_edge(const Body& body, int edge, size_t rule) {
   return result;
 }
 
+// The radius with which an edge goes on at one end, if that is another one than its own.
+std::optional<double> radius_beyond(const Body& body, const std::map<int, size_t>& known,
+                                    const std::vector<BlendEdge>& edges, const BlendEdge& edge, bool at_end,
+                                    const std::vector<BlendRule>& rules) {
+  const Fan fan = fan_from(body, {edge.edge, at_end});
+  const size_t next = fan.edges.empty() ? 0 : continuation(body, fan);
+  const auto found = next > 0 ? known.find(fan.edges[next].edge) : known.end();
+  if (found == known.end()) return std::nullopt;
+  const BlendRule& rule = rules[edges[found->second].rule];
+  return rule.is_plain_ball() ? std::optional(rule.sizes[0](0.0)) : std::nullopt;
+}
+
+// An edge between two that have different radii leads from one to the other: r(s) = a + (b - a) (3 s^2 - 2 s^3), which
+// has the sections of both at its ends.
+void lead_over(const Body& body, const std::map<int, size_t>& known, std::vector<BlendEdge>& edges, size_t i,
+               std::vector<BlendRule>& rules) {
+  BlendEdge& edge = edges[i];
+  if (!rules[edge.rule].is_plain_ball()) return;
+  const auto a = radius_beyond(body, known, edges, edge, false, rules),
+             b = radius_beyond(body, known, edges, edge, true, rules);
+  if (!a || !b || *a == *b) return;
+  auto parsed = Expression::parse(fmt::format("{:.17g} + ({:.17g})*(3*s^2 - 2*s^3)", *a, *b - *a));
+  Expression law = std::get<Expression>(std::move(parsed));
+  const Expression::Variable s{"s"};
+  law.bind({&s, 1});
+  BlendRule rule = rules[edge.rule];
+  rule.sizes = {ScalarLaw(law), ScalarLaw(law)};
+  edge.rule = rules.size();
+  rules.push_back(std::move(rule));
+}
+
 }  // namespace
 
 size_t continuation(const Body& body, const Fan& fan) {
@@ -77,7 +108,9 @@ size_t continuation(const Body& body, const Fan& fan) {
   return found;
 }
 
-std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequest>& requests) {
+std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequest>& requests,
+                                   std::vector<BlendRule>& rules) {
+  for (const BlendRequest& one : requests) rules.push_back(one.rule);
   std::vector<BlendEdge> result;
   std::map<int, size_t> known;
   const auto add = [&](int edge, size_t rule) {
@@ -92,6 +125,7 @@ std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequ
       const std::set<int>& first = requests[r].first_faces;
       result.back().first_is_left = first.count(result.back().faces[1]) && !first.count(result.back().faces[0]);
     }
+  const size_t given = result.size();
   for (size_t i = 0; i < result.size(); ++i)
     for (const bool at_end : {false, true}) {
       const BlendEdge from = result[i];
@@ -108,6 +142,7 @@ std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequ
           first_side == side_after(fan.edges[0]) ? side_before(fan.edges[next]) : side_after(fan.edges[next]);
       result.back().first_is_left = side == 1;
     }
+  for (size_t i = given; i < result.size(); ++i) lead_over(body, known, result, i, rules);
   return result;
 }
 

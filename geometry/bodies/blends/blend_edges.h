@@ -17,6 +17,7 @@ class BlendError : public std::invalid_argument {
       : std::invalid_argument(message), edge(edge), too_large(too_large) {}
   int edge;
   bool too_large;
+  std::string name = {};  // what messages call the edge
 };
 
 struct BlendRequest {
@@ -30,9 +31,10 @@ struct BlendRequest {
 // are smooth. The index in the fan of the half-edge that continues the first one, or 0.
 size_t continuation(const Body& body, const Fan& fan);
 
-// One for each edge, in the order in which they are asked for. Throws BlendError for an edge that is smooth or free or
-// asked for twice.
-std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequest>& requests);
+// One for each edge, in the order in which they are asked for; `rules`: those of the requests, and more for edges that
+// lead from one radius to another. Throws BlendError for an edge that is smooth or free or asked for twice.
+std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequest>& requests,
+                                   std::vector<BlendRule>& rules);
 
 // The faces beside a half-edge: counterclockwise after it (the left one where it leaves the vertex), and before it.
 inline int side_after(const HalfEdge& half) { return half.at_end ? 0 : 1; }

@@ -33,34 +33,27 @@ Box3 sampled_box(const Curve& image) {
 class Blending {
  public:
   Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners)
-      : body_(body),
-        rules_(rules_of(requests)),
-        corners_(corners),
-        surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {}, {}} {
-    const std::vector<BlendEdge> edges = blend_edges(body, requests);
+      : body_(body), corners_(corners), surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {},
+                                                 {},   {}} {
+    const std::vector<BlendEdge> edges = blend_edges(body, requests, rules_);
     for (size_t i = 0; i < edges.size(); ++i) surgery_.blend_of[edges[i].edge] = i;
     for (const BlendEdge& edge : edges) surgery_.blends.push_back({edge, band_of(edge), {}, {}, {}});
   }
 
-  Body run() {
+  Stage run() {
     meet_vertices();
     trim_edges();
     retrace_loops();
     add_bands();
     widen_faces();
-    Body result = surgery_.draft.body();
-    measure_tolerances(result);
-    check(result);
-    return result;
+    Stage stage;
+    stage.body = surgery_.draft.body(&stage.edges);
+    measure_tolerances(stage.body);
+    check(stage.body);
+    return stage;
   }
 
  private:
-  static std::vector<BlendRule> rules_of(const std::vector<BlendRequest>& requests) {
-    std::vector<BlendRule> rules;
-    for (const BlendRequest& one : requests) rules.push_back(one.rule);
-    return rules;
-  }
-
   BlendBand band_of(const BlendEdge& edge) const {
     const BlendRule& rule = rules_[edge.rule];
     const double size = 4 * std::max(rule.sizes[0](0.5), rule.sizes[1](0.5));
@@ -97,7 +90,7 @@ class Blending {
     if (count == 1) return run_out(surgery_, fan);
     const size_t next = continuation(body_, fan);
     if (count == 2 && next > 0 && surgery_.is_blended(fan.edges[next])) return join(surgery_, fan, next);
-    if (count == fan.edges.size() && corners_ == Corners::round && is_one_ball(fan)) return round_corner(surgery_, fan);
+    if (fan.edges.size() == count && corners_ == Corners::round && is_one_ball(fan)) return round_corner(surgery_, fan);
     if (fan.edges.size() == 3 && is_of_one_side(fan)) return mitre(surgery_, fan);
     throw BlendError(fan.edges[0].edge, "blends that meet at its end in this way are not known", false);
   }
@@ -194,15 +187,8 @@ class Blending {
   }
 
   void add_bands() {
-    std::map<size_t, int> count, next;
-    for (const EdgeBlend& blend : surgery_.blends) ++count[blend.edge.rule];
-    for (size_t f = body_.faces.size(); f < surgery_.draft.faces.size(); ++f)
-      for (size_t r = 0; r < rules_.size(); ++r)
-        if (rules_[r].role == surgery_.draft.faces[f].origin.role) ++count[r];
-    const size_t corners = surgery_.draft.faces.size();
     for (size_t b = 0; b < surgery_.blends.size(); ++b) {
       const EdgeBlend& blend = surgery_.blends[b];
-      const size_t rule = blend.edge.rule;
       double lo = kInfinity, hi = -kInfinity;
       for (int end = 0; end < 2; ++end)
         for (const Body::Use& use : blend.sections[end]) {
@@ -220,16 +206,12 @@ class Blending {
       face.trimmed = !is_straight;
       const Vec2 middle = blend.band.place(0.5 * (lo + hi), 0.5);
       face.forward = glm::dot(face.surface->normal(middle.x, middle.y), blend.band.outward(0.5 * (lo + hi), 0.5)) > 0;
-      face.origin = {"", rules_[rule].role, count[rule] > 1 ? next[rule]++ : -1};
+      face.origin = {"", rules_[blend.edge.rule].role, -1};
       face.shell = surgery_.draft.faces[blend.edge.faces[0]].shell;
       face.loops = {loop_of(b)};
       surgery_.draft.faces.push_back(std::move(face));
     }
-    for (size_t f = body_.faces.size(); f < corners; ++f) {
-      Origin& origin = surgery_.draft.faces[f].origin;
-      for (size_t r = 0; r < rules_.size(); ++r)
-        if (rules_[r].role == origin.role) origin.index = next[r]++;
-    }
+    for (DraftFace& face : surgery_.corner_faces) surgery_.draft.faces.push_back(std::move(face));
   }
 
   // The right border, the section at the end, the left border back, the section at the start back.
@@ -301,7 +283,7 @@ class Blending {
 
 }  // namespace
 
-Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
+Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
   return Blending(body, requests, corners).run();
 }
 

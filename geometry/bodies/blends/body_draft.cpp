@@ -29,7 +29,7 @@ int BodyDraft::add_edge(CurvePtr curve, int start, int end, Origin origin, EdgeK
   return static_cast<int>(edges.size()) - 1;
 }
 
-Body BodyDraft::body() const {
+Body BodyDraft::body(std::vector<int>* edge_numbers) const {
   Body result;
   std::vector<char> is_used(edges.size(), 0), has_edge(vertices.size(), 0);
   for (const DraftFace& face : faces)
@@ -49,6 +49,7 @@ Body BodyDraft::body() const {
     edge[e] = result.add_edge(old.curve, vertex[old.start], vertex[old.end], old.origin, old.kind);
     result.edges.back().tolerance = old.tolerance;
   }
+  if (edge_numbers) *edge_numbers = edge;
   for (const bool closed : closed_shells) result.shells.push_back({{}, closed});
   for (const DraftFace& face : faces) {
     if (face.loops.empty()) continue;

@@ -27,7 +27,8 @@ struct BodyDraft {
   int add_edge(CurvePtr curve, int start, int end, Origin origin = {}, EdgeKind kind = EdgeKind::regular);
 
   // Faces keep their numbers but those without loops, edges and vertices that are used their order.
-  Body body() const;
+  // `edge_numbers`: the new number of each edge, -1 for those that are left out.
+  Body body(std::vector<int>* edge_numbers = nullptr) const;
 };
 
 }  // namespace lekalo::geometry

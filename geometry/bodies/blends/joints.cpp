@@ -170,7 +170,7 @@ void round_corner(Surgery& surgery, const Fan& fan) {
     loop.push_back({edge, side_before(half) == 0, image});
   }
   face.loops = {loop};
-  surgery.draft.faces.push_back(std::move(face));
+  surgery.corner_faces.push_back(std::move(face));
 }
 
 }  // namespace lekalo::geometry

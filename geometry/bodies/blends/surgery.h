@@ -37,6 +37,7 @@ struct Surgery {
   std::vector<EdgeBlend> blends;
   std::map<int, size_t> blend_of;  // of an edge
   std::map<int, EdgeTrim> trims;   // of edges that stay
+  std::vector<DraftFace> corner_faces;
   // Uses to insert in the loop that arrives along a half-edge, with images on its face.
   std::map<HalfEdge, std::vector<Body::Use>> corners;
 

@@ -23,7 +23,8 @@ BlendRequest fillet(const Body& body, const std::string& a, const std::string& b
 
 BlendRequest fillet_all(const Body& body, double radius) {
   BlendRequest request = fillet(body, "none", "none", radius);
-  for (size_t e = 0; e < body.edges.size(); ++e) request.edges.push_back(static_cast<int>(e));
+  for (size_t e = 0; e < body.edges.size(); ++e)
+    if (body.edges[e].kind == EdgeKind::regular) request.edges.push_back(static_cast<int>(e));
   return request;
 }
 
@@ -103,6 +104,76 @@ TEST(Blending, RimsOfACylinder) {
     EXPECT_EQ(violations_of(*result), "");
     expect_smooth_borders(*result);
   }
+}
+
+BlendRequest chamfer(const Body& body, const std::string& a, const std::string& b, double length) {
+  BlendRequest request = fillet(body, a, b, length);
+  request.rule.kind = BlendKind::chamfer;
+  return request;
+}
+
+// The prisms that are cut off have d^3/3 in common by twos and d^3/4 by threes.
+TEST(Blending, ChamfersMeetInEdges) {
+  const Body body = box(Frame{}, {3, 2, 1.5});
+  const double d = 0.4, cube = d * d * d;
+  const BlendRequest x = chamfer(body, "y_min", "z_max", d), y = chamfer(body, "x_max", "z_max", d),
+                     z = chamfer(body, "x_max", "y_min", d);
+  const Body two = blended(body, {x, y}), three = blended(body, {x, y, z});
+  EXPECT_NEAR(measure(two).volume.value, 9 - d * d / 2 * 5 + cube / 3, 1e-13);
+  EXPECT_NEAR(measure(three).volume.value, 9 - d * d / 2 * 6.5 + cube - cube / 4, 1e-13);
+}
+
+// The spandrels of two fillets r have the integral of (r - sqrt(r^2 - (r - x)^2))^2 in common, (5/3 - pi/2) r^3.
+TEST(Blending, FilletsMeetInEdges) {
+  const Body body = box(Frame{}, {3, 2, 1.5});
+  const double r = 0.4, area = r * r * (1 - kPi / 4), common = (5.0 / 3 - kPi / 2) * r * r * r;
+  BlendRequest top = fillet(body, "none", "none", r);
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max"})
+    top.edges.push_back(edges_between(body, side, "z_max")[0]);
+  const Body result = blended(body, {top});
+  EXPECT_NEAR(measure(result).volume.value, 9 - 10 * area + 4 * common, 1e-13);
+  expect_smooth_borders(result);
+}
+
+// Where one reaches farther it cuts the third face. The common part of the spandrels by Simpson's rule.
+TEST(Blending, FilletsOfTwoRadiiMeet) {
+  const Body body = box(Frame{}, {3, 2, 1.5});
+  const auto depth = [](double r, double x) { return x < r ? r - std::sqrt(r * r - (r - x) * (r - x)) : 0; };
+  for (const bool swap : {false, true}) {
+    const double a = swap ? 0.6 : 0.4, b = swap ? 0.4 : 0.6;  // along x, along y
+    const double least = std::min(a, b);
+    double common = 0;
+    constexpr int kSteps = 2000;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double angle = 0.5 * kPi * k / kSteps, x = least - least * std::sin(angle);
+      const double weight = k == 0 || k == kSteps ? 1 : k % 2 ? 4 : 2;
+      common += weight * depth(a, x) * depth(b, x) * least * std::cos(angle);
+    }
+    common *= 0.5 * kPi / kSteps / 3;
+    const Body result = blended(body, {fillet(body, "y_min", "z_max", a), fillet(body, "x_max", "z_max", b)});
+    EXPECT_NEAR(measure(result).volume.value, 9 - (1 - kPi / 4) * (3 * a * a + 2 * b * b) + common, 1e-11);
+    expect_smooth_borders(result);
+  }
+}
+
+// One after the other: tori about the arcs in which the larger ones end, or blends that lead from radius to radius.
+TEST(Blending, CornersOfDifferentRadii) {
+  const Body body = box(frame_about({1, 2, 3}, {1, -1, 2}), {3, 2, 1.5});
+  const BlendRequest x = fillet(body, "y_min", "z_max", 0.3), y = fillet(body, "x_max", "z_max", 0.5);
+  for (const double third : {0.3, 0.2}) {
+    const Body result = blended(body, {x, y, fillet(body, "x_max", "y_min", third)});
+    EXPECT_EQ(violations_of(result), "");
+    EXPECT_EQ(result.faces.size(), 10u);
+    expect_smooth_borders(result);
+  }
+}
+
+TEST(Blending, ConvexAndConcaveEdgesTogether) {
+  const Body body = prism(Frame{}, {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}, 2);
+  const Body result = blended(body, {fillet_all(body, 0.3)});
+  EXPECT_EQ(violations_of(result), "");
+  EXPECT_EQ(result.euler_characteristic(), 2);
+  expect_smooth_borders(result);
 }
 
 TEST(Blending, RefusesWithTheEdge) {
