@@ -4,6 +4,7 @@
 #include <random>
 
 #include "geometry/bodies/primitives/primitives.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "tests/geometry/bodies/blends/blend_checks.h"
 
@@ -13,18 +14,28 @@ namespace {
 using blend_checks::expect_smooth_borders;
 using blend_checks::violations_of;
 
-BlendRequest fillet(const Body& body, const std::string& a, const std::string& b, double radius) {
+std::vector<int> edges_of(const Body& body, const std::string& a, const std::string& b) {
+  Selector between;
+  between.between = {a, b};
+  return select(body, Element::edge, between);
+}
+
+BlendRequest ball_of(double radius) {
   BlendRequest request;
-  request.edges = edges_of(body, a, b);
   request.rule.sizes = {ScalarLaw(radius), ScalarLaw(radius)};
   request.rule.role = "fillets.0", request.rule.field = "radius";
   return request;
 }
 
+BlendRequest fillet(const Body& body, const std::string& a, const std::string& b, double radius) {
+  BlendRequest request = ball_of(radius);
+  request.edges = edges_of(body, a, b);
+  return request;
+}
+
 BlendRequest fillet_all(const Body& body, double radius) {
-  BlendRequest request = fillet(body, "none", "none", radius);
-  for (size_t e = 0; e < body.edges.size(); ++e)
-    if (body.edges[e].kind == EdgeKind::regular) request.edges.push_back(static_cast<int>(e));
+  BlendRequest request = ball_of(radius);
+  for (size_t e = 0; e < body.edges.size(); ++e) request.edges.push_back(static_cast<int>(e));
   return request;
 }
 
@@ -127,9 +138,8 @@ TEST(Blending, ChamfersMeetInEdges) {
 TEST(Blending, FilletsMeetInEdges) {
   const Body body = box(Frame{}, {3, 2, 1.5});
   const double r = 0.4, area = r * r * (1 - kPi / 4), common = (5.0 / 3 - kPi / 2) * r * r * r;
-  BlendRequest top = fillet(body, "none", "none", r);
-  for (const char* side : {"x_min", "x_max", "y_min", "y_max"})
-    top.edges.push_back(edges_between(body, side, "z_max")[0]);
+  BlendRequest top = ball_of(r);
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max"}) top.edges.push_back(edges_of(body, side, "z_max")[0]);
   const Body result = blended(body, {top});
   EXPECT_NEAR(measure(result).volume.value, 9 - 10 * area + 4 * common, 1e-13);
   expect_smooth_borders(result);
@@ -187,17 +197,6 @@ TEST(Blending, RefusesWithTheEdge) {
   }
   const Body round = cylinder_body(Frame{}, 1, 2);
   EXPECT_THROW(blended(round, {fillet(round, "end", "side", 1.01)}), BlendError);
-}
-
-TEST(EntityNames, FamiliesLeaveNumbersOut) {
-  EXPECT_TRUE(is_named({"hole.3", "side", -1}, "hole.side"));
-  EXPECT_TRUE(is_named({"hole.3", "side", 2}, "hole.3.side"));
-  EXPECT_FALSE(is_named({"hole.3", "side", 2}, "hole.2.side"));
-  EXPECT_FALSE(is_named({"", "side", 2}, "end"));
-  EXPECT_FALSE(is_named({"hole.3", "side", 2}, "side"));
-  const Body body = box(Frame{}, {1, 1, 1});
-  EXPECT_EQ(faces_named(body, "block.x_min").size(), 1u);
-  EXPECT_EQ(edges_between(body, "x_min", "z_max").size(), 1u);
 }
 
 }  // namespace
