@@ -35,7 +35,8 @@ BlendRequest fillet(const Body& body, const std::string& a, const std::string& b
 
 BlendRequest fillet_all(const Body& body, double radius) {
   BlendRequest request = ball_of(radius);
-  for (size_t e = 0; e < body.edges.size(); ++e) request.edges.push_back(static_cast<int>(e));
+  for (size_t e = 0; e < body.edges.size(); ++e)
+    if (body.edges[e].kind == EdgeKind::regular) request.edges.push_back(static_cast<int>(e));
   return request;
 }
 
