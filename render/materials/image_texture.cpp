@@ -86,6 +86,7 @@ class PictureTexture final : public Texture {
   // with axes e_1, e_2: the parameters that belong to a step of a pixel along each (the ray's differential, Igehy 1999,
   // of a ray that has met no mirror).
   std::pair<Vec2, Vec2> covered(const SurfacePoint& point) const {
+    if (!(point.pixel_size > 0)) return {Vec2(0), Vec2(0)};
     const Frame across = frame_about(Vec3(0), point.incoming);
     const Vec2 du(glm::dot(point.du, across.x), glm::dot(point.du, across.y));
     const Vec2 dv(glm::dot(point.dv, across.x), glm::dot(point.dv, across.y));

@@ -53,10 +53,10 @@ ModelMaterial material_of(const aiScene& scene, const aiMaterial& from) {
   to.roughness = number(from, AI_MATKEY_ROUGHNESS_FACTOR,
                         is_metal_rough ? 1 : std::sqrt(std::sqrt(2 / (std::fmax(0, shininess) + 2))));
   to.transmission = number(from, AI_MATKEY_TRANSMISSION_FACTOR, 0);
-  to.index = number(from, AI_MATKEY_REFRACTI, 1.5);
+  if (const double index = number(from, AI_MATKEY_REFRACTI, 1.5); index > 1) to.index = index;  // OBJ: 1 if not given
+  const Vec3 specular = color(from, AI_MATKEY_COLOR_SPECULAR, Vec3(1));
+  to.shines = is_metal_rough || std::fmax(specular.x, std::fmax(specular.y, specular.z)) > 0;
   to.emission = color(from, AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
-  int two_sided = 0;
-  to.two_sided = from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
   aiString alpha;
   if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha) == AI_SUCCESS) {
     to.has_holes = std::string(alpha.C_Str()) != "OPAQUE";

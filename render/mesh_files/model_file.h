@@ -21,7 +21,7 @@ struct ModelMaterial {
   geometry::Vec3 base_color{0.8};
   double metalness = 0, roughness = 0.5, opacity = 1, transmission = 0, index = 1.5;
   geometry::Vec3 emission{0};
-  bool two_sided = false;
+  bool shines = true;      // else it is matt
   bool has_holes = false;  // the alpha of base_picture counts
   ModelPicture base_picture, normal_picture, emission_picture, opacity_picture;
   ModelPicture metal_rough_picture;  // roughness in green, metalness in blue (glTF 2.0, 3.9.2)

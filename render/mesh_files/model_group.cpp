@@ -122,6 +122,7 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
   to.base_metalness = std::clamp(from.metalness, 0.0, 1.0);
   to.specular_roughness = std::clamp(from.roughness, 0.0, 1.0);
   to.transmission_weight = std::clamp(from.transmission, 0.0, 1.0);
+  to.specular_weight = from.shines ? 1 : 0;
   to.specular_ior = std::max(1.0, from.index);
   if (from.base_picture.exists()) {
     Image image = pictures.read(from.base_picture, SampleEncoding::linear);

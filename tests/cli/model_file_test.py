@@ -1,0 +1,115 @@
+"""Models from glTF and OBJ files: places, materials and pictures; broken files are named."""
+
+import base64
+import json
+import struct
+import unittest
+
+from optics_input_test import png
+from program import ProgramTest
+
+SCENE = """lekalo: 1
+geometry:
+  thing: {{ type: model, file: {file}{more} }}
+materials: {{ paper: {{ type: diffuse }} }}
+objects: [{{ shape: thing }}]
+lights: {{ room: {{ type: ambient_light }} }}
+integrator: {{ type: path }}
+camera: {{ type: parallel, view: {view}, frame: all, margin: 0 }}
+image: {{ size: [32, 32], samples: 16, background: black }}
+"""
+
+# A square of side 2 in the plane z = 0 of the file, uv from its lower left corner (glTF counts v downwards).
+CORNERS = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+UV = [(0, 1), (1, 1), (1, 0), (0, 0)]
+INDICES = [0, 1, 2, 0, 2, 3]
+
+
+def gltf(nodes, material, pictures=()):
+    data = b"".join(struct.pack("<3f", *p) for p in CORNERS)
+    data += b"".join(struct.pack("<2f", *p) for p in UV)
+    data += b"".join(struct.pack("<H", i) for i in INDICES)
+    views = [(0, 48), (48, 32), (80, 12)]
+    for picture in pictures:
+        views.append((len(data), len(picture)))
+        data += picture
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [material],
+        "textures": [{"source": k} for k in range(len(pictures))],
+        "images": [{"bufferView": 3 + k, "mimeType": "image/png"} for k in range(len(pictures))],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": size} for at, size in views],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
+            {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]})
+
+
+def matt(**more):
+    return {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1, **more}}
+
+
+class Models(ProgramTest):
+    def render(self, file, view="front", more="", code=0):
+        self.write("scene.yaml", SCENE.format(file=file, view=view, more=more))
+        return self.run_program("render", "scene.yaml", "-o", "picture.exr", "--quiet", code=code)[1]
+
+    def same(self, expected):
+        """The picture is that of a scene file that says the same."""
+        self.write("expected.yaml", f"""lekalo: 1
+{expected}
+lights: {{ room: {{ type: ambient_light }} }}
+integrator: {{ type: path }}
+camera: {{ type: parallel, view: front, frame: all, margin: 0 }}
+image: {{ size: [32, 32], samples: 16, background: black }}
+""")
+        self.run_program("render", "expected.yaml", "-o", "expected.exr", "--quiet")
+        self.run_program("compare", "picture.exr", "expected.exr", "--metric", "max", "--threshold", "1e-4")
+
+    def test_gltf_stands_where_it_says(self):
+        """Two copies of the square, y of the file is z here."""
+        self.write("two.gltf", gltf([{"mesh": 0, "translation": [-2, 1, 0]}, {"mesh": 0, "translation": [2, 0, 0], "scale": [1, 2, 1]}],
+                                    matt(baseColorFactor=[0.6, 0.3, 0.1, 1])))
+        self.render("two.gltf")
+        matter = "{ type: principled, base_color: [0.6, 0.3, 0.1], specular_roughness: 1 }"
+        self.same(f"""geometry:
+  a: {{ type: plane, size: [2, 2], frame: {{ origin: [-2, 0, 1], x: x, z: -y }} }}
+  b: {{ type: plane, size: [2, 4], frame: {{ origin: [2, 0, 0], x: x, z: -y }} }}
+objects: [{{ shape: a, material: {matter} }}, {{ shape: b, material: {matter} }}]""")
+
+    def test_pictures_within(self):
+        """Four squares of colour."""
+        colors = [[255, 0, 0, 0, 255, 0], [0, 0, 255, 255, 255, 255]]
+        self.write("square.gltf", gltf([{"mesh": 0}], matt(baseColorTexture={"index": 0}), [png(2, 2, 8, colors)]))
+        (self.folder / "colors.png").write_bytes(png(2, 2, 8, colors))
+        self.render("square.gltf")
+        self.same("""geometry: { a: { type: plane, size: [2, 2], frame: { x: x, z: -y } } }
+materials: { it: { type: principled, specular_roughness: 1, base_color: { type: image, file: colors.png, spacing: 2, offset: -1, interpolation: filtered } } }
+objects: [{ shape: a, material: it }]""")
+
+    def test_obj_with_its_library(self):
+        self.write("part.mtl", "newmtl red\nKd 0.7 0.1 0.05\nNs 0\nillum 2\n")
+        self.write("part.obj", "mtllib part.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nusemtl red\nf 1 2 3 4\n")
+        self.render("part.obj", more=", up: z")
+        self.same("""geometry: { a: { type: plane, size: [2, 2], frame: { x: x, z: -y } } }
+objects: [{ shape: a, material: { type: principled, base_color: [0.7, 0.1, 0.05], specular_roughness: 1, specular_weight: 0 } }]""")
+
+    def test_what_is_wrong_is_named(self):
+        self.write("broken.gltf", "{ \"asset\": ")
+        self.write("empty.gltf", json.dumps({"asset": {"version": "2.0"}}))
+        self.write("words.glb", "not a model")
+        (self.folder / "cut.gltf").write_text(gltf([{"mesh": 0}], matt())[:900])
+        lost = json.loads(gltf([{"mesh": 0}], matt(baseColorTexture={"index": 0}), [b"none"]))
+        lost["images"] = [{"uri": "nowhere.png"}]
+        self.write("lost.gltf", json.dumps(lost))
+        for file in "broken.gltf", "empty.gltf", "words.glb", "cut.gltf", "lost.gltf", "nowhere.gltf":
+            with self.subTest(file):
+                said = self.render(file, code=3)
+                self.assertRegex(said, r"scene.yaml:3:\d+: ")
+                self.assertIn("nowhere.png" if file == "lost.gltf" else file, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
