@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,17 @@
 namespace lekalo::render {
 
 class World;
+
+// The light of a sample by where it comes from, for the layers of a picture that show it so. Colour is emission +
+// diffuse + specular + transmission, and emission + direct + indirect, and the sum of all groups.
+struct LightParts {
+  static constexpr int kMostGroups = 16;
+  Spectrum emission;  // of what is seen: glowing things, lamps, the background
+  Spectrum indirect;  // over two and more surfaces, or from a lamp seen in mirrors and clear bodies
+  // By what the first surface did: matt lobes, other reflection, passed through.
+  Spectrum diffuse, specular, transmission;
+  std::array<Spectrum, kMostGroups> groups;  // of lights (Model::light_groups); 0: all that is in none
+};
 
 // What one camera ray brings to the film.
 struct RaySample {
@@ -29,8 +41,9 @@ struct RaySample {
   float quantity = 0;  // the number that the colour tells (Integrator::quantity); 0 where there is none
   int line = 0;        // tells the lines of the picture apart that the sample shows, however faint; 0: none
   uint64_t key = 0;    // identifies the tree of objects, shadows and texture cells behind this sample
-  uint32_t shadow_rays = 0;  // one that goes on behind a clear surface is another, as for POV-Ray
-  uint32_t other_rays = 0;   // reflected and refracted
+  uint32_t shadow_rays = 0;                 // one that goes on behind a clear surface is another, as for POV-Ray
+  uint32_t other_rays = 0;                  // reflected and refracted
+  std::shared_ptr<const LightParts> parts;  // of Integrator::trace_parts
 };
 
 // What the colours of a picture tell, where they tell a number.
@@ -49,6 +62,11 @@ class Integrator {
   virtual RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const = 0;
   // The same for who asks for colours and counts alone: `point`, `depth` and `key` may be left out.
   virtual RaySample trace_color(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const {
+    return trace(world, ray, first, random);
+  }
+  // Whether trace_parts() says where the light comes from; else the layers of LightParts are not to be had.
+  virtual bool tells_parts() const { return false; }
+  virtual RaySample trace_parts(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const {
     return trace(world, ray, first, random);
   }
   // One that has looked at what the camera sees before the picture is begun; null: nothing is to be known.

@@ -10,6 +10,7 @@
 #include <any>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "render/samplers/sampler.h"
 #include "render/spectrum.h"
@@ -78,6 +79,12 @@ class Light {
   virtual bool casts_shadows() const { return true; }
   // The plain value of lights.h that it was made from, for exporters; empty for other classes.
   virtual std::any made_from() const { return {}; }
+  // The group of lights whose layer shows its light; empty: none.
+  const std::string& group() const { return group_; }
+  void set_group(const std::string& name) { group_ = name; }
+
+ private:
+  std::string group_;
 };
 using LightPtr = std::shared_ptr<const Light>;
 

@@ -1,5 +1,6 @@
 #include "render/film/render.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -12,6 +13,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "render/film/blocks.h"
+#include "render/film/cryptomatte.h"
 #include "render/film/tiles.h"
 #include "render/image/image_error.h"
 #include "render/lines/picture_lines.h"
@@ -37,10 +40,33 @@ class MaterialNumbers {
     const auto found = numbers_.find(&material);
     return found == numbers_.end() ? 0 : found->second;
   }
+  // Their names in the model, by number less one; "material.N" of those without.
+  std::vector<std::string> names(const Model& model) const {
+    std::vector<std::string> result(numbers_.size());
+    for (const auto& [name, material] : model.materials)
+      if (const uint32_t number = (*this)(*material)) result[number - 1] = name;
+    for (size_t i = 0; i < result.size(); ++i)
+      if (result[i].empty()) result[i] = fmt::format("material.{}", i + 1);
+    return result;
+  }
 
  private:
   std::unordered_map<const Material*, uint32_t> numbers_;
 };
+
+// By number less one; "object.N" of those without a name.
+std::vector<std::string> object_names(const World& world) {
+  std::vector<std::string> result;
+  for (const Object* object : world.objects())
+    result.push_back(object->name.empty() ? fmt::format("object.{}", result.size() + 1) : object->name);
+  return result;
+}
+
+std::vector<float> matte_numbers(const std::vector<std::string>& names) {
+  std::vector<float> result;
+  for (const std::string& name : names) result.push_back(matte_number(name));
+  return result;
+}
 
 // A sample as displayed.
 struct PixelContent {
@@ -65,6 +91,11 @@ bool is_outline_between(const RaySample& a, const RaySample& b) {
 
 bool is_finite(const RaySample& s) { return s.radiance.is_finite() && s.direct.is_finite() && std::isfinite(s.alpha); }
 
+SamplerPtr make_sampler(const Film& film) {
+  return film.noise > 0 ? make_progressive_sampler(film.samples, film.seed)
+                        : make_stratified_sampler(film.samples, film.seed);
+}
+
 // Traces the pixels of one tile.
 class TileTracer {
  public:
@@ -75,15 +106,21 @@ class TileTracer {
         integrator_(integrator),
         film_(film),
         lines_(world, stop),
-        sampler_(make_stratified_sampler(world.model().film.samples, world.model().film.seed)),
+        sampler_(make_sampler(world.model().film)),
         materials_(world.model().objects),
+        keeps_records_(film.channel(kVarianceR) || film.channel(kObjectMatte) || film.channel(kMaterialMatte)),
         colors_only_(!film.keeps_data() && !film.channel(kKey) && lines_.empty() && !is_adaptive()),
-        stop_(stop) {}
+        stop_(stop) {
+    if (film.channel(kObjectMatte)) object_mattes_ = matte_numbers(object_names(world));
+    if (film.channel(kMaterialMatte)) material_mattes_ = matte_numbers(materials_.names(world.model()));
+  }
 
   // The tile's cost; nothing if it was given up and left no trace.
   std::optional<Tally> trace(int number) const {
     Exposure exposure(film_, number);
-    if (is_adaptive())
+    if (world_.model().film.noise > 0)
+      trace_to_noise(film_.tile(number), exposure);
+    else if (is_adaptive())
       trace_adaptively(film_.tile(number), static_cast<float>(world_.model().film.contrast), exposure);
     else
       trace_evenly(film_.tile(number), exposure);
@@ -102,50 +139,75 @@ class TileTracer {
   static constexpr int kPenumbra = 2;
   // Camera rays that are met together.
   static constexpr size_t kTogether = 32;
+  // Samples after which a block of pixels is first asked whether it is even enough.
+  static constexpr int kFirstRound = 16;
 
   // The sums of a tile while it is traced.
   struct Exposure {
-    Exposure(TiledFilm& film, int number)
+    Exposure(TiledFilm& film, int number) : Exposure(film, film.sums_window(number), film.reach() == 0) {}
+    Exposure(TiledFilm& film, const Window& window, bool pixel_alone)
         : film(film),
-          window(film.sums_window(number)),
-          sums(film.reach() == 0 ? film.planes()
-                                 : film.planes() * static_cast<size_t>(window.width()) * window.height()),
+          window(window),
+          sums(pixel_alone ? film.planes() : film.planes() * static_cast<size_t>(window.width()) * window.height()),
           weights(2 * film.reach() + 1),
+          values(film.planes() - 1),
           rays(kTogether),
           hits(kTogether) {}
 
-    // The values of the filtered layers.
-    struct Values {
-      explicit Values(const RaySample& s)
-          : all{s.radiance[0], s.radiance[1], s.radiance[2], s.alpha, s.direct[0], s.direct[1], s.direct[2]} {}
-      float all[7];
-    };
+    // Sets the values of the filtered layers.
+    void look_at(const RaySample& s) {
+      const float all[7] = {s.radiance[0], s.radiance[1], s.radiance[2], s.alpha,
+                            s.direct[0],   s.direct[1],   s.direct[2]};
+      std::copy_n(all + film.first_filtered(), film.base_planes(), values.begin());
+      if (!film.keeps_parts()) return;
+      float* next = values.data() + film.base_planes();
+      const auto put = [&](const Spectrum& light) {
+        for (int i = 0; i < 3; ++i) *next++ = light[i];
+      };
+      for (const auto part : film.parts()) put((*s.parts).*part);
+      for (int g = 0; g < film.group_count(); ++g) put(s.parts->groups[static_cast<size_t>(g)]);
+    }
 
     // The only sample of a pixel, where the filter does not reach beyond it.
     void set(int x, int y, const RaySample& sample) {
-      const Values values(sample);
-      film.set_pixel(x, y, values.all + film.first_filtered());
+      look_at(sample);
+      film.set_pixel(x, y, values.data());
     }
 
     // Adds a sample of pixel (x, y) at `place` in it, with the given share of the pixel's weight.
     void add(int x, int y, const Vec2& place, const RaySample& sample, double share) {
       const int reach = film.reach();
-      const Values of_sample(sample);
-      const float* const values = of_sample.all + film.first_filtered();
+      look_at(sample);
       const Filter& filter = film.filter();
       if (reach == 0) {
-        deposit(sums.data(), values, share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
+        deposit(pixel_sums(x, y), share * filter.weight(place.x - 0.5) * filter.weight(place.y - 0.5));
         return;
       }
       for (int i = -reach; i <= reach; ++i) weights[i + reach] = share * filter.weight(place.x - i - 0.5);
       for (int qy = std::max(y - reach, window.y0); qy <= std::min(y + reach, window.y1 - 1); ++qy) {
         const double weight_y = filter.weight(place.y - (qy - y) - 0.5);
         for (int qx = std::max(x - reach, window.x0); qx <= std::min(x + reach, window.x1 - 1); ++qx)
-          deposit(&sums[(static_cast<size_t>(qy - window.y0) * window.width() + (qx - window.x0)) * film.planes()],
-                  values, weight_y * weights[qx - x + reach]);
+          deposit(window_sums(qx, qy), weight_y * weights[qx - x + reach]);
       }
     }
-    void deposit(double* sum, const float* values, double weight) {
+    // All that another one has, its weights times `share`. It lies within this one.
+    void add(const Exposure& part, double share) {
+      for (int y = part.window.y0; y < part.window.y1; ++y)
+        for (int x = part.window.x0; x < part.window.x1; ++x) {
+          const double* from = part.sums.data() + part.place(x, y);
+          double* to = pixel_sums(x, y);
+          for (int i = 0; i < film.planes(); ++i) to[i] += share * from[i];
+          finish(x, y);
+        }
+    }
+    size_t place(int x, int y) const {
+      return (static_cast<size_t>(y - window.y0) * window.width() + (x - window.x0)) * film.planes();
+    }
+    double* window_sums(int x, int y) { return &sums[place(x, y)]; }
+    double* pixel_sums(int x, int y) {
+      return sums.size() == static_cast<size_t>(film.planes()) ? sums.data() : window_sums(x, y);
+    }
+    void deposit(double* sum, double weight) {
       const int n = film.planes() - 1;
       for (int i = 0; i < n; ++i) sum[i] += weight * values[i];
       sum[n] += weight;
@@ -161,7 +223,8 @@ class TileTracer {
     Window window;
     // Of all pixels of the window; where the filter does not reach beyond a pixel, of the pixel at hand.
     std::vector<double> sums, weights;
-    std::vector<Ray> rays;  // that are met together, and what they meet
+    std::vector<float> values;  // of the sample at hand
+    std::vector<Ray> rays;      // that are met together, and what they meet
     std::vector<Hit> hits;
     Tally tally;
     bool given_up = false;
@@ -209,8 +272,9 @@ class TileTracer {
         const Shot& shot = some[i];
         SampleStream random = sampler_->stream(shot.x, shot.y, shot.number);
         if (has_lens_) random.skip_pairs(1);
-        RaySample sample = colors_only_ ? integrator_.trace_color(world_, rays[i], hits[i], random)
-                                        : integrator_.trace(world_, rays[i], hits[i], random);
+        RaySample sample = film_.keeps_parts() ? integrator_.trace_parts(world_, rays[i], hits[i], random)
+                           : colors_only_      ? integrator_.trace_color(world_, rays[i], hits[i], random)
+                                               : integrator_.trace(world_, rays[i], hits[i], random);
         sample.noisy = sample.noisy || has_lens_;
         if (!lines_.empty()) lines_.draw(Vec2(shot.x, shot.y) + shot.place, sample);
         ++tally.camera_rays;
@@ -234,9 +298,11 @@ class TileTracer {
           *shot++ = {x, y, samples == 1 ? Vec2(0.5) : sampler_->pixel_position(x, y, s), s};
       double nearest = geometry::kInfinity;
       int counted = 0;
+      PixelRecord record;
       take(shots, exposure, [&](const Shot& shot, const RaySample& sample, bool finite) {
         if (finite) {
           ++counted;
+          if (keeps_records_) add(record, sample);
           if (alone)
             exposure.set(shot.x, y, sample);
           else
@@ -250,6 +316,8 @@ class TileTracer {
         if (shot.number + 1 < samples) return;
         if (!alone) exposure.finish(shot.x, y);
         count(shot.x, y, counted);
+        write(shot.x, y, record);
+        record.clear();
         nearest = geometry::kInfinity;
         counted = 0;
       });
@@ -278,6 +346,7 @@ class TileTracer {
       RaySample sample;
     };
     std::vector<LightContribution> taken;
+    PixelRecord record;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const RaySample& own = centers[index(x, y)];
@@ -301,6 +370,9 @@ class TileTracer {
           exposure.add(x, y, Vec2(0.5), own, all);
           exposure.finish(x, y);
           count(x, y, 1);
+          if (keeps_records_) add(record, own);
+          write(x, y, record);
+          record.clear();
           continue;
         }
         taken.clear();
@@ -319,10 +391,83 @@ class TileTracer {
         int counted = 0;
         for (const LightContribution& one : taken) counted += is_finite(one.sample);
         for (const LightContribution& one : taken)
-          if (is_finite(one.sample)) exposure.add(x, y, one.place, one.sample, static_cast<double>(all) / counted);
+          if (is_finite(one.sample)) {
+            exposure.add(x, y, one.place, one.sample, static_cast<double>(all) / counted);
+            if (keeps_records_) add(record, one.sample);
+          }
         exposure.finish(x, y);
         count(x, y, counted);
+        write(x, y, record);
+        record.clear();
       }
+  }
+
+  // Block by block: all their pixels take as many samples, which are summed apart, as all pixels weigh the same.
+  void trace_to_noise(const Window& tile, Exposure& exposure) const {
+    for (int y = tile.y0; y < tile.y1 && !exposure.given_up; y += kBlockSize)
+      for (int x = tile.x0; x < tile.x1 && !exposure.given_up; x += kBlockSize)
+        trace_block(intersection({x, y, x + kBlockSize, y + kBlockSize}, tile), exposure);
+  }
+
+  // Rounds of 16, 32, 64, ... samples in all, until the block is even enough.
+  void trace_block(const Window& block, Exposure& exposure) const {
+    const int all = sampler_->samples_per_pixel();
+    Exposure own(film_, intersection(block.grown(film_.reach()), exposure.window), false);
+    std::vector<PixelRecord> records(static_cast<size_t>(block.width()) * block.height());
+    std::vector<double> nearest(records.size(), geometry::kInfinity);
+    std::vector<Shot> shots;
+    int taken = 0;
+    for (int round = std::min(kFirstRound, all);; round = std::min(2 * round, all)) {
+      shots.clear();
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          for (int s = taken; s < round; ++s) add_shot(shots, x, y, sampler_->pixel_position(x, y, s), s);
+      own.tally = {};
+      take(shots, own, [&](const Shot& shot, const RaySample& sample, bool finite) {
+        if (!finite) return;
+        const size_t i = static_cast<size_t>(shot.y - block.y0) * block.width() + (shot.x - block.x0);
+        if (film_.reach() > 0 || own.window.contains(shot.x, shot.y)) own.add(shot.x, shot.y, shot.place, sample, 1);
+        add(records[i], sample);
+        const Vec2 off = shot.place - 0.5;
+        if (glm::dot(off, off) >= nearest[i] || !film_.crop().contains(shot.x, shot.y)) return;
+        nearest[i] = glm::dot(off, off);
+        store(shot.x, shot.y, sample);
+      });
+      exposure.tally += own.tally;
+      exposure.given_up = own.given_up;
+      if (exposure.given_up) return;
+      taken = round;
+      if (taken == all || displayed_error(records) <= world_.model().film.noise) break;
+    }
+    exposure.add(own, static_cast<double>(all) / taken);
+    for (int y = block.y0; y < block.y1; ++y)
+      for (int x = block.x0; x < block.x1; ++x) {
+        PixelRecord& record = records[static_cast<size_t>(y - block.y0) * block.width() + (x - block.x0)];
+        count(x, y, record.count);
+        write(x, y, record);
+      }
+  }
+
+  void add(PixelRecord& record, const RaySample& sample) const {
+    record.add(sample.radiance);
+    if (!sample.point) return;
+    const SurfacePoint& point = *sample.point;
+    if (!object_mattes_.empty()) record.objects.add(object_mattes_[point.object]);
+    if (material_mattes_.empty() || lines_.color(point)) return;
+    const Material& material = world_.material(point, glm::dot(point.incoming, point.geometric_normal) < 0);
+    if (const uint32_t number = materials_(material)) record.materials.add(material_mattes_[number - 1]);
+  }
+
+  void write(int x, int y, PixelRecord& record) const {
+    if (!keeps_records_ || !film_.crop().contains(x, y)) return;
+    const size_t i = pixel(x, y);
+    const Vec3 variance = record.variance();
+    for (int c = 0; c < 3; ++c)
+      if (Channel* kept = film_.channel(static_cast<FilmChannel>(kVarianceR + c)))
+        kept->values[i] = static_cast<float>(variance[c]);
+    const int samples = std::max(record.count, 1);
+    if (Channel* kept = film_.channel(kObjectMatte)) record.objects.write(kept, i, samples);
+    if (Channel* kept = film_.channel(kMaterialMatte)) record.materials.write(kept, i, samples);
   }
 
   void count(int x, int y, int samples) const {
@@ -381,7 +526,9 @@ class TileTracer {
   PictureLines lines_;
   SamplerPtr sampler_;
   MaterialNumbers materials_;
-  bool colors_only_;  // of samples
+  std::vector<float> object_mattes_, material_mattes_;  // by number less one; none without their layer
+  bool keeps_records_;                                  // of pixels
+  bool colors_only_;                                    // of samples
   bool has_lens_ = camera_.has_lens();
   const std::atomic<bool>* stop_;
 };
@@ -478,7 +625,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
   const Clock::time_point begin = Clock::now();
   const IntegratorPtr prepared = model.integrator->prepared(world);
   const Integrator& integrator = prepared ? *prepared : *model.integrator;
-  TiledFilm film(model.film, options.key_layer, integrator.quantity());
+  TiledFilm film(model.film, options.key_layer, {integrator.quantity(), integrator.tells_parts(), light_groups(model)});
   Ledger ledger(film, options);
   std::vector<char> is_done(film.tile_count(), 0);
   for (const int tile : ledger.done()) is_done[tile] = 1;
@@ -506,6 +653,9 @@ RenderResult render(const World& world, const RenderOptions& options) {
   result.saved = !result.complete && !options.partial_file.empty() && ledger.write();
   film.develop();
   describe(film.image(), model);
+  if (film.channel(kObjectMatte)) describe_cryptomatte(film.image(), "CryptoObject", object_names(world));
+  if (film.channel(kMaterialMatte))
+    describe_cryptomatte(film.image(), "CryptoMaterial", MaterialNumbers(model.objects).names(model));
   result.image = std::move(film.image());
   result.camera_rays = ledger.tally().camera_rays;
   result.shadow_rays = ledger.tally().shadow_rays;

@@ -15,7 +15,9 @@ inline constexpr std::string_view kPartialMagic = "lekalo partial ";
 
 // Names of the layers that a film can keep: color (R G B A), direct, depth (Z), position (P), normal (N),
 // geometric_normal (Ng), uv, id (id.object id.material), albedo, quantity (a channel called as the integrator's
-// quantity, where it has one), samples.
+// quantity, where it has one), samples. And what is kept only if it is asked for: the parts of light (LightParts) of
+// integrators that tell them, indirect, emission, diffuse, specular, transmission, light_groups (group.NAME.R ..., and
+// group.rest of lights in no group); variance; cryptomatte_object and cryptomatte_material (cryptomatte.h).
 const std::vector<std::string>& film_layers();
 bool keeps_layer(const Film& film, std::string_view layer);
 
@@ -55,12 +57,17 @@ struct RenderResult {
 // that lies in a penumbra or a soft light's highlight.
 // The layer `samples` tells.
 //
+// With Film::noise > 0 blocks of 8 x 8 pixels take 16, 32, 64, ... samples, until the standard error of their pixels as
+// displayed, in the root mean square, is no more, or they have them all. Asked after finished rounds alone, of the
+// block alone. What stops by what it has seen is no longer unbiased: the samples that happened to agree end it earlier.
+//
 // The film keeps the layers that Film::layers asks for. Filtered layers: R G B A (background included, alpha 0 there),
-// direct.R .G .B. Layers of the sample nearest the pixel's centre, 0 where it hits nothing: Z (distance from the eye,
-// or from the picture plane of a parallel view), P.X .Y .Z, N.* (shading normal), Ng.* (geometric normal), uv.U uv.V,
-// id.object (number of the object in the order of the model, groups before their members, from 1), id.material (in the
-// order of first use, from 1), albedo.R .G .B, the integrator's quantity. `samples` counts the samples of the pixel.
-// Pixels of an unfinished picture are 0 where no tile is done.
+// direct.R .G .B and the parts of light. Layers of the sample nearest the pixel's centre, 0 where it hits nothing: Z
+// (distance from the eye, or from the picture plane of a parallel view), P.X .Y .Z, N.* (shading normal), Ng.*
+// (geometric normal), uv.U uv.V, id.object (number of the object in the order of the model, groups before their
+// members, from 1), id.material (in the order of first use, from 1), albedo.R .G .B, the integrator's quantity.
+// `samples` counts the samples of the pixel, `variance` is that of their mean (PixelRecord::variance), Cryptomattes
+// have their shares, whatever the filter. Pixels of an unfinished picture are 0 where no tile is done.
 //
 // A picture is the same bits for any number of threads and after any number of stops and resumes. A crop gives the same
 // pixels as the full picture. Throws ImageError for an unreadable or foreign partial file and

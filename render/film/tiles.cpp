@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/film/blocks.h"
+#include "render/film/cryptomatte.h"
 #include "render/film/render.h"
 #include "render/materials/textured_color.h"
 
@@ -28,6 +30,22 @@ constexpr ChannelName kChannels[kFilmChannels] = {{"R", "color"},
                                                   {"direct.R", "direct"},
                                                   {"direct.G", "direct"},
                                                   {"direct.B", "direct"},
+                                                  {"indirect.R", "indirect"},
+                                                  {"indirect.G", "indirect"},
+                                                  {"indirect.B", "indirect"},
+                                                  {"emission.R", "emission"},
+                                                  {"emission.G", "emission"},
+                                                  {"emission.B", "emission"},
+                                                  {"diffuse.R", "diffuse"},
+                                                  {"diffuse.G", "diffuse"},
+                                                  {"diffuse.B", "diffuse"},
+                                                  {"specular.R", "specular"},
+                                                  {"specular.G", "specular"},
+                                                  {"specular.B", "specular"},
+                                                  {"transmission.R", "transmission"},
+                                                  {"transmission.G", "transmission"},
+                                                  {"transmission.B", "transmission"},
+                                                  {"group", "light_groups"},
                                                   {"Z", "depth"},
                                                   {"P.X", "position"},
                                                   {"P.Y", "position"},
@@ -47,7 +65,38 @@ constexpr ChannelName kChannels[kFilmChannels] = {{"R", "color"},
                                                   {"albedo.B", "albedo"},
                                                   {"quantity", "quantity"},
                                                   {"samples", "samples"},
+                                                  {"variance.R", "variance"},
+                                                  {"variance.G", "variance"},
+                                                  {"variance.B", "variance"},
+                                                  {"CryptoObject", "cryptomatte_object"},
+                                                  {"CryptoMaterial", "cryptomatte_material"},
                                                   {"id.key", "key"}};
+
+// Kept only where they are asked for: the parts of light, and what is for other programs.
+bool is_extra(int channel) { return (channel >= kIndirectR && channel <= kGroups) || channel >= kVarianceR; }
+
+bool is_part(std::string_view layer) {
+  for (int c = kIndirectR; c <= kGroups; ++c)
+    if (layer == kChannels[c].layer) return true;
+  return false;
+}
+
+Spectrum LightParts::*part_of(int channel) {
+  switch (channel) {
+    case kIndirectR:
+      return &LightParts::indirect;
+    case kEmissionR:
+      return &LightParts::emission;
+    case kDiffuseR:
+      return &LightParts::diffuse;
+    case kSpecularR:
+      return &LightParts::specular;
+    case kTransmissionR:
+      return &LightParts::transmission;
+    default:
+      return nullptr;
+  }
+}
 
 }  // namespace
 
@@ -66,7 +115,7 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
-TiledFilm::TiledFilm(const Film& film, bool key_layer, const std::string& quantity)
+TiledFilm::TiledFilm(const Film& film, bool key_layer, const Names& names)
     : filter_(make_filter(film.filter, film.filter_radius)),
       reach_(static_cast<int>(std::ceil(filter_->radius() - 0.5))) {
   if (film.width < 1 || film.height < 1 || film.samples < 1)
@@ -75,7 +124,9 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer, const std::string& quanti
   crop_ = film.crop.x1 == 0 ? full : intersection({film.crop.x0, film.crop.y0, film.crop.x1, film.crop.y1}, full);
   if (crop_.width() == 0 || crop_.height() == 0) throw std::invalid_argument("the crop lies outside the picture");
 
-  const Window needed = intersection(crop_.grown(reach_), full);
+  Window needed = intersection(crop_.grown(reach_), full);
+  // Whether a block of pixels needs more samples is found of all of it.
+  if (film.noise > 0) needed = intersection(whole_blocks(needed), full);
   for (int y = needed.y0 / kTileSize * kTileSize; y < needed.y1; y += kTileSize)
     for (int x = needed.x0 / kTileSize * kTileSize; x < needed.x1; x += kTileSize)
       tiles_.push_back(intersection({x, y, x + kTileSize, y + kTileSize}, needed));
@@ -87,22 +138,34 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer, const std::string& quanti
   for (const std::string& layer : film.layers)
     if (std::find(film_layers().begin(), film_layers().end(), layer) == film_layers().end())
       throw std::invalid_argument("a film has no layer '" + layer + "'");
-    else if (layer == kChannels[kQuantity].layer && quantity.empty())
+    else if (layer == kChannels[kQuantity].layer && names.quantity.empty())
       throw std::invalid_argument("the layer 'quantity' is that of an integrator that measures: analysis");
+    else if (is_part(layer) && !names.parts)
+      throw std::invalid_argument("the layer '" + layer + "' is that of an integrator that follows paths: path");
   channel_.fill(-1);
   for (int c = 0; c < kFilmChannels; ++c) {
-    const std::string_view name = c == kQuantity ? std::string_view(quantity) : kChannels[c].channel;
+    const std::string_view name = c == kQuantity ? std::string_view(names.quantity) : kChannels[c].channel;
     const bool kept = c == kKey ? key_layer : keeps_layer(film, kChannels[c].layer);
     if (!kept || name.empty()) continue;
     channel_[c] = static_cast<int>(image_.channels.size());
+    if (c == kGroups) {
+      add_group("rest");
+      for (const std::string& group : names.groups) add_group(group);
+      continue;
+    }
+    if (c == kObjectMatte || c == kMaterialMatte) {
+      add_cryptomatte(image_, std::string(name));
+      continue;
+    }
     const PixelType type = name.starts_with("id.")      ? PixelType::uint32
                            : c <= kA && film.half_color ? PixelType::half
                                                         : PixelType::float32;
     add_channel(image_, std::string(name), type);
-    if (c > kDirectB) continue;
-    filtered_planes_[filtered_.size()] = image_.channels.back().values.data();
-    filtered_.push_back(static_cast<FilmChannel>(c));
-    first_data_channel_ = channel_[c] + 1;
+    if (c > kGroups) continue;
+    if (filtered_planes_.empty()) first_filtered_ = static_cast<FilmChannel>(c);
+    if (const auto part = part_of(c)) parts_.push_back(part);
+    base_planes_ += c <= kDirectB;
+    add_filtered_plane();
   }
 
   for (const Window& tile : tiles_) sums_.push_back({intersection(tile.grown(reach_), crop_), {}});
@@ -127,13 +190,31 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer, const std::string& quanti
   hash = hash_combine(hash, film.seed);
   hash = hash_combine(hash, std::bit_cast<uint64_t>(filter_->radius()));
   hash = hash_combine(hash, std::bit_cast<uint64_t>(film.contrast));
+  hash = hash_combine(hash, std::bit_cast<uint64_t>(film.noise));
+  hash = hash_combine(hash, image_.channels.size());
   for (const int channel : channel_) hash = hash_combine(hash, static_cast<uint64_t>(channel + 1));
   for (const char letter : film.filter) hash = hash_combine(hash, static_cast<unsigned char>(letter));
   settings_hash_ = hash;
 }
 
+void TiledFilm::add_filtered_plane() {
+  filtered_planes_.push_back(image_.channels.back().values.data());
+  first_data_channel_ = static_cast<int>(image_.channels.size());
+}
+
+void TiledFilm::add_group(const std::string& name) {
+  for (const char* lane : {".R", ".G", ".B"}) {
+    add_channel(image_, "group." + name + lane);
+    add_filtered_plane();
+  }
+  ++group_count_;
+}
+
 bool keeps_layer(const Film& film, std::string_view layer) {
-  return film.layers.empty() || std::find(film.layers.begin(), film.layers.end(), layer) != film.layers.end();
+  if (!film.layers.empty()) return std::find(film.layers.begin(), film.layers.end(), layer) != film.layers.end();
+  return std::none_of(std::begin(kChannels), std::end(kChannels), [&](const ChannelName& channel) {
+    return channel.layer == layer && is_extra(static_cast<int>(&channel - kChannels));
+  });
 }
 
 const std::vector<std::string>& film_layers() {
@@ -147,7 +228,7 @@ const std::vector<std::string>& film_layers() {
 }
 
 void TiledFilm::clear_data(size_t pixel) {
-  for (int c = kZ; c < kSamples; ++c)
+  for (int c = kZ; c < kSamples; ++c)  // counts and what all samples say together stay
     if (Channel* kept = channel(static_cast<FilmChannel>(c))) {
       if (kept->type == PixelType::uint32)
         kept->ids[pixel] = 0;
@@ -170,7 +251,7 @@ void TiledFilm::clear(int tile) {
 }
 
 void TiledFilm::set_pixel(size_t pixel, const double* sums) {
-  const int n = static_cast<int>(filtered_.size());
+  const int n = static_cast<int>(filtered_planes_.size());
   const double weight = sums[n];
   if (weight == 1) {  // one sample under a box
     for (int i = 0; i < n; ++i) filtered_planes_[i][pixel] = static_cast<float>(sums[i]);

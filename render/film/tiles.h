@@ -15,6 +15,7 @@
 
 #include "render/film/filter.h"
 #include "render/image/image.h"
+#include "render/integrator.h"
 #include "render/model/model.h"
 #include "render/spectrum.h"
 
@@ -50,7 +51,23 @@ enum FilmChannel : int {
   kA,
   kDirectR,
   kDirectG,
-  kDirectB,  // filtered
+  kDirectB,
+  kIndirectR,
+  kIndirectG,
+  kIndirectB,
+  kEmissionR,
+  kEmissionG,
+  kEmissionB,
+  kDiffuseR,
+  kDiffuseG,
+  kDiffuseB,
+  kSpecularR,
+  kSpecularG,
+  kSpecularB,
+  kTransmissionR,
+  kTransmissionG,
+  kTransmissionB,
+  kGroups,  // one colour for each group of lights; filtered up to here
   kZ,
   kPX,
   kPY,
@@ -70,15 +87,26 @@ enum FilmChannel : int {
   kAlbedoB,
   kQuantity,
   kSamples,
+  kVarianceR,
+  kVarianceG,
+  kVarianceB,
+  kObjectMatte,  // each a Cryptomatte (cryptomatte.h)
+  kMaterialMatte,
   kKey,
   kFilmChannels
 };
 
 class TiledFilm {
  public:
-  // `quantity`: name of the channel for RaySample::quantity; empty: there is none. Throws std::invalid_argument for an
-  // unknown filter or layer or an empty crop.
-  TiledFilm(const Film& film, bool key_layer, const std::string& quantity);
+  // What the integrator and the model have names for.
+  struct Names {
+    std::string quantity;             // of the channel for RaySample::quantity; empty: there is none
+    bool parts = false;               // samples tell the parts of their light
+    std::vector<std::string> groups;  // of lights
+  };
+
+  // Throws std::invalid_argument for an unknown filter or layer, one that the samples do not bring, or an empty crop.
+  TiledFilm(const Film& film, bool key_layer, const Names& names);
 
   int tile_count() const { return static_cast<int>(tiles_.size()); }
   const Window& tile(int i) const { return tiles_[i]; }  // pixels whose samples the tile takes
@@ -94,10 +122,14 @@ class TiledFilm {
   bool keeps_data() const { return first_data_channel_ < static_cast<int>(image_.channels.size()); }
   void clear_data(size_t pixel);
   std::vector<TileSums>& sums() { return sums_; }
-  // The filtered channels kept are a run of kR..kDirectB, as layers come whole: the first, and the numbers in the sums
-  // of a pixel, one for each of them and the weight.
-  FilmChannel first_filtered() const { return filtered_.empty() ? kR : filtered_.front(); }
-  int planes() const { return static_cast<int>(filtered_.size()) + 1; }
+  // The filtered channels: first a run of kR..kDirectB, as layers come whole, then three for each of the parts of light
+  // that are kept. The numbers in the sums of a pixel are one for each channel and the weight.
+  FilmChannel first_filtered() const { return first_filtered_; }
+  int base_planes() const { return base_planes_; }
+  const std::vector<Spectrum LightParts::*>& parts() const { return parts_; }
+  int group_count() const { return group_count_; }  // kept, after the parts
+  int planes() const { return static_cast<int>(filtered_planes_.size()) + 1; }
+  bool keeps_parts() const { return !parts_.empty() || group_count_ > 0; }
 
   const Window& sums_window(int i) const { return sums_[i].window; }
 
@@ -111,7 +143,7 @@ class TiledFilm {
   // The same from the values of its only sample, whatever that weighs.
   void set_pixel(int x, int y, const float* values) {
     const size_t pixel = static_cast<size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
-    for (size_t i = 0; i < filtered_.size(); ++i) filtered_planes_[i][pixel] = values[i];
+    for (size_t i = 0; i < filtered_planes_.size(); ++i) filtered_planes_[i][pixel] = values[i];
   }
   // Takes back what has been written of a tile that was given up: its pixels are 0 again.
   void clear(int tile);
@@ -129,12 +161,16 @@ class TiledFilm {
   PixelPlane<float> sums_storage_;  // of all tiles
   Image image_;
   std::array<int, kFilmChannels> channel_;
-  std::vector<FilmChannel> filtered_;
-  std::array<float*, kZ> filtered_planes_{};  // of the image's channels, in the order of filtered_
+  FilmChannel first_filtered_ = kR;
+  int base_planes_ = 0, group_count_ = 0;
+  std::vector<Spectrum LightParts::*> parts_;
+  std::vector<float*> filtered_planes_;  // of the image's channels
   int first_data_channel_ = 0;
   uint64_t settings_hash_ = 0;
 
   void set_pixel(size_t pixel, const double* sums);
+  void add_filtered_plane();  // the image's last channel
+  void add_group(const std::string& name);
 };
 
 // The file of a stopped picture (OUTPUT.partial): the tiles done so far and what they cost.

@@ -23,11 +23,6 @@ double srgb_decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-double filmic(double linear) {
-  const double x = 0.6 * linear;
-  return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
-}
-
 namespace {
 
 std::uint16_t level_of(double value, int levels) {
@@ -76,10 +71,15 @@ class Quantizer {
 
   std::uint16_t level(double value) const { return level_of(value, levels_); }
 
-  std::uint16_t color_level(double radiance) const {
-    double light = scale_ * radiance;
-    // The curve is made for light; its denominator may vanish below zero, and infinity over infinity is no number.
-    if (curve_ == ToneCurve::filmic && std::isfinite(light)) light = filmic(std::max(light, 0.0));
+  // Exposed, and by the curve. Curves are made for light, and infinity over infinity is no number.
+  std::array<double, 3> light_of(std::array<double, 3> radiance) const {
+    for (double& light : radiance) light *= scale_;
+    if (curve_ == ToneCurve::none || !std::isfinite(radiance[0] + radiance[1] + radiance[2])) return radiance;
+    for (double& light : radiance) light = std::max(light, 0.0);
+    return toned(curve_, radiance);
+  }
+
+  std::uint16_t color_level(double light) const {
     if (!(light > 0)) return 0;  // NaN too
     light = std::min(light, 1.0);
     return srgb_ ? (*srgb_)(light) : level(srgb_encode(light));
@@ -122,10 +122,11 @@ DisplayResult to_display(const Image& image, const DisplayTransform& transform) 
       const double opacity = alpha ? planes.alpha[i] : 1;
       if (!std::isfinite(rgb[0] + rgb[1] + rgb[2] + opacity)) ++bad;  // sums of floats are no larger than doubles
       std::uint16_t* out = &display.samples[i * static_cast<std::size_t>(display.channels)];
-      for (int c = 0; c < colors; ++c) {
-        out[c] = !alpha        ? quantizer.color_level(rgb[c])
-                 : opacity > 0 ? quantizer.color_level(rgb[c] / opacity)
-                               : std::uint16_t{0};
+      if (!alpha || opacity > 0) {
+        const std::array<double, 3> light = quantizer.light_of({rgb[0] / opacity, rgb[1] / opacity, rgb[2] / opacity});
+        for (int c = 0; c < colors; ++c) out[c] = quantizer.color_level(light[static_cast<size_t>(c)]);
+      } else {
+        std::fill_n(out, colors, std::uint16_t{0});
       }
       if (alpha) out[colors] = quantizer.level(opacity);
     }

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "geometry/describe.h"
-#include "render/lobes/microfacet.h"
-#include "render/lobes/scattering.h"
+#include "render/integrators/caustics.h"
 #include "render/model/placed_objects.h"
 
 namespace lekalo::render {
@@ -16,42 +15,31 @@ namespace {
 
 class PathIntegrator final : public Integrator {
  public:
-  explicit PathIntegrator(const PathOptions& options) : options_(options) {}
+  explicit PathIntegrator(const PathOptions& options, std::shared_ptr<const Caustics> caustics = nullptr)
+      : options_(options), caustics_(std::move(caustics)) {}
 
+  IntegratorPtr prepared(const World& world) const override {
+    if (options_.photons == 0) return nullptr;
+    return std::make_shared<PathIntegrator>(
+        options_, trace_caustics(world, {options_.photons, options_.max_depth, options_.dispersion}));
+  }
   RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
-    return trace_path(world, ray, first, random, options_);
+    return trace_path(world, ray, first, random, options_, caustics_.get());
+  }
+  bool tells_parts() const override { return true; }
+  RaySample trace_parts(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
+    return trace_path(world, ray, first, random, options_, caustics_.get(), true);
   }
   std::any made_from() const override { return options_; }
 
  private:
   PathOptions options_;
+  std::shared_ptr<const Caustics> caustics_;
 };
 
 }  // namespace
 
 IntegratorPtr make_path_integrator(const PathOptions& options) { return std::make_shared<PathIntegrator>(options); }
-
-namespace {
-
-bool is_sharp(const Material& material) {
-  const Scattering scattering = material.scattering({}, Wavelengths{});
-  const auto medium = material.interior(Wavelengths{});
-  const Sides sides{1, medium ? medium->index : 1.0};
-  return std::any_of(scattering.lobes.begin(), scattering.lobes.end(), [&](const WeightedLobe& part) {
-    if (const auto* metal = std::get_if<MetalLobe>(&part.lobe))
-      return microfacets(metal->roughness, metal->anisotropy).smooth();
-    if (const auto* coat = std::get_if<CoatLobe>(&part.lobe)) return microfacets(coat->roughness, 0).smooth();
-    if (const auto* matt = std::get_if<CoatedMattLobe>(&part.lobe))
-      return microfacets(matt->coat.roughness, 0).smooth();
-    if (const auto* boundary = std::get_if<BoundaryLobe>(&part.lobe))
-      return !boundary->mirror.is_zero() || sides.behind != sides.near;
-    if (const auto* clear = std::get_if<ClearLobe>(&part.lobe))
-      return !clear->thin && sides.behind != sides.near && microfacets(clear->roughness, 0).smooth();
-    return false;
-  });
-}
-
-}  // namespace
 
 bool misses_light(const Model& model) {
   const bool has_points = std::any_of(model.lights.begin(), model.lights.end(), [](const LightPtr& light) {
@@ -61,23 +49,29 @@ bool misses_light(const Model& model) {
   bool found = false;
   each_object(model.objects, [&](const Object& object) {
     for (const Material* material : {object.material.get(), object.back_material.get()})
-      found = found || (material && is_sharp(*material));
+      found = found || (material && throws_caustics(*material));
   });
   return found;
 }
 
 TypeDeclaration path_integrator_type() {
-  return declare(
-             Category::integrator, "path",
-             "Path tracing: light over any number of surfaces, with its noise, which falls as the square root of "
-             "the samples. Lamps that have a size are seen in mirrors and through glass; light that reaches the eye "
-             "through refraction or a mirror from a point, spot or parallel light is left out; a note says "
-             "so. Ambient light comes from everywhere and is shadowed.")
+  return declare(Category::integrator, "path",
+                 "Path tracing: light over any number of surfaces, with its noise, which falls as the square root of "
+                 "the samples. What lamps throw through glass and by mirrors on other things (caustics) is brought by "
+                 "photons; "
+                 "it is blurred a little, and has a noise of its own, which falls with their number. Ambient light "
+                 "comes from "
+                 "everywhere and is shadowed.")
       .field("max_depth", integer().between(0, 1000), "reflections and refractions after the first", "64")
       .field("clamp", number().non_negative(),
              "light over two and more surfaces is at most so bright in each sample: less noise, and less light; 0: as "
              "it is",
              "0")
+      .field(
+          "photons", integer().between(0, 100'000'000),
+          "for caustics, sent before the picture is begun; 0: caustics are found by chance, which lamps without a size "
+          "never are",
+          "200000")
       .field("dispersion", boolean(),
              "true: what meets `glass` of a dielectric goes on in one wavelength, whose index counts; false: light of "
              "all colours is bent as yellow light is, which takes fewer samples",
@@ -87,6 +81,7 @@ TypeDeclaration path_integrator_type() {
         PathOptions options;
         options.max_depth = f.integer("max_depth");
         options.clamp = f.number("clamp");
+        options.photons = static_cast<int>(f.integer("photons"));
         options.dispersion = f.boolean("dispersion");
         options.background_shines = f.boolean("background_light");
         return make_path_integrator(options);

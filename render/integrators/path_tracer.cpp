@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/integrators/caustics.h"
 #include "render/integrators/dispersion.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/bsdf.h"
@@ -81,8 +82,10 @@ Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& ar
 
 class PathTracer {
  public:
-  PathTracer(const World& world, SampleStream& random, const PathOptions& options, RaySample& sample)
-      : world_(world), random_(random), options_(options), sample_(sample) {
+  // `parts`: where the light comes from, or null for who does not want to know.
+  PathTracer(const World& world, SampleStream& random, const PathOptions& options, const Caustics* caustics,
+             RaySample& sample, LightParts* parts)
+      : world_(world), random_(random), options_(options), caustics_(caustics), sample_(sample), parts_(parts) {
     for (const LightPtr& lamp : world.lamps()) has_backdrop_ = has_backdrop_ || lamp->is_backdrop();
   }
 
@@ -99,13 +102,19 @@ class PathTracer {
     std::vector<double> choices;  // of each lamp, and of what glows
   };
 
-  void add(const Spectrum& light);
-  Spectrum surroundings() const;
+  // Light at the end of the path; `straight`: from a lamp or glowing thing to the first surface.
+  void add(const Spectrum& light, int group = 0, bool straight = false);
+  float clamping(const Spectrum& arriving) const;
+  void tell_parts(const Spectrum& arriving, int group, bool straight);
+  void add_surroundings();
+  // To be said at the first surface before the light of a direction is added.
+  void note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& in);
   void add_lamps_along(const Ray& ray, double end, const Medium& medium);
   void add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
   void choose_lamps(const Vec3& point);
   void add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& square);
   double weight_of_glow(const SurfacePoint& point) const;
+  void add_caustic(const Boundary& seen, const Bsdf& bsdf);
   void add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media);
   void record(const Boundary& seen);
   void take_one_wavelength();
@@ -115,7 +124,11 @@ class PathTracer {
   const World& world_;
   SampleStream& random_;
   const PathOptions& options_;
+  const Caustics* caustics_;
   RaySample& sample_;
+  LightParts* parts_;
+  Spectrum first_matt_;  // share of matt lobes in what the first surface sends on of the path
+  bool first_passed_ = false;
   bool has_backdrop_ = false;
   Origin origin_;
   std::vector<double> choices_;        // of lamps at the present place, and of what glows
@@ -127,22 +140,61 @@ class PathTracer {
   double way_ = 0;
 };
 
-void PathTracer::add(const Spectrum& light) {
+void PathTracer::add(const Spectrum& light, int group, bool straight) {
   Spectrum arriving = share_ * light;
-  if (options_.clamp > 0 && bounces_ > 1 && arriving.largest() > options_.clamp)
-    arriving *= static_cast<float>(options_.clamp / arriving.largest());
+  if (straight) sample_.direct += arriving;
+  arriving *= clamping(arriving);
   sample_.radiance += arriving;
+  if (parts_) tell_parts(arriving, group, straight);
 }
 
-Spectrum PathTracer::surroundings() const {
-  if (shown_) return has_backdrop_ ? Spectrum() : world_.model().background;  // else a lamp has brought it
-  return options_.background_shines ? world_.ambient() + world_.model().background : world_.ambient();
+float PathTracer::clamping(const Spectrum& arriving) const {
+  const bool bright = options_.clamp > 0 && bounces_ > 1 && arriving.largest() > options_.clamp;
+  return bright ? static_cast<float>(options_.clamp / arriving.largest()) : 1;
+}
+
+void PathTracer::tell_parts(const Spectrum& arriving, int group, bool straight) {
+  parts_->groups[static_cast<size_t>(group)] += arriving;
+  if (bounces_ == 0) {
+    parts_->emission += arriving;
+    return;
+  }
+  if (!straight) parts_->indirect += arriving;
+  if (first_passed_) {
+    parts_->transmission += arriving;
+    return;
+  }
+  const Spectrum matt = first_matt_ * arriving;
+  parts_->diffuse += matt;
+  parts_->specular += arriving - matt;
+}
+
+void PathTracer::note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& in) {
+  if (!parts_ || bounces_ > 0) return;
+  first_passed_ = glm::dot(in, seen.geometric_normal()) < 0;
+  first_matt_ = bsdf.matt_share(in);
+}
+
+void PathTracer::add_surroundings() {
+  const Spectrum& background = world_.model().background;
+  if (shown_) {
+    if (!has_backdrop_) add(background);  // else a lamp has brought it
+    return;
+  }
+  if (!parts_) {
+    add(options_.background_shines ? world_.ambient() + background : world_.ambient());
+    return;
+  }
+  const std::vector<Spectrum>& ambient = world_.ambient_by_group();
+  for (size_t group = 0; group < ambient.size(); ++group) add(ambient[group], static_cast<int>(group));
+  if (options_.background_shines) add(background);
 }
 
 void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& medium) {
   const std::vector<LightPtr>& lamps = world_.lamps();
   for (size_t i = 0; i < lamps.size(); ++i) {
     if (origin_.eye && !lamps[i]->is_backdrop()) continue;
+    if (caustics_ && !shown_ && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;
     // Without shadows the light arrives through everything, but what is seen, itself or in a mirror, still lies before
@@ -154,8 +206,7 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
     const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
     const Spectrum light = static_cast<float>(weight * lamp->density) * lamp->irradiance *
                            transmittance(medium.extinction(), lamp->distance - origin_.gone);
-    if (bounces_ == 1 && !origin_.sharp) sample_.direct += share_ * light;
-    add(light);
+    add(light, world_.lamp_groups()[i], bounces_ == 1 && !origin_.sharp);
   }
 }
 
@@ -207,9 +258,9 @@ void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& m
   const double weight =
       sample.density > 0 ? power_heuristic(chosen * sample.density, bsdf.density(sample.direction)) : 1;
   const Spectrum light = static_cast<float>(weight / chosen) * (visible * reflected * sample.irradiance);
-  if (bounces_ == 0) sample_.direct += share_ * light;
+  note_first(seen, bsdf, sample.direction);
   ++bounces_;
-  add(light);
+  add(light, world_.lamp_groups()[i], bounces_ == 1);
   --bounces_;
 }
 
@@ -237,9 +288,9 @@ void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf,
   const double weight = power_heuristic(density, bsdf.density(direction));
   const Spectrum light =
       static_cast<float>(weight / density) * (reflected * emission * transmittance(media.current().extinction(), hit.t));
-  if (bounces_ == 0) sample_.direct += share_ * light;
+  note_first(seen, bsdf, direction);
   ++bounces_;
-  add(light);
+  add(light, 0, bounces_ == 1);
   --bounces_;
 }
 
@@ -252,6 +303,33 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
       return power_heuristic(
           origin_.density, origin_.choices[world_.lamps().size() + i] / cone_of(glows[i], origin_.point).solid_angle());
   return 1;
+}
+
+void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {
+  constexpr double kLeastCosine = 1e-3;
+  const auto each = [&](const auto& use) {
+    caustics_->photons.each_near(seen.point.position, seen.geometric_normal(),
+                                 [&](const Photon& photon, double density) {
+                                   const double cosine = std::fabs(glm::dot(photon.from, bsdf.normal()));
+                                   const auto factor = static_cast<float>(density / std::max(cosine, kLeastCosine));
+                                   use(photon, factor * (bsdf.evaluate(photon.from) * photon.power));
+                                 });
+  };
+  Spectrum sum;
+  each([&](const Photon&, const Spectrum& light) { sum += light; });
+  if (sum.is_zero()) return;
+  bounces_ += 2;  // of the lamp's light at least the mirror and this surface are behind it
+  const Spectrum arriving = share_ * sum;
+  const float clamped = clamping(arriving);
+  sample_.radiance += clamped * arriving;
+  bounces_ -= 2;
+  if (!parts_) return;
+  each([&](const Photon& photon, const Spectrum& light) {
+    note_first(seen, bsdf, photon.from);
+    bounces_ += 2;
+    tell_parts(clamped * (share_ * light), photon.group, false);
+    bounces_ -= 2;
+  });
 }
 
 // Of all samples of all lamps together: the share of one sample alone would be that of what it meets, however little
@@ -393,7 +471,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     if (share_.is_zero()) return;
     if (hit.instance < 0) {
       if (!scatters) share_ *= transmittance(medium.absorption, kInfinity);
-      add(surroundings());
+      add_surroundings();
       return;
     }
     const Media around = media;
@@ -421,8 +499,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     if (bounces_ == 0 && !sample_.point) record(seen);
     if (!scattering.emission.is_zero()) {
       const Spectrum light = static_cast<float>(weight_of_glow(seen.point)) * scattering.emission;
-      if (bounces_ == 1 && !origin_.sharp) sample_.direct += share_ * light;
-      add(light);
+      add(light, 0, bounces_ == 1 && !origin_.sharp);
     }
     if (!seen.front && !scattering.two_sided) return;
     if (bounces_ > options_.max_depth || scatterings_ > options_.max_scatterings) return;
@@ -435,6 +512,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
       choose_lamps(seen.point.position);
       add_lamp(seen, bsdf, media, lamp_choice, lamp_square);
+      if (caustics_) add_caustic(seen, bsdf);
     } else {
       random_.skip_pairs(2);
     }
@@ -447,6 +525,12 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     if (straight) {  // for lamps as if nothing had been there
       origin_.gone += hit.t;
     } else {
+      if (next->sharp && bounces_ == 0) {
+        first_passed_ = glm::dot(next->in, seen.geometric_normal()) < 0;
+        first_matt_ = Spectrum();
+      } else {
+        note_first(seen, bsdf, next->in);
+      }
       ++bounces_;
       scatterings_ += !next->sharp;
       shown_ = shown_ && next->sharp;
@@ -474,10 +558,12 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
 }  // namespace
 
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
-                     const PathOptions& options) {
+                     const PathOptions& options, const Caustics* caustics, bool tell_parts) {
   RaySample sample;
-  PathTracer tracer(world, random, options, sample);
+  const auto parts = tell_parts ? std::make_shared<LightParts>() : nullptr;
+  PathTracer tracer(world, random, options, caustics, sample, parts.get());
   tracer.trace(ray, first, media_at_origin(world, ray, kYellow));
+  sample.parts = parts;
   return sample;
 }
 

@@ -14,6 +14,13 @@
 //   any path that ends A        the drawn direction
 //   any path that ends S P      nothing: mirrors and lenses would have to find a point; the light is left out
 //
+// With photons (caustics.h), whatever comes before, and + for one and more:
+//
+//   any path with D S+ L, D S+ P at its end   the photons
+//   paths S+ L alone                          the drawn direction: lamps seen in mirrors
+//   paths S+ P alone                          nothing: a point has no picture
+//   any path that ends D S+ E, D S+ sky       the drawn direction
+//
 // Radiance is that over the square of the refractive index of the place.
 #pragma once
 
@@ -23,16 +30,20 @@
 namespace lekalo::render {
 
 class Bsdf;
+struct Caustics;
 
 struct PathOptions {
   int max_depth = 64;          // reflections and refractions of a path after the first, in [0, 1000]
   int max_scatterings = 1000;  // those of them that are no mirrors and smooth boundaries
   double clamp = 0;         // light that reached the eye over two and more surfaces is at most so bright; 0: as it is
   bool dispersion = false;  // paths that meet a substance whose index depends on the wavelength take one
+  int photons = 0;          // for caustics, to be traced before the picture (trace_caustics); 0: none
   bool background_shines = false;  // the background lights the scene from everywhere
 };
 
+// `tell_parts`: where the light comes from (RaySample::parts).
+// `caustics`: the photons of the scene; null: there are none, and their light comes as the first table says.
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
-                     const PathOptions& options);
+                     const PathOptions& options, const Caustics* caustics = nullptr, bool tell_parts = false);
 
 }  // namespace lekalo::render

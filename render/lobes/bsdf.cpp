@@ -36,6 +36,12 @@ bool spreads(const Lobe& lobe, const Sides& sides) {
   return !std::holds_alternative<BoundaryLobe>(lobe);
 }
 
+bool is_matt(const Lobe& lobe) {
+  return std::holds_alternative<LambertLobe>(lobe) || std::holds_alternative<RoughMattLobe>(lobe) ||
+         std::holds_alternative<SheetLobe>(lobe) || std::holds_alternative<CoatedMattLobe>(lobe) ||
+         std::holds_alternative<SheenLobe>(lobe);
+}
+
 // What the lobes are multiplied with so that they send back no more than what falls on them.
 float balance(const Scattering& scattering, const Vec3& out, const Sides& sides) {
   if (!scattering.unbalanced) return 1;
@@ -63,16 +69,31 @@ bool Bsdf::has_spread() const {
                      [&](const WeightedLobe& part) { return spreads(part.lobe, sides_); });
 }
 
-Spectrum Bsdf::evaluate(const Vec3& in) const {
+// Of the lobes that `counts` says so of.
+template <class Counts>
+Spectrum Bsdf::sum_over(const Vec3& in, const Counts& counts) const {
   const Vec3 local_in = frame_.to_local_direction(in);
   Spectrum sum;
   if (!is_possible(in, local_in)) return sum;
   for (const WeightedLobe& part : scattering_.lobes) {
+    if (!counts(part.lobe)) continue;
     const Spectrum value =
         std::visit([&](const auto& lobe) { return lobe.evaluate(out_, local_in, sides_); }, part.lobe);
     if (!value.is_zero()) sum += (scale_ * part.passes(out_, local_in)) * (part.weight * value);
   }
   return sum;
+}
+
+Spectrum Bsdf::evaluate(const Vec3& in) const {
+  return sum_over(in, [](const Lobe&) { return true; });
+}
+
+Spectrum Bsdf::matt_share(const Vec3& in) const {
+  const Spectrum all = evaluate(in), matt = sum_over(in, is_matt);
+  Spectrum share;
+  for (int i = 0; i < 3; ++i)
+    if (all[i] > 0) share.set(i, matt[i] / all[i]);
+  return share;
 }
 
 double Bsdf::density(const Vec3& in) const {

@@ -37,6 +37,15 @@ Box3 Boxes::of(const std::vector<Object>& objects) {
 }
 
 Box3 bounds(const Entity& entity) { return Boxes().of(entity); }
+
+std::vector<std::string> light_groups(const Model& model) {
+  std::vector<std::string> groups;
+  for (const LightPtr& light : model.lights)
+    if (!light->group().empty() && std::find(groups.begin(), groups.end(), light->group()) == groups.end())
+      groups.push_back(light->group());
+  return groups;
+}
+
 Box3 bounds(const Model& model) { return bounds(model.objects); }
 Box3 bounds(const std::vector<Object>& objects) { return Boxes().of(objects); }
 

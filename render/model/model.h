@@ -17,6 +17,7 @@
 #include "geometry/shape.h"
 #include "geometry/surface.h"
 #include "render/camera.h"
+#include "render/image/tone.h"
 #include "render/integrator.h"
 #include "render/light.h"
 #include "render/material.h"
@@ -73,9 +74,10 @@ struct Film {
   std::string filter = "box";  // box, gaussian, mitchell
   double filter_radius = 0;    // pixels; 0: the filter's own
   uint32_t seed = 0;
+  double noise = 0;                 // target of adaptive sampling, see film/render.h; 0: as `contrast` says
   double contrast = 0;              // adaptive sampling, see film/render.h; 0: all pixels take all samples
   bool half_color = false;          // R G B A are written as half (11 bits) in place of float
-  std::vector<std::string> layers;  // to keep, of film_layers() (film/render.h); empty: all
+  std::vector<std::string> layers;  // to keep, of film_layers() (film/render.h); empty: the usual ones
   struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels, half open; x1 == 0: the full picture
   } crop;
@@ -85,7 +87,7 @@ struct OutputFile {
   std::string path;
   std::string kind;     // render, drawing
   double exposure = 0;  // stops, for png
-  bool filmic = false;
+  ToneCurve tone = ToneCurve::none;
   std::string panel;  // of a drawing: only this panel; empty: the page
   double width = 0;   // of a drawing in millimetres; 0: the page's
 };
@@ -130,6 +132,9 @@ struct Model {
   std::map<std::string, double> parameters;  // as evaluated
   std::string source;                        // file name as given, for metadata
 };
+
+// The groups of the model's lights in the order of their first light; LightParts has room for one less than its most.
+std::vector<std::string> light_groups(const Model& model);
 
 // Box of everything that the objects show; unbounded shapes are left out.
 geometry::Box3 bounds(const Model& model);

@@ -109,6 +109,23 @@ class StratifiedSampler final : public Sampler {
   uint32_t seed_;
 };
 
+class ProgressiveSampler final : public Sampler {
+ public:
+  ProgressiveSampler(int samples, uint32_t seed) : samples_(samples), seed_(seed) {}
+
+  int samples_per_pixel() const override { return samples_; }
+  Vec2 pixel_position(uint32_t x, uint32_t y, int sample) const override {
+    return SampleStream(x, y, static_cast<uint32_t>(sample), static_cast<uint32_t>(samples_), ~seed_).next_sobol_pair();
+  }
+  SampleStream stream(uint32_t x, uint32_t y, int sample) const override {
+    return SampleStream(x, y, static_cast<uint32_t>(sample), static_cast<uint32_t>(samples_), seed_);
+  }
+
+ private:
+  int samples_;
+  uint32_t seed_;
+};
+
 }  // namespace
 
 SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed)
@@ -129,6 +146,10 @@ Vec2 SampleStream::next_sobol_pair() {
   const uint32_t x = scrambled(first, static_cast<uint32_t>(mix(key + 2)));
   const uint32_t y = scrambled(second_sobol(first), static_cast<uint32_t>(mix(key + 3)));
   return {x * 0x1p-32, y * 0x1p-32};
+}
+
+SamplerPtr make_progressive_sampler(int samples, uint32_t seed) {
+  return std::make_shared<ProgressiveSampler>(samples, seed);
 }
 
 SamplerPtr make_stratified_sampler(int samples, uint32_t seed) {

@@ -45,4 +45,8 @@ using SamplerPtr = std::shared_ptr<const Sampler>;
 // in each cell of a near-square grid, shuffled differently in each pixel. samples >= 1.
 SamplerPtr make_stratified_sampler(int samples, uint32_t seed);
 
+// Sobol's points, shuffled and scrambled as next_sobol_pair(): the first 16, 32, 64, ... are even in themselves, for
+// pixels that may not take them all.
+SamplerPtr make_progressive_sampler(int samples, uint32_t seed);
+
 }  // namespace lekalo::render

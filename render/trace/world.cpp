@@ -355,9 +355,16 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   Compiled& c = *compiled_;
   c.parameters = parameters || (model_->integrator && model_->integrator->uses_parameters());
   c.camera = model_->camera;
+  const std::vector<std::string> groups = light_groups(*model_);
+  ambient_by_group_.resize(groups.size() + 1);
   for (const LightPtr& light : model_->lights) {
+    const auto named = std::find(groups.begin(), groups.end(), light->group());
+    const int group = named == groups.end() ? 0 : static_cast<int>(named - groups.begin()) + 1;
     ambient_ += light->ambient();
-    if (light->sample_count() > 0) lamps_.push_back(light);
+    ambient_by_group_[group] += light->ambient();
+    if (light->sample_count() == 0) continue;
+    lamps_.push_back(light);
+    lamp_groups_.push_back(group);
   }
   c.count_uses(model_->objects);
   with_device_threads([&] {

@@ -99,6 +99,9 @@ class World final : public CurvatureSource {
   // The lights that are somewhere, and the sum I_a of the ambient ones.
   const std::vector<LightPtr>& lamps() const { return lamps_; }
   const Spectrum& ambient() const { return ambient_; }
+  // Numbers of groups (LightParts): of each lamp, and the ambient light of each group from 0 on.
+  const std::vector<int>& lamp_groups() const { return lamp_groups_; }
+  const std::vector<Spectrum>& ambient_by_group() const { return ambient_by_group_; }
   // What glows by itself: a copy of an object, a ball that holds it, and about how bright it is. None at all if there
   // are too many to look for.
   struct Glow {
@@ -121,6 +124,8 @@ class World final : public CurvatureSource {
   std::shared_ptr<const Model> model_;
   std::vector<LightPtr> lamps_;
   Spectrum ambient_;
+  std::vector<int> lamp_groups_;
+  std::vector<Spectrum> ambient_by_group_;
   bool transmits_ = false;
   std::vector<geometry::Box3>
       contacts_;                       // by instance: where its box meets others'; none at all where that is not known

@@ -38,8 +38,11 @@ class Light(ProgramTest):
                 self.assertEqual(self.bytes_of("1.exr"), self.bytes_of("3.exr"))
 
     def test_light_that_is_left_out_is_named(self):
-        self.scene(light="{ type: point_light, position: [0, 0, 5] }")
+        point = "{ type: point_light, position: [0, 0, 5] }"
+        self.scene(light=point, integrator="path, photons: 0")
         self.assertIn("is left out", self.run_program("render", "scene.yaml")[1])
+        self.scene(light=point)
+        self.assertNotIn("is left out", self.run_program("render", "scene.yaml")[1])
         for light in BALL, "{ type: sphere_light, center: [0, 0, 0], radius: 9 }":  # this one all about the scene
             self.scene(light=light)
             self.assertNotIn("is left out", self.run_program("render", "scene.yaml")[1])

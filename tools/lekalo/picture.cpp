@@ -190,7 +190,7 @@ void write_picture(const render::OutputFile& file, const render::RenderResult& r
   }
   render::DisplayTransform transform;
   transform.exposure = file.exposure;
-  transform.curve = file.filmic ? render::ToneCurve::filmic : render::ToneCurve::none;
+  transform.curve = file.tone;
   const render::DisplayResult shown = render::to_display(result.image, transform);
   if (shown.non_finite > 0) fmt::print(stderr, "{}: {} pixels are not finite\n", file.path, shown.non_finite);
   const bool has_bars = result.scale && result.complete && render::has_color_bars(model);

@@ -205,10 +205,13 @@ int render_frame(Run& run, const Frame& frame, bool first) {
                  "opaque }} draws one, `absorption` of the material a tinted one\n",
                  clear);
     const std::any made = model->integrator ? model->integrator->made_from() : std::any();
-    if (std::any_cast<render::PathOptions>(&made) && !outputs.empty() && render::misses_light(*model))
-      fmt::print(stderr,
-                 "note: light of points and parallel light that mirrors and clear bodies throw is left out; lights "
-                 "that have a size (sphere_light, angular_diameter of distant_light) throw it\n");
+    const auto* path = std::any_cast<render::PathOptions>(&made);
+    if (path && path->photons == 0 && !outputs.empty() && render::misses_light(*model))
+      fmt::print(
+          stderr,
+          "note: light of points and parallel light that mirrors and clear bodies throw is left out; `photons` of "
+          "the integrator path bring it, and lights that have a size (sphere_light, angular_diameter of "
+          "distant_light) throw it\n");
   }
   if (!drawn.empty())
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
@@ -326,7 +329,8 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
   sub.add_option("--crop", options->crop, "only this part, in pixels")->type_name("X0,Y0,X1,Y1");
   sub.add_option("--representation", options->representation, "of every object: direct or mesh")
       ->check(CLI::IsMember({"direct", "mesh"}));
-  sub.add_option("--layers", options->layers, "layers of OpenEXR files, separated by commas; all by default")
+  sub.add_option("--layers", options->layers,
+                 "layers of OpenEXR files, separated by commas; all from color to samples by default")
       ->delimiter(',')
       ->check(CLI::IsMember(render::film_layers()))
       ->type_name("NAMES");

@@ -44,12 +44,21 @@ const Value kEmptyMap = [] {
   return map;
 }();
 
+ToneCurve tone_curve(const std::string& word) {
+  if (word == "filmic") return ToneCurve::filmic;
+  if (word == "agx") return ToneCurve::agx;
+  return word == "pbr_neutral" ? ToneCurve::pbr_neutral : ToneCurve::none;
+}
+
 }  // namespace
 
 void Builder::build_lights(Model& model) {
   visit_named("lights", Category::light, [&](const std::string&, const Built& built) {
     model.lights.push_back(std::any_cast<LightPtr>(built.value));
   });
+  if (light_groups(model).size() >= LightParts::kMostGroups)
+    diagnostics_.error(section("lights")->place, "too many groups of lights",
+                       fmt::format("at most {}", LightParts::kMostGroups - 1));
   if (section("lights")) return;
   // The shipped studio, read like any scene file.
   for (const auto& folder : options_.search_path) {
@@ -157,6 +166,7 @@ void Builder::build_film(const Fields& image, Model& model) {
   film.filter = image.text("filter");
   film.filter_radius = image.number("filter_radius");
   film.contrast = image.number("contrast");
+  film.noise = image.number("noise");
   film.half_color = image.text("color_precision") == "half";
   if (image.has("layers")) film.layers = image.get<std::vector<std::string>>("layers");
   film.seed = static_cast<uint32_t>(image.integer("seed"));
@@ -236,7 +246,7 @@ std::optional<OutputFile> Builder::build_output(const Value& value, const Counte
     output.kind = fields->text("kind");
   }
   output.exposure = fields->number("exposure");
-  output.filmic = fields->text("tone") == "filmic";
+  output.tone = tone_curve(fields->text("tone"));
   for (const char* field : {"exposure", "tone"})
     if (fields->given(field) && !(is_png && output.kind == "render"))
       diagnostics_.error(value.find(field)->place, fmt::format("'{}' is for rendered png files", field),

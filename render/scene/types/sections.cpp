@@ -37,6 +37,11 @@ std::vector<Field> image_fields() {
        false,
        {}},
       {"samples", integer().between(1, 1 << 20), "samples per pixel", false, "16"},
+      {"noise", number().between(0, 0.5),
+       "each part of the picture takes 16, 32, 64, ... samples, at most `samples`, until pixels are uncertain by no "
+       "more "
+       "(of 1 between black and white, as displayed), in place of `contrast`; 0: as `contrast` says",
+       false, "0"},
       {"contrast", number().between(0, 1),
        "pixels that differ by less from their neighbours (of 1 between black and white, as displayed) take one sample; "
        "0: "
@@ -49,18 +54,22 @@ std::vector<Field> image_fields() {
       {"crop", numbers().non_negative().count(4, 4), "only this part: x0, y0, x1, y1 in pixels", false, {}},
       {"color_precision", choice({"half", "float"}),
        "of R G B A in OpenEXR files; half: 11 bits and much smaller files", false, "float"},
-      {"layers", words(film_layers()), "layers of OpenEXR files; all by default", false, {}},
+      {"layers", words(film_layers()), "layers of OpenEXR files; by default all from color to samples", false, {}},
       {"background", color().non_negative(), "behind everything", false, "white"}};
 }
 
 std::vector<Field> output_fields() {
   using namespace geometry;
-  return {{"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg, tikz (drawings)", true, {}},
-          {"kind", choice({"render", "drawing"}), "of a png: the picture or the drawing", false, "render"},
-          {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
-          {"tone", choice({"none", "filmic"}), "display curve of a png", false, "none"},
-          {"panel", text(), "only this panel of a drawing", false, {}},
-          {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
+  return {
+      {"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg, tikz (drawings)", true, {}},
+      {"kind", choice({"render", "drawing"}), "of a png: the picture or the drawing", false, "render"},
+      {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
+      {"tone", choice({"none", "filmic", "agx", "pbr_neutral"}),
+       "display curve of a png: none cuts off what is brighter than white; pbr_neutral keeps colours up to 0.8 as they "
+       "are",
+       false, "none"},
+      {"panel", text(), "only this panel of a drawing", false, {}},
+      {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
 }
 
 }  // namespace

@@ -88,5 +88,42 @@ TEST(Display, AlphaIsDividedOutOrLeftBeforeBlack) {
   EXPECT_EQ(before_black.samples[0], std::lround(255 * srgb_encode(0.25)));
 }
 
+TEST(Tone, AgxKeepsGreyGreyAndEndsAtWhite) {
+  // Middle grey through the published polynomial: log2(0.18) lies at (log2(0.18) + 12.47393) / 16.5, the matrices keep
+  // grey to their printed digits.
+  const double x = (std::log2(0.18) + 12.47393) / 16.499999, x2 = x * x, x4 = x2 * x2;
+  const double curve =
+      15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+  for (const double lane : toned(ToneCurve::agx, {0.18, 0.18, 0.18})) EXPECT_NEAR(lane, std::pow(curve, 2.2), 2e-3);
+  double before = -1;
+  for (double light = 1e-5; light < 100; light *= 1.5) {
+    const auto grey = toned(ToneCurve::agx, {light, light, light});
+    EXPECT_NEAR(grey[0], grey[1], 2e-3);
+    EXPECT_NEAR(grey[0], grey[2], 2e-3);
+    EXPECT_GE(grey[1], before - 1e-12);
+    EXPECT_LT(grey[1], 1.02);
+    before = grey[1];
+  }
+  // A very bright red turns to white.
+  const auto red = toned(ToneCurve::agx, {50, 0.5, 0.5});
+  EXPECT_GT(red[1], 0.4);
+}
+
+TEST(Tone, PbrNeutralKeepsWhatIsNotBright) {
+  // F90 of 0.04 is taken off base colours above 0.08, below that 6.25 x^2.
+  const auto kept = toned(ToneCurve::pbr_neutral, {0.5, 0.3, 0.2});
+  EXPECT_NEAR(kept[0], 0.46, 1e-12);
+  EXPECT_NEAR(kept[1], 0.26, 1e-12);
+  EXPECT_NEAR(kept[2], 0.16, 1e-12);
+  const auto dark = toned(ToneCurve::pbr_neutral, {0.05, 0.04, 0.02});
+  EXPECT_NEAR(dark[2], 6.25 * 0.02 * 0.02, 1e-12);
+  // The peak 1 - 0.24^2 / (peak + 0.24 - 0.76) of bright ones, continuous at 0.76.
+  const auto grey = toned(ToneCurve::pbr_neutral, {2.04, 2.04, 2.04});
+  EXPECT_NEAR(grey[0], 1 - 0.24 * 0.24 / (2 + 0.24 - 0.76), 1e-12);
+  EXPECT_NEAR(toned(ToneCurve::pbr_neutral, {0.8, 0.8, 0.8})[0], 0.76, 1e-12);
+  EXPECT_LT(toned(ToneCurve::pbr_neutral, {1e6, 0, 0})[0], 1);
+  EXPECT_GT(toned(ToneCurve::pbr_neutral, {1e6, 0, 0})[1], 0.9);
+}
+
 }  // namespace
 }  // namespace lekalo::render::display_test

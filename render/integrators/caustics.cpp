@@ -1,0 +1,315 @@
+#include "render/integrators/caustics.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/integrators/boundary.h"
+#include "render/integrators/dispersion.h"
+#include "render/integrators/phong_model.h"
+#include "render/lights/lights.h"
+#include "render/lobes/bsdf.h"
+#include "render/lobes/microfacet.h"
+#include "render/model/placed_objects.h"
+
+namespace lekalo::render {
+
+using geometry::kPi;
+
+namespace {
+
+constexpr int kMaxPasses = 1000;
+constexpr int kSafeBounces = 4;
+constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
+// With more things that throw light they share one ball.
+constexpr size_t kMostBalls = 64;
+// Share of light that a clear coat throws, against 1 of glass and metal; of the choice alone.
+constexpr double kCoat = 0.05;
+// Share of the choice of lamps and balls that does not look at how much light there is.
+constexpr double kBlindChoice = 0.05;
+
+// How much of the light a lobe throws in one direction, roughly.
+double thrown_by(const Lobe& lobe, const Sides& sides) {
+  if (const auto* metal = std::get_if<MetalLobe>(&lobe))
+    return microfacets(metal->roughness, metal->anisotropy).smooth() ? 1 : 0;
+  if (const auto* coat = std::get_if<CoatLobe>(&lobe)) return microfacets(coat->roughness, 0).smooth() ? kCoat : 0;
+  if (const auto* matt = std::get_if<CoatedMattLobe>(&lobe))
+    return microfacets(matt->coat.roughness, 0).smooth() ? kCoat : 0;
+  if (const auto* boundary = std::get_if<BoundaryLobe>(&lobe))
+    return !boundary->mirror.is_zero() || sides.behind != sides.near ? 1 : 0;
+  if (const auto* clear = std::get_if<ClearLobe>(&lobe))
+    return clear->thin ? kCoat : sides.behind != sides.near && microfacets(clear->roughness, 0).smooth() ? 1 : 0;
+  return 0;
+}
+
+double thrown_by(const Material& material) {
+  const auto medium = material.interior(Wavelengths{});
+  const Sides sides{1, medium ? medium->index : 1.0};
+  const int places = material.uses_parameters() ? 5 : 1;  // each way
+  double most = 0;
+  for (int i = 0; i < places * places; ++i) {
+    SurfacePoint point;
+    point.u = (i % places) / 4.0, point.v = (i / places) / 4.0;
+    point.position = point.smooth_position = Vec3(point.u, point.v, 0);
+    const Scattering scattering = material.scattering(point, Wavelengths{});
+    for (const WeightedLobe& part : scattering.lobes) most = std::max(most, thrown_by(part.lobe, sides));
+  }
+  return most;
+}
+
+double thrown_by(const Object& object) {
+  double most = 0;
+  for (const Material* material : {object.material.get(), object.back_material.get()})
+    if (material) most = std::max(most, thrown_by(*material));
+  return most;
+}
+
+struct Ball {
+  Vec3 center;
+  double radius, thrown;
+
+  bool contains(const Vec3& p) const { return glm::dot(p - center, p - center) < radius * radius; }
+  bool meets(const Ray& ray) const {
+    if (contains(ray.origin)) return true;
+    const Vec3 to = center - ray.origin;
+    const double along = glm::dot(to, ray.direction);
+    return along > 0 && glm::dot(to, to) - along * along < radius * radius;
+  }
+};
+
+// Places on a ball, as close as the light of a lamp falls there if all of it came from one place: those of directions
+// from it that are even in solid angle, or of parallel light even across. A few lie anywhere, where other places of the
+// lamp look.
+class Target {
+ public:
+  Target(const Ball& ball, const Light& lamp) : ball_(ball) {
+    const LightSample light = lamp.sample_all(ball.center, Vec2(0.5));
+    far_ = !std::isfinite(light.distance);
+    axis_ = light.direction;
+    if (far_) return;
+    place_ = ball.center + light.distance * light.direction;
+    const double sine = ball.radius / light.distance;
+    within_ = !(sine < 1);
+    height_ = within_ ? 2 : sine * sine / (1 + std::sqrt(1 - sine * sine));
+  }
+
+  // Unit, from the ball's centre.
+  Vec3 sample(double choice, const Vec2& square) const {
+    if (choice < kAnywhere) return on_sphere(2 * square.x, square.y, Vec3(0, 0, 1));
+    if (far_) {
+      const Vec2 disc = concentric_disc(square);
+      const double z = std::sqrt(std::max(0.0, 1 - glm::dot(disc, disc)));
+      return geometry::frame_about(Vec3(0), axis_).direction({disc.x, disc.y, z});
+    }
+    const Vec3 direction = on_sphere(height_ * square.x, square.y, -axis_), to = ball_.center - place_;
+    const double along = glm::dot(to, direction), square_off = glm::dot(to, to) - along * along;
+    const double half = std::sqrt(std::max(0.0, ball_.radius * ball_.radius - square_off));
+    return glm::normalize(place_ + (within_ ? along + half : along - half) * direction - ball_.center);
+  }
+  // Per unit of area, of sample().
+  double density(const Vec3& outward) const {
+    const double square = ball_.radius * ball_.radius, anywhere = kAnywhere / (4 * kPi * square);
+    if (far_) return anywhere + (1 - kAnywhere) * std::max(0.0, glm::dot(outward, axis_)) / (kPi * square);
+    const Vec3 way = ball_.center + ball_.radius * outward - place_;
+    const double distance = glm::length(way), cosine = glm::dot(way, outward) / distance * (within_ ? 1 : -1);
+    const double of_place = std::max(0.0, cosine) / (distance * distance * geometry::kTwoPi * height_);
+    return anywhere + (1 - kAnywhere) * of_place;
+  }
+
+ private:
+  static constexpr double kAnywhere = 0.1;
+
+  static Vec3 on_sphere(double height, double turn, const Vec3& axis) {
+    const double s = std::sqrt(std::max(0.0, height * (2 - height))), angle = geometry::kTwoPi * turn;
+    return geometry::frame_about(Vec3(0), axis).direction({s * std::cos(angle), s * std::sin(angle), 1 - height});
+  }
+
+  const Ball& ball_;
+  bool far_ = false, within_ = false;
+  Vec3 axis_{0, 0, 1}, place_{0};  // to the lamp; of it
+  double height_ = 2;              // 1 - the cosine of half the cone in which the place sees the ball
+};
+
+// None at all where something without bounds throws light.
+std::vector<Ball> balls_of(const World& world) {
+  const PlacedObjects placed(world.model().objects, [](const Object& object) { return thrown_by(object) > 0; });
+  const bool shared = placed.count() > kMostBalls;
+  std::vector<Ball> balls;
+  bool bounded = true;
+  const auto add = [&](const geometry::Box3& box, double thrown) {
+    if (box.empty()) return;
+    bounded = bounded && box.bounded();
+    balls.push_back({0.5 * (box.lo + box.hi), std::max(0.5 * box.diameter(), 1e-300) * (1 + 1e-6), thrown});
+  };
+  if (shared) {
+    geometry::Box3 box;
+    for (const Object& object : world.model().objects) box.include(transformed(bounds(object.shape), object.transform));
+    add(box, 1);
+  } else {
+    placed.visit([&](const Object& object, const geometry::Affine& to_world, int) {
+      add(transformed(bounds(object.shape), to_world), thrown_by(object));
+    });
+  }
+  return bounded ? balls : std::vector<Ball>();
+}
+
+// Smooth skies light by chance well enough, and would take all photons.
+bool sends_photons(const Light& lamp) {
+  const std::any made = lamp.made_from();
+  return lamp.casts_shadows() && !std::any_cast<EnvironmentLight>(&made);
+}
+
+// What a photon may begin with.
+struct Start {
+  size_t lamp, ball;
+  double probability;
+};
+
+std::vector<Start> starts(const World& world, const std::vector<Ball>& balls) {
+  std::vector<Start> list;
+  double sum = 0;
+  for (size_t i = 0; i < world.lamps().size(); ++i) {
+    if (!sends_photons(*world.lamps()[i])) continue;
+    for (size_t k = 0; k < balls.size(); ++k) {
+      const LightSample light = world.lamps()[i]->sample_all(balls[k].center, Vec2(0.5));
+      double power = balls[k].thrown * balls[k].radius * balls[k].radius * light.irradiance.largest();
+      if (!std::isfinite(power)) power = 0;
+      list.push_back({i, k, power});
+      sum += power;
+    }
+  }
+  const double n = static_cast<double>(list.size());
+  for (Start& start : list)
+    start.probability = sum > 0 ? (1 - kBlindChoice) * start.probability / sum + kBlindChoice / n : 1 / n;
+  return list;
+}
+
+class PhotonTracer {
+ public:
+  PhotonTracer(const World& world, const CausticOptions& options)
+      : world_(world), options_(options), balls_(balls_of(world)), starts_(starts(world, balls_)) {}
+
+  bool has_starts() const { return !starts_.empty(); }
+  void trace(uint32_t number, std::vector<Photon>& landed) const;
+
+ private:
+  void follow(Ray ray, Spectrum power, int group, SampleStream& random, std::vector<Photon>& landed) const;
+
+  const World& world_;
+  const CausticOptions& options_;
+  std::vector<Ball> balls_;
+  std::vector<Start> starts_;
+};
+
+void PhotonTracer::trace(uint32_t number, std::vector<Photon>& landed) const {
+  SampleStream random(0, 0, number, static_cast<uint32_t>(options_.photons), ~world_.model().film.seed);
+  const Vec2 choice = random.next_sobol_pair(), on_ball = random.next_sobol_pair(), on_lamp = random.next_sobol_pair();
+  double place = choice.x;
+  size_t s = 0;
+  while (s + 1 < starts_.size() && place >= starts_[s].probability) place -= starts_[s++].probability;
+  const Ball& ball = balls_[starts_[s].ball];
+  const Target target(ball, *world_.lamps()[starts_[s].lamp]);
+  const Vec3 outward = target.sample(choice.y, on_ball);
+  const Vec3 point = ball.center + ball.radius * outward;
+  const LightSample light = world_.lamps()[starts_[s].lamp]->sample_all(point, on_lamp);
+  if (light.irradiance.is_zero() || !light.irradiance.is_finite()) return;
+  const bool far = !std::isfinite(light.distance);
+  // Of what comes from far away nothing lies before the scene.
+  const double way = far ? glm::length(point - world_.center()) + 1.01 * world_.radius() : light.distance;
+  Ray ray;
+  ray.origin = point + way * light.direction;
+  ray.direction = -light.direction;
+  ray.kind = RayKind::reflection;
+  const bool within = !far && ball.contains(ray.origin);
+  const double cosine = glm::dot(light.direction, outward) * (within ? -1 : 1);
+  if (cosine <= 0) return;
+  for (size_t k = 0; k < starts_[s].ball; ++k)
+    if (balls_[k].meets(ray)) return;
+  const auto share = static_cast<float>(cosine / (target.density(outward) * starts_[s].probability * options_.photons));
+  follow(ray, share * light.irradiance, world_.lamp_groups()[starts_[s].lamp], random, landed);
+}
+
+void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& random, std::vector<Photon>& landed) const {
+  Media media = media_at_origin(world_, ray, kYellow);
+  Wavelengths wavelengths = kYellow;
+  const float begun = power.largest();
+  bool one_wavelength = false;
+  int bounces = 0;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    Hit hit;
+    if (!world_.nearest(ray, hit)) return;
+    const Media around = media;
+    std::optional<Boundary> met(std::in_place, world_, ray, hit, wavelengths, media);
+    if (options_.dispersion && !one_wavelength && disperses(*met->material)) {
+      const WavelengthSample taken = sample_wavelength(random.next_sobol_pair().x);
+      power *= taken.share;
+      wavelengths.nanometres.fill(taken.nanometres);
+      one_wavelength = true;
+      media = around;
+      met.emplace(world_, ray, hit, wavelengths, media);
+    }
+    const Boundary& seen = *met;
+    power *= transmittance(media.current().absorption, hit.t);
+    const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
+    if (!seen.changes_filling || scattering.catches_shadows) {
+      media = seen.behind;
+      world_.leave(seen.far_side(), ray.direction, ray);
+      continue;
+    }
+    if (!seen.front && !scattering.two_sided) return;
+    const Sides sides{media.current().index, seen.behind.current().index};
+    const Bsdf bsdf(scattering, seen.shading_normal(ray.direction), seen.geometric_normal(), seen.point.du,
+                    -ray.direction, sides);
+    if (bsdf.is_black()) return;
+    if (bounces > 0 && bsdf.has_spread())
+      landed.push_back({seen.point.position, -ray.direction, seen.geometric_normal(), power, group});
+    const Vec2 choice = random.next_sobol_pair(), square = random.next_sobol_pair();
+    const std::optional<BsdfSample> next = bsdf.sample(choice, square);
+    if (!next || !next->sharp) return;  // what goes on spread is the business of paths from the eye
+    power *= next->share;
+    // Straight on through panes: for lamps as if nothing had been there. Light that happens to meet a boundary at a
+    // right angle is not stopped by it, but refracted all the same.
+    const bool straight =
+        glm::dot(next->in, ray.direction) > 1 - 1e-14 &&
+        !straight_share(scattering, std::fabs(glm::dot(ray.direction, bsdf.normal())), sides).is_zero();
+    bounces += !straight;
+    if (bounces > options_.max_depth) return;
+    if (bounces > kSafeBounces) {
+      const double life = std::clamp(static_cast<double>(power.largest() / begun), kLeastLife, kLongestLife);
+      if (choice.y >= life) return;
+      power *= static_cast<float>(1 / life);
+    }
+    const bool passes = glm::dot(next->in, seen.geometric_normal()) < 0;
+    if (passes) media = seen.behind;
+    world_.leave(passes ? seen.far_side() : seen.near_side(), next->in, ray);
+    ray.direction = next->in;
+    ray.t_max = geometry::kInfinity;
+  }
+}
+
+}  // namespace
+
+bool throws_caustics(const Material& material) { return thrown_by(material) > 0; }
+
+std::shared_ptr<const Caustics> trace_caustics(const World& world, const CausticOptions& options) {
+  const PhotonTracer tracer(world, options);
+  if (!tracer.has_starts()) return nullptr;
+  // In runs, so that the order of photons is that of their numbers.
+  constexpr int kRun = 4096;
+  const int runs = (options.photons + kRun - 1) / kRun;
+  std::vector<std::vector<Photon>> landed(static_cast<size_t>(runs));
+  tbb::parallel_for(tbb::blocked_range<int>(0, runs, 1), [&](const tbb::blocked_range<int>& range) {
+    for (int run = range.begin(); run < range.end(); ++run)
+      for (int i = run * kRun; i < std::min((run + 1) * kRun, options.photons); ++i)
+        tracer.trace(static_cast<uint32_t>(i), landed[static_cast<size_t>(run)]);
+  });
+  std::vector<Photon> all;
+  for (const std::vector<Photon>& some : landed) all.insert(all.end(), some.begin(), some.end());
+  auto caustics = std::make_shared<Caustics>(Caustics{PhotonMap(std::move(all)), {}});
+  for (const LightPtr& lamp : world.lamps()) caustics->of_lamp.push_back(sends_photons(*lamp));
+  return caustics;
+}
+
+}  // namespace lekalo::render
