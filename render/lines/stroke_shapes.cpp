@@ -4,6 +4,7 @@
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/self_intersections.h"
+#include "geometry/queries/rays/fitted_surface.h"
 #include "geometry/shapes/tube/ball_parameter_lines.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -78,7 +79,8 @@ void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, co
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
   each_surface([&](const SurfacePtr& surface) {
     if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
-    each_smooth_part(surface, [&](const SurfacePtr& part) { add(silhouette(part, view), {part}, style, hidden); });
+    each_smooth_part(surface,
+                     [&](const SurfacePtr& part) { add(silhouette(fitted_copy(part), view), {part}, style, hidden); });
   });
 }
 

@@ -12,7 +12,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr double kAgree = 1e-13;
 constexpr double kRounding = 4e-15;  // of coordinates: points of searched contours are no better
 
 // Of contours that are searched, and of curves on surfaces, each point takes long.
@@ -24,7 +23,7 @@ bool takes_long(const Curve& curve) {
 
 }  // namespace
 
-CurvePtr contour_approximation(const CurvePtr& curve, double coarsest) {
+CurvePtr contour_approximation(const CurvePtr& curve, double coarsest, double finest) {
   if (!dynamic_cast<const ParameterLine*>(curve.get()) && !takes_long(*curve)) return curve;
   // Its box from a few points: bounds of a searched curve take as long as all else.
   Box3 box;
@@ -34,18 +33,19 @@ CurvePtr contour_approximation(const CurvePtr& curve, double coarsest) {
   const Vec3 farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
   const auto nearer_than = [&](double share) {
-    return polynomial_approximation(*curve, std::max(share * box.diameter(), rounding), coarsest > kAgree);
+    return polynomial_approximation(*curve, std::max(share * box.diameter(), rounding), coarsest > finest);
   };
-  if (auto simple = nearer_than(kAgree)) return simple;
-  auto simple = coarsest > kAgree ? nearer_than(coarsest) : nullptr;
+  if (auto simple = nearer_than(finest)) return simple;
+  auto simple = coarsest > finest ? nearer_than(coarsest) : nullptr;
   return simple ? simple : curve;
 }
 
-Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image) {
+Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
+                                double tolerance) {
   const Rectangle domain = surface.domain();
   const double size = std::max(domain.u.width(), domain.v.width());
   if (!takes_long(*curve) || !(size < kInfinity)) return image;
-  auto simple = polynomial_approximation(CurvePart(image, curve->domain()), kAgree * size);
+  auto simple = polynomial_approximation(CurvePart(image, curve->domain()), tolerance * size);
   return simple ? simple : image;
 }
 

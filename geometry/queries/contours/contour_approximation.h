@@ -8,10 +8,12 @@ namespace lekalo::geometry {
 // A contour that was searched, a part of one, or a parameter line, which evaluate surfaces for every point, as a
 // piecewise polynomial that agrees with it to 1e-13 of its size, or 4e-15 of its coordinates if that is more
 // (curves/polynomial_approximation.h); any other curve, and one too crooked for that, itself. `coarsest`: a share of
-// the size that is near enough where 1e-13 cannot be had, as beside a place where a contour crosses itself.
-CurvePtr contour_approximation(const CurvePtr& curve, double coarsest = 1e-13);
+// the size that is near enough where `finest` cannot be had, as beside a place where a contour crosses itself.
+CurvePtr contour_approximation(const CurvePtr& curve, double coarsest = 1e-13, double finest = 1e-13);
 
-// The image of such a contour on a surface, to 1e-13 of the surface's domain; itself where that is unbounded.
-Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image);
+// The image of such a contour on a surface, likewise, in shares of the surface's domain; itself where that is
+// unbounded.
+Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
+                                double tolerance = 1e-13);
 
 }  // namespace lekalo::geometry

@@ -25,14 +25,10 @@ struct ChordSystem {
   double height(double t) const { return glm::dot(along, segment.from) + (t - segment.t.lo); }
 
   // Derivatives of all, [equation][parameter].
-  root_search::Matrix<N> matrix(const SystemValue<double, N, N - 1>& there, const ParameterPoint<N>& x) const {
+  root_search::Matrix<N> matrix(const ContourPlace<N>& there) const {
     root_search::Matrix<N> a{};
-    for (int k = 0; k < N - 1; ++k) a[k] = there.derivative[k];
-    for (int i = 0; i < N; ++i) {
-      ParameterPoint<N> by{};
-      by[i] = 1;
-      a[N - 1][i] = glm::dot(along, segment.equations->motion(x, by));
-    }
+    for (int k = 0; k < N - 1; ++k) a[k] = there.equations.derivative[k];
+    for (int i = 0; i < N; ++i) a[N - 1][i] = glm::dot(along, there.motion[i]);
     return a;
   }
 };
@@ -102,12 +98,12 @@ ParameterPoint<N> ContourSolution<N>::solve(const ContourSegment<N>& segment, do
   for (int i = 0; i < N; ++i) width[i] = segment.equations->domain()[i].width();
   double before = kInfinity;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const auto there = segment.equations->evaluate(x);
+    const ContourPlace<N> there = segment.equations->at(x);
     root_search::Matrix<N> inverse;
-    if (!root_search::invert<N>(system.matrix(there, x), inverse)) return start;
+    if (!root_search::invert<N>(system.matrix(there), inverse)) return start;
     std::array<double, N> f;
-    for (int k = 0; k < N - 1; ++k) f[k] = there.value[k];
-    f[N - 1] = glm::dot(system.along, segment.equations->point(x)) - height;
+    for (int k = 0; k < N - 1; ++k) f[k] = there.equations.value[k];
+    f[N - 1] = glm::dot(system.along, there.point) - height;
     double length = 0;
     for (int i = 0; i < N; ++i) {
       double by = 0;
@@ -142,7 +138,7 @@ typename ContourSolution<N>::Series ContourSolution<N>::at(double t, int order) 
   } else {
     root_search::Matrix<N> inverse;
     const bool regular =
-        segment.is_certified() && root_search::invert<N>(system.matrix(segment.equations->evaluate(x), x), inverse);
+        segment.is_certified() && root_search::invert<N>(system.matrix(segment.equations->at(x)), inverse);
     for (int m = 1; m <= order; ++m) {
       std::array<double, N> rest{};
       if (m == 1) {
@@ -196,7 +192,7 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
     }
   }
   root_search::Matrix<N> inverse;
-  const bool regular = root_search::invert<N>(system.matrix(segment.equations->evaluate(center), center), inverse);
+  const bool regular = root_search::invert<N>(system.matrix(segment.equations->at(center)), inverse);
   bool solved = false;
   Triple<Jet<Interval, 2>> point;
   // |I - C A| for all matrices A of the system over the box.

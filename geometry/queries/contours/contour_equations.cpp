@@ -27,6 +27,23 @@ template <int N>
 std::unique_ptr<TouchingEquations<N>> ContourEquations<N>::touching(std::shared_ptr<const ContourEquations<N>>) const {
   return nullptr;
 }
+template <int N>
+ContourPlace<N> ContourEquations<N>::at_inside(const ParameterPoint<N>& place) const {
+  ContourPlace<N> result{evaluate(place), point(place), {}};
+  for (int i = 0; i < N; ++i) {
+    ParameterPoint<N> by{};
+    by[i] = 1;
+    result.motion[i] = motion(place, by);
+  }
+  return result;
+}
+template <int N>
+ContourPlace<N> ContourEquations<N>::at(const ParameterPoint<N>& place) const {
+  const ParameterBox<N> all = domain();
+  for (int i = 0; i < N; ++i)
+    if (!all[i].contains(place[i])) return ContourEquations<N>::at_inside(place);
+  return at_inside(place);
+}
 template class ContourEquations<2>;
 template class ContourEquations<4>;
 
@@ -191,7 +208,15 @@ class FunctionEquations final : public ContourEquations<2> {
 
  protected:
   SystemValue<double, 2, 1> evaluate_inside(const ParameterPoint<2>& at) const override {
+    return value_of(evaluate_within(*surface_, piece_, at[0], at[1], 1 + tangents()), at);
+  }
+  ContourPlace<2> at_inside(const ParameterPoint<2>& at) const override {
     const SurfaceJet jet = evaluate_within(*surface_, piece_, at[0], at[1], 1 + tangents());
+    return {value_of(jet, at), jet.point(), {jet.du(), jet.dv()}};
+  }
+
+ private:
+  SystemValue<double, 2, 1> value_of(const SurfaceJet& jet, const ParameterPoint<2>& at) const {
     SystemValue<double, 2, 1> result;
     for (int i = 0; i < 2; ++i) {
       const Jet<double, 1> f =
@@ -202,7 +227,6 @@ class FunctionEquations final : public ContourEquations<2> {
     return result;
   }
 
- private:
   // Edges that are one point; of_u: u is constant along it.
   struct Pole {
     bool of_u, upper;
@@ -383,6 +407,12 @@ class IntersectionEquations final : public ContourEquations<4> {
     const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
     const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 1);
     return apart({r.point(), r.du(), r.dv()}, {s.point(), s.du(), s.dv()});
+  }
+  ContourPlace<4> at_inside(const ParameterPoint<4>& at) const override {
+    const SurfaceJet r = evaluate_within(*r_, piece_r_, at[0], at[1], 1);
+    const SurfaceJet s = evaluate_within(*s_, piece_s_, at[2], at[3], 1);
+    return {
+        apart({r.point(), r.du(), r.dv()}, {s.point(), s.du(), s.dv()}), r.point(), {r.du(), r.dv(), Vec3(0), Vec3(0)}};
   }
 
  private:

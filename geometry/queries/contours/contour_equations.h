@@ -74,6 +74,14 @@ SystemValue<double, N, M> continued(const ParameterBox<N>& domain, const Paramet
 // of contours alone.
 SurfaceEnclosure enclosure_to_third(const Surface& surface, const Rectangle& piece, const Rectangle& box);
 
+// Equations, point in space and how each parameter moves it.
+template <int N>
+struct ContourPlace {
+  SystemValue<double, N, N - 1> equations;
+  Vec3 point;
+  std::array<Vec3, N> motion;
+};
+
 template <int N>
 class TouchingEquations;
 
@@ -99,6 +107,8 @@ class ContourEquations {
   // Of the first surface; inside the piece.
   virtual Vec3 point(const ParameterPoint<N>& place) const = 0;
   virtual Vec3 motion(const ParameterPoint<N>& place, const ParameterPoint<N>& by) const = 0;
+  // All of it at once.
+  ContourPlace<N> at(const ParameterPoint<N>& place) const;
   // How far a place is from a solution, a length: the distance of the surfaces, or the Newton step.
   virtual double distance(const ParameterPoint<N>& place) const = 0;
   // The error of an equation's value by rounding.
@@ -117,6 +127,7 @@ class ContourEquations {
 
  protected:
   virtual SystemValue<double, N, N - 1> evaluate_inside(const ParameterPoint<N>& place) const = 0;
+  virtual ContourPlace<N> at_inside(const ParameterPoint<N>& place) const;
 };
 
 // A function of a surface's point and tangents, for each kind of number, that vanishes on the contour. One of the point

@@ -24,6 +24,8 @@ constexpr size_t kManyPatches = 1024, kMostPatches = 16384;
 // rounding is all that is left.
 constexpr double kLeastGain = 4;
 constexpr int kMostMisses = 2;
+// What rounding leaves of a patch, in parts of kFitDistance.
+constexpr double kRounding = 0.01;
 
 using Values = std::array<std::array<Vec3, kNodes>, kNodes>;
 using Matrix = std::array<std::array<double, kNodes>, kNodes>;
@@ -176,6 +178,10 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
   const double farthest = kFitDistance * size_of(surface, boxes), tolerance = 0.1 * farthest;
   std::vector<Fit> open(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) open[i].box = boxes[i];
+  const auto add = [&](const Fit& one) {
+    result.patches.push_back(patch_of(one));
+    result.distances.push_back(std::max({one.off_u, one.off_v, kRounding * farthest}));
+  };
   while (!open.empty()) {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, open.size()), [&](const tbb::blocked_range<size_t>& some) {
       for (size_t i = some.begin(); i < some.end(); ++i) fit(surface, open[i], tolerance, farthest);
@@ -183,13 +189,13 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
     std::vector<Fit> next;
     for (Fit& one : open) {
       if (one.is_near(tolerance)) {
-        result.patches.push_back(patch_of(one));
+        add(one);
         continue;
       }
       one.misses = one.misses_again(tolerance) ? one.misses + 1 : 0;
       const size_t count = result.patches.size() + next.size();
       if (one.is_near(farthest) && (one.misses > 0 || count > kManyPatches)) {
-        result.patches.push_back(patch_of(one));
+        add(one);
         continue;
       }
       if (one.misses > kMostMisses || count > kMostPatches)

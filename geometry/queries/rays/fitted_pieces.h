@@ -13,6 +13,7 @@ inline constexpr double kFitDistance = 1e-12;
 
 struct FittedPieces {
   std::vector<SurfacePiece> patches;
+  std::vector<double> distances;  // of each that were seen, or what rounding makes of them
   // Where no patch comes near enough, as beside a place at which derivatives have no bounds.
   std::vector<Rectangle> rest;
 };

@@ -36,6 +36,8 @@ constexpr double kFromEnds = 0.02;
 constexpr double kBisected = 1e-10;
 // Cells of curves bend as the picture of a line of no width does.
 constexpr double kReach = 0.01;
+// What stands for a contour is that near to it, of its size; for one of a fitted copy.
+constexpr double kExactContour = 1e-13, kNearContour = 1e-9;
 // Lines nearer to one another, of the scene's radius, lie on one another.
 constexpr double kNear = 1e-7;
 
@@ -93,12 +95,17 @@ class Drawing {
   }
 
  private:
-  // Contours that solve their equations at every point are asked too often for that.
+  // Contours that solve their equations at every point are asked too often for that. Silhouettes of fitted copies are
+  // no better than the copies.
   static void simplify(Stroke& stroke) {
+    const bool is_of_copy =
+        stroke.kind == "silhouette" && std::any_of(stroke.supporting_surfaces.begin(), stroke.supporting_surfaces.end(),
+                                                   [](const auto& one) { return one.surface->is_composed(); });
+    const double tolerance = is_of_copy ? kNearContour : kExactContour;
     for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
       supporting_surface.image =
-          contour_approximation(stroke.curve, *supporting_surface.surface, supporting_surface.image);
-    stroke.curve = contour_approximation(stroke.curve);
+          contour_approximation(stroke.curve, *supporting_surface.surface, supporting_surface.image, tolerance);
+    stroke.curve = contour_approximation(stroke.curve, tolerance, tolerance);
   }
 
   // The border at which two surfaces join is one of each: one is enough to hide what lies behind it. And what is drawn
