@@ -22,6 +22,7 @@
   X(t_spline_type)               \
   X(t_spline_functions_type)     \
   X(formula_surface_type)        \
+  X(coordinate_surface_type)     \
   X(ruled_surface_type)          \
   X(sector_surface_type)         \
   X(translation_surface_type)    \

@@ -89,7 +89,8 @@ ordered_json differences_of(const geometry::Curve& curve, const std::vector<doub
 
 std::string numbers_of(const ordered_json& list) {
   std::string text;
-  for (const auto& x : list) text += (text.empty() ? "" : " ") + digits(x.get<double>());
+  for (const auto& x : list)
+    text += (text.empty() ? "" : " ") + (x.is_array() ? numbers_of(x) : x.is_null() ? "-" : digits(x.get<double>()));
   return text;
 }
 
@@ -128,7 +129,7 @@ struct Options {
   std::vector<std::string> on, along;
   double share = 0.5, turn = 0;  // turn: degrees
   int order = 2;
-  bool placement = false, json = false;
+  bool placement = false, metric = false, json = false;
 };
 
 // A surface of its own, a patch of a set by number, or a face of a body by number or name.
@@ -217,9 +218,24 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
     return out;
   }
   const geometry::SurfacePtr surface = surface_of(entity, options);
+  if (const auto* one = dynamic_cast<const geometry::CoordinateSurface*>(surface.get()); one && at.size() != 2)
+    return at.size() == 1 ? evaluate_path(one->system(), at[0]) : evaluate_system(one->system(), at);
   note_outside("u", at[0], surface->domain().u, surface->periods().u);
   note_outside("v", at[1], surface->domain().v, surface->periods().v);
-  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options), options.turn * geometry::kPi / 180);
+  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options), options.turn * geometry::kPi / 180,
+                          options.metric);
+}
+
+// Curvilinear coordinates are three, or t of a path in them.
+std::vector<double> place_of(const render::Entity& entity, const Options& options) {
+  if (std::holds_alternative<geometry::CurvePtr>(entity)) return parse_numbers(options.at, 1, "--at of a curve");
+  const auto* surface = std::get_if<geometry::SurfacePtr>(&entity);
+  if (surface && dynamic_cast<const geometry::CoordinateSurface*>(surface->get())) {
+    const std::vector<double> at = parse_numbers(options.at, 0, "--at");
+    if (at.size() > 3) throw UsageError("--at of coordinates takes U,V,W, or T of their path");
+    return at;
+  }
+  return parse_numbers(options.at, 2, "--at of a surface");
 }
 
 ordered_json evaluate_uv(const render::Entity& entity, const Options& options) {
@@ -263,8 +279,7 @@ int run(const Options& options) {
   else if (!options.uv.empty())
     out = evaluate_uv(entity, options);
   else
-    out = evaluate_at(scene, entity, options,
-                      parse_numbers(options.at, is_curve ? 1 : 2, is_curve ? "--at of a curve" : "--at of a surface"));
+    out = evaluate_at(scene, entity, options, place_of(entity, options));
   demand_finite(out);
   if (options.json) {
     fmt::print("{}\n", out.dump(2));
@@ -295,6 +310,12 @@ void add_evaluate(CLI::App& app, Action& action) {
       "m_v = -W21 r_u - W22 r_v), the derivatives of the normal, the principal curvatures with their directions, what\n"
       "kind of point it is, and the directions without normal curvature. Of a curve on a surface it prints the normal\n"
       "curvature and the geodesic curvature, positive where it turns left seen from the normal.\n\n"
+      "Of a coordinate_surface --at takes the three coordinates, or t of their path, and tells the local basis, the "
+      "metric,\n"
+      "Christoffel's symbols (christoffel: [k][i][j] upper index first; riemann: [r][j][i][n] with n above, so that "
+      "the "
+      "scalar\n"
+      "curvature of a surface is -2 K), and the derivatives of the fields that are given in these coordinates.\n\n"
       "--uv tells of a surface over triangles the barycentric coordinates of the place and, with --along, of the\n"
       "direction, and the derivatives by the parameters of the triangle.");
   auto options = std::make_shared<Options>();
@@ -321,6 +342,8 @@ void add_evaluate(CLI::App& app, Action& action) {
              "the step of the parameter over which the tangent, or along u and v the normal, turns by this angle")
           ->type_name("DEGREES")
           ->check(CLI::PositiveNumber);
+  sub->add_flag("--metric", options->metric,
+                "of a surface also Christoffel's symbols and the curvature tensors of its metric");
   auto* order = sub->add_option("--order", options->order, "derivatives of a curve up to this order")
                     ->check(CLI::Range(1, geometry::kMaxCurveOrder));
   auto* placement =

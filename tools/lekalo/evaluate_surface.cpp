@@ -77,7 +77,7 @@ ordered_json evaluate_place(const SurfacePlace& at, const std::vector<Vec2>& alo
 }
 
 ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, const std::vector<Vec2>& along,
-                              double turn) {
+                              double turn, bool connected) {
   const double size = surface.bounded() ? geometry::bounds(surface).diameter() : 0;
   const geometry::SurfaceJet jet = surface.evaluate(uv.x, uv.y, 2);
   ordered_json out =
@@ -88,6 +88,12 @@ ordered_json evaluate_surface(const geometry::Surface& surface, const Vec2& uv, 
       out["step_u"] = finite_or_null(steps.x), out["step_v"] = finite_or_null(steps.y);
     }
   }
+  if (connected && surface.max_order() >= 3)
+    if (const auto c = geometry::connection(geometry::local_basis(surface.evaluate(uv.x, uv.y, 3)))) {
+      out["reciprocal_basis"] =
+          ordered_json::array({finite_or_null(c->reciprocal[0]), finite_or_null(c->reciprocal[1])});
+      put_connection(out, *c);
+    }
   out["parameters"] = parameters_of(surface);
   return out;
 }

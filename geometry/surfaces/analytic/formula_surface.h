@@ -10,7 +10,7 @@ namespace lekalo::geometry {
 // rectangle. All derivatives are exact (jets), enclosures certified (jets of intervals in centered form). The formulas
 // must be smooth inside the domain, but for what branches of abs, min, max, clamp, sign, `if`, floor, ceil, round and
 // mod make of them (queries/smooth_parts.h); singular points (poles, cusps, pinch points) are welcome.
-class FormulaSurface final : public Surface {
+class FormulaSurface : public Surface {
  public:
   struct Closed {
     bool u = false, v = false;
