@@ -34,6 +34,7 @@
   X(hermite_curve_type)           \
   X(hermite_edge_type)            \
   X(tension_spline_type)          \
+  X(exponential_spline_type)      \
   X(smoothing_spline_type)        \
   X(local_spline_type)            \
   X(formula_curve_type)           \

@@ -3,6 +3,10 @@
 //   a0 = 1 - 3w^2 + 2w^3, a1 = 3w^2 - 2w^3, b0 = w - 2w^2 + w^3, b1 = -w^2 + w^3
 //
 // As a B-spline curve with double knots it has two control points beside each point, p_i -+ h q_i / 3 (2.14.3).
+//
+// With second derivatives a_i too the pieces are of degree 5 and the knots triple. The control points of t_i are values
+// of its polar form at (t_i, t_i, t_i, x, y), with x and y of t_{i-1} and t_{i+1}:
+//   p_i + q_i / 5 ((x - t_i) + (y - t_i)) + a_i / 20 (x - t_i) (y - t_i)
 #include "geometry/curves/interpolation/hermite_curve.h"
 
 #include <fmt/format.h>
@@ -32,6 +36,30 @@ NurbsCurve hermite_curve(const PointSequence& data, std::span<const Vec3> tangen
     knots.insert(knots.end(), i == 0 || i == last ? 4 : 2, data.parameter(i));
   }
   return NurbsCurve(SplineAxis(3, std::move(knots), Extension::tangent), points);
+}
+
+NurbsCurve hermite_curve(const PointSequence& data, std::span<const Vec3> tangents, std::span<const Vec3> second) {
+  const int count = data.size(), last = count - 1;
+  for (const auto& [field, given] :
+       {std::pair("tangents", tangents.size()), std::pair("second_derivatives", second.size())})
+    if (static_cast<int>(given) != count)
+      throw FieldError(field, fmt::format("{} points need as many vectors, not {}", count, given));
+  std::vector<Vec3> points;
+  std::vector<double> knots;
+  for (int i = 0; i <= last; ++i) {
+    const double before = !data.closed && i == 0 ? 0 : -data.step(i - 1),
+                 after = !data.closed && i == last ? 0 : data.step(i);
+    for (const auto& [x, y] : {std::pair(before, before), std::pair(before, after), std::pair(after, after)})
+      points.push_back(data.point(i) + (x + y) / 5 * tangents[static_cast<size_t>(i)] +
+                       x * y / 20 * second[static_cast<size_t>(i)]);
+  }
+  if (data.closed) {
+    for (int i = -1; i <= count + 2; ++i) knots.insert(knots.end(), 3, data.parameter(i));
+    knots.pop_back();
+    return NurbsCurve(SplineAxis(5, std::move(knots), Extension::periodic), points);
+  }
+  for (int i = 0; i <= last; ++i) knots.insert(knots.end(), i == 0 || i == last ? 6 : 3, data.parameter(i));
+  return NurbsCurve(SplineAxis(5, std::move(knots), Extension::tangent), points);
 }
 
 namespace {
@@ -77,7 +105,9 @@ std::vector<Vec3> tangents_of(const Fields& f, const PointSequence& data) {
 
 TypeDeclaration hermite_curve_type() {
   return declare(Category::curve, "hermite_curve",
-                 "Cubic pieces through points with given or estimated tangents, of class C1.")
+                 "Cubic pieces through points with given or estimated tangents, of class C1; with second derivatives "
+                 "pieces "
+                 "of degree 5, of class C2.")
       .example("points: [[0, 0], [1, 2], [3, 3], [4, 0], [6, 1]]")
       .field("points", points().count(2), "points of the curve; those of a closed one are not repeated")
       .field("knots", knots(), kPointKnots, "chord_length")
@@ -95,13 +125,16 @@ TypeDeclaration hermite_curve_type() {
           "through three or by five neighbours",
           "bessel")
       .optional("tangents_at", point_tangents(), "derivatives given at some points")
+      .optional("second_derivatives", points(), "second derivatives by t, one for each point")
       .shows({"control_polygon", "knots", "de_boor"})
       .built_by([](const Fields& f) {
         const std::vector<Vec3>& points = f.points("points");
         const bool closed = f.boolean("closed");
         const std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
         const PointSequence data{points, parameters, closed};
-        return hermite_curve(data, tangents_of(f, data));
+        const std::vector<Vec3> tangents = tangents_of(f, data);
+        if (f.has("second_derivatives")) return hermite_curve(data, tangents, f.points("second_derivatives"));
+        return hermite_curve(data, tangents);
       });
 }
 

@@ -10,4 +10,7 @@ namespace lekalo::geometry {
 // tangents) unless there is one for each point.
 NurbsCurve hermite_curve(const PointSequence& data, std::span<const Vec3> tangents);
 
+// The quintic spline of class C^2 through points with given first and second derivatives by t, with triple knots.
+NurbsCurve hermite_curve(const PointSequence& data, std::span<const Vec3> tangents, std::span<const Vec3> second);
+
 }  // namespace lekalo::geometry

@@ -27,40 +27,12 @@ constexpr int kPlaces = 32;
 
 double factor(double p) { return 1 / (2 * (p * p + 3 * p + 3)); }
 
-struct Ends {
-  std::optional<Vec3> start, end;
-};
+using Ends = TensionEnds;
 
 std::vector<Vec3> second_derivatives(const PointSequence& data, std::span<const double> tensions, const Ends& ends) {
-  const int count = data.size(), spans = data.closed ? count : count - 1;
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(count, 3);
-  const auto add = [&](int row, const Vec3& v) { right.row(row) += Eigen::RowVector3d(v.x, v.y, v.z); };
-  const auto is_natural = [&](int i) {
-    return !data.closed && ((i == 0 && !ends.start) || (i == count - 1 && !ends.end));
-  };
-  for (int i = 0; i < spans; ++i) {
-    const int next = (i + 1) % count;
-    const double weight = data.step(i) * factor(tensions[i]);
-    for (const auto& [row, other, sign] : {std::tuple(i, next, 1.0), std::tuple(next, i, -1.0)}) {
-      if (is_natural(row)) continue;
-      entries.emplace_back(row, row, weight * (2 + tensions[i]));
-      entries.emplace_back(row, other, weight);
-      add(row, sign * data.slope(i));
-    }
-  }
-  if (!data.closed) {
-    for (const int end : {0, count - 1})
-      if (is_natural(end)) entries.emplace_back(end, end, 1);
-    if (ends.start) add(0, -*ends.start);
-    if (ends.end) add(count - 1, *ends.end);
-  }
-  Eigen::SparseMatrix<double> matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixX3d second = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(right);
-  std::vector<Vec3> result;
-  for (int i = 0; i < count; ++i) result.emplace_back(second(i, 0), second(i, 1), second(i, 2));
-  return result;
+  std::vector<SpanFlexibility> spans;
+  for (const double p : tensions) spans.push_back({factor(p) * (2 + p), factor(p)});
+  return geometry::second_derivatives(data, spans, ends);
 }
 
 // The five homogeneous Bezier points of a span but the last. from, to: the points; c, d: h^2 F M at both ends.
@@ -115,6 +87,39 @@ void add_misshapen(const PointSequence& data, const std::vector<Vec3>& second, c
 
 }  // namespace
 
+std::vector<Vec3> second_derivatives(const PointSequence& data, std::span<const SpanFlexibility> flexibilities,
+                                     const TensionEnds& ends) {
+  const int count = data.size(), spans = data.closed ? count : count - 1;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(count, 3);
+  const auto add = [&](int row, const Vec3& v) { right.row(row) += Eigen::RowVector3d(v.x, v.y, v.z); };
+  const auto is_natural = [&](int i) {
+    return !data.closed && ((i == 0 && !ends.start) || (i == count - 1 && !ends.end));
+  };
+  for (int i = 0; i < spans; ++i) {
+    const int next = (i + 1) % count;
+    const auto& [near, far] = flexibilities[static_cast<size_t>(i)];
+    for (const auto& [row, other, sign] : {std::tuple(i, next, 1.0), std::tuple(next, i, -1.0)}) {
+      if (is_natural(row)) continue;
+      entries.emplace_back(row, row, data.step(i) * near);
+      entries.emplace_back(row, other, data.step(i) * far);
+      add(row, sign * data.slope(i));
+    }
+  }
+  if (!data.closed) {
+    for (const int end : {0, count - 1})
+      if (is_natural(end)) entries.emplace_back(end, end, 1);
+    if (ends.start) add(0, -*ends.start);
+    if (ends.end) add(count - 1, *ends.end);
+  }
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixX3d second = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(right);
+  std::vector<Vec3> result;
+  for (int i = 0; i < count; ++i) result.emplace_back(second(i, 0), second(i, 1), second(i, 2));
+  return result;
+}
+
 NurbsCurve tension_spline(const PointSequence& data, std::span<const double> tensions,
                           const std::optional<Vec3>& start_tangent, const std::optional<Vec3>& end_tangent) {
   const int count = data.size(), spans = data.closed ? count : count - 1;
@@ -161,36 +166,47 @@ std::vector<double> shape_keeping_tensions(const PointSequence& data, std::vecto
   }
 }
 
-TypeDeclaration tension_spline_type() {
-  return declare(Category::curve, "tension_spline",
-                 "Rational spline of class C2 through points, drawn tight from a cubic spline towards their polygon.")
-      .example("points: [[0, 0], [1, 2], [3, 3], [4, 0], [6, 1]], tension: 3")
-      .field("points", points().count(2), "points of the curve; those of a closed one are not repeated")
+void declare_tension(TypeDeclaration& type) {
+  type.field("points", points().count(2), "points of the curve; those of a closed one are not repeated")
       .field("knots", knots(), kPointKnots, "chord_length")
       .field("closed", boolean(), "smooth over its seam", "false")
       .field("tension", numbers(), "0 or more: one for all spans between points, or one for each", "[0]")
-      .field("keep_shape", boolean(),
-             "draws spans tighter until each coordinate is convex and monotone where those of the points are", "false")
       .optional("start_tangent", vector(), "derivative by t at the first point; without it the second one vanishes")
       .optional("end_tangent", vector(), "derivative by t at the last point; without it the second one vanishes")
-      .shows({"knots"})
+      .shows({"knots"});
+}
+
+TensionData read_tension(const Fields& f) {
+  TensionData data;
+  data.points = f.points("points");
+  data.closed = f.boolean("closed");
+  data.parameters = point_parameters(f.knots("knots"), data.points, data.closed);
+  for (const char* field : {"start_tangent", "end_tangent"}) {
+    if (!f.has(field)) continue;
+    if (data.closed) throw FieldError(field, "a closed curve has no ends");
+    (field[0] == 's' ? data.ends.start : data.ends.end) = f.vec3(field);
+  }
+  data.tensions = f.numbers("tension");
+  const size_t spans = data.points.size() - (data.closed ? 0 : 1);
+  if (data.tensions.size() == 1) data.tensions.assign(spans, data.tensions[0]);
+  check_tensions(data.tensions, static_cast<int>(spans));
+  return data;
+}
+
+TypeDeclaration tension_spline_type() {
+  TypeDeclaration type =
+      declare(Category::curve, "tension_spline",
+              "Rational spline of class C2 through points, drawn tight from a cubic spline towards their polygon.");
+  type.example("points: [[0, 0], [1, 2], [3, 3], [4, 0], [6, 1]], tension: 3");
+  declare_tension(type);
+  return type
+      .field("keep_shape", boolean(),
+             "draws spans tighter until each coordinate is convex and monotone where those of the points are", "false")
       .built_by([](const Fields& f) {
-        const std::vector<Vec3>& points = f.points("points");
-        const bool closed = f.boolean("closed");
-        const std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
-        const PointSequence data{points, parameters, closed};
-        Ends ends;
-        for (const char* field : {"start_tangent", "end_tangent"}) {
-          if (!f.has(field)) continue;
-          if (closed) throw FieldError(field, "a closed curve has no ends");
-          (field[0] == 's' ? ends.start : ends.end) = f.vec3(field);
-        }
-        std::vector<double> tensions = f.numbers("tension");
-        const size_t spans = points.size() - (closed ? 0 : 1);
-        if (tensions.size() == 1) tensions.assign(spans, tensions[0]);
-        check_tensions(tensions, static_cast<int>(spans));
-        if (f.boolean("keep_shape")) tensions = shape_keeping_tensions(data, tensions, ends.start, ends.end);
-        return tension_spline(data, tensions, ends.start, ends.end);
+        TensionData data = read_tension(f);
+        if (f.boolean("keep_shape"))
+          data.tensions = shape_keeping_tensions(data.sequence(), data.tensions, data.ends.start, data.ends.end);
+        return tension_spline(data.sequence(), data.tensions, data.ends.start, data.ends.end);
       });
 }
 
