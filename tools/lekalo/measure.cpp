@@ -122,7 +122,7 @@ constexpr double kSmooth = 1e-6;
 struct Options {
   SceneOptions scene;
   std::string name, against, to, section, silhouette, position, cells, line, hausdorff, frechet, arc, at_length, chord,
-      stretch;
+      secant, stretch;
   std::vector<std::string> intersect;     // one, or two: common points of three
   std::optional<std::string> continuity;  // empty: of a body by itself
   std::optional<double> tolerance;
@@ -269,7 +269,8 @@ int run(const Options& options) {
     print = print_topology;
   } else if (options.rim) {
     out = rim_of(options.name, entity,
-                 options.chord.empty() ? std::vector<double>() : parse_numbers(options.chord, 2, "--chord"));
+                 options.chord.empty() ? std::vector<double>() : parse_numbers(options.chord, 2, "--chord"),
+                 options.secant.empty() ? nullptr : &find_geometry(scene, options.secant));
     print = print_rim;
   } else if (!options.stretch.empty()) {
     out = stretch_of(options.name, entity, options.stretch, find_geometry(scene, options.stretch),
@@ -494,10 +495,15 @@ void add_measure(CLI::App& app, Action& action) {
           ->type_name("FILE|NAME");
   auto* rim = sub->add_flag("--rim", options->rim,
                             "whether the closed plane curve is the rim of a sheet that may overlap itself");
-  sub->add_option("--chord", options->chord,
-                  "of --rim, two parameters: whether the straight line between the points is one line on the sheet")
-      ->type_name("T,T")
-      ->needs(rim);
+  auto* chord =
+      sub->add_option("--chord", options->chord,
+                      "of --rim, two parameters: whether the straight line between the points is one line on the sheet")
+          ->type_name("T,T")
+          ->needs(rim);
+  sub->add_option("--secant", options->secant,
+                  "the same of a curve between these points, as that of the section by a cylinder")
+      ->type_name("NAME")
+      ->needs(chord);
   auto* stretch = sub->add_option("--stretch", options->stretch,
                                   "by how much the surface stretches when it is laid on another one of the same "
                                   "parameters, as a development on its surface")

@@ -123,7 +123,8 @@ void print_nearness(const ordered_json& found);
 
 // Whether a closed plane curve is the rim of a sheet that may overlap itself, and with the parameters of the ends of a
 // chord whether that is one line on it. Throws UsageError for anything else.
-ordered_json rim_of(const std::string& name, const render::Entity& entity, const std::vector<double>& chord);
+ordered_json rim_of(const std::string& name, const render::Entity& entity, const std::vector<double>& chord,
+                    const render::Entity* along);
 void print_rim(const ordered_json& found);
 
 // The least and the greatest stretch of a surface that is laid on another of the same parameters, looked for among

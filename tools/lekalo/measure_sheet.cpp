@@ -18,13 +18,15 @@ ordered_json row_of(const geometry::Stretch& stretch) {
 
 }  // namespace
 
-ordered_json rim_of(const std::string& name, const render::Entity& entity, const std::vector<double>& chord) {
+ordered_json rim_of(const std::string& name, const render::Entity& entity, const std::vector<double>& chord,
+                    const render::Entity* along) {
   const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
-  if (!curve) throw UsageError(fmt::format("'{}' is no curve: --rim takes curves", name));
+  const auto* secant = along ? std::get_if<geometry::CurvePtr>(along) : nullptr;
+  if (!curve || (along && !secant)) throw UsageError(fmt::format("'{}': --rim and --secant take curves", name));
   try {
     std::optional<std::pair<double, double>> ends;
     if (!chord.empty()) ends = {chord[0], chord[1]};
-    const geometry::SheetRim found = geometry::sheet_rim(**curve, ends);
+    const geometry::SheetRim found = geometry::sheet_rim(**curve, ends, secant ? secant->get() : nullptr);
     ordered_json out{{"name", name},
                      {"kind", "curve"},
                      {"turning_number", found.turning_number},

@@ -7,6 +7,7 @@
 
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/queries/measures/curve_features.h"
+#include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
 
@@ -98,9 +99,24 @@ size_t index_of(const std::vector<double>& at, double t) {
       at.begin());
 }
 
+// The places inside of the secant, from the point `from` of the rim to the point `to`; `size`: that of the rim.
+std::vector<Vec3> places_along(const Curve& secant, const Vec3& from, const Vec3& to, double size, int count) {
+  const Interval domain = secant.domain();
+  const auto begins_at = [&](const Vec3& p) { return glm::length(secant.point(domain.lo) - p) <= kSamePoint * size; };
+  const auto ends_at = [&](const Vec3& p) { return glm::length(secant.point(domain.hi) - p) <= kSamePoint * size; };
+  const bool forth = begins_at(from) && ends_at(to);
+  if (!forth && !(begins_at(to) && ends_at(from)))
+    throw std::invalid_argument("the secant does not go from one end of the chord to the other");
+  std::vector<Vec3> result;
+  for (const double t : parameters(secant, count, {})) result.push_back(secant.point(t));
+  result.erase(result.begin());  // the rim has it
+  if (!forth) std::reverse(result.begin(), result.end());
+  return result;
+}
+
 }  // namespace
 
-SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, double>>& chord) {
+SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, double>>& chord, const Curve* secant) {
   const CurveFeatures features = curve_features(curve);
   if (!features.closed || !features.plane) throw std::invalid_argument("the curve is not closed, or not plane");
   const CurveSelfIntersections own = self_intersections(curve);
@@ -110,6 +126,7 @@ SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, dou
     throw std::invalid_argument("the curve touches itself, has a cusp, or runs through a part twice");
   const Frame frame = frame_about(Vec3(0), features.normal);
   std::vector<double> places;
+  if (secant && !chord) throw std::invalid_argument("a secant needs the parameters of its ends on the rim");
   if (chord) {
     const Interval domain = curve.domain();
     places = {std::min(chord->first, chord->second), std::max(chord->first, chord->second)};
@@ -120,20 +137,28 @@ SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, dou
   result.crossings = static_cast<int>(own.points.size());
   for (int count = kFirst; count <= kMost; count *= 2) {
     const std::vector<double> at = parameters(curve, count, places);
-    std::vector<Vec2> points;
-    for (const double t : at) points.emplace_back(glm::dot(curve.point(t), frame.x), glm::dot(curve.point(t), frame.y));
+    const auto in_plane = [&](const Vec3& p) { return Vec2(glm::dot(p, frame.x), glm::dot(p, frame.y)); };
+    std::vector<Vec2> points, along;  // along: from the first end of the chord to the second
+    for (const double t : at) points.push_back(in_plane(curve.point(t)));
+    if (secant)
+      for (const Vec3& p :
+           places_along(*secant, curve.point(places[0]), curve.point(places[1]), bounds(curve).diameter(), count))
+        along.push_back(in_plane(p));
     result.turning_number = Polygon(points).turning_number();
     if (Polygon(points).crossings() != result.crossings) continue;
     size_t i = chord ? index_of(at, places[0]) : 0, j = chord ? index_of(at, places[1]) : 0;
     if (result.turning_number < 0) {
       std::reverse(points.begin(), points.end());
       std::tie(i, j) = std::pair(points.size() - 1 - j, points.size() - 1 - i);
+      std::reverse(along.begin(), along.end());
     }
     result.is_rim = Polygon(points).is_rim();
     if (!chord) return result;
     const auto from = [&](size_t k) { return points.begin() + static_cast<std::ptrdiff_t>(k); };
     std::vector<Vec2> first(from(i), from(j + 1)), second(from(j), points.end());
     second.insert(second.end(), points.begin(), from(i + 1));
+    second.insert(second.end(), along.begin(), along.end());
+    first.insert(first.end(), along.rbegin(), along.rend());
     result.is_connected = result.is_rim && Polygon(first).is_rim() && Polygon(second).is_rim();
     return result;
   }

@@ -17,12 +17,15 @@ struct SheetRim {
   int turning_number = 0;  // counterclockwise about the normal with a positive largest component
   int crossings = 0;       // of the curve with itself
   bool is_rim = false;     // of one that runs clockwise: after reversing it
-  // Whether the straight line between two points of the rim is the image of one line on the sheet.
+  // Whether the secant between two points of the rim, the section of a plane or of a cylinder, is the image of one line
+  // on the sheet.
   std::optional<bool> is_connected;
 };
 
-// `chord`: parameters of the two points. Throws std::invalid_argument for a curve that is not plane or not closed, that
-// touches itself or runs through a part twice, or a chord without length.
-SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, double>>& chord = std::nullopt);
+// `chord`: parameters of the two points; `secant`: a curve from one to the other, null: the straight line. Throws
+// std::invalid_argument for a curve that is not plane or not closed, that touches itself or runs through a part twice,
+// a chord without length, or a secant that does not end at its points.
+SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, double>>& chord = std::nullopt,
+                   const Curve* secant = nullptr);
 
 }  // namespace lekalo::geometry
