@@ -194,7 +194,7 @@ class Writer {
     if (path.gradient && !path.brush) body_ += shading_text(*path.gradient, data);
     std::string looks;
     if (path.brush) looks = brush_text(*path.brush);
-    if (path.pen) looks += (looks.empty() ? "" : ",") + pen_text(*path.pen);
+    if (path.pen) looks += fmt::format("{}{}", looks.empty() ? "" : ",", pen_text(*path.pen));
     if (looks.empty()) return;
     body_ += fmt::format("\\path[{}{}]{};\n", look(looks), options, data);
   }
