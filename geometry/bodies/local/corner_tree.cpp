@@ -1,12 +1,12 @@
 // A corner of n faces that no longer meet in one point opens to n - 2 vertices of three faces each, and n - 3 edges: a
 // triangulation of the n-gon whose corners are the faces and whose sides are the edges of the corner (Golovanov 2016,
 // 6.7). It is the right one where in no face the lines that bound it cross.
+#include "geometry/bodies/local/corner_tree.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-
-#include "geometry/bodies/local/face_replacement.h"
 
 namespace lekalo::geometry {
 

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "geometry/bodies/constructions/swept_body.h"
-#include "geometry/bodies/local/edge_curve.h"
-#include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/local/new_faces.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -17,28 +16,18 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Normals that differ by less are those of a smooth edge.
-constexpr double kSmooth = 1e-6;
 constexpr int kGuide = 8;
 
 class Replacing {
  public:
   Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, bool cut_off)
-      : old_(without_plane_seams(body)),
-        field_(field),
-        size_(bounds(body).diameter()),
-        surfaces_(surfaces),
-        given_(body),
-        cut_off_(cut_off) {}
+      : new_(body, surfaces, field), old_(new_.old()), field_(field), size_(new_.size()), cut_off_(cut_off) {}
 
   FaceReplacement build() {
-    if (!old_.is_closed()) throw FieldError(field_, "the body is open: it has no inside", "a closed body");
-    prepare_faces();
-    carriers_.resize(old_.edges.size(), -1);
-    for (size_t e = 0; e < old_.edges.size(); ++e) carriers_[e] = carrier(static_cast<int>(e));
+    made_.polyhedral = new_.are_plane();
     edges_.resize(old_.edges.size());
     joints_.resize(old_.coedges.size());
-    for (const Corner& corner : corners_of(old_, removed_)) add_corner(corner);
+    for (const Corner& corner : corners_of(old_, new_.removed())) add_corner(corner);
     add_edges();
     add_faces();
     add_shells();
@@ -47,6 +36,8 @@ class Replacing {
   }
 
  private:
+  int face_of(int coedge) const { return face_of_coedge(old_, coedge); }
+  const Coedge& use(int coedge) const { return old_.coedges[coedge]; }
   struct NewEdge {
     int start = -1, end = -1;  // new vertices
   };
@@ -64,148 +55,8 @@ class Replacing {
     bool forward;
   };
 
-  void prepare_faces() {
-    made_.polyhedral = true;
-    for (size_t f = 0; f < old_.faces.size(); ++f) {
-      const SurfacePtr& surface = surfaces_[f];
-      removed_.push_back(surface == nullptr);
-      changed_.push_back(surface != given_.faces[f].surface);
-      planes_.push_back(surface ? plane_of(surface) : std::nullopt);
-      if (!surface) {
-        supports_.push_back(nullptr);
-        continue;
-      }
-      supports_.push_back(planes_[f] ? std::make_shared<Plane>(*planes_[f]) : surface);
-      made_.polyhedral = made_.polyhedral && planes_[f];
-    }
-  }
-
-  int face_of(int coedge) const { return face_of_coedge(old_, coedge); }
-  const Coedge& use(int coedge) const { return old_.coedges[coedge]; }
-
-  // Parameters of the support near to an old point on it.
-  Vec2 near(int coedge, bool at_end, bool along_loop = true) const {
-    const int face = face_of(coedge);
-    const Coedge& c = use(coedge);
-    const Interval t = c.image->domain();
-    const bool hi = (c.forward || !along_loop) == at_end;
-    if (planes_[face]) return Vec2(planes_[face]->to_local_point(old_.edges[c.edge].curve->point(hi ? t.hi : t.lo)));
-    return Vec2(c.image->point(hi ? t.hi : t.lo));
-  }
-
-  SurfaceNear near_surface(const Sector& s) const { return {supports_[s.face], planes_[s.face], near(s.out, false)}; }
-
-  // The coedge whose image carries over an edge that is a seam, or smooth and stays so; -1 for other edges.
-  int carrier(int e) const {
-    const Edge& edge = old_.edges[e];
-    if (edge.kind == EdgeKind::pole || edge.coedges.size() != 2) return -1;
-    int a = edge.coedges[0], b = edge.coedges[1];
-    if (removed_[face_of(a)] || removed_[face_of(b)]) return -1;
-    if (face_of(a) == face_of(b)) return a;
-    if (planes_[face_of(a)]) std::swap(a, b);
-    if (planes_[face_of(a)]) return -1;
-    const Interval t = edge.curve->domain();
-    for (int k = 0; k <= 4; ++k) {
-      const double at = t.lo + t.width() * k / 4;
-      const Vec3 p = use(a).image->point(at), q = use(b).image->point(at);
-      const Vec3 m = old_.normal(face_of(a), p.x, p.y), n = old_.normal(face_of(b), q.x, q.y);
-      if (!(glm::length(glm::cross(m, n)) < kSmooth && glm::dot(m, n) > 0)) return -1;
-      const int other = face_of(b);
-      const Vec3 point = supports_[face_of(a)]->point(p.x, p.y);
-      const Vec2 at_other = planes_[other] ? Vec2(planes_[other]->to_local_point(point)) : Vec2(q);
-      if (distance_from({supports_[other], planes_[other], at_other}, point) > 1e-9 * size_) return -1;
-    }
-    return a;
-  }
-
-  Vec3 normal_at(const Sector& s) const {
-    const Face& face = old_.faces[s.face];
-    const Vec2 at = near(s.out, false);
-    const Vec3 n =
-        planes_[s.face] ? planes_[s.face]->z : supports_[s.face]->normal_sign() * supports_[s.face]->normal(at.x, at.y);
-    return face.forward == (face.surface->normal_sign() > 0) ? n : -n;
-  }
-
-  bool is_changed(const Corner& corner) const {
-    return std::any_of(corner.sectors.begin(), corner.sectors.end(), [&](const Sector& s) { return changed_[s.face]; });
-  }
-
-  std::string names_of(const Corner& corner) const {
-    std::string text;
-    std::vector<int> told;
-    for (const Sector& s : corner.sectors) {
-      if (std::find(told.begin(), told.end(), s.face) != told.end()) continue;
-      told.push_back(s.face);
-      text += (text.empty() ? "" : ", ") + name_of_face(old_, s.face);
-    }
-    return text;
-  }
-
-  // A vertex at an end of a smooth edge or seam, where that meets another face; or a pole.
-  std::optional<Vec3> carried_point(const Corner& corner) const {
-    for (const Sector& s : corner.sectors)
-      if (old_.edges[use(s.in).edge].kind == EdgeKind::pole) return point_on(s, s.in);
-    int best = -1;
-    const Sector* other = nullptr;
-    double widest = 1e-3;
-    std::optional<Vec3> touching;
-    for (const Sector& s : corner.sectors) {
-      const int carried = carriers_[use(s.in).edge];
-      if (carried < 0) continue;
-      const int a = face_of(carried), b = face_of(coedge_partner(old_, carried));
-      const Sector& of = s.face == a ? s
-                                     : *std::find_if(corner.sectors.begin(), corner.sectors.end(),
-                                                     [&](const Sector& x) { return x.face == a; });
-      if (!touching) touching = point_on(of, s.face == a ? s.in : coedge_partner(old_, s.in), s.face != a);
-      for (const Sector& x : corner.sectors) {
-        if (x.face == a || x.face == b) continue;
-        const double angle = glm::length(glm::cross(normal_at(of), normal_at(x)));
-        if (angle > widest) widest = angle, best = s.face == a ? s.in : coedge_partner(old_, s.in), other = &x;
-      }
-    }
-    if (best < 0) return touching;
-    const Coedge& c = use(best);
-    // Of the carrier's use that ends here.
-    const bool arrives =
-        std::any_of(corner.sectors.begin(), corner.sectors.end(), [&](const Sector& s) { return s.in == best; });
-    const Interval t = c.image->domain();
-    return piercing_point(*supports_[face_of(best)], *c.image, c.forward == arrives ? t.hi : t.lo, near_surface(*other),
-                          size_);
-  }
-
-  Vec3 point_on(const Sector& s, int coedge, bool at_begin = false) const {
-    const Vec2 at = near(coedge, !at_begin);
-    return supports_[s.face]->point(at.x, at.y);
-  }
-
-  CornerTree tree_of(const Corner& corner) const {
-    const size_t count = corner.sectors.size();
-    CornerTree one{{}, std::vector<int>(count, 0), {}};
-    if (corner.vertex >= 0 && !is_changed(corner)) {
-      one.points = {old_.vertices[corner.vertex].point};
-      return one;
-    }
-    std::optional<Vec3> point = carried_point(corner);
-    const bool is_carried = point || std::any_of(corner.sectors.begin(), corner.sectors.end(),
-                                                 [&](const Sector& s) { return carriers_[use(s.in).edge] >= 0; });
-    if (!is_carried && count == 2)
-      point = nearest_common_point(near_surface(corner.sectors[0]), near_surface(corner.sectors[1]), size_);
-    if (point) {
-      one.points = {*point};
-      return one;
-    }
-    std::vector<SectorSurface> sectors;
-    for (const Sector& s : corner.sectors)
-      sectors.push_back({s.face, near_surface(s), normal_at(s), old_.vertices[vertex_before(old_, s.in)].point});
-    std::optional<CornerTree> tree = is_carried ? std::nullopt : corner_tree(sectors, size_);
-    if (!tree)
-      throw FieldError(field_, fmt::format("the faces {} do not come together in a corner any more", names_of(corner)),
-                       "a smaller change, or one of the neighbours too");
-    return *tree;
-  }
-
   void add_corner(const Corner& corner) {
-    const CornerTree tree = tree_of(corner);
+    const CornerTree tree = new_.tree_of(corner);
     std::vector<int> vertices;
     const bool one = tree.joints.empty();
     for (size_t k = 0; k < tree.points.size(); ++k) {
@@ -213,7 +64,7 @@ class Replacing {
       if (!one) origin = {};
       const bool used = !one || k == static_cast<size_t>(tree.of_spoke[0]);
       vertices.push_back(used ? made_.body.add_vertex(tree.points[k], origin) : -1);
-      if (used && corner.vertex >= 0 && !is_changed(corner))
+      if (used && corner.vertex >= 0 && !new_.is_changed(corner))
         made_.body.vertices.back().tolerance = old_.vertices[corner.vertex].tolerance;
     }
     const size_t count = corner.sectors.size();
@@ -255,15 +106,10 @@ class Replacing {
   bool is_kept(int e) const {
     const Edge& edge = old_.edges[e];
     for (const int c : edge.coedges)
-      if (changed_[face_of(c)]) return false;
+      if (new_.is_changed(face_of(c))) return false;
     const Body& body = made_.body;
     return body.vertices[edges_[e].start].point == old_.vertices[edge.start].point &&
            body.vertices[edges_[e].end].point == old_.vertices[edge.end].point;
-  }
-
-  EdgeSide side_of(int coedge) const {
-    const int face = face_of(coedge);
-    return {supports_[face], planes_[face], {near(coedge, false, false), near(coedge, true, false)}};
   }
 
   void add_edges() {
@@ -276,7 +122,7 @@ class Replacing {
 
   bool stays(int e) const {
     for (const int c : old_.edges[e].coedges)
-      if (removed_[face_of(c)]) return false;
+      if (new_.removed()[face_of(c)]) return false;
     return true;
   }
 
@@ -307,21 +153,21 @@ class Replacing {
 
   Curve2Ptr kept_image(int c) const {
     const int face = face_of(c);
-    const bool same = dynamic_cast<const Plane*>(old_.faces[face].surface.get()) || !planes_[face];
-    return same ? use(c).image : image_in(*planes_[face], old_.edges[use(c).edge].curve);
+    const bool same = dynamic_cast<const Plane*>(old_.faces[face].surface.get()) || !new_.plane(face);
+    return same ? use(c).image : image_in(*new_.plane(face), old_.edges[use(c).edge].curve);
   }
 
   EdgeCurve curve_between(int e, const Vec3& from, const Vec3& to) const {
     const Edge& old = old_.edges[e];
     const int a = old.coedges[0], b = old.coedges[1];
-    if (carriers_[e] >= 0)
+    if (new_.carrier(e) >= 0)
       if (auto edge = carried_edge(e, from, to)) return *edge;
     std::vector<Vec3> guide;
     const Interval t = old.curve->domain();
     for (int k = 0; k <= kGuide; ++k) guide.push_back(old.curve->point(t.lo + t.width() * k / kGuide));
     std::string why;
     try {
-      if (auto edge = intersection_edge({side_of(a), side_of(b)}, from, to, guide, size_)) return *edge;
+      if (auto edge = intersection_edge({new_.side_of(a), new_.side_of(b)}, from, to, guide, size_)) return *edge;
     } catch (const FieldError&) {
       throw;
     } catch (const std::invalid_argument& error) {
@@ -336,20 +182,20 @@ class Replacing {
   // Along the image that the edge has, or the straight line of the parameter plane between its new ends.
   std::optional<EdgeCurve> carried_edge(int e, const Vec3& from, const Vec3& to) const {
     const Edge& old = old_.edges[e];
-    const int a = carriers_[e], b = coedge_partner(old_, a);
+    const int a = new_.carrier(e), b = coedge_partner(old_, a);
     const bool swapped = a != old.coedges[0];
     std::optional<EdgeCurve> edge;
     if (old_.edges[e].kind == EdgeKind::seam || is_line(*use(a).image))
-      edge = parameter_edge({side_of(a), side_of(b)}, from, to, size_);
+      edge = parameter_edge({new_.side_of(a), new_.side_of(b)}, from, to, size_);
     if (!edge) {
-      const SurfacePtr& surface = supports_[face_of(a)];
+      const SurfacePtr& surface = new_.support(face_of(a));
       const auto curve = std::make_shared<SurfaceCurve>(surface, use(a).image);
       const Interval t = curve->domain();
       if (glm::length(curve->point(t.lo) - from) > 1e-10 * size_ ||
           glm::length(curve->point(t.hi) - to) > 1e-10 * size_)
         return std::nullopt;
       const int other = face_of(b);
-      edge = EdgeCurve{curve, {use(a).image, planes_[other] ? image_in(*planes_[other], curve) : use(b).image}};
+      edge = EdgeCurve{curve, {use(a).image, new_.plane(other) ? image_in(*new_.plane(other), curve) : use(b).image}};
     }
     if (swapped) std::swap(edge->images[0], edge->images[1]);
     return edge;
@@ -379,8 +225,8 @@ class Replacing {
     std::array<EdgeSide, 2> sides;
     for (int k = 0; k < 2; ++k) {
       const int c = joint.coedges[k];
-      const Vec2 at = near(c, true);
-      sides[k] = {supports_[face_of(c)], planes_[face_of(c)], {at, at}};
+      const Vec2 at = new_.near(c, true);
+      sides[k] = {new_.support(face_of(c)), new_.plane(face_of(c)), {at, at}};
     }
     const auto edge = intersection_edge(sides, joint.guide[0], joint.guide[1], joint.guide, size_);
     if (!edge)
@@ -395,13 +241,13 @@ class Replacing {
 
   void add_faces() {
     for (size_t f = 0; f < old_.faces.size(); ++f)
-      if (!removed_[f]) add_face(static_cast<int>(f));
+      if (!new_.removed()[f]) add_face(static_cast<int>(f));
   }
 
   void add_face(int f) {
     const Face& old = old_.faces[f];
     std::vector<std::vector<Body::Use>> loops;
-    bool same = !changed_[f];
+    bool same = !new_.is_changed(f);
     for (size_t l = 0; l < old.loops.size(); ++l) {
       std::vector<Body::Use> uses;
       for (const int c : old_.loops[old.loops[l]].coedges) {
@@ -460,17 +306,17 @@ class Replacing {
       for (const Body::Use& u : uses) images.push_back(u.image), box.include(bounds(*u.image));
     // Rounding of the boxes of images is not to move a border.
     const bool untrimmed = !old.trimmed && loops.size() == 1 && fills(loops[0], box);
-    if (planes_[f]) {
+    if (new_.plane(f)) {
       if (!untrimmed) {
-        const int face = add_plane_face(made_.body, *planes_[f], old.forward, old.origin, images);
+        const int face = add_plane_face(made_.body, *new_.plane(f), old.forward, old.origin, images);
         return turned_as(face, old);
       }
       return turned_as(
-          made_.body.add_face(std::make_shared<Plane>(*planes_[f], rectangle(box)), old.forward, old.origin, false),
+          made_.body.add_face(std::make_shared<Plane>(*new_.plane(f), rectangle(box)), old.forward, old.origin, false),
           old);
     }
-    const Rectangle d = supports_[f]->domain();
-    SurfacePtr surface = supports_[f];
+    const Rectangle d = new_.support(f)->domain();
+    SurfacePtr surface = new_.support(f);
     snap(box.lo.x, d.u), snap(box.hi.x, d.u), snap(box.lo.y, d.v), snap(box.hi.y, d.v);
     const Rectangle asked = untrimmed ? rectangle(box) : widened(d, box, surface->periods());
     if (!(asked.u == d.u && asked.v == d.v)) {
@@ -544,16 +390,11 @@ class Replacing {
     }
   }
 
-  const Body old_;
+  const NewFaces new_;
+  const Body& old_;
   const char* field_;
   double size_;
-  const std::vector<SurfacePtr>& surfaces_;
-  const Body& given_;
   bool cut_off_;
-  std::vector<char> removed_, changed_;
-  std::vector<SurfacePtr> supports_;
-  std::vector<std::optional<Frame>> planes_;
-  std::vector<int> carriers_;
   std::vector<NewEdge> edges_;                 // of each old edge
   std::vector<std::vector<JointUse>> joints_;  // that follow each old coedge in its loop
   std::vector<Joint> all_joints_;

@@ -9,7 +9,6 @@
 
 #include <vector>
 
-#include "geometry/bodies/local/common_point.h"
 #include "geometry/bodies/local/corners.h"
 #include "geometry/bodies/local/support.h"
 
@@ -35,29 +34,5 @@ FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& s
 
 // Throws FieldError (that field, with the hint) where edges have turned or the body is not valid.
 void check_replacement(const FaceReplacement& made, const char* field, const char* hint);
-
-// The tree of edges to which a corner opens that has no common point: points, the one where each spoke ends, and the
-// joints between them, each between two of the sectors' faces.
-struct CornerTree {
-  struct Joint {
-    int sectors[2];
-    int from, to;  // points
-  };
-  std::vector<Vec3> points;
-  std::vector<int> of_spoke;  // spoke k follows sector k
-  std::vector<Joint> joints;
-};
-
-// What is known of a sector for it.
-struct SectorSurface {
-  int face;
-  SurfaceNear on;
-  Vec3 normal;    // of the new surface near the corner
-  Vec3 spoke_to;  // the other end of the spoke that follows, before
-};
-
-// A tree without joints where one point will do; else a triangulation of the cycle of sectors whose edges do not cross
-// (Aurenhammer, Walzl 2016: there is one for plane faces). Nothing where there is none, or more than 8 sectors.
-std::optional<CornerTree> corner_tree(const std::vector<SectorSurface>& sectors, double size);
 
 }  // namespace lekalo::geometry

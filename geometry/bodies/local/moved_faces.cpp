@@ -11,9 +11,12 @@
 #include "geometry/bodies/local/edge_curve.h"
 #include "geometry/bodies/local/face_replacement.h"
 #include "geometry/bodies/local/plane_fillets.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -78,6 +81,34 @@ struct Draft {
     if (growth == 0) return std::make_shared<CylinderSurface>(frame, radius, h, cone.domain());
     return std::make_shared<ConeSurface>(frame, base, base + growth, h, cone.domain());
   }
+
+  // The straight meridian of a surface of revolution likewise; null where it is not straight.
+  SurfacePtr revolution(const RevolutionSurface& r, double side, const std::string& name) const {
+    const Interval t = r.curve()->domain();
+    const Vec3 a = r.curve()->point(t.lo), b = r.curve()->point(t.hi);
+    for (const double f : {0.25, 0.5, 0.75})
+      if (glm::length(r.curve()->point(t.lo + f * t.width()) - (a + f * (b - a))) > 1e-13 * glm::length(b - a))
+        return nullptr;
+    const Axis axis = r.axis();
+    if (!(std::abs(std::abs(glm::dot(axis.along, direction)) - 1) < 1e-12))
+      throw FieldError("faces", fmt::format("the axis of the face {} does not run along the direction", name),
+                       "a plane face, or a cylinder or cone along it");
+    const auto height = [&](const Vec3& p) { return glm::dot(p - origin, direction); };
+    const Vec3 foot = axis.through + glm::dot(a - axis.through, axis.along) * axis.along;
+    const Vec3 radial =
+        glm::normalize(glm::length(a - foot) > 0 ? a - foot : b - foot - glm::dot(b - foot, axis.along) * axis.along);
+    const auto radius = [&](const Vec3& p) { return glm::dot(p - axis.through, radial); };
+    const double slope = (radius(b) - radius(a)) / (height(b) - height(a));
+    const double at_neutral = radius(a) - slope * height(a);
+    const SurfaceJet s = r.evaluate(t.middle(), r.domain().v.lo, 1);
+    const Affine turn = Affine::rotation(r.domain().v.lo, axis.along, axis.through);
+    const double outward = side * glm::dot(glm::cross(s.du(), s.dv()), turn.direction(radial)) > 0 ? 1 : -1;
+    const auto moved = [&](const Vec3& p) {
+      return p + (at_neutral - outward * std::tan(angle) * height(p) - radius(p)) * radial;
+    };
+    const CurvePtr line = std::make_shared<Segment>(moved(a), moved(b));
+    return std::make_shared<RevolutionSurface>(t == line->domain() ? line : with_domain(line, t), axis, r.domain());
+  }
 };
 
 // The extrusion of a circle along its axis as the cylinder that has its parameters; null for another surface.
@@ -114,7 +145,9 @@ Body leant(const Fields& f) {
       made = std::const_pointer_cast<Surface>(draft.cone(*cone, side, name));
     else if (const auto cylinder = cylinder_of(*plain))
       made = std::const_pointer_cast<Surface>(draft.cone(*cylinder, side, name));
-    else
+    else if (const auto* r = dynamic_cast<const RevolutionSurface*>(plain.get()))
+      made = std::const_pointer_cast<Surface>(draft.revolution(*r, side, name));
+    if (!made)
       throw FieldError("faces", fmt::format("the face {} is neither plane, nor a cylinder or a cone", name),
                        "leave it out");
     made->set_reversed(face.surface->reversed());
