@@ -27,7 +27,7 @@ _lekalo() {
         test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
         new) words='--kind' ;;
         check|solve) words='--set --allow-external --json' ;;
-        measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
+        measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --secant --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
         evaluate) words='--at --uv --turn --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
         trace) words='--ray --rays --set --allow-external --json' ;;
         export) words='--format --sag --patch-steps --flatness --tolerance -o --output --set --allow-external --quiet' ;;

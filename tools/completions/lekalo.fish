@@ -65,6 +65,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from measure' -l cubature -x -d 'b
 complete -c lekalo -n '__fish_seen_subcommand_from measure evaluate' -l turn -x -d 'angle by which it turns'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l rim -d 'whether it is the rim of a sheet'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l chord -x -d 'of --rim, two parameters'
+complete -c lekalo -n '__fish_seen_subcommand_from measure' -l secant -x -d 'with --chord, a curve between the points'
 complete -c lekalo -n '__fish_seen_subcommand_from measure' -l stretch -x -d 'how much it stretches on another surface'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l uv -x -d 'parameters of a triangle'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l at -x -d 't or u,v'
