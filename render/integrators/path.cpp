@@ -62,7 +62,7 @@ TypeDeclaration path_integrator_type() {
                  "it is blurred a little, and has a noise of its own, which falls with their number. Ambient light "
                  "comes from "
                  "everywhere and is shadowed.")
-      .field("max_depth", integer().between(0, 1000), "reflections and refractions after the first", "64")
+      .field("bounces", integer().between(0, 1000), "reflections and refractions after the first", "64")
       .field("clamp", number().non_negative(),
              "light over two and more surfaces is at most so bright in each sample: less noise, and less light; 0: as "
              "it is",
@@ -79,7 +79,7 @@ TypeDeclaration path_integrator_type() {
       .field("background_light", boolean(), "true: the background lights the scene from everywhere", "false")
       .built_by([](const Fields& f) {
         PathOptions options;
-        options.max_depth = f.integer("max_depth");
+        options.max_depth = f.integer("bounces");
         options.clamp = f.number("clamp");
         options.photons = static_cast<int>(f.integer("photons"));
         options.dispersion = f.boolean("dispersion");

@@ -41,10 +41,17 @@ void check_end(const Profile& profile, const std::vector<std::vector<CurvePtr>>&
   if (!is_left) throw FieldError("draft", "nothing is left of the profile before the end of the vector", hint);
 }
 
+// The profile is the operand, and what textbooks call the section.
+const char* profile_field(const Fields& f) {
+  if (f.has("of") && f.has("section")) throw FieldError("section", "'of' and 'section' are the same", "leave one out");
+  if (!f.has("of") && !f.has("section")) throw FieldError("of", "the profile is missing", "of: a closed plane curve");
+  return f.has("of") ? "of" : "section";
+}
+
 Body extruded(const Fields& f) {
   const Vec3 d = f.vec3("along");
   if (!(glm::length(d) > 0)) throw FieldError("along", "the vector of an extrusion must not be zero");
-  Profile profile = read_thick_profile(f, "of", d);
+  Profile profile = read_thick_profile(f, profile_field(f), d);
   face_along(profile, d, "along");
   const double back = f.number("back"), draft = f.number("draft");
   const Vec3 first = -back * glm::normalize(d), whole = d - first;
@@ -88,8 +95,9 @@ TypeDeclaration extrusion_body_type() {
           "What a plane profile fills as it is moved along a vector. Faces: start, end, and side.k for segment k of "
           "the profile, those of its holes after those of the outline.")
           .example("of: { type: rectangle, size: [3, 2] }, along: [0, 0, 1]")
-          .field("of", references({Category::curve}),
-                 "a closed plane curve, with further ones inside of it as holes; corners make edges")
+          .optional("of", references({Category::curve}),
+                    "a closed plane curve, with further ones inside of it as holes; corners make edges")
+          .optional("section", references({Category::curve}), "the same by another name")
           .field("along", vector(), "the vector, not in the plane of the profile")
           .field("back", length().non_negative(), "how far the body reaches the other way too, along the vector", "0")
           .field("draft", angle().between(-1.5, 1.5),
