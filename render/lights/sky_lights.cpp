@@ -76,7 +76,7 @@ TypeDeclaration sky_light_type() {
       .field("visible", boolean(), "false: the background stays as it is", "true")
       .field("shadows", boolean(), "false: the light passes through everything", "true");
   declare_area_sampling(type);
-  type.example("sun: [-2, -3, 3]");
+  type.example("sun: [-2, -3, 3], intensity: 0.3");
   return type.built_by([](const Fields& f) {
     EnvironmentLight light;
     light.image = panorama(to_sun(f), f.number("turbidity"), f.vec3("ground"));
@@ -96,7 +96,7 @@ TypeDeclaration sun_light_type() {
   declare_daylight(type);
   type.field("shadows", boolean(), "false: the light passes through everything", "true");
   declare_area_sampling(type);
-  type.example("sun: [-2, -3, 3]");
+  type.example("sun: [-2, -3, 3], intensity: 0.3");
   return type.built_by([](const Fields& f) {
     DistantLight light;
     light.direction = -to_sun(f);

@@ -171,6 +171,46 @@ TEST(Path, WhiteFurnace) {
   }
 }
 
+TEST(Path, MilkThatTakesNothingIsWhiteInAFurnace) {
+  for (const double index : {1.0, 1.4}) {
+    SmallScene scene;
+    scene.light(AmbientLight{.intensity = 1});
+    scene.model.background = Spectrum(1, 1, 1);
+    Dielectric milk{.index = index};
+    milk.scattering = Vec3(2, 3, 4);
+    milk.forward = 0.5;
+    scene.add(sphere({0, 0, 0}, 1), make_material(milk));
+    PathOptions options;
+    options.max_depth = 1000;
+    for (const double x : {0.0, 0.8})
+      expect_mean(estimate(*world(scene, options), {x, 0, 4}, {0, 0, -1}, 8192), 1, "milk", 1e-2);
+  }
+}
+
+// So little of the light is scattered that twice scattered light is lost in the tolerance: with the light going along
+// -z and the ray along y through the middle of a ball of radius 1,
+//   L = integral of mu_s p(90 degrees) E exp(-mu (1 + y) - mu sqrt(1 - y^2)) dy over [-1, 1].
+TEST(Path, LightScatteredOnceIsTheIntegralOverTheRay) {
+  const double loss = 0.9, scattered = 1e-3, g = 0.4, power = 2;
+  SmallScene scene;
+  scene.light(DistantLight{.direction = {0, 0, -1}, .lamp = {.intensity = power}});
+  Dielectric smoke{.index = 1};
+  smoke.scattering = Vec3(scattered);
+  smoke.absorption = Vec3(loss - scattered);
+  smoke.forward = g;
+  scene.add(sphere({0, 0, 0}, 1), make_material(smoke));
+  const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g, 1.5));
+  double truth = 0;
+  constexpr int kParts = 20000;
+  for (int i = 0; i < kParts; ++i) {
+    const double y = -1 + 2 * (i + 0.5) / kParts;
+    truth += 2.0 / kParts * scattered * phase * kPi * power * std::exp(-loss * (1 + y + std::sqrt(1 - y * y)));
+  }
+  const Estimate found = estimate(*world(scene), {0, -4, 0}, {0, 1, 0}, 32768);
+  EXPECT_NEAR(found.mean, truth, 3 * found.error + 2e-3 * truth);
+  EXPECT_LT(found.error, 1e-2 * truth);
+}
+
 TEST(Path, OverlappingGlassesInAFurnaceAreWhite) {
   SmallScene scene;
   scene.light(AmbientLight{.intensity = 1});

@@ -85,6 +85,8 @@ TEST(Declarations, GlassKnowsItsIndexForEveryWavelength) {
   fields.set("roughness", 0.1);
   fields.set("priority", 0);
   fields.set("thin", false);
+  fields.set("scattering", Vec3(0));
+  fields.set("forward", 0.0);
   const auto glass = std::any_cast<MaterialPtr>(type(material_types(), "dielectric").build(fields));
   EXPECT_NEAR(glass->interior({{587.5618f, 0, 0, 0}})->index, 1.5168, 1e-6);
   EXPECT_NEAR(glass->interior({{435.8343f, 0, 0, 0}})->index, 1.52668, 1e-5);  // Schott's data sheet, line g
