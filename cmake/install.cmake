@@ -2,7 +2,7 @@
 #
 #   bin/lekalo                     lib/liblekalo_*.a              lib/cmake/lekalo (find_package(lekalo))
 #   include/lekalo/{geometry,render}  include/lekalo/external.h   share/lekalo/scenes
-#   share/man, share/bash-completion, share/zsh, share/fish
+#   share/texmf/tex/latex/lekalo, share/lekalo/publishing   share/man, share/bash-completion, share/zsh, share/fish
 
 include(CMakePackageConfigHelpers)
 
@@ -30,4 +30,6 @@ install(FILES docs/man/lekalo.1 DESTINATION share/man/man1)
 install(FILES tools/completions/lekalo.bash DESTINATION share/bash-completion/completions RENAME lekalo)
 install(FILES tools/completions/lekalo.zsh DESTINATION share/zsh/site-functions RENAME _lekalo)
 install(FILES tools/completions/lekalo.fish DESTINATION share/fish/vendor_completions.d)
+install(FILES tools/publishing/lekalo.sty DESTINATION share/texmf/tex/latex/lekalo)
+install(FILES tools/publishing/lekalo.lua tools/publishing/lekalo_sphinx.py DESTINATION share/lekalo/publishing)
 install(FILES LICENSE README.md DESTINATION share/doc/lekalo)

@@ -1,13 +1,13 @@
 // OUTPUT.partial: what a stopped picture has got so far, in the machine's own byte order (it is continued by the same
 // build on the same kind of machine or not at all).
 //
-//   "lekalo partial 2\n", instruction set (8 characters), identity, settings hash, number of finished tiles, tally
-//   (8-byte integers), then for each tile its number, its sums (floats) where the filter needs them, and its pixels'
-//   layers that stand in the image already, layer by layer, row by row; at the end the checksum of all before it.
+//   "lekalo partial 3\n", instruction set (8 characters), identity, settings hash, part, number of parts, number of
+//   tiles of the picture, of finished tiles, length of the job (8-byte integers), the job, tally (8-byte integers),
+//   then for each tile its number, its sums (floats) where the filter needs them, and its pixels' layers that stand in
+//   the image already, layer by layer, row by row; at the end the checksum of all before it.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -21,7 +21,7 @@ namespace lekalo::render {
 
 namespace {
 
-constexpr std::string_view kMagic = "lekalo partial 2\n";
+constexpr std::string_view kMagic = "lekalo partial 3\n";
 constexpr const char* kRenderAnew = "render without --resume";
 
 // FNV-1a, 64 bits.
@@ -38,6 +38,64 @@ std::string own_instruction_set() {
   std::string name = instruction_set();
   name.resize(8);
   return name;
+}
+
+// Longer ones no command line has.
+constexpr uint64_t kLongestJob = 1 << 24;
+constexpr uint64_t kMostParts = 1 << 20;
+
+// Reads what is not cut off, and sums it up.
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : file_(file) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) in_.open(file, std::ios::binary);
+    if (!in_.is_open()) throw ImageError(file, "the partial picture cannot be read", kRenderAnew);
+  }
+
+  void read(void* to, size_t bytes) {
+    if (!in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
+      throw ImageError(file_, "the partial picture is damaged: it ends too early", kRenderAnew);
+    checksum_.add(to, bytes);
+  }
+  uint64_t number(uint64_t most = ~uint64_t{0}) {
+    uint64_t value = 0;
+    read(&value, sizeof value);
+    if (value > most) throw ImageError(file_, "the partial picture is damaged", kRenderAnew);
+    return value;
+  }
+  std::string text(size_t length) {
+    std::string result(length, '\0');
+    read(result.data(), length);
+    return result;
+  }
+  uint64_t checksum() const { return checksum_.value; }
+  bool at_end() { return in_.peek() == std::ifstream::traits_type::eof(); }
+
+ private:
+  const std::string& file_;
+  std::ifstream in_;
+  Checksum checksum_;
+};
+
+// The header, and the instruction set.
+PartialHeader read_header(const std::string& file, Reader& in, std::string& set) {
+  const std::string magic = in.text(kMagic.size());
+  if (magic != kMagic)
+    throw ImageError(file,
+                     magic.starts_with(kPartialMagic) ? "the partial picture is of another version of the program"
+                                                      : "this is no partial picture",
+                     kRenderAnew);
+  set = in.text(8);
+  PartialHeader header;
+  header.identity = in.number();
+  header.settings = in.number();
+  header.part.index = static_cast<int>(in.number(kMostParts));
+  header.part.count = static_cast<int>(in.number(kMostParts));
+  header.tiles = static_cast<int>(in.number(1 << 30));
+  header.done = static_cast<int>(in.number(1 << 30));
+  header.job = in.text(in.number(kLongestJob));
+  return header;
 }
 
 // Calls visit(pointer, bytes) for each run of data-layer values of a tile.
@@ -59,7 +117,13 @@ void for_each_data_run(TiledFilm& film, int tile, Visit visit) {
 
 }  // namespace
 
-void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, const std::vector<int>& done,
+PartialHeader read_partial_header(const std::string& file) {
+  Reader in(file);
+  std::string set;
+  return read_header(file, in, set);
+}
+
+void write_partial(const std::string& file, TiledFilm& film, const PartialHeader& header, const std::vector<int>& done,
                    const Tally& tally) {
   AtomicFile out(file);
   Checksum checksum;
@@ -70,9 +134,12 @@ void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, 
   const auto number = [&](uint64_t value) { write(&value, sizeof value); };
   write(kMagic.data(), kMagic.size());
   write(own_instruction_set().data(), 8);
-  for (const uint64_t value : {identity, film.settings_hash(), static_cast<uint64_t>(done.size()), tally.camera_rays,
-                               tally.shadow_rays, tally.other_rays, tally.not_finite})
+  for (const uint64_t value : {header.identity, film.settings_hash(), static_cast<uint64_t>(header.part.index),
+                               static_cast<uint64_t>(header.part.count), static_cast<uint64_t>(film.tile_count()),
+                               static_cast<uint64_t>(done.size()), static_cast<uint64_t>(header.job.size())})
     number(value);
+  write(header.job.data(), header.job.size());
+  for (const uint64_t value : {tally.camera_rays, tally.shadow_rays, tally.other_rays, tally.not_finite}) number(value);
   for (const int tile : done) {
     number(static_cast<uint64_t>(tile));
     const std::span<const float> values = film.sums()[tile].values;
@@ -84,32 +151,10 @@ void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, 
 }
 
 std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t identity, Tally& tally) {
-  std::error_code ignored;
-  std::ifstream in;
-  if (std::filesystem::is_regular_file(file, ignored)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw ImageError(file, "the partial picture cannot be read", kRenderAnew);
-  Checksum checksum;
-  const auto read = [&](void* to, size_t bytes) {
-    if (!in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
-      throw ImageError(file, "the partial picture is damaged: it ends too early", kRenderAnew);
-    checksum.add(to, bytes);
-  };
-  const auto number = [&] {
-    uint64_t value = 0;
-    read(&value, sizeof value);
-    return value;
-  };
-  std::string magic(kMagic.size(), '\0');
-  read(magic.data(), magic.size());
-  if (magic != kMagic)
-    throw ImageError(file,
-                     magic.starts_with(kPartialMagic) ? "the partial picture is of another version of the program"
-                                                      : "this is no partial picture",
-                     kRenderAnew);
-  std::string set(8, '\0');
-  read(set.data(), set.size());
-  const uint64_t of_scene = number(), of_settings = number(), count = number();
-  if (of_scene != identity || of_settings != film.settings_hash())
+  Reader in(file);
+  std::string set;
+  const PartialHeader header = read_header(file, in, set);
+  if (header.identity != identity || header.settings != film.settings_hash())
     throw ImageError(file, "the partial picture is of another scene, other settings or another version of the program",
                      "repeat the options of the first run (-o decides the layers as well), or render without --resume");
   if (set != own_instruction_set())
@@ -117,24 +162,24 @@ std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t
                      fmt::format("the partial picture was made with the instruction set {}, this run has {}",
                                  set.c_str(), instruction_set()),
                      fmt::format("add --isa {}, or render without --resume", set.c_str()));
-  tally.camera_rays = number();
-  tally.shadow_rays = number();
-  tally.other_rays = number();
-  tally.not_finite = number();
+  Tally of_file;
+  for (uint64_t* count : {&of_file.camera_rays, &of_file.shadow_rays, &of_file.other_rays, &of_file.not_finite})
+    *count = in.number();
   std::vector<int> done;
-  for (uint64_t i = 0; i < count; ++i) {
-    const uint64_t tile = number();
+  for (int i = 0; i < header.done; ++i) {
+    const uint64_t tile = in.number();
     if (tile >= static_cast<uint64_t>(film.tile_count()))
       throw ImageError(file, "the partial picture is damaged", kRenderAnew);
     TileSums& sums = film.sums()[tile];
-    read(sums.values.data(), sums.values.size_bytes());
+    in.read(sums.values.data(), sums.values.size_bytes());
     sums.done = true;
-    for_each_data_run(film, static_cast<int>(tile), read);
+    for_each_data_run(film, static_cast<int>(tile), [&](void* to, size_t bytes) { in.read(to, bytes); });
     done.push_back(static_cast<int>(tile));
   }
-  const uint64_t sum = checksum.value;
-  if (number() != sum || in.peek() != std::ifstream::traits_type::eof())
+  const uint64_t sum = in.checksum();
+  if (in.number() != sum || !in.at_end())
     throw ImageError(file, "the partial picture is damaged: its checksum does not fit", kRenderAnew);
+  tally += of_file;
   return done;
 }
 

@@ -5,13 +5,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "render/film/blocks.h"
 #include "render/film/cryptomatte.h"
@@ -538,12 +541,19 @@ class Ledger {
  public:
   Ledger(TiledFilm& film, const RenderOptions& options)
       : film_(film), options_(options), save_interval_(options.save_interval) {
-    if (options.resume_file.empty()) return;
-    done_ = read_partial(options.resume_file, film, options.identity, tally_);
+    std::vector<char> is_done(film.tile_count(), 0);
+    for (const std::string& file : options.resume_files)
+      for (const int tile : read_partial(file, film, options.identity, tally_))
+        if (!std::exchange(is_done[tile], 1)) done_.push_back(tile);
+    part_done_ = std::count_if(done_.begin(), done_.end(), [&](int tile) { return is_asked_for(tile); });
   }
+
+  // A tile of the part of the picture that is made.
+  bool is_asked_for(int tile) const { return !options_.part || tile % options_.part->count == options_.part->index; }
 
   bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
   bool complete() const { return static_cast<int>(done_.size()) == film_.tile_count(); }
+  bool part_complete() const { return part_done_ == tiles_of_part(); }
   const Tally& tally() const { return tally_; }
   const std::vector<int>& done() const { return done_; }
 
@@ -552,6 +562,7 @@ class Ledger {
     {
       std::lock_guard lock(mutex_);
       done_.push_back(tile);
+      ++part_done_;
       tally_ += tally;
       const Clock::time_point now = Clock::now();
       if (options_.progress && now - last_progress_ >= kProgressInterval) {
@@ -568,7 +579,7 @@ class Ledger {
 
   void report() const {
     if (options_.progress)
-      options_.progress(static_cast<double>(done_.size()) / film_.tile_count(),
+      options_.progress(static_cast<double>(part_done_) / std::max<std::ptrdiff_t>(tiles_of_part(), 1),
                         tally_.camera_rays + tally_.shadow_rays + tally_.other_rays);
   }
 
@@ -585,7 +596,11 @@ class Ledger {
       tally = tally_;
     }
     try {
-      write_partial(options_.partial_file, film_, options_.identity, done, tally);
+      PartialHeader header;
+      header.identity = options_.identity;
+      header.part = options_.part.value_or(PicturePart());
+      header.job = options_.job;
+      write_partial(options_.partial_file, film_, header, done, tally);
       return true;
     } catch (const ImageError& error) {
       if (options_.warning && !warned_) options_.warning(error.what());
@@ -595,12 +610,18 @@ class Ledger {
   }
 
  private:
+  std::ptrdiff_t tiles_of_part() const {
+    const PicturePart part = options_.part.value_or(PicturePart());
+    return (film_.tile_count() - part.index + part.count - 1) / part.count;
+  }
+
   TiledFilm& film_;
   const RenderOptions& options_;
   const std::chrono::duration<double> save_interval_;
   std::mutex mutex_, write_mutex_;
   bool warned_ = false;  // guarded by write_mutex_
   std::vector<int> done_;
+  std::ptrdiff_t part_done_ = 0;  // of those, tiles of the part that is made
   Tally tally_;
   Clock::time_point last_progress_ = Clock::now(), last_save_ = Clock::now();
 };
@@ -641,7 +662,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
         tbb::blocked_range<int>(0, film.tile_count(), 1),
         [&](const tbb::blocked_range<int>& range) {
           for (int tile = range.begin(); tile < range.end(); ++tile) {
-            if (is_done[tile] || ledger.stopped()) continue;
+            if (is_done[tile] || !ledger.is_asked_for(tile) || ledger.stopped()) continue;
             if (const std::optional<Tally> tally = tracer.trace(tile)) ledger.finished(tile, *tally);
           }
         },
@@ -650,7 +671,8 @@ RenderResult render(const World& world, const RenderOptions& options) {
 
   RenderResult result;
   result.complete = ledger.complete();
-  result.saved = !result.complete && !options.partial_file.empty() && ledger.write();
+  result.part_complete = ledger.part_complete();
+  result.saved = (!result.complete || options.part) && !options.partial_file.empty() && ledger.write();
   film.develop();
   describe(film.image(), model);
   if (film.channel(kObjectMatte)) describe_cryptomatte(film.image(), "CryptoObject", object_names(world));

@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "render/image/image.h"
 #include "render/trace/world.h"
@@ -21,12 +23,31 @@ inline constexpr std::string_view kPartialMagic = "lekalo partial ";
 const std::vector<std::string>& film_layers();
 bool keeps_layer(const Film& film, std::string_view layer);
 
+// One of `count` parts of a picture, made by themselves: of the tiles every count-th, beginning with `index`.
+struct PicturePart {
+  int index = 0, count = 1;
+};
+
+// What a partial file says of itself.
+struct PartialHeader {
+  uint64_t identity = 0, settings = 0;
+  PicturePart part;  // 0 of 1: the whole picture
+  int tiles = 0;     // of the whole picture
+  int done = 0;      // that are in the file
+  std::string job;   // RenderOptions::job
+  int tiles_of_part() const { return (tiles - part.index + part.count - 1) / part.count; }
+};
+// Throws ImageError for what is no partial file of this version.
+PartialHeader read_partial_header(const std::string& file);
+
 struct RenderOptions {
   int threads = 0;  // 0: all
   // Called now and then, never from two threads at once, with the share done (0..1) and all rays traced so far.
   std::function<void(double done, uint64_t rays)> progress;
   const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: tiles not yet done are left out
-  std::string resume_file;                  // OUTPUT.partial to continue from, empty: none
+  std::vector<std::string> resume_files;    // OUTPUT.partial to continue from, or all parts of a picture
+  std::optional<PicturePart> part;          // only this, kept in the partial file also when it is done
+  std::string job;                          // how the picture was asked for, kept in the partial file
   std::string partial_file;   // where to keep the work done when stopped, and now and then; empty: nowhere
   double save_interval = 60;  // seconds
   // Called once if the partial file cannot be written on the way; the picture goes on.
@@ -38,7 +59,8 @@ struct RenderOptions {
 struct RenderResult {
   Image image;  // see below
   bool complete = true;
-  bool saved = false;  // not complete, but kept in the partial file
+  bool part_complete = true;  // of the part that was asked for
+  bool saved = false;         // not complete, or a part: kept in the partial file
   uint64_t camera_rays = 0;
   uint64_t shadow_rays = 0;
   uint64_t other_rays = 0;

@@ -96,6 +96,8 @@ enum FilmChannel : int {
   kFilmChannels
 };
 
+struct PartialHeader;
+
 class TiledFilm {
  public:
   // What the integrator and the model have names for.
@@ -173,9 +175,9 @@ class TiledFilm {
   void add_group(const std::string& name);
 };
 
-// The file of a stopped picture (OUTPUT.partial): the tiles done so far and what they cost.
+// The file of a stopped picture (OUTPUT.partial), or of a part of one: the tiles done so far and what they cost.
 // `done` lists the numbers of the finished tiles, whose sums and data layers are complete.
-void write_partial(const std::string& file, TiledFilm& film, uint64_t identity, const std::vector<int>& done,
+void write_partial(const std::string& file, TiledFilm& film, const PartialHeader& header, const std::vector<int>& done,
                    const Tally& tally);
 // Reads it back into the film; returns the numbers of the finished tiles. Throws ImageError.
 std::vector<int> read_partial(const std::string& file, TiledFilm& film, uint64_t identity, Tally& tally);

@@ -1,47 +1,67 @@
-# bash completion for lekalo(1)
+# bash completion for lekalo(1), written by: lekalo completions bash
 
 _lekalo() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=''
   COMPREPLY=()
 
-  case $previous in
-    --representation) words='direct mesh' ;;
-    --kind) words='picture drawing graph plate suite' ;;
-    --metric) words='flip rmse psnr ssim max' ;;
-    --isa) words='sse2 avx2 avx512 native' ;;
-    --layers) words='color direct depth position normal geometric_normal uv id albedo samples' ;;
-    --format) words='pov obj ply stl json step' ;;
-    --size | --samples | --threads | --crop | --set | --frames | --threshold | --layer | --at | --uv | --face | --order | --sag | --patch-steps | --flatness | --tolerance | --cells | --line | --on | --share | --divided-difference | --along | --ray | --filter | --jobs | --accept | --reason)
+  case $command:$previous in
+    render:-o | render:--output | render:--resume | make:-o | make:--output | make:--resume | make:--list | merge:-o | merge:--output | merge:--scene | farm:-o | farm:--output | evaluate:--table | test:--junit | trace:--rays | draw:-o | draw:--output | export:-o | export:--output)
+      compopt -o default; return ;;
+    compare:--report | test:--report | types:--markdown)
+      compopt -o dirnames; return ;;
+    render:--set | render:--size | render:--samples | render:--threads | render:--crop | render:--frames | render:--only | render:--tile | make:--set | make:--size | make:--samples | make:--threads | make:--crop | make:--frames | make:--only | make:--tile | farm:--set | farm:--size | farm:--samples | farm:--threads | farm:--frames | farm:--tiles | check:--set | evaluate:--set | evaluate:--at | evaluate:--uv | evaluate:--divided-difference | evaluate:--face | evaluate:--along | evaluate:--turn | evaluate:--order | evaluate:--on | evaluate:--share | compare:--threshold | compare:--layer | test:--filter | test:--jobs | test:--threads | test:--accept | test:--reason | measure:--set | measure:--turn | measure:--cells | measure:--line | measure:--to | measure:--intersect | measure:--section | measure:--silhouette | measure:--position | measure:--continuity | measure:--arc | measure:--at-length | measure:--hausdorff | measure:--frechet | measure:--against | measure:--chord | measure:--stretch | measure:--tolerance | measure:--samples | measure:--order | trace:--set | trace:--ray | draw:--set | draw:--size | draw:--width | draw:--crop | draw:--threads | export:--set | export:--sag | export:--flatness | export:--patch-steps)
       return ;;
-    -o | --output | --against | --rays | --junit | --resume) compopt -o default; return ;;
-    --report) compopt -o dirnames; return ;;
+    measure:--cubature)
+      words='1 3 4 6 7' ;;
+    render:--layers | make:--layers)
+      words='color direct depth position normal geometric_normal uv id albedo quantity samples' ;;
+    render:--representation | make:--representation)
+      words='direct mesh' ;;
+    compare:--metric)
+      words='flip rmse psnr ssim max' ;;
+    export:--format)
+      words='obj ply stl json pov' ;;
+    new:--kind)
+      words='picture drawing graph plate suite' ;;
+    render:--isa | make:--isa | test:--isa | draw:--isa)
+      words='sse2 avx2 avx512 native' ;;
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render make draw compare test new check solve measure evaluate trace export schema types --help --version'
+      words='render make merge farm new check evaluate compare test measure trace draw export types schema completions --help --version'
     elif [[ $current == -* ]]; then
       case $command in
-        render | make) words='-o --output --size --samples --threads --isa --crop --half --layers --representation --set --allow-external --frames --watch --resume --quiet --stats --stamp' ;;
-        draw) words='-o --output --set --allow-external --latex --standalone --outlines --quiet --stats' ;;
-        compare) words='--metric --threshold --layer --report --json --quiet' ;;
-        test) words='--filter --jobs --threads --isa --allow-external --accept --reason --report --junit --json --quiet' ;;
-        new) words='--kind' ;;
-        check|solve) words='--set --allow-external --json' ;;
-        measure) words='--topology --to --nearest --frechet --hausdorff --at-length --arc --features --nurbs --cubature --turn --rim --chord --secant --stretch --regularity --cells --line --position --continuity --intersect --self-intersection --section --silhouette --against --tolerance --samples --order --set --allow-external --json' ;;
-        evaluate) words='--at --uv --turn --table --along --face --on --share --placement --divided-difference --order --set --allow-external --json' ;;
-        trace) words='--ray --rays --set --allow-external --json' ;;
-        export) words='--format --sag --patch-steps --flatness --tolerance -o --output --set --allow-external --quiet' ;;
-        types) words='--markdown' ;;
-        schema) words='--suite' ;;
+        render) words='-h --help --set --allow-external -o --output --size --samples --threads --isa --crop --representation --layers --half --frames --only --skip-existing --tile --progress --watch --resume --stamp --quiet --stats' ;;
+        make) words='-h --help --set --allow-external -o --output --size --samples --threads --isa --crop --representation --layers --half --frames --only --skip-existing --tile --progress --watch --resume --stamp --quiet --stats --list' ;;
+        merge) words='-h --help -o --output --scene --quiet' ;;
+        farm) words='-h --help --set --allow-external -o --output --size --samples --threads --frames --tiles --merge' ;;
+        new) words='-h --help --kind' ;;
+        check) words='-h --help --set --allow-external --json' ;;
+        evaluate) words='-h --help --set --allow-external --at --uv --table --divided-difference --face --along --turn --order --placement --on --share --json' ;;
+        compare) words='-h --help --metric --threshold --layer --report --json --quiet' ;;
+        test) words='-h --help --filter --jobs --threads --isa --allow-external --report --junit --accept --reason --json --quiet' ;;
+        measure) words='-h --help --set --allow-external --topology --regularity --cubature --turn --cells --line --to --nearest --intersect --self-intersection --section --silhouette --position --continuity --nurbs --features --arc --at-length --hausdorff --frechet --against --rim --chord --stretch --tolerance --samples --order --json' ;;
+        trace) words='-h --help --set --allow-external --ray --rays --json' ;;
+        draw) words='-h --help --set --allow-external -o --output --size --width --crop --threads --isa --latex --standalone --outlines --quiet --stats' ;;
+        export) words='-h --help --set --allow-external --format -o --output --sag --flatness --patch-steps --quiet' ;;
+        types) words='-h --help --markdown' ;;
+        schema) words='-h --help --suite' ;;
+        completions) words='-h --help' ;;
       esac
-      words+=' --help'
+    elif (( COMP_CWORD == 2 )); then
+      case $command in
+        farm) words='slurm list' ;;
+        completions) words='bash zsh fish man' ;;
+      esac
     fi
   fi
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
   else
-    local file pattern='\.(yaml|yml|json)$'
-    [[ $command != compare ]] || pattern='\.(exr|png)$'
+    local file pattern=''
+    case $command in
+      render | make | farm | check | evaluate | test | measure | trace | draw | export) pattern='\.(yaml|yml|json)$' ;;
+    esac
     while read -r file; do
       [[ ! -d $file && ! $file =~ $pattern ]] || COMPREPLY+=("$file")
     done < <(compgen -f -- "$current")

@@ -1,30 +1,24 @@
 #compdef lekalo
-# zsh completion for lekalo(1)
+# zsh completion for lekalo(1), written by: lekalo completions zsh
 
-local -a commands scene picture
+local -a commands
 commands=(
-  'render:render the pictures of a scene'
-  'make:write all outputs of a scene'
-  'draw:draw a scene as lines'
-  'compare:compare two images'
-  'test:run a regression suite'
-  'new:write a commented scene to start from'
-  'check:report all errors of a scene file'
-  'solve:tell what the constraints of a scene came to'
-  'measure:lengths, areas, volumes, topology'
-  'evaluate:a point with derivatives and curvatures'
-  'trace:all hits of rays'
-  'export:write a scene for another program'
-  'schema:print the JSON Schema of scene files'
-  'types:list or describe the types of scene files'
-)
-scene=('*--set[set a parameter]:name=value' '--allow-external[let the scene run foreign code]' '--help[show help]')
-picture=(
-  '*'{-o,--output}'[output file]:file:_files' '--representation[of every object]:kind:(direct mesh)'
-  '--size[pixels]:WxH' '--samples[samples a pixel]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)'
-  '--crop[window in pixels]:X0,Y0,X1,Y1' '--layers[layers of EXR files]:names' '--half[colour of EXR files as half]' '--frames[sequence over a parameter]:name=a..b\:n'
-  '--watch[render again when a file changes]' '--resume[go on with an interrupted rendering]:file:_files -g "*.partial"'
-  '--quiet[print errors only]' '--stats[print rays, times, memory]' '--stamp[put date, machine and path into outputs]'
+  'render:Render a scene'\''s pictures (OpenEXR, PNG)'
+  'make:Write everything that a scene lists under outputs'
+  'merge:Put together a picture whose parts were made with render --tile'
+  'farm:Print the commands that make many frames, or one picture, on many machines'
+  'new:Write a commented scene to start from'
+  'check:Read a scene and report all its errors'
+  'evaluate:A point of a curve or surface with derivatives and curvatures'
+  'compare:Compare two pictures; exit code 1 if they differ too much'
+  'test:Run a regression suite of pictures and numbers'
+  'measure:Length, area, volume, moments; topology; distance, intersections; comparison with a table'
+  'trace:All hits of rays with the scene'\''s objects, in order'
+  'draw:Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart'
+  'export:Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and surfaces as NURBS (JSON), or the scene for POV-Ray'
+  'types:List the types that scene files can name, or explain one, or a section'
+  'schema:Print the JSON Schema of scene files or suites, for editors'
+  'completions:Print completions for a shell, or the manual page'
 )
 
 if (( CURRENT == 2 )); then
@@ -37,23 +31,220 @@ local command=$words[2]
 shift words
 (( CURRENT-- ))
 case $command in
-  render | make) _arguments $scene $picture '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  draw) _arguments $scene '*'{-o,--output}'[output file]:file:_files' '--latex[texts in a file for LaTeX]' '--standalone[TikZ pictures as documents]' '--outlines[texts of svg files as outlines]' '--quiet[print errors only]' '--stats[print lines, pieces, times]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  compare) _arguments '--metric[what to measure]:metric:(flip rmse psnr ssim max)' '--threshold[largest difference]:number' \
-    '--layer[layer of EXR files]:name' '--report[HTML report]:folder:_files -/' '--json[print JSON]' '--quiet[print errors only]' \
-    '--help[show help]' '*:image:_files -g "*.(exr|png)"' ;;
-  test) _arguments '--allow-external[let scenes run foreign code]' '--filter[tests by name]:pattern' '--jobs[tests at a time]:number' '--threads[threads]:number' '--isa[instruction set]:name:(sse2 avx2 avx512 native)' '--accept[new golden image]:name' \
-    '--reason[why it changes]:text' '--report[HTML report]:folder:_files -/' '--junit[JUnit XML]:file:_files' '--json[print JSON]' \
-    '--quiet[print errors only]' '--help[show help]' '*:suite:_files -g "*.(yaml|yml|json)"' ;;
-  new) _arguments '--kind[what it makes]:kind:(picture drawing graph plate suite)' '--help[show help]' '1:name' ;;
-  check|solve) _arguments $scene '--json[print JSON]' '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  measure) _arguments $scene '--topology[list vertices, edges, faces]' '--to[a point, curve, surface or body]:name or x,y,z' '--nearest[only the nearest place]' '--frechet[Frechet distance from a curve]:name' '--hausdorff[Hausdorff distance from a curve]:name' '--at-length[parameter at a length]:length' '--arc[length between two parameters]:t t' '--features[inflections, vertices, cusps, total curvature, area]' '--nurbs[the curve or surface as NURBS]' '--cubature[by a rule on triangles]:points' '--turn[of --cubature, angle over a cell]:degrees' '--rim[whether it is the rim of a sheet]' '--chord[of --rim, two parameters]:t t' '--secant[with --chord, a curve between the points]:name' '--stretch[how much it stretches on another surface]:name' '--regularity[whether it is regular, with bounds]' '--cells[bounds of the diameters of cells]:nu,nv' '--line[of --cells, a line]:x,y,z,dx,dy,dz' '--position[a point]:name, x,y,z or u,v' '--continuity[how smoothly it joins]:name' '*--intersect[a curve, surface or body]:name' '--self-intersection[where it meets itself]' '--section[a plane]:x,y,z,nx,ny,nz' '--silhouette[a view]:camera, dx,dy,dz or eye\:x,y,z' '--against[table of samples, or a name]:file:_files' '--tolerance[largest difference that passes]:number' '--samples[places in each direction]:number' '--order[highest derivatives compared]:number' '--json[print JSON]' \
-    '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
-  evaluate) _arguments $scene '--at[where]:t or u,v' '--uv[parameters of a triangle]:u,v' '--turn[step over which it turns by an angle]:degrees' '--face[of a body]:number or name' '*--along[direction in the parameters of a surface]:du,dv' '--table[table of parameters]:file:_files' '*--on[with the normal of a surface]:name' '--share[of two surfaces, that of the first]:number' '--placement[the matrix that places things there]' '--divided-difference[nodes of divided differences]:t t ..' '--order[derivatives]:number' '--json[print JSON]' '1:scene:_files -g "*.(yaml|yml|json)"' '*:name' ;;
-  trace) _arguments $scene '--ray[origin and direction]:ox,oy,oz,dx,dy,dz' '--rays[file of rays]:file:_files' '--json[print JSON]' \
-    '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  export) _arguments $scene '--format[what to write]:format:(pov obj ply stl json step)' '--sag[largest distance from the surface]:length' '--patch-steps[steps of Bezier patches (pov)]:number' '--flatness[flatness of Bezier patches (pov)]:length' '--tolerance[largest distance of a fit, of its size (step)]:number' '*'{-o,--output}'[output file]:file:_files' '--quiet[print errors only]' \
-    '*:scene:_files -g "*.(yaml|yml|json)"' ;;
-  schema) _arguments '--suite[of regression suites]' '--help[show help]' ;;
-  types) _arguments '--markdown[write the reference into a folder]:folder:_files -/' '--help[show help]' '1:type' ;;
+  render)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '*-o[file to write (exr, png); repeatable]:FILE:_files' '*--output[file to write (exr, png); repeatable]:FILE:_files' \
+      '--size[picture size in pixels]:WxH: ' \
+      '--samples[samples per pixel]:INT: ' \
+      '--threads[threads; all cores by default]:INT: ' \
+      '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
+      '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
+      '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all by default]:NAMES:(color direct depth position normal geometric_normal uv id albedo quantity samples)' \
+      '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
+      '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
+      '--only[of --frames only these, by number]:9-16,20: ' \
+      '--skip-existing[leave out pictures that are there already, and go on with those that were begun]' \
+      '--tile[part I of N of the picture, kept for '\''lekalo merge'\'']:I/N: ' \
+      '--progress[progress as lines for other programs]' \
+      '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
+      '*--resume[continue from a .partial file]:FILE:_files' \
+      '--stamp[put date, machine and the scene'\''s path into the pictures]' \
+      '--quiet[no progress, no notes]' \
+      '--stats[print times, counts and memory]' ;;
+  make)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '*-o[file to write (exr, png); repeatable]:FILE:_files' '*--output[file to write (exr, png); repeatable]:FILE:_files' \
+      '--size[picture size in pixels]:WxH: ' \
+      '--samples[samples per pixel]:INT: ' \
+      '--threads[threads; all cores by default]:INT: ' \
+      '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
+      '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
+      '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all by default]:NAMES:(color direct depth position normal geometric_normal uv id albedo quantity samples)' \
+      '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
+      '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
+      '--only[of --frames only these, by number]:9-16,20: ' \
+      '--skip-existing[leave out pictures that are there already, and go on with those that were begun]' \
+      '--tile[part I of N of the picture, kept for '\''lekalo merge'\'']:I/N: ' \
+      '--progress[progress as lines for other programs]' \
+      '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
+      '*--resume[continue from a .partial file]:FILE:_files' \
+      '--stamp[put date, machine and the scene'\''s path into the pictures]' \
+      '--quiet[no progress, no notes]' \
+      '--stats[print times, counts and memory]' \
+      '--list[a command on each line\: those whose files are missing, side by side]:FILE:_files' ;;
+  merge)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      '*:FILE...:_files' \
+      '-o[file to write (exr, png); repeatable]:FILE:_files' '--output[file to write (exr, png); repeatable]:FILE:_files' \
+      '--scene[the scene, where it lies elsewhere than when the parts were made]:FILE:_files' \
+      '--quiet[no progress, no notes]' ;;
+  farm)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':NAME:(slurm list)' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '*-o[file to write (exr, png); repeatable]:FILE:_files' '*--output[file to write (exr, png); repeatable]:FILE:_files' \
+      '--size[picture size in pixels]:WxH: ' \
+      '--samples[samples per pixel]:INT: ' \
+      '--threads[of each task; all cores by default]:INT: ' \
+      '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
+      '--tiles[N parts of one picture]:N: ' \
+      '--merge[with list\: the command that puts the parts together]' ;;
+  new)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':NAME: ' \
+      '--kind[what it makes]:KIND:(picture drawing graph plate suite)' ;;
+  check)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '--json[print the errors and warnings as JSON, for editors and scripts]' ;;
+  evaluate)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      ':TEXT: ' \
+      '--at[parameter t, or u,v; formulas without names]:T|U,V: ' \
+      '--uv[of surfaces over triangles, one or many\: the parameters of the triangles in place of the squares'\'']:U,V: ' \
+      '--table[at each row of a table\: t, or u and v]:FILE:_files' \
+      '--divided-difference[of a curve its divided differences over these nodes instead]:T,T,..: ' \
+      '--face[face of a body or patch of a set, as trace and measure --topology call it]:NUMBER|NAME: ' \
+      '*--along[of a surface its normal curvature in this direction of its parameters; of two the angle between]:DU,DV: ' \
+      '--turn[the step of the parameter over which the tangent, or along u and v the normal, turns by this angle]:DEGREES: ' \
+      '--order[derivatives of a curve up to this order]:INT: ' \
+      '--placement[the matrix that places things at the point\: columns tangent, normal, binormal and the point]' \
+      '*--on[the same with the normal of a surface that the curve lies on, or between those of two]:NAME: ' \
+      '--share[of the first of two surfaces in the direction of the normal \[0.5\]]:FLOAT: ' \
+      '--json[print JSON]' ;;
+  compare)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':A:_files' \
+      ':B:_files' \
+      '--metric[flip, rmse, psnr, ssim or max \[flip\]]:NAME:(flip rmse psnr ssim max)' \
+      '--threshold[worst value that passes \[without\: only equal pictures\]]:X: ' \
+      '--layer[color, normal, geometric_normal, depth, position, uv, albedo or an OpenEXR layer \[color\]]:NAME: ' \
+      '--report[write a page with both pictures and the error map]:DIR:_files -/' \
+      '--json[print the figures as JSON]' \
+      '--quiet[print nothing]' ;;
+  test)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--filter[only tests whose name matches, * stands for anything; repeatable]:PATTERN: ' \
+      '--jobs[tests at a time \[1\]]:INT: ' \
+      '--threads[threads; all cores by default]:INT: ' \
+      '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '--report[write a page with all pictures and figures]:DIR:_files -/' \
+      '--junit[write the results as JUnit XML]:FILE:_files' \
+      '*--accept[make the last run'\''s picture of this test golden; repeatable]:NAME: ' \
+      '--reason[why; kept in golden/NAME.txt]:TEXT: ' \
+      '--json[print the results as JSON]' \
+      '--quiet[print failures only]' ;;
+  measure)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      ':TEXT: ' \
+      '--topology[faces, edges and vertices with their names instead]' \
+      '--regularity[whether the curve or surface is regular\: bounds of speed and curvature]' \
+      '--cubature[area and volume by rules of so many points on triangular cells, without bounds of the error\: 1, 3, 4, 6 or 7, exact for degrees 1 to 5]:POINTS:(1 3 4 6 7)' \
+      '--turn[of --cubature, how far the normal turns inside of a cell at most \[20\]]:DEGREES: ' \
+      '--cells[cut into so many cells\: bounds of their diameters and of the surface'\''s]:NU,NV: ' \
+      '--line[of --cells, a point and a direction\: whether the diameters prove that the line misses the surface]:X,Y,Z,DX,DY,DZ: ' \
+      '--to[distance from a point, with all its feet; from a curve, surface or body, with all minima]:NAME|X,Y,Z: ' \
+      '--nearest[of --to only what is nearest, which takes less time]' \
+      '*--intersect[where the curve, surface or body meets another\: crossings, contacts, common parts, curves; given twice, the common points of three surfaces or bodies]:NAME: ' \
+      '--self-intersection[where the curve or surface meets itself\: crossings, contacts, cusps, parts run twice, curves]' \
+      '--section[where a plane cuts the surface or body\: a point of the plane and its normal]:X,Y,Z,NX,NY,NZ: ' \
+      '--silhouette[the outline of the surface or body as the scene'\''s camera sees it, along a direction, or from an eye]:camera|DX,DY,DZ|eye\:X,Y,Z: ' \
+      '--position[where a point lies\: above or below a surface, inside or outside of a body or closed plane curve; or U,V in the region of a trimmed surface]:NAME|X,Y,Z|U,V: ' \
+      '--continuity[how smoothly it joins another curve or surface; alone, how a body'\''s faces or the pieces of a curve join\: G0 to G3]:\[NAME\]: ' \
+      '--nurbs[the curve or surface as NURBS\: degree, knots, points, weights, Bezier pieces; exact, else fitted]' \
+      '--features[inflections, vertices, cusps and corners of the curve, total curvature, the widest angle between tangents (monotone\: less than a right one); of a closed plane one its turning number and area; of a surface its umbilics]' \
+      '--arc[the length of the curve'\''s part between two parameters]:T,T: ' \
+      '--at-length[the parameter at this length from the curve'\''s beginning]:LENGTH: ' \
+      '--hausdorff[how far the farthest point of the curve or of another one is from the other\: a certain bracket]:NAME: ' \
+      '--frechet[the same for points that run along both curves at best, from beginning to end]:NAME: ' \
+      '--against[table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose domain is mapped linearly]:FILE|NAME:_files' \
+      '--rim[whether the closed plane curve is the rim of a sheet that may overlap itself]' \
+      '--chord[of --rim, two parameters\: whether the straight line between the points is one line on the sheet]:T,T: ' \
+      '--stretch[by how much the surface stretches when it is laid on another one of the same parameters, as a development on its surface]:NAME: ' \
+      '--tolerance[largest difference that passes; of --intersect and --self-intersection the part of the size below which points are one \[1e-09\]; of --continuity the relative jump that passes \[1e-06\]]:X: ' \
+      '--samples[of --against and --stretch, places in each direction \[65\]; of curves that surfaces make, points along each branch]:INT: ' \
+      '--order[compare derivatives up to this order \[2\]]:INT: ' \
+      '--json[print JSON]' ;;
+  trace)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '--ray[origin and direction; formulas without names]:OX,OY,OZ,DX,DY,DZ: ' \
+      '--rays[a table of rays, one a row\: ox, oy, oz, dx, dy, dz]:FILE:_files' \
+      '--json[print JSON]' ;;
+  draw)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '*-o[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' '*--output[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' \
+      '--size[pixels of the page, which keeps its width\: of png files, of the ground]:WxH: ' \
+      '--width[millimetres of the drawing; texts and lines keep their size]:MM: ' \
+      '--crop[only this part of the page, in pixels]:X0,Y0,X1,Y1: ' \
+      '--threads[threads; all cores by default]:INT: ' \
+      '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
+      '--latex[texts in FILE.tex, for LaTeX to set over the drawing (pdf, png)]' \
+      '--standalone[tikz and tex files as documents of their own]' \
+      '--outlines[texts of svg files as outlines in place of text and fonts]' \
+      '--quiet[no progress and no notes]' \
+      '--stats[print how many lines and pieces there are, and times]' ;;
+  export)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '*:NAME: ' \
+      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl json pov)' \
+      '-o[file to write; without it SCENE.FORMAT here]:FILE:_files' '--output[file to write; without it SCENE.FORMAT here]:FILE:_files' \
+      '--sag[largest distance of a triangle from its surface, of a chord from its curve]:LENGTH: ' \
+      '--flatness[pov\: flatness of Bezier patches, in scene units]:LENGTH: ' \
+      '--patch-steps[pov\: u_steps and v_steps of Bezier patches]:INT: ' \
+      '--quiet[print no summary]' ;;
+  types)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':TEXT: ' \
+      '--markdown[write the reference manual into this folder]:DIR:_files -/' ;;
+  schema)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      '--suite[of regression suites]' ;;
+  completions)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':KIND:(bash zsh fish man)' ;;
 esac

@@ -52,6 +52,8 @@ using Action = std::function<int()>;
 void add_render(CLI::App& app, Action& action);
 void add_make(CLI::App& app, Action& action);
 void add_test(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
+void add_farm(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_solve(CLI::App& app, Action& action);

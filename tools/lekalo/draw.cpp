@@ -30,6 +30,7 @@ struct Options {
   EngineOptions engine;
   std::string size, crop;
   std::vector<std::string> outputs;
+  double width = 0;  // millimetres; 0: the page's
   DrawSettings settings;
 };
 
@@ -92,6 +93,8 @@ int draw(const Options& options) {
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
          "drawing"});
+  if (options.width > 0)
+    for (render::OutputFile& file : outputs) file.width = options.width;
   check_overwriting(scene, outputs, options.settings.latex);
   const auto model = std::make_shared<render::Model>(*scene.model);
   if (!options.size.empty()) set_size(parse_size(options.size), *model);
@@ -220,6 +223,10 @@ void add_draw(CLI::App& app, Action& action) {
       ->type_name("FILE");
   sub->add_option("--size", options->size, "pixels of the page, which keeps its width: of png files, of the ground")
       ->type_name("WxH");
+  sub->add_option("--width", options->width, "millimetres of the drawing; texts and lines keep their size")
+      ->check(CLI::Range(1.0, 5000.0))
+      ->check(not_finite)
+      ->type_name("MM");
   sub->add_option("--crop", options->crop, "only this part of the page, in pixels")->type_name("X0,Y0,X1,Y1");
   options->engine.add_to(*sub);
   sub->add_flag("--latex", options->settings.latex, "texts in FILE.tex, for LaTeX to set over the drawing (pdf, png)");

@@ -52,6 +52,35 @@ std::vector<Frame> parse_frames(const std::string& text) {
   return frames;
 }
 
+std::vector<Frame> chosen_frames(const std::vector<Frame>& frames, const std::string& numbers) {
+  if (numbers.empty()) return frames;
+  const int count = static_cast<int>(frames.size());
+  if (frames.front().suffix.empty()) throw UsageError("--only chooses among --frames");
+  std::vector<char> chosen(frames.size(), 0);
+  const auto number = [&](std::string_view text) {
+    int value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || rest != text.data() + text.size() || value < 1 || value > count)
+      throw UsageError(fmt::format("--only {}: '{}' is no number of a frame, from 1 to {}; write for example 9-16,20",
+                                   numbers, text, count));
+    return value;
+  };
+  for (size_t begin = 0; begin <= numbers.size();) {
+    const size_t end = std::min(numbers.find(',', begin), numbers.size());
+    const std::string_view part = std::string_view(numbers).substr(begin, end - begin);
+    const size_t dash = part.find('-');
+    const int first = number(part.substr(0, dash));
+    const int last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
+    if (last < first) throw UsageError(fmt::format("--only {}: '{}' runs backwards", numbers, part));
+    std::fill(chosen.begin() + first - 1, chosen.begin() + last, 1);
+    begin = end + 1;
+  }
+  std::vector<Frame> result;
+  for (size_t i = 0; i < frames.size(); ++i)
+    if (chosen[i]) result.push_back(frames[i]);
+  return result;
+}
+
 std::string numbered(const std::string& path, const Frame& frame) {
   if (frame.suffix.empty()) return path;
   const std::filesystem::path file(path);

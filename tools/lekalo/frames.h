@@ -18,6 +18,9 @@ struct Frame {
 // text the one frame of the scene as it is. Throws UsageError.
 std::vector<Frame> parse_frames(const std::string& text);
 
+// Those that "9-16,20" names by their numbers, from 1; all for an empty text. Throws UsageError.
+std::vector<Frame> chosen_frames(const std::vector<Frame>& frames, const std::string& numbers);
+
 // The name of a frame's file: ring.png is ring_0001.png.
 std::string numbered(const std::string& path, const Frame& frame);
 

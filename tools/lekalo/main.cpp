@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "command.h"
+#include "command_table.h"
 #include "geometry/expression/nearest_name.h"
 #include "render/external/library.h"
 #include "render/image/image_error.h"
@@ -101,6 +102,8 @@ int run(int argc, char** argv) {
   command::Action action;
   command::add_render(app, action);
   command::add_make(app, action);
+  command::add_merge(app, action);
+  command::add_farm(app, action);
   command::add_new(app, action);
   command::add_check(app, action);
   command::add_solve(app, action);
@@ -113,6 +116,7 @@ int run(int argc, char** argv) {
   command::add_export(app, action);
   command::add_types(app, action);
   command::add_schema(app, action);
+  command::add_completions(app, action);
 
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> names;

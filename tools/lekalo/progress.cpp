@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace lekalo::command {
 
@@ -20,7 +21,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet, bool lines, std::string name)
+    : quiet_(quiet), lines_(lines), terminal_(isatty(STDERR_FILENO) != 0), name_(std::move(name)) {}
 
 void Progress::operator()(double done, uint64_t rays) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
@@ -31,10 +33,16 @@ void Progress::operator()(double done) { show(done, {}); }
 
 void Progress::show(double done, const std::string& speed) {
   // Of what has not begun nothing is known.
-  if (quiet_ || !(done > 0)) return;
+  if ((quiet_ && !lines_) || !(done > 0)) return;
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   const double since = std::chrono::duration<double>(now - last_).count();
+  if (lines_) {
+    if (since < 1 && done < 1) return;
+    last_ = now;
+    fmt::print(stderr, "progress {:.1f}%{}{}\n", 100 * done, name_.empty() ? "" : " ", name_);
+    return;
+  }
   if (since < (terminal_ ? 0.2 : 10.0)) return;
   last_ = now;
   const double left = done > 0 ? elapsed * (1 - done) / done : 0;

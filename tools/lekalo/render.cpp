@@ -18,11 +18,13 @@
 #include "draw.h"
 #include "engine.h"
 #include "frames.h"
+#include "job_list.h"
 #include "picture.h"
 #include "progress.h"
 #include "render/image/image_error.h"
 #include "render/integrators/path.h"
 #include "render/trace/world.h"
+#include "render_command.h"
 #include "watch.h"
 
 namespace lekalo::command {
@@ -49,17 +51,7 @@ struct Building {
   ~Building() { building = false; }
 };
 
-struct Options {
-  SceneOptions scene;
-  EngineOptions engine;
-  std::vector<std::string> outputs;
-  std::string size, crop, resume, frames;
-  int samples = 0;
-  std::string representation;
-  std::vector<std::string> layers;
-  bool make_drawings = false;  // make: the scene's drawings too
-  bool half = false, watch = false, stamp = false, quiet = false, stats = false;
-};
+using Options = RenderCommand;
 
 void print_statistics(const render::WorldStatistics& world, const render::RenderResult& result, double built) {
   const uint64_t rays = result.camera_rays + result.shadow_rays + result.other_rays;
@@ -174,6 +166,26 @@ std::string of_one_frame(const render::ParameterSetting& setting, const std::vec
   return change + " in place of --frames and -o,";
 }
 
+// Whether the work on that picture of this very scene was begun, and kept.
+bool is_begun(const std::string& partial, uint64_t identity) {
+  std::error_code ignored;
+  return std::filesystem::exists(partial, ignored) && render::read_partial_header(partial).identity == identity;
+}
+
+// For --skip-existing. A picture that has a partial file beside it is not done.
+bool is_made(const std::vector<OutputFile>& outputs, const std::vector<OutputFile>& drawings,
+             const std::string& partial, const std::optional<render::PicturePart>& part, uint64_t identity) {
+  std::error_code ignored;
+  if (part) {
+    if (!is_begun(partial, identity)) return false;
+    const render::PartialHeader header = render::read_partial_header(partial);
+    return header.done == header.tiles_of_part();
+  }
+  const auto exists = [&](const OutputFile& file) { return std::filesystem::exists(file.path, ignored); };
+  return !std::filesystem::exists(partial, ignored) && std::all_of(outputs.begin(), outputs.end(), exists) &&
+         std::all_of(drawings.begin(), drawings.end(), exists);
+}
+
 int render_frame(Run& run, const Frame& frame, bool first) {
   const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
@@ -187,14 +199,23 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   for (OutputFile& file : outputs) file.path = numbered(file.path, frame);
   const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
                                               [](const OutputFile& file) { return file.kind == "render"; });
+  const std::optional<render::PicturePart> part = parse_part(options.tile);
   std::vector<std::string> written;
   for (const OutputFile& file : outputs) written.push_back(file.path);
   const std::vector<OutputFile> drawn(drawings, outputs.end());
   outputs.erase(drawings, outputs.end());
-  const std::string partial = outputs.empty() ? "" : outputs.front().path + ".partial";
+  const std::string partial = outputs.empty() ? "" : partial_of(outputs.front().path, part);
   if (!partial.empty()) written.push_back(partial);
   check_inputs_stay(scene, written);
   if (!partial.empty()) check_is_ours(partial, render::kPartialMagic, "partial picture");
+  std::vector<std::string> resume = options.resume;
+  if (options.skip_existing) {
+    if (is_made(outputs, drawn, partial, part, scene.hash)) {
+      if (!options.quiet) fmt::print(stderr, "{}: is there already\n", part ? partial : written.front());
+      return kDone;
+    }
+    if (!partial.empty() && is_begun(partial, scene.hash)) resume = {partial};
+  }
   if (!options.quiet && first) {
     print_defaults(scene, !outputs.empty(), !drawn.empty());
     if (const std::string missing = left_to_drawings(*model); !outputs.empty() && !missing.empty())
@@ -213,7 +234,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
           "the integrator path bring it, and lights that have a size (sphere_light, angular_diameter of "
           "distant_light) throw it\n");
   }
-  if (!drawn.empty())
+  if (!drawn.empty() && !part)
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;
   model->make_camera = nullptr;  // with what it knows of very many objects: no other picture is made of this model
@@ -226,7 +247,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
 
   const render::World world(model, render::keeps_layer(model->film, "uv"));
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  Progress progress(options.quiet);
+  Progress progress(options.quiet, options.progress, frame.suffix.empty() ? "" : outputs.front().path);
   until_traced.reset();
   stop_tracing = interrupted.load();
   render::RenderOptions settings;
@@ -238,7 +259,11 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   settings.warning = [](const std::string& reason) {
     fmt::print(stderr, "warning: what is done cannot be kept for --resume: {}\n", reason);
   };
-  settings.resume_file = options.resume;
+  settings.resume_files = resume;
+  settings.part = part;
+  settings.job =
+      job_of(options, frame, {written.begin(), written.begin() + static_cast<std::ptrdiff_t>(outputs.size())},
+             model->film.layers);
   render::RenderResult result = render_watched(run, world, settings);
   progress.end();
   if (run.restart && !result.complete && !interrupted) {
@@ -248,6 +273,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   }
   add_metadata(result, *model, options.scene.file, options.stamp);
   for (const OutputFile& file : outputs) {
+    if (part || (options.skip_existing && !result.complete)) break;  // what is there passes for the whole picture
     // A picture that is there may be a good one.
     if (!result.complete && std::filesystem::exists(file.path)) {
       fmt::print(stderr, "interrupted: {} stays as it was\n", file.path);
@@ -263,7 +289,11 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (result.not_finite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
-  if (!result.complete && !result.saved) return kFileError;  // the warning has said why
+  if ((!result.complete || part) && !result.saved) return kFileError;  // the warning has said why
+  if (part && result.part_complete) {
+    if (!options.quiet) fmt::print(stderr, "{}\n", partial);
+    return kDone;
+  }
   if (!result.complete) {
     fmt::print(stderr, "interrupted: what was done is in {}; go on with the same command{} and --resume {}\n", partial,
                frame.setting ? of_one_frame(*frame.setting, outputs) : "", shell_word(partial));
@@ -307,19 +337,6 @@ int render_and_watch(Run& run, const std::vector<Frame>& frames) {
   }
 }
 
-int run(const Options& options) {
-  const std::vector<Frame> frames = parse_frames(options.frames);
-  if (!options.resume.empty() && (!options.frames.empty() || options.watch))
-    throw UsageError("--resume continues one picture: it does not go with --frames or --watch");
-  options.engine.apply();
-  struct sigaction action = {};
-  action.sa_handler = interrupt;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  Run run{options, {}};
-  return options.watch ? render_and_watch(run, frames) : render_frames(run, frames);
-}
-
 void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
   options->scene.add_to(sub);
   sub.add_option("-o,--output", options->outputs, "file to write (exr, png); repeatable")->type_name("FILE");
@@ -337,6 +354,11 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
   sub.add_flag("--half", options->half, "R G B A of OpenEXR files as half (11 bits) in place of float");
   sub.add_option("--frames", options->frames, "N numbered pictures while a parameter runs from A to B")
       ->type_name("NAME=A..B:N");
+  sub.add_option("--only", options->only, "of --frames only these, by number")->type_name("9-16,20");
+  sub.add_flag("--skip-existing", options->skip_existing,
+               "leave out pictures that are there already, and go on with those that were begun");
+  sub.add_option("--tile", options->tile, "part I of N of the picture, kept for 'lekalo merge'")->type_name("I/N");
+  sub.add_flag("--progress", options->progress, "progress as lines for other programs");
   sub.add_flag("--watch", options->watch, "again when the scene or a file that it reads changes, until Ctrl-C");
   sub.add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
   sub.add_flag("--stamp", options->stamp, "put date, machine and the scene's path into the pictures");
@@ -345,6 +367,21 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
 }
 
 }  // namespace
+
+int make_pictures(const RenderCommand& command) {
+  const std::vector<Frame> frames = chosen_frames(parse_frames(command.frames), command.only);
+  if (!command.resume.empty() && (!command.frames.empty() || command.watch))
+    throw UsageError("--resume continues one picture: it does not go with --frames or --watch");
+  if (command.watch && (!command.tile.empty() || command.skip_existing))
+    throw UsageError("--watch makes pictures again and again: it does not go with --tile or --skip-existing");
+  command.engine.apply();
+  struct sigaction action = {};
+  action.sa_handler = interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  Run run{command, {}};
+  return command.watch ? render_and_watch(run, frames) : render_frames(run, frames);
+}
 
 void add_render(CLI::App& app, Action& action) {
   auto* sub = app.add_subcommand("render", "Render a scene's pictures (OpenEXR, PNG)");
@@ -357,7 +394,7 @@ void add_render(CLI::App& app, Action& action) {
       "Without -o the scene's own outputs are written, or SCENE.png.");
   auto options = std::make_shared<Options>();
   add_options(*sub, options);
-  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+  sub->callback([&action, options] { action = [options] { return make_pictures(*options); }; });
 }
 
 void add_make(CLI::App& app, Action& action) {
@@ -365,11 +402,20 @@ void add_make(CLI::App& app, Action& action) {
   sub->footer(
       "Examples:\n"
       "  lekalo make figure.yaml\n"
-      "  lekalo make figure.yaml --watch");
+      "  lekalo make figure.yaml --watch\n"
+      "  lekalo make --list paper.lekalo                       (the figures that a LaTeX document lacks)");
   auto options = std::make_shared<Options>();
+  auto list = std::make_shared<std::string>();
   options->make_drawings = true;
   add_options(*sub, options);
-  sub->callback([&action, options] { action = [options] { return run(*options); }; });
+  auto* scene = sub->get_option("scene")->required(false);
+  sub->add_option("--list", *list, "a command on each line: those whose files are missing, side by side")
+      ->type_name("FILE")
+      ->excludes(scene);
+  sub->callback([&action, options, list, scene] {
+    if (list->empty() && scene->empty()) throw CLI::RequiredError("scene");
+    action = [options, list] { return list->empty() ? make_pictures(*options) : make_listed(*list, options->quiet); };
+  });
 }
 
 }  // namespace lekalo::command

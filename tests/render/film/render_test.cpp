@@ -154,7 +154,7 @@ TEST(Render, ResumedPictureIsTheSameBits) {
   RenderOptions options{.threads = 1, .stop = &stop, .partial_file = file, .identity = 42};
   RenderResult part = render(stopping, options);
   EXPECT_FALSE(part.complete);
-  options.resume_file = file;
+  options.resume_files = {file};
   int rounds = 1;
   for (; !part.complete && rounds < 100; ++rounds) {
     stop = false;
@@ -167,7 +167,7 @@ TEST(Render, ResumedPictureIsTheSameBits) {
 
   options.identity = 43;
   EXPECT_THROW(render(*world, options), ImageError);
-  options.resume_file = file + ".missing";
+  options.resume_files = {file + ".missing"};
   EXPECT_THROW(render(*world, options), ImageError);
   std::filesystem::remove(file);
 }
@@ -182,7 +182,7 @@ TEST(Render, DamagedPartialPicturesAreRefused) {
   const std::string good((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   ASSERT_GT(good.size(), 10000u);
   options.partial_file.clear();
-  options.resume_file = file;
+  options.resume_files = {file};
   const auto write = [&](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
   const auto message = [&]() -> std::string {
     try {
