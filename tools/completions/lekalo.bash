@@ -9,18 +9,18 @@ _lekalo() {
       compopt -o default; return ;;
     compare:--report | test:--report | types:--markdown)
       compopt -o dirnames; return ;;
-    render:--set | render:--size | render:--samples | render:--threads | render:--crop | render:--frames | render:--only | render:--tile | make:--set | make:--size | make:--samples | make:--threads | make:--crop | make:--frames | make:--only | make:--tile | farm:--set | farm:--size | farm:--samples | farm:--threads | farm:--frames | farm:--tiles | check:--set | evaluate:--set | evaluate:--at | evaluate:--uv | evaluate:--divided-difference | evaluate:--face | evaluate:--along | evaluate:--turn | evaluate:--order | evaluate:--on | evaluate:--share | compare:--threshold | compare:--layer | test:--filter | test:--jobs | test:--threads | test:--accept | test:--reason | measure:--set | measure:--turn | measure:--cells | measure:--line | measure:--to | measure:--intersect | measure:--section | measure:--silhouette | measure:--position | measure:--continuity | measure:--arc | measure:--at-length | measure:--hausdorff | measure:--frechet | measure:--against | measure:--chord | measure:--stretch | measure:--tolerance | measure:--samples | measure:--order | trace:--set | trace:--ray | draw:--set | draw:--size | draw:--width | draw:--crop | draw:--threads | export:--set | export:--sag | export:--flatness | export:--patch-steps)
+    render:--set | render:--size | render:--samples | render:--threads | render:--crop | render:--frames | render:--only | render:--tile | make:--set | make:--size | make:--samples | make:--threads | make:--crop | make:--frames | make:--only | make:--tile | farm:--set | farm:--size | farm:--samples | farm:--threads | farm:--frames | farm:--tiles | check:--set | solve:--set | evaluate:--set | evaluate:--at | evaluate:--uv | evaluate:--divided-difference | evaluate:--face | evaluate:--along | evaluate:--turn | evaluate:--order | evaluate:--on | evaluate:--share | compare:--threshold | compare:--layer | test:--filter | test:--jobs | test:--threads | test:--accept | test:--reason | measure:--set | measure:--turn | measure:--cells | measure:--line | measure:--to | measure:--intersect | measure:--section | measure:--silhouette | measure:--position | measure:--continuity | measure:--arc | measure:--at-length | measure:--hausdorff | measure:--frechet | measure:--against | measure:--chord | measure:--secant | measure:--stretch | measure:--tolerance | measure:--samples | measure:--order | trace:--set | trace:--ray | draw:--set | draw:--size | draw:--width | draw:--crop | draw:--threads | export:--set | export:--sag | export:--tolerance | export:--flatness | export:--patch-steps)
       return ;;
     measure:--cubature)
       words='1 3 4 6 7' ;;
     render:--layers | make:--layers)
-      words='color direct depth position normal geometric_normal uv id albedo quantity samples' ;;
+      words='color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material' ;;
     render:--representation | make:--representation)
       words='direct mesh' ;;
     compare:--metric)
       words='flip rmse psnr ssim max' ;;
     export:--format)
-      words='obj ply stl json pov' ;;
+      words='obj ply stl json step pov' ;;
     new:--kind)
       words='picture drawing graph plate suite' ;;
     render:--isa | make:--isa | test:--isa | draw:--isa)
@@ -28,7 +28,7 @@ _lekalo() {
   esac
   if [[ -z $words ]]; then
     if (( COMP_CWORD == 1 )); then
-      words='render make merge farm new check evaluate compare test measure trace draw export types schema completions --help --version'
+      words='render make merge farm new check solve evaluate compare test measure trace draw export types schema completions --help --version'
     elif [[ $current == -* ]]; then
       case $command in
         render) words='-h --help --set --allow-external -o --output --size --samples --threads --isa --crop --representation --layers --half --frames --only --skip-existing --tile --progress --watch --resume --stamp --quiet --stats' ;;
@@ -37,13 +37,14 @@ _lekalo() {
         farm) words='-h --help --set --allow-external -o --output --size --samples --threads --frames --tiles --merge' ;;
         new) words='-h --help --kind' ;;
         check) words='-h --help --set --allow-external --json' ;;
-        evaluate) words='-h --help --set --allow-external --at --uv --table --divided-difference --face --along --turn --order --placement --on --share --json' ;;
+        solve) words='-h --help --set --allow-external --json' ;;
+        evaluate) words='-h --help --set --allow-external --at --uv --table --divided-difference --face --along --turn --metric --order --placement --on --share --json' ;;
         compare) words='-h --help --metric --threshold --layer --report --json --quiet' ;;
         test) words='-h --help --filter --jobs --threads --isa --allow-external --report --junit --accept --reason --json --quiet' ;;
-        measure) words='-h --help --set --allow-external --topology --regularity --cubature --turn --cells --line --to --nearest --intersect --self-intersection --section --silhouette --position --continuity --nurbs --features --arc --at-length --hausdorff --frechet --against --rim --chord --stretch --tolerance --samples --order --json' ;;
+        measure) words='-h --help --set --allow-external --topology --regularity --cubature --turn --cells --line --to --nearest --intersect --self-intersection --section --silhouette --position --continuity --nurbs --features --arc --at-length --hausdorff --frechet --against --rim --chord --secant --stretch --tolerance --samples --order --json' ;;
         trace) words='-h --help --set --allow-external --ray --rays --json' ;;
         draw) words='-h --help --set --allow-external -o --output --size --width --crop --threads --isa --latex --standalone --outlines --quiet --stats' ;;
-        export) words='-h --help --set --allow-external --format -o --output --sag --flatness --patch-steps --quiet' ;;
+        export) words='-h --help --set --allow-external --format -o --output --sag --tolerance --flatness --patch-steps --quiet' ;;
         types) words='-h --help --markdown' ;;
         schema) words='-h --help --suite' ;;
         completions) words='-h --help' ;;
@@ -60,7 +61,7 @@ _lekalo() {
   else
     local file pattern=''
     case $command in
-      render | make | farm | check | evaluate | test | measure | trace | draw | export) pattern='\.(yaml|yml|json)$' ;;
+      render | make | farm | check | solve | evaluate | test | measure | trace | draw | export) pattern='\.(yaml|yml|json)$' ;;
     esac
     while read -r file; do
       [[ ! -d $file && ! $file =~ $pattern ]] || COMPREPLY+=("$file")

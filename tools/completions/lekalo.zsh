@@ -9,13 +9,14 @@ commands=(
   'farm:Print the commands that make many frames, or one picture, on many machines'
   'new:Write a commented scene to start from'
   'check:Read a scene and report all its errors'
+  'solve:Tell what the constraints of a scene came to, and what they leave free'
   'evaluate:A point of a curve or surface with derivatives and curvatures'
   'compare:Compare two pictures; exit code 1 if they differ too much'
   'test:Run a regression suite of pictures and numbers'
   'measure:Length, area, volume, moments; topology; distance, intersections; comparison with a table'
   'trace:All hits of rays with the scene'\''s objects, in order'
   'draw:Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart'
-  'export:Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and surfaces as NURBS (JSON), or the scene for POV-Ray'
+  'export:Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and surfaces as NURBS (JSON), boundary representations (STEP), or the scene for POV-Ray'
   'types:List the types that scene files can name, or explain one, or a section'
   'schema:Print the JSON Schema of scene files or suites, for editors'
   'completions:Print completions for a shell, or the manual page'
@@ -44,7 +45,7 @@ case $command in
       '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
       '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
       '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
-      '*--layers[layers of OpenEXR files, separated by commas; all by default]:NAMES:(color direct depth position normal geometric_normal uv id albedo quantity samples)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material)' \
       '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
       '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
       '--only[of --frames only these, by number]:9-16,20: ' \
@@ -69,7 +70,7 @@ case $command in
       '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
       '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
       '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
-      '*--layers[layers of OpenEXR files, separated by commas; all by default]:NAMES:(color direct depth position normal geometric_normal uv id albedo quantity samples)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material)' \
       '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
       '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
       '--only[of --frames only these, by number]:9-16,20: ' \
@@ -115,6 +116,13 @@ case $command in
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
       '--json[print the errors and warnings as JSON, for editors and scripts]' ;;
+  solve)
+    _arguments \
+      '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
+      ':scene:_files -g "*.(yaml|yml|json)"' \
+      '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
+      '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
+      '--json[machine-readable output]' ;;
   evaluate)
     _arguments \
       '-h[Print this help message and exit]' '--help[Print this help message and exit]' \
@@ -129,6 +137,7 @@ case $command in
       '--face[face of a body or patch of a set, as trace and measure --topology call it]:NUMBER|NAME: ' \
       '*--along[of a surface its normal curvature in this direction of its parameters; of two the angle between]:DU,DV: ' \
       '--turn[the step of the parameter over which the tangent, or along u and v the normal, turns by this angle]:DEGREES: ' \
+      '--metric[of a surface also Christoffel'\''s symbols and the curvature tensors of its metric]' \
       '--order[derivatives of a curve up to this order]:INT: ' \
       '--placement[the matrix that places things at the point\: columns tangent, normal, binormal and the point]' \
       '*--on[the same with the normal of a surface that the curve lies on, or between those of two]:NAME: ' \
@@ -190,6 +199,7 @@ case $command in
       '--against[table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose domain is mapped linearly]:FILE|NAME:_files' \
       '--rim[whether the closed plane curve is the rim of a sheet that may overlap itself]' \
       '--chord[of --rim, two parameters\: whether the straight line between the points is one line on the sheet]:T,T: ' \
+      '--secant[the same of a curve between these points, as that of the section by a cylinder]:NAME: ' \
       '--stretch[by how much the surface stretches when it is laid on another one of the same parameters, as a development on its surface]:NAME: ' \
       '--tolerance[largest difference that passes; of --intersect and --self-intersection the part of the size below which points are one \[1e-09\]; of --continuity the relative jump that passes \[1e-06\]]:X: ' \
       '--samples[of --against and --stretch, places in each direction \[65\]; of curves that surfaces make, points along each branch]:INT: ' \
@@ -228,9 +238,10 @@ case $command in
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
       '*:NAME: ' \
-      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl json pov)' \
+      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl json step pov)' \
       '-o[file to write; without it SCENE.FORMAT here]:FILE:_files' '--output[file to write; without it SCENE.FORMAT here]:FILE:_files' \
       '--sag[largest distance of a triangle from its surface, of a chord from its curve]:LENGTH: ' \
+      '--tolerance[step\: largest distance of a fit, of the size of each]:NUMBER: ' \
       '--flatness[pov\: flatness of Bezier patches, in scene units]:LENGTH: ' \
       '--patch-steps[pov\: u_steps and v_steps of Bezier patches]:INT: ' \
       '--quiet[print no summary]' ;;
